@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every filter needs around a call into core: errors turned into VTK's, progress and stopping passed on.
+#pragma once
+
+#include "Context.h"
+#include "Error.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkSetGet.h>
+
+#include <exception>
+#include <new>
+
+namespace cactus
+{
+
+/// Context whose progress goes to `algorithm` and which stops when the user aborts it.
+inline Context contextFor(vtkAlgorithm* algorithm, int threads = 0)
+{
+  Context context;
+  context.threads = threads;
+  context.progress = [algorithm](double fraction, const std::string& message)
+  {
+    algorithm->SetProgressText(message.c_str());
+    algorithm->UpdateProgress(fraction);
+  };
+  // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
+  context.cancelled = [algorithm] { return algorithm->GetAbortExecute() != 0; };
+  return context;
+}
+
+/// Runs `work` and returns 1, or reports what it threw as the algorithm's error and returns 0.
+template <typename Algorithm, typename Work>
+int guarded(Algorithm* self, Work&& work)
+{
+  try
+  {
+    work();
+    return 1;
+  }
+  catch (const Error& error)
+  {
+    vtkErrorWithObjectMacro(self, << error.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    vtkErrorWithObjectMacro(self, << "out of memory: choose a smaller Side or a larger VoxelSize");
+  }
+  return 0;
+}
+
+} // namespace cactus

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkStrandReader
+ * @brief Reads fibres from the CACTUS strand text format (.strands, .init, .partial; µm).
+ *
+ * Output: one polyline per fibre with point data `Radius`, cell data `FibreId`, `BundleId`, `TargetRadius` (mean radius of the
+ * strand) and field data `Domain` (the centred cube of the file's first line). A file that is truncated or malformed gives one
+ * error that names the line, and no output.
+ */
+#ifndef vtkStrandReader_h
+#define vtkStrandReader_h
+
+#include "CactusFiltersModule.h"
+
+#include <vtkPolyDataAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkStrandReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkStrandReader* New();
+  vtkTypeMacro(vtkStrandReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Path of the file to read. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+protected:
+  vtkStrandReader();
+  ~vtkStrandReader() override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkStrandReader(const vtkStrandReader&) = delete;
+  void operator=(const vtkStrandReader&) = delete;
+
+  char* FileName = nullptr;
+};
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkStrandWriter.h"
+
+#include "FibreData.h"
+#include "FilterSupport.h"
+#include "StrandFile.h"
+
+#include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+
+vtkStandardNewMacro(vtkStrandWriter);
+
+vtkStrandWriter::~vtkStrandWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkStrandWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+void vtkStrandWriter::WriteData()
+{
+  const int written = cactus::guarded(this,
+    [&]
+    {
+      if (this->FileName == nullptr || *this->FileName == '\0')
+      {
+        throw cactus::InvalidInput("FileName is empty: name the strand file to write");
+      }
+      cactus::writeStrandFile(cactus::fibresFrom(vtkPolyData::SafeDownCast(this->GetInput())), this->FileName);
+    });
+  if (written == 0)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkStrandWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkStrandWriter
+ * @brief Writes fibres in the CACTUS strand text format (µm, nine significant digits).
+ *
+ * Input: polylines with point data `Radius`; the format holds a centred cube, positions and radii, no ids. The file appears whole
+ * or not at all.
+ */
+#ifndef vtkStrandWriter_h
+#define vtkStrandWriter_h
+
+#include "CactusFiltersModule.h"
+
+#include <vtkWriter.h>
+
+class CACTUSFILTERS_EXPORT vtkStrandWriter : public vtkWriter
+{
+public:
+  static vtkStrandWriter* New();
+  vtkTypeMacro(vtkStrandWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Path of the file to write. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+protected:
+  vtkStrandWriter() = default;
+  ~vtkStrandWriter() override;
+  void WriteData() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+private:
+  vtkStrandWriter(const vtkStrandWriter&) = delete;
+  void operator=(const vtkStrandWriter&) = delete;
+
+  char* FileName = nullptr;
+};
+
+#endif

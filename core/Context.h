@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace cactus
+{
+
+/// What a long operation needs of its caller: threads, a place to report to, and whether to stop.
+///
+/// `progress` and `cancelled` are only ever called from the thread that called the operation.
+struct Context
+{
+  /// OpenMP threads to use; 0 means all that the machine offers.
+  int threads = 0;
+  /// Called with a fraction in [0, 1] and a short sentence.
+  std::function<void(double, const std::string&)> progress;
+  /// True once the caller wants the operation to stop.
+  std::function<bool()> cancelled;
+
+  /// `threads`, with 0 replaced by the machine's number.
+  int threadCount() const;
+  void report(double fraction, const std::string& message) const
+  {
+    if (progress)
+    {
+      progress(fraction, message);
+    }
+  }
+  bool stopRequested() const { return cancelled && cancelled(); }
+  /// Throws Cancelled once the caller wants the operation to stop.
+  void checkpoint() const;
+};
+
+} // namespace cactus

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Fibres.h"
+
+#include "Error.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <unordered_set>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double degrees = 180.0 / 3.14159265358979323846;
+
+double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
+{
+  // atan2 keeps full precision at small angles, where acos loses half the digits.
+  return degrees * std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
+}
+
+Eigen::Vector3d endToEnd(const Fibres& fibres, std::size_t fibre)
+{
+  const Eigen::Vector3d chord = fibres.points[fibres.offsets[fibre + 1] - 1] - fibres.points[fibres.offsets[fibre]];
+  const double length = chord.norm();
+  return length > 0.0 ? Eigen::Vector3d(chord / length) : Eigen::Vector3d::Zero();
+}
+
+std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)
+{
+  std::map<int, Eigen::Vector3d> axes;
+  std::map<int, Eigen::Vector3d> sense;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const Eigen::Vector3d direction = endToEnd(fibres, f);
+    const int bundle = fibres.bundleIds[f];
+    if (sense.count(bundle) == 0 && direction.squaredNorm() > 0.0)
+    {
+      sense[bundle] = direction;
+      axes[bundle].setZero();
+    }
+    if (sense.count(bundle) > 0)
+    {
+      axes[bundle] += direction.dot(sense[bundle]) < 0.0 ? Eigen::Vector3d(-direction) : direction;
+    }
+  }
+  for (auto& entry : axes)
+  {
+    entry.second.normalize();
+  }
+  return axes;
+}
+
+} // namespace
+
+void Fibres::addFibre(int fibreId, int bundleId, double targetRadius)
+{
+  fibreIds.push_back(fibreId);
+  bundleIds.push_back(bundleId);
+  targetRadii.push_back(targetRadius);
+  offsets.push_back(points.size());
+}
+
+void Fibres::addPoint(const Eigen::Vector3d& point, double radius)
+{
+  points.push_back(point);
+  radii.push_back(radius);
+  offsets.back() = points.size();
+}
+
+void validate(const Fibres& fibres)
+{
+  if (fibres.size() == 0)
+  {
+    throw InvalidInput("the input holds no fibres: connect a BundleInitializer, a reader or polylines with a Radius array");
+  }
+  const Domain& domain = fibres.domain;
+  if (!domain.lower.allFinite() || !domain.upper.allFinite() || domain.size().minCoeff() <= 0.0)
+  {
+    throw InvalidInput("the Domain is empty or not finite: give xmin < xmax, ymin < ymax, zmin < zmax in µm");
+  }
+  if (domain.isPeriodic())
+  {
+    throw InvalidInput("the Domain is periodic, which is not supported yet: use a domain that is not periodic");
+  }
+  std::unordered_set<int> seen;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const std::string name = "fibre " + std::to_string(fibres.fibreIds[f]) + " (cell " + std::to_string(f) + ")";
+    if (fibres.fibreIds[f] < 1 || fibres.bundleIds[f] < 1)
+    {
+      throw InvalidInput(name + " has a FibreId or BundleId below 1: ids count from 1");
+    }
+    if (!seen.insert(fibres.fibreIds[f]).second)
+    {
+      throw InvalidInput(name + " shares its FibreId with another fibre: give each polyline its own id");
+    }
+    if (!std::isfinite(fibres.targetRadii[f]) || fibres.targetRadii[f] <= 0.0)
+    {
+      throw InvalidInput(name + " has a TargetRadius that is not a positive number");
+    }
+    if (fibres.pointCount(f) < 2)
+    {
+      throw InvalidInput(name + " has " + std::to_string(fibres.pointCount(f)) + " control point(s): a fibre needs at least two");
+    }
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      const std::string where = name + ", control point " + std::to_string(i - fibres.offsets[f]);
+      if (!fibres.points[i].allFinite())
+      {
+        throw InvalidInput(where + " has a coordinate that is not finite (NaN or infinite)");
+      }
+      if (!std::isfinite(fibres.radii[i]) || fibres.radii[i] <= 0.0)
+      {
+        throw InvalidInput(where + " has Radius " + std::to_string(fibres.radii[i]) + ": a radius must be positive");
+      }
+      if (i > fibres.offsets[f] && (fibres.points[i] - fibres.points[i - 1]).norm() <= 1e-9)
+      {
+        throw InvalidInput(where + " coincides with the one before it: remove zero-length segments");
+      }
+    }
+  }
+}
+
+double capsuleVolumeInDomain(const Fibres& fibres)
+{
+  constexpr double pi = 3.14159265358979323846;
+  double volume = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const Eigen::Vector3d p = fibres.points[i];
+      const Eigen::Vector3d d = fibres.points[i + 1] - p;
+      double t0 = 0.0;
+      double t1 = 1.0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double lower = fibres.domain.lower[axis] - p[axis];
+        const double upper = fibres.domain.upper[axis] - p[axis];
+        if (d[axis] == 0.0)
+        {
+          if (lower > 0.0 || upper < 0.0)
+          {
+            t1 = -1.0;
+          }
+          continue;
+        }
+        t0 = std::max(t0, std::min(lower / d[axis], upper / d[axis]));
+        t1 = std::min(t1, std::max(lower / d[axis], upper / d[axis]));
+      }
+      if (t1 <= t0)
+      {
+        continue;
+      }
+      const double r0 = fibres.radii[i] + t0 * (fibres.radii[i + 1] - fibres.radii[i]);
+      const double r1 = fibres.radii[i] + t1 * (fibres.radii[i + 1] - fibres.radii[i]);
+      volume += pi / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * (t1 - t0) * d.norm();
+    }
+  }
+  return volume;
+}
+
+Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId)
+{
+  const auto axes = bundleAxes(fibres);
+  const auto found = axes.find(bundleId);
+  if (found == axes.end())
+  {
+    throw InvalidInput("there is no bundle " + std::to_string(bundleId));
+  }
+  return found->second;
+}
+
+double meanDispersion(const Fibres& fibres, int bundleId)
+{
+  const auto axes = bundleAxes(fibres);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const auto axis = axes.find(fibres.bundleIds[f]);
+    if (axis != axes.end() && (bundleId == 0 || bundleId == fibres.bundleIds[f]))
+    {
+      sum += angleBetweenLines(endToEnd(fibres, f), axis->second);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+double meanTangentDispersion(const Fibres& fibres, int bundleId)
+{
+  const auto axes = bundleAxes(fibres);
+  double sum = 0.0;
+  double length = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const auto axis = axes.find(fibres.bundleIds[f]);
+    if (axis == axes.end() || (bundleId != 0 && bundleId != fibres.bundleIds[f]))
+    {
+      continue;
+    }
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const Eigen::Vector3d d = fibres.points[i + 1] - fibres.points[i];
+      sum += d.norm() * angleBetweenLines(d, axis->second);
+      length += d.norm();
+    }
+  }
+  return length > 0.0 ? sum / length : 0.0;
+}
+
+} // namespace cactus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Random123/conventional/Engine.hpp>
+#include <Random123/philox.h>
+
+#include <cstdint>
+
+namespace cactus
+{
+
+/// What a stream of random numbers is for. Values are part of the reproducibility promise: never renumber.
+enum class RandomStage : std::uint32_t
+{
+  Radii = 1,
+  Packing = 2,
+  Directions = 3,
+  Seeds = 4,
+  GRatio = 5,
+  Optimiser = 6
+};
+
+/// A counter-based C++11 random engine (Random123, Philox4x32-10), for the distributions of <random>.
+using RandomEngine = r123::Engine<r123::Philox4x32>;
+
+/// The stream that belongs to one seed, stage and item (a fibre, a bundle, a circle): the same numbers whatever thread or rank
+/// draws them, and in whatever order the items are visited.
+inline RandomEngine randomStream(std::uint64_t seed, RandomStage stage, std::uint64_t item = 0)
+{
+  const RandomEngine::key_type key = { { static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32) } };
+  RandomEngine engine(key);
+  const RandomEngine::ctr_type counter = { { 0, static_cast<std::uint32_t>(stage), static_cast<std::uint32_t>(item),
+    static_cast<std::uint32_t>(item >> 32) } };
+  engine.setcounter(counter, 0);
+  return engine;
+}
+
+/// Uniform in (0, 1), never 0 or 1, with 53 bits; the same on every platform.
+inline double uniform(RandomEngine& engine)
+{
+  const std::uint64_t high = engine();
+  const std::uint64_t bits = ((high << 32) | engine()) >> 12;
+  return (static_cast<double>(bits) + 0.5) * 0x1p-52;
+}
+
+} // namespace cactus
