@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// Samples on a regular grid of cubic voxels, x fastest. Sample (i, j, k) lies at origin + spacing · (i, j, k), the centre of
+/// its voxel, so that a face of the domain runs half a voxel outside the outermost samples.
+struct VoxelGrid
+{
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< µm, the position of sample (0, 0, 0)
+  double spacing = 0.1;                             ///< µm
+  std::array<int, 3> lower{ { 0, 0, 0 } };          ///< index of the first sample held, per axis
+  std::array<int, 3> count{ { 0, 0, 0 } };          ///< number of samples held, per axis
+
+  std::size_t size() const { return std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]); }
+  std::size_t index(int i, int j, int k) const
+  {
+    return std::size_t(i - lower[0]) +
+           std::size_t(count[0]) * (std::size_t(j - lower[1]) + std::size_t(count[1]) * std::size_t(k - lower[2]));
+  }
+  Eigen::Vector3d position(int i, int j, int k) const { return origin + spacing * Eigen::Vector3d(i, j, k); }
+};
+
+/// Which fibre each voxel belongs to, and how deep it lies in it.
+///
+/// The pair (fibreId, depth) gives every fibre i a field on the grid: depth where fibreId is i, depth where fibreId is 0 (there
+/// it is negative), and -(depth + gap) where another fibre is. With `gap` the room that growth kept between neighbours, the
+/// fields of two fibres sum to at most -gap at every sample, so their zero surfaces cannot meet.
+struct LabelImage
+{
+  VoxelGrid grid;
+  std::vector<std::int32_t> fibreId; ///< 0 is extra-axonal
+  std::vector<float> depth;          ///< µm, positive inside a fibre; never more than the distance to its outer surface
+};
+
+} // namespace cactus
