@@ -101,10 +101,6 @@ void validate(const Fibres& fibres)
     {
       throw InvalidInput(name + " shares its FibreId with another fibre: give each polyline its own id");
     }
-    if (!std::isfinite(fibres.targetRadii[f]) || fibres.targetRadii[f] <= 0.0)
-    {
-      throw InvalidInput(name + " has a TargetRadius that is not a positive number");
-    }
     if (fibres.pointCount(f) < 2)
     {
       throw InvalidInput(name + " has " + std::to_string(fibres.pointCount(f)) + " control point(s): a fibre needs at least two");
@@ -124,6 +120,11 @@ void validate(const Fibres& fibres)
       {
         throw InvalidInput(where + " coincides with the one before it: remove zero-length segments");
       }
+    }
+    // After the radii, from which a missing target is made.
+    if (!std::isfinite(fibres.targetRadii[f]) || fibres.targetRadii[f] <= 0.0)
+    {
+      throw InvalidInput(name + " has a TargetRadius that is not a positive number");
     }
   }
 }

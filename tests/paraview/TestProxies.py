@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the plugin puts before the user: every proxy of every XML file can be made, explains itself, and is named as it is called."""
+
+import glob
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+
+from cactus_testing import CactusTestCase, main
+from paraview import servermanager, simple
+
+FOLDER = os.environ["CACTUS_XML_DIR"]
+
+
+def described_proxies():
+    """(group, XML element) of each proxy that the plugin describes."""
+    for path in sorted(glob.glob(os.path.join(FOLDER, "*.xml"))):
+        for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
+            for element in group:
+                if element.tag.endswith("Proxy"):
+                    yield group.get("name"), element
+
+
+def properties(element):
+    return [child for child in element if child.tag.endswith("Property")]
+
+
+def text(element):
+    """The text of its Documentation."""
+    documentation = element.find("Documentation")
+    return "" if documentation is None else "".join(documentation.itertext()).strip()
+
+
+class Proxies(CactusTestCase):
+    def each(self, check):
+        """Calls check(group, XML element) for each proxy; a failure says which one."""
+        found = list(described_proxies())
+        self.assertGreater(len(found), 1)
+        for group, element in found:
+            with self.subTest(proxy=element.get("name")):
+                check(group, element)
+
+    def test_can_be_made(self):
+        def check(group, element):
+            proxy = servermanager.ProxyManager().NewProxy(group, element.get("name"))
+            self.assertIsNotNone(proxy)
+            proxy.UpdateVTKObjects()
+            self.assertEqual(proxy.GetClientSideObject().GetClassName(), element.get("class"))
+
+        self.each(check)
+
+    def test_explain_themselves(self):
+        def check(group, element):
+            documentation = element.find("Documentation")
+            self.assertIsNotNone(documentation)
+            self.assertTrue(text(element))
+            self.assertTrue(documentation.get("short_help"))
+            self.assertTrue(documentation.get("long_help"))
+
+        self.each(check)
+
+    def test_every_property_is_explained(self):
+        def check(group, element):
+            for one in properties(element):
+                if one.get("information_only") != "1":
+                    self.assertGreater(len(text(one)), 10, f"{one.get('name')} has no documentation")
+
+        self.each(check)
+
+    def test_numbers_have_domains(self):
+        def check(group, element):
+            for one in properties(element):
+                if one.tag in ("DoubleVectorProperty", "IntVectorProperty") and one.get("information_only") != "1":
+                    domains = [child for child in one if child.tag.endswith("Domain")]
+                    self.assertTrue(domains, f"{one.get('name')} has no domain")
+
+        self.each(check)
+
+    def test_defaults_lie_inside_their_domains(self):
+        def check(group, element):
+            proxy = servermanager.ProxyManager().NewProxy(group, element.get("name"))
+            for one in properties(element):
+                if one.tag in ("DoubleVectorProperty", "IntVectorProperty") and one.get("information_only") != "1":
+                    self.assertTrue(proxy.GetProperty(one.get("name")).IsInDomains(), one.get("name"))
+
+        self.each(check)
+
+    def test_defaults_are_those_of_the_class(self):
+        """The panel, Python and C++ start from the same values."""
+        def check(group, element):
+            fresh = servermanager.ProxyManager().NewProxy(group, element.get("name")).GetClientSideObject().NewInstance()
+            for one in properties(element):
+                command, values = one.get("command", ""), (one.get("default_values") or "").split()
+                getter = getattr(fresh, command.replace("Set", "Get", 1), None)
+                if one.tag in ("DoubleVectorProperty", "IntVectorProperty") and len(values) == 1 and getter is not None:
+                    self.assertAlmostEqual(float(getter()), float(values[0]), msg=one.get("name"))
+
+        self.each(check)
+
+    def test_python_names_are_the_public_names(self):
+        """ParaView makes Python's names from labels: a label must come out as the property's name."""
+        def check(group, element):
+            if group in ("sources", "filters"):
+                label = element.get("label") or element.get("name")
+                self.assertEqual(re.sub(r"[^0-9A-Za-z_]", "", label), element.get("name"))
+                self.assertTrue(hasattr(simple, element.get("name")))
+                names = servermanager._getPyProxy(
+                    servermanager.ProxyManager().NewProxy(group, element.get("name"))
+                ).ListProperties()
+                for one in properties(element):
+                    if one.get("information_only") != "1":
+                        self.assertIn(one.get("name"), names)
+
+        self.each(check)
+
+
+if __name__ == "__main__":
+    main()

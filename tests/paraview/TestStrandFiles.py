@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Strand files through ParaView: what is written is what was read, and a bad file or place gives one error and leaves nothing."""
+
+import os
+
+from cactus_testing import CactusTestCase, fetch, main, produce
+from paraview.simple import OpenDataFile, SaveData, StrandReader
+
+STRANDS = """30
+2
+3
+0 0 -15 0.5
+0.1 0.123456789 0 0.75
+0 0 15 1
+2
+3 3 -15 0.25
+3 3 15 0.25
+"""
+
+
+def numbers(path):
+    with open(path) as file:
+        return [float(word) for word in file.read().split()]
+
+
+class StrandFiles(CactusTestCase):
+    def write(self, text, name="some.strands"):
+        path = os.path.join(self.folder, name)
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def test_reader_gives_the_data_model(self):
+        fibres = fetch(StrandReader(FileName=self.write(STRANDS)))
+        self.assertEqual(fibres.GetNumberOfLines(), 2)
+        self.assertEqual(fibres.GetNumberOfCells(), 2)
+        radius = fibres.GetPointData().GetArray("Radius")
+        self.assertEqual([radius.GetValue(i) for i in range(5)], [0.5, 0.75, 1, 0.25, 0.25])
+        self.assertEqual(fibres.GetPoint(1), (0.1, 0.123456789, 0))
+        cells = fibres.GetCellData()
+        self.assertEqual([cells.GetArray("FibreId").GetValue(i) for i in range(2)], [1, 2])
+        self.assertEqual([cells.GetArray("BundleId").GetValue(i) for i in range(2)], [1, 1])
+        self.assertEqual([cells.GetArray("TargetRadius").GetValue(i) for i in range(2)], [0.75, 0.25])
+        domain = fibres.GetFieldData().GetArray("Domain")
+        self.assertEqual([domain.GetValue(i) for i in range(6)], [-15, 15, -15, 15, -15, 15])
+        self.assertIn("StrandReader", fibres.GetFieldData().GetAbstractArray("Provenance").GetValue(0))
+
+    def test_every_extension_opens(self):
+        for extension in ("strands", "init", "partial"):
+            reader = OpenDataFile(self.write(STRANDS, "some." + extension))
+            self.assertEqual(reader.GetXMLName(), "StrandReader")
+            self.assertEqual(fetch(reader).GetNumberOfLines(), 2)
+
+    def test_round_trip_keeps_nine_digits(self):
+        source = self.write(STRANDS)
+        target = os.path.join(self.folder, "again.strands")
+        SaveData(target, proxy=StrandReader(FileName=source))
+        before, after = numbers(source), numbers(target)
+        self.assertEqual(len(before), len(after))
+        for a, b in zip(before, after):
+            self.assertLessEqual(abs(a - b), 1e-9 * abs(a))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["again.strands", "some.strands"])
+
+    def test_truncated_file(self):
+        for lines in range(1, STRANDS.count("\n")):
+            path = self.write("\n".join(STRANDS.split("\n")[:lines]) + "\n")
+            with self.assertError(r"some\.strands.*truncated"):
+                StrandReader(FileName=path).UpdatePipeline()
+
+    def test_bad_values_name_the_line_or_the_fibre(self):
+        for old, new, pattern in (
+            ("0.1 0.123456789 0 0.75", "0.1 nan 0 0.75", r"line 5"),
+            ("0.1 0.123456789 0 0.75", "0.1 0 0 -0.75", r"fibre 1 .*control point 1 .*Radius"),
+            ("0.1 0.123456789 0 0.75", "0 0 -15 0.75", r"fibre 1 .*control point 1 .*zero-length"),
+            ("3 3 -15 0.25", "3 3 fifteen 0.25", r"line 8"),
+            ("30\n", "-30\n", r"line 1: the side"),
+            ("30\n2\n", "30\nmany\n", r"line 2"),
+            ("30\n2\n", "30\n0\n", r"no fibres"),
+        ):
+            with self.assertError(pattern):
+                StrandReader(FileName=self.write(STRANDS.replace(old, new, 1))).UpdatePipeline()
+
+    def test_one_point_fibre(self):
+        with self.assertError(r"fibre 1 .*at least two"):
+            StrandReader(FileName=self.write("30\n1\n1\n0 0 0 1\n")).UpdatePipeline()
+
+    def test_missing_file(self):
+        with self.assertError(r"nowhere\.strands"):
+            StrandReader(FileName=os.path.join(self.folder, "nowhere.strands")).UpdatePipeline()
+
+    def test_unwritable_place(self):
+        reader = StrandReader(FileName=self.write(STRANDS))
+        for place in ("no-such-folder", "some.strands"):
+            with self.assertError(r"cannot write .*x\.strands"):
+                SaveData(os.path.join(self.folder, place, "x.strands"), proxy=reader)
+        self.assertEqual(os.listdir(self.folder), ["some.strands"])
+
+    def test_failed_write_leaves_the_old_file_alone(self):
+        bad = fetch(StrandReader(FileName=self.write(STRANDS)))
+        bad.GetPointData().GetArray("Radius").SetValue(1, -1)
+        old = self.write("precious", "old.strands")
+        with self.assertError(r"fibre 1 .*control point 1 .*Radius"):
+            SaveData(old, proxy=produce(bad))
+        with open(old) as file:
+            self.assertEqual(file.read(), "precious")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["old.strands", "some.strands"])
+
+
+if __name__ == "__main__":
+    main()

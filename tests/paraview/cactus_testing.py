@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests in this folder share: VTK's errors as failures, a folder of one's own, and the mesh oracle.
+
+VTK reports an error and goes on; neither pvpython nor an exception tells of it. CactusTestCase watches VTK's output, so that a test
+fails by every error and warning that it did not ask for with assertError.
+"""
+
+import contextlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from paraview import servermanager, simple
+from vtkmodules.vtkCommonCore import VTK_STRING, vtkLogger, vtkOutputWindow
+
+_REPORT = re.compile(r"(ERROR|Warning|Generic Warning): In ")
+# The pipeline's own remark after a filter has reported what is wrong.
+_FOLLOW_UP = re.compile(r"returned failure for request|Failed to execute|Could not create writer")
+
+
+class CactusTestCase(unittest.TestCase):
+    """Base class of all tests here. `self.folder` is an empty folder that goes away with the test."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="cactus-test-")
+        self.addCleanup(shutil.rmtree, self.folder)
+        self._messages = []
+
+        def remember(window, event, text):
+            if _REPORT.match(text):  # Python's own stderr comes this way, too
+                self._messages.append(text.strip())
+
+        remember.CallDataType = VTK_STRING
+        window = vtkOutputWindow.GetInstance()
+        for event in ("ErrorEvent", "WarningEvent"):
+            self.addCleanup(window.RemoveObserver, window.AddObserver(event, remember))
+
+    def tearDown(self):
+        # Views first: a render window that lives until Python ends takes the process down with it.
+        for view in simple.GetViews():
+            simple.Delete(view)
+        for proxy in list(simple.GetSources().values()):
+            simple.Delete(proxy)
+        if self._messages:
+            self.fail("VTK reported:\n" + "\n".join(self._messages))
+
+    @contextlib.contextmanager
+    def assertError(self, pattern):
+        """Exactly one error, or one exception, is reported inside, and `pattern` is found in it (a regular expression)."""
+        before = self._messages
+        self._messages = []
+        verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+        raised = []
+        try:
+            yield
+        except RuntimeError as error:  # how paraview.simple speaks of a writer that failed
+            raised = [str(error)]
+        finally:
+            vtkLogger.SetStderrVerbosity(verbosity)
+            messages = [message for message in self._messages if not _FOLLOW_UP.search(message)]
+            self._messages = before
+        messages = messages or raised
+        self.assertEqual(len(messages), 1, f"one error was expected, of {pattern!r}; reported: {messages}")
+        self.assertRegex(messages[0], pattern)
+
+
+def main():
+    """Runs the tests of the calling script. On success it returns: in pvbatch the other ranks wait for the script's regular end."""
+    if not unittest.main(module="__main__", exit=False, verbosity=2).result.wasSuccessful():
+        sys.stdout.flush()
+        sys.exit(1)
+
+
+def fetch(proxy, port=0):
+    """The output of a proxy as a VTK data object, after an update."""
+    output = servermanager.OutputPort(proxy, port)
+    output.UpdatePipeline()
+    return servermanager.Fetch(proxy, idx=port)
+
+
+def produce(data):
+    """A source whose output is the given VTK data object, for inputs that no filter would make."""
+    producer = simple.PVTrivialProducer()
+    producer.GetClientSideObject().SetOutput(data)
+    return producer
+
+
+def mesh_oracle(folder, *arguments):
+    """What the independent checker finds in a folder of PLY or OFF files; see tests/tools/mesh_oracle.cpp."""
+    done = subprocess.run([os.environ["CACTUS_MESH_ORACLE"], *arguments, folder], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise AssertionError(f"the mesh oracle failed on {folder}: {done.stderr}")
+    return json.loads(done.stdout)
