@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// How a fibre's outer radius is distributed.
+enum class RadiusModel
+{
+  Gamma,     ///< gamma with a shape and a scale
+  Lognormal, ///< lognormal with a mean and a standard deviation of the radius itself
+  Table      ///< one of the given radii, each as likely as the others, with replacement
+};
+
+/// Parameters of the outer radius (µm). Gamma and lognormal are cut to [minimum, maximum] by rejection.
+struct RadiusDistributionOptions
+{
+  RadiusModel model = RadiusModel::Gamma;
+  double gammaShape = 2.4;          ///< dimensionless
+  double gammaScale = 0.25;         ///< µm
+  double lognormalMean = 0.6;       ///< µm, mean of the radius before it is cut
+  double lognormalDeviation = 0.39; ///< µm, standard deviation of the radius before it is cut
+  std::vector<double> table;        ///< µm, for RadiusModel::Table
+  double minimum = 0.2;             ///< µm
+  double maximum = 2.0;             ///< µm
+
+  /// Throws InvalidInput, naming the property, unless all that the model uses is positive and finite, minimum ≤ maximum, and the
+  /// table, where it is used, is not empty and within [minimum, maximum].
+  void validate() const;
+};
+
+/// One outer radius (µm) of the distribution: the same for the same seed and index, whatever else is drawn. Throws InvalidInput
+/// where hardly any of the distribution lies between minimum and maximum.
+double sampleRadius(const RadiusDistributionOptions& options, std::uint64_t seed, std::uint64_t index);
+
+/// Radii (µm) whose circles together have the area asked for (µm²): drawn one after the other (indices from `firstIndex`) until
+/// the next would pass it. That last one is drawn again a few dozen times, and the draw that comes nearest, or none, is kept, so
+/// the areas' sum misses `area` by far less than a circle. There is always at least one radius.
+std::vector<double> drawRadii(
+  const RadiusDistributionOptions& options, std::uint64_t seed, double area, std::uint64_t firstIndex = 0);
+
+/// Mean area (µm²) of a circle of the distribution, to within some per cent.
+double meanCircleArea(const RadiusDistributionOptions& options);
+
+/// The numbers of a text, separated by white space, commas or semicolons. Throws InvalidInput, naming RadiusTable and the word
+/// that is no number.
+std::vector<double> parseRadiusTable(const std::string& text);
+
+/// The same for a file's content; throws FileError where it cannot be read.
+std::vector<double> readRadiusTable(const std::string& path);
+
+} // namespace cactus
