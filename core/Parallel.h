@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Context.h"
+#include "Error.h"
+
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <string>
+
+namespace cactus
+{
+
+/// Runs body(i) for i in [0, count), dynamically shared among the context's threads, for bodies that write to slots of their own.
+/// What a body throws ends the loop and is rethrown in the caller's thread, the one of the smallest index that threw; throws
+/// Cancelled once the caller wants to stop. Progress runs from `from` to `to`.
+template <typename Body>
+void parallelFor(
+  std::size_t count, const Context& context, Body&& body, const std::string& message = "", double from = 0.0, double to = 1.0)
+{
+  std::exception_ptr failure;
+  std::size_t failedIndex = count;
+  std::atomic<bool> stop{ false };
+  std::atomic<std::size_t> done{ 0 };
+  const auto total = static_cast<std::ptrdiff_t>(count);
+#pragma omp parallel num_threads(context.threadCount())
+  {
+    // Only the thread that called may report and ask; the one that runs this function outside the region is its thread 0.
+    bool isCaller = false;
+#pragma omp master
+    isCaller = true;
+#pragma omp for schedule(dynamic)
+    for (std::ptrdiff_t i = 0; i < total; ++i)
+    {
+      if (stop)
+      {
+        continue;
+      }
+      try
+      {
+        body(static_cast<std::size_t>(i));
+        const std::size_t finished = ++done;
+        if (isCaller && !message.empty())
+        {
+          context.report(from + (to - from) * static_cast<double>(finished) / static_cast<double>(count), message);
+        }
+        if (isCaller && context.stopRequested())
+        {
+          stop = true;
+        }
+      }
+      catch (...)
+      {
+#pragma omp critical(cactusParallelFor)
+        {
+          if (static_cast<std::size_t>(i) < failedIndex)
+          {
+            failedIndex = static_cast<std::size_t>(i);
+            failure = std::current_exception();
+          }
+        }
+        stop = true;
+      }
+    }
+  }
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
+  if (stop)
+  {
+    throw Cancelled("stopped by the user");
+  }
+}
+
+} // namespace cactus
