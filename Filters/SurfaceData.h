@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one place that takes apart surfaces that come as one vtkPolyData.
+#pragma once
+
+#include "Domain.h"
+#include "FibreSurfaces.h"
+
+#include <string>
+
+class vtkPolyData;
+
+namespace cactus
+{
+
+/// Triangles with cell data `FibreId` and, if there, `BundleId` and `Surface` (0 outer, 1 inner), as one surface per fibre.
+///
+/// Each surface numbers its points anew in the order they have in `input`, so that surfaces can be told apart although they share
+/// one array of points; `input` has to stay as it is while the result is used. `port` names the input in messages, and `surface`
+/// is what the array `Surface` has to hold. An input without cells gives no surfaces. Throws InvalidInput where there are cells
+/// other than triangles, no FibreId, or the other kind of surface.
+FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surface);
+
+/// Throws InvalidInput where `surfaces` has field data Domain, and another one than `domain` to 1e-6 µm. Null is no surfaces.
+void requireSameDomain(const Domain& domain, vtkPolyData* surfaces, const std::string& port);
+
+} // namespace cactus

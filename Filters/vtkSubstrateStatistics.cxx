@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSubstrateStatistics.h"
+
+#include "FibreData.h"
+#include "FilterSupport.h"
+#include "SubstrateStatistics.h"
+#include "SurfaceData.h"
+#include "WholeData.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+
+#include <algorithm>
+#include <cmath>
+
+vtkStandardNewMacro(vtkSubstrateStatistics);
+
+namespace
+{
+
+template <typename Array, typename Value>
+void addColumn(vtkTable* table, const char* name, std::size_t rows, Value&& value)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  column->SetNumberOfValues(static_cast<vtkIdType>(rows));
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    column->SetValue(static_cast<vtkIdType>(row), static_cast<typename Array::ValueType>(value(row)));
+  }
+  table->AddColumn(column);
+}
+
+void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
+{
+  const auto number = [&](const char* name, double value)
+  { addColumn<vtkDoubleArray>(table, name, 1, [value](std::size_t) { return value; }); };
+  const auto count = [&](const char* name, std::size_t value)
+  { addColumn<vtkIdTypeArray>(table, name, 1, [value](std::size_t) { return value; }); };
+  count("Fibres", s.fibres.size());
+  number("FVF", s.fibreVolumeFraction);
+  number("AVF", s.axonVolumeFraction);
+  number("MVF", s.myelinVolumeFraction);
+  number("AggregateGRatio", s.aggregateGRatio);
+  number("CapsuleVolumeFraction", s.capsuleVolumeFraction);
+  number("MeanDispersion_deg", s.meanDispersion);
+  number("TangentDispersion_deg", s.tangentDispersion);
+  number("MeanTargetRadius_um", s.meanTargetRadius);
+  number("MeanOuterRadius_um", s.meanOuterRadius);
+  number("MeanInnerRadius_um", s.meanInnerRadius);
+  count("OuterClosed", s.outerClosed);
+  count("OuterOpen", s.outerOpen);
+  count("InnerClosed", s.innerClosed);
+  count("InnerOpen", s.innerOpen);
+  count("Triangles", s.triangles);
+  number("TrianglesPerArea_um-2", s.trianglesPerArea);
+  number("SmallestAngle_deg", s.smallestAngle);
+  number("LargestSquaredEdgeRatio", s.largestSquaredEdgeRatio);
+}
+
+void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fibres)
+{
+  using Fibre = cactus::FibreStatistics;
+  const auto number = [&](const char* name, double (*value)(const Fibre&))
+  { addColumn<vtkDoubleArray>(table, name, fibres.size(), [&](std::size_t row) { return value(fibres[row]); }); };
+  const auto integer = [&](const char* name, std::size_t (*value)(const Fibre&))
+  { addColumn<vtkIntArray>(table, name, fibres.size(), [&](std::size_t row) { return value(fibres[row]); }); };
+  const auto isClosed = [](const cactus::SurfaceReport& report) -> std::size_t
+  { return report.closedManifold() && report.outward() ? 1 : 0; };
+  integer("FibreId", [](const Fibre& f) { return static_cast<std::size_t>(f.fibreId); });
+  integer("BundleId", [](const Fibre& f) { return static_cast<std::size_t>(f.bundleId); });
+  number("TargetRadius_um", [](const Fibre& f) { return f.targetRadius; });
+  number("OuterRadius_um", [](const Fibre& f) { return f.outerRadius.mean; });
+  number("InnerRadius_um", [](const Fibre& f) { return f.innerRadius.mean; });
+  number("OuterRadiusDeviation_um", [](const Fibre& f) { return f.outerRadius.deviation; });
+  number("InnerRadiusDeviation_um", [](const Fibre& f) { return f.innerRadius.deviation; });
+  number("GRatio", [](const Fibre& f) { return f.gRatio; });
+  number("Length_um", [](const Fibre& f) { return f.length; });
+  number("OuterVolume_um3", [](const Fibre& f) { return f.outer.volume; });
+  number("InnerVolume_um3", [](const Fibre& f) { return f.inner.volume; });
+  number("OuterArea_um2", [](const Fibre& f) { return f.outer.area; });
+  number("InnerArea_um2", [](const Fibre& f) { return f.inner.area; });
+  addColumn<vtkIntArray>(table, "OuterClosed", fibres.size(), [&](std::size_t row) { return isClosed(fibres[row].outer); });
+  addColumn<vtkIntArray>(table, "InnerClosed", fibres.size(), [&](std::size_t row) { return isClosed(fibres[row].inner); });
+  integer("OuterComponents", [](const Fibre& f) { return f.outer.components; });
+  integer("InnerComponents", [](const Fibre& f) { return f.inner.components; });
+  integer("OuterTriangles", [](const Fibre& f) { return f.outer.triangles; });
+  integer("InnerTriangles", [](const Fibre& f) { return f.inner.triangles; });
+  integer("OuterCuts", [](const Fibre& f) { return f.outerRadius.cuts; });
+  integer("InnerCuts", [](const Fibre& f) { return f.innerRadius.cuts; });
+}
+
+void fillHistograms(vtkTable* table, const std::vector<cactus::FibreStatistics>& fibres, std::size_t bins)
+{
+  std::vector<double> target;
+  std::vector<double> outer;
+  std::vector<double> inner;
+  std::vector<double> gRatio;
+  double largest = 0.0;
+  for (const auto& fibre : fibres)
+  {
+    target.push_back(fibre.targetRadius);
+    outer.push_back(fibre.outerRadius.mean);
+    inner.push_back(fibre.innerRadius.mean);
+    gRatio.push_back(fibre.gRatio);
+    largest = std::fmax(largest, std::fmax(fibre.targetRadius, std::fmax(fibre.outerRadius.mean, fibre.innerRadius.mean)));
+  }
+  // Up to a round number of tenths of a µm, so that bins have readable edges.
+  const double upper = std::ceil(largest * 10.0) / 10.0;
+  const auto edge = [bins](double last, std::size_t i) { return last * static_cast<double>(i) / static_cast<double>(bins); };
+  const auto counts = [&](const char* name, const std::vector<double>& values, double last)
+  {
+    const auto count = cactus::histogram(values, 0.0, last, bins);
+    addColumn<vtkIdTypeArray>(table, name, bins, [&](std::size_t row) { return count[row]; });
+  };
+  addColumn<vtkDoubleArray>(table, "RadiusFrom_um", bins, [&](std::size_t row) { return edge(upper, row); });
+  addColumn<vtkDoubleArray>(table, "RadiusTo_um", bins, [&](std::size_t row) { return edge(upper, row + 1); });
+  counts("TargetRadiusFibres", target, upper);
+  counts("OuterRadiusFibres", outer, upper);
+  counts("InnerRadiusFibres", inner, upper);
+  addColumn<vtkDoubleArray>(table, "GRatioFrom", bins, [&](std::size_t row) { return edge(1.0, row); });
+  addColumn<vtkDoubleArray>(table, "GRatioTo", bins, [&](std::size_t row) { return edge(1.0, row + 1); });
+  counts("GRatioFibres", gRatio, 1.0);
+}
+
+} // namespace
+
+vtkSubstrateStatistics::vtkSubstrateStatistics()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(3);
+}
+
+int vtkSubstrateStatistics::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
+  return 1;
+}
+
+int vtkSubstrateStatistics::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  cactus::requestWholeInputs(inputs, 3);
+  return 1;
+}
+
+int vtkSubstrateStatistics::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return cactus::guarded(this,
+    [&]
+    {
+      if (this->NumberOfBins < 1)
+      {
+        throw cactus::InvalidInput("NumberOfBins must be at least 1");
+      }
+      if (!cactus::ownsWholeOutput(outputs))
+      {
+        return; // one rank measures; tables of all ranks would be joined into rows that repeat
+      }
+      vtkPolyData* lines = vtkPolyData::GetData(inputs[0]);
+      vtkPolyData* outerData = vtkPolyData::GetData(inputs[1]);
+      vtkPolyData* innerData = vtkPolyData::GetData(inputs[2]);
+      const cactus::Fibres fibres = cactus::fibresFrom(lines);
+      cactus::requireSameDomain(fibres.domain, outerData, "Outer");
+      cactus::requireSameDomain(fibres.domain, innerData, "Inner");
+      cactus::SubstrateStatisticsOptions options;
+      options.cutSpacing = this->CutSpacing;
+      const auto statistics = cactus::measureSubstrate(fibres, cactus::surfacesFrom(outerData, "Outer", 0),
+        cactus::surfacesFrom(innerData, "Inner", 1), options, cactus::contextFor(this, this->NumberOfThreads));
+      if (statistics.outerOpen + statistics.innerOpen > 0)
+      {
+        vtkWarningMacro(<< statistics.outerOpen << " outer and " << statistics.innerOpen
+                        << " inner surfaces are not closed, outward 2-manifolds; their volumes are not to be relied on");
+      }
+      fillSubstrate(vtkTable::GetData(outputs, 0), statistics);
+      fillFibres(vtkTable::GetData(outputs, 1), statistics.fibres);
+      fillHistograms(vtkTable::GetData(outputs, 2), statistics.fibres, static_cast<std::size_t>(this->NumberOfBins));
+      vtkDataObject* last = outerData != nullptr ? static_cast<vtkDataObject*>(outerData) : lines;
+      for (int port = 0; port < 3; ++port)
+      {
+        cactus::addProvenance(
+          last, vtkTable::GetData(outputs, port), "SubstrateStatistics", "CutSpacing=" + std::to_string(this->CutSpacing));
+      }
+    });
+}
+
+void vtkSubstrateStatistics::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "CutSpacing: " << this->CutSpacing << '\n';
+  os << indent << "NumberOfBins: " << this->NumberOfBins << '\n';
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkSubstrateStatistics
+ * @brief Measures a substrate on its final surfaces.
+ *
+ * Input 0 `Fibres`: polylines with point data `Radius`. Input 1 `Outer` and input 2 `Inner`, both optional: closed triangle
+ * surfaces with cell data `FibreId`, clipped to the Domain and capped.
+ *
+ * Output 0 `Substrate`: one row; volume fractions, aggregate g-ratio sqrt(1 - MVF / FVF) (Stikov 2015), dispersion, mean radii,
+ * and how many surfaces are closed, outward 2-manifolds. Output 1 `Fibres`: one row per fibre. Output 2 `Histograms`: one row per
+ * bin of radius and of g-ratio. Lengths are in µm and angles in degrees, as the columns' names say.
+ *
+ * Volumes are those that the meshes enclose. Radii are those of circles with the area of the mesh's cross-section orthogonal to
+ * the centre line, every CutSpacing µm (CACTUS 2023, "Experiments"), of cuts that lie wholly inside the domain. What cannot be
+ * measured, for want of a surface or a cut, is NaN. A surface that reaches more than 0.1 µm out of the domain is an error.
+ */
+#ifndef vtkSubstrateStatistics_h
+#define vtkSubstrateStatistics_h
+
+#include "CactusFiltersModule.h"
+
+#include <vtkTableAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkSubstrateStatistics : public vtkTableAlgorithm
+{
+public:
+  static vtkSubstrateStatistics* New();
+  vtkTypeMacro(vtkSubstrateStatistics, vtkTableAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Distance (µm) between two cross-sections along a fibre. */
+  vtkSetMacro(CutSpacing, double);
+  vtkGetMacro(CutSpacing, double);
+  ///@}
+
+  ///@{
+  /** Number of bins of each histogram, at least 1. */
+  vtkSetMacro(NumberOfBins, int);
+  vtkGetMacro(NumberOfBins, int);
+  ///@}
+
+  ///@{
+  /** Threads to use; 0 takes all. The result does not depend on it. */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+protected:
+  vtkSubstrateStatistics();
+  ~vtkSubstrateStatistics() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkSubstrateStatistics(const vtkSubstrateStatistics&) = delete;
+  void operator=(const vtkSubstrateStatistics&) = delete;
+
+  double CutSpacing = 1.0;
+  int NumberOfBins = 25;
+  int NumberOfThreads = 0;
+};
+
+#endif

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-ranks: 2
+"""The statistics are the same, and one row, on any number of ranks."""
+
+import os
+
+from cactus_testing import CactusTestCase, fetch, main
+from paraview.simple import SubstrateStatistics, XMLPolyDataReader
+from surfaces import POLYGON, two_tubes
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+
+class Ranks(CactusTestCase):
+    def inputs(self):
+        readers = {}
+        for name, data in zip(("Fibres", "Outer", "Inner"), two_tubes()):
+            path = os.path.join(self.folder, name + ".vtp")
+            writer = vtkXMLPolyDataWriter()
+            writer.SetFileName(path)
+            writer.SetInputData(data)
+            self.assertEqual(writer.Write(), 1)
+            readers[name] = XMLPolyDataReader(FileName=[path])
+        return readers
+
+    def test_statistics(self):
+        table = fetch(SubstrateStatistics(**self.inputs()))
+        self.assertEqual(table.GetNumberOfRows(), 1)
+        self.assertEqual(table.GetValueByName(0, "Fibres").ToInt(), 2)
+        self.assertAlmostEqual(table.GetValueByName(0, "FVF").ToDouble(), POLYGON * 3.25 * 10 / 1000, places=6)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The statistics of two straight tubes are those of the formulas, and what cannot be measured is said."""
+
+import math
+
+from cactus_testing import CactusTestCase, fetch, main, produce
+from paraview.simple import SubstrateStatistics
+from surfaces import EQUIVALENT, POLYGON, set_domain, surfaces, tube, two_tubes
+
+
+def columns(table):
+    return {
+        table.GetColumnName(i): [table.GetValue(row, i).ToDouble() for row in range(table.GetNumberOfRows())]
+        for i in range(table.GetNumberOfColumns())
+    }
+
+
+class Statistics(CactusTestCase):
+    def setUp(self):
+        super().setUp()
+        self.fibres, self.outer, self.inner = two_tubes()
+
+    def measure(self, **properties):
+        inputs = {"Fibres": produce(self.fibres), "Outer": produce(self.outer), "Inner": produce(self.inner)}
+        inputs.update(properties)
+        return SubstrateStatistics(**inputs)
+
+    def test_whole(self):
+        row = {name: values[0] for name, values in columns(fetch(self.measure())).items()}
+        self.assertEqual(row["Fibres"], 2)
+        self.assertAlmostEqual(row["FVF"], POLYGON * 3.25 * 10 / 1000, places=6)
+        self.assertAlmostEqual(row["AVF"], POLYGON * 1.30 * 10 / 1000, places=6)
+        self.assertAlmostEqual(row["MVF"], row["FVF"] - row["AVF"], places=12)
+        self.assertAlmostEqual(row["AggregateGRatio"], math.sqrt(0.4), places=5)
+        self.assertAlmostEqual(row["CapsuleVolumeFraction"], math.pi * 3.25 * 10 / 1000, places=9)
+        self.assertAlmostEqual(row["MeanOuterRadius_um"], 1.25 * EQUIVALENT, places=5)
+        self.assertAlmostEqual(row["MeanInnerRadius_um"], 0.8 * EQUIVALENT, places=5)
+        self.assertAlmostEqual(row["MeanDispersion_deg"], 0)
+        self.assertEqual([row[n] for n in ("OuterClosed", "OuterOpen", "InnerClosed", "InnerOpen")], [2, 0, 2, 0])
+        self.assertEqual(row["Triangles"], self.outer.GetNumberOfCells() + self.inner.GetNumberOfCells())
+
+    def test_per_fibre(self):
+        table = columns(fetch(self.measure(), 1))
+        self.assertEqual(table["FibreId"], [3, 5])
+        self.assertEqual(table["BundleId"], [2, 2])
+        self.assertEqual(table["TargetRadius_um"], [1.0, 1.5])
+        for value, wanted in zip(table["OuterVolume_um3"], (10 * POLYGON, 22.5 * POLYGON)):
+            self.assertAlmostEqual(value, wanted, places=4)
+        for value, wanted in zip(table["GRatio"], (0.7, 0.6)):
+            self.assertAlmostEqual(value, wanted, places=5)
+        self.assertEqual(table["OuterClosed"], [1, 1])
+        self.assertEqual(table["OuterComponents"], [1, 1])
+        self.assertEqual(table["OuterCuts"], [10, 10])
+        for value in table["Length_um"]:
+            self.assertAlmostEqual(value, 10)
+
+    def test_histograms(self):
+        table = columns(fetch(self.measure(NumberOfBins=3), 2))
+        self.assertEqual(table["RadiusFrom_um"], [0, 0.5, 1.0])
+        self.assertEqual(table["RadiusTo_um"], [0.5, 1.0, 1.5])
+        self.assertEqual(table["TargetRadiusFibres"], [0, 0, 2])
+        self.assertEqual(table["InnerRadiusFibres"], [0, 2, 0])
+        self.assertEqual(sum(table["GRatioFibres"]), 2)
+
+    def test_fibres_alone(self):
+        row = {name: values[0] for name, values in columns(fetch(SubstrateStatistics(Fibres=produce(self.fibres)))).items()}
+        self.assertTrue(math.isnan(row["FVF"]) and math.isnan(row["AggregateGRatio"]))
+        self.assertAlmostEqual(row["MeanTargetRadius_um"], 1.25)
+
+    def test_fibre_without_inner_surface(self):
+        one = surfaces({5: tube(2, 0, 0.9, 10)}, 1, 10)
+        table = columns(fetch(self.measure(Inner=produce(one)), 1))
+        self.assertTrue(math.isnan(table["GRatio"][0]) and math.isnan(table["InnerRadius_um"][0]))
+        self.assertEqual(table["InnerTriangles"][0], 0)
+        self.assertAlmostEqual(table["GRatio"][1], 0.6, places=5)
+
+    def test_surface_that_was_not_clipped(self):
+        tall = surfaces({3: tube(-2, 0, 1, 11)}, 0, 10)
+        with self.assertError(r"outer surface of fibre 3 reaches 0\.5.*ClipToDomain"):
+            self.measure(Outer=produce(tall)).UpdatePipeline()
+
+    def test_open_surface_is_told(self):
+        part = tube(-2, 0, 1, 10)
+        part.BuildCells()
+        part.DeleteCell(0)
+        part.RemoveDeletedCells()
+        with self.assertError(r"1 outer and 0 inner surfaces are not closed"):
+            statistics = self.measure(Outer=produce(surfaces({3: part, 5: tube(2, 0, 1.5, 10)}, 0, 10)))
+            row = columns(fetch(statistics))
+        self.assertEqual((row["OuterClosed"], row["OuterOpen"]), ([1], [1]))
+
+    def test_wrong_inputs(self):
+        with self.assertError(r"Outer holds inner surfaces"):
+            self.measure(Outer=produce(self.inner)).UpdatePipeline()
+        with self.assertError(r"fibre 4, which Fibres does not hold"):
+            self.measure(Outer=produce(surfaces({4: tube(-2, 0, 1, 10)}, 0, 10))).UpdatePipeline()
+        with self.assertError(r"Fibre.*Radius|no fibres|not polylines"):
+            self.measure(Fibres=produce(self.outer)).UpdatePipeline()
+        with self.assertError(r"no cell data FibreId"):
+            bare = tube(-2, 0, 1, 10)
+            self.measure(Outer=produce(bare)).UpdatePipeline()
+        with self.assertError(r"another Domain"):
+            other = surfaces({3: tube(-2, 0, 1, 10)}, 0, 10)
+            set_domain(other, 12)
+            self.measure(Outer=produce(other)).UpdatePipeline()
+
+
+if __name__ == "__main__":
+    main()
