@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fibre radial growth through ParaView: the data model, requested extents, repeatability, and bad input."""
+
+import hashlib
+import math
+import os
+import random
+
+from cactus_testing import CactusTestCase, fetch, main
+from paraview.simple import FibreRadialGrowth, StrandReader
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
+
+
+
+def bundle(side=6.0, pitch=1.4, radius=0.6):
+    """The text of a strand file: slightly bent fibres on a hexagonal lattice."""
+    strands = []
+    rows = int(side / pitch) + 1
+    for row in range(-rows, rows + 1):
+        for column in range(-rows, rows + 1):
+            x, y = (column + 0.5 * (row % 2)) * pitch, row * pitch * math.sqrt(0.75)
+            if max(abs(x), abs(y)) < 0.5 * side:
+                points = [(x + 0.1 * math.sin(z), y + 0.1 * math.cos(1.3 * z), z) for z in (-3.5, -2, 0, 1, 2.5, 3.5)]
+                strands.append(
+                    f"{len(points)}\n" + "\n".join(f"{p[0]:.9g} {p[1]:.9g} {p[2]:.9g} {radius}" for p in points)
+                )
+    return f"{side}\n{len(strands)}\n" + "\n".join(strands) + "\n"
+
+
+def arrays(image):
+    data = image.GetPointData()
+    return vtk_to_numpy(data.GetArray("FibreId")), vtk_to_numpy(data.GetArray("Depth"))
+
+
+class FibreRadialGrowthTest(CactusTestCase):
+    def fibres(self):
+        path = os.path.join(self.folder, "bundle.strands")
+        with open(path, "w") as file:
+            file.write(bundle())
+        return StrandReader(FileName=path)
+
+    def test_gives_the_data_model(self):
+        image = fetch(FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, GrowthIterations=2))
+        self.assertEqual(image.GetExtent(), (0, 59, 0, 59, 0, 59))
+        for found, expected in zip(image.GetOrigin() + image.GetSpacing(), 3 * (-2.95,) + 3 * (0.1,)):
+            self.assertAlmostEqual(found, expected, 12)
+        data = image.GetPointData()
+        self.assertEqual(data.GetArray("FibreId").GetDataType(), VTK_INT)
+        self.assertEqual(data.GetArray("Depth").GetDataType(), VTK_FLOAT)
+        ids, depth = arrays(image)
+        self.assertTrue(((ids > 0) == (depth > 0)).all())
+        self.assertTrue((depth[ids == 0] <= -0.015 + 1e-9).all())
+        field = image.GetFieldData()
+        table = [field.GetArray("FibreTable." + name) for name in ("FibreId", "BundleId", "TargetRadius")]
+        self.assertTrue(set(ids) - {0} <= set(vtk_to_numpy(table[0])))
+        self.assertEqual({column.GetNumberOfTuples() for column in table}, {table[0].GetNumberOfTuples()})
+        self.assertAlmostEqual(table[2].GetValue(0), 0.6)
+        for name, value in (("Growth", 0.2), ("MinimumGap", 0.02), ("SurfaceTolerance", 0.005), ("VoxelSize", 0.1)):
+            self.assertAlmostEqual(field.GetArray(name).GetValue(0), value)
+        self.assertEqual([field.GetArray("Domain").GetValue(i) for i in range(6)], [-3, 3, -3, 3, -3, 3])
+        stages = field.GetAbstractArray("Provenance")
+        self.assertEqual(stages.GetNumberOfValues(), 2)
+        self.assertIn("FibreRadialGrowth", stages.GetValue(1))
+
+    def test_target_is_met_over_the_domain(self):
+        growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.8)
+        ids, _ = arrays(fetch(growth))
+        self.assertAlmostEqual((ids > 0).mean(), 0.8, delta=0.003)
+        growth.Margin = 0.3
+        image = fetch(growth)
+        self.assertEqual(image.GetExtent(), (0, 65, 0, 65, 0, 65))
+        ids, _ = arrays(image)
+        inner = ids.reshape(66, 66, 66)[3:-3, 3:-3, 3:-3]
+        self.assertAlmostEqual((inner > 0).mean(), 0.8, delta=0.003)
+
+    def test_a_requested_extent_equals_that_part_of_the_whole(self):
+        growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.75)
+        whole_ids, whole_depth = (values.reshape(60, 60, 60).copy() for values in arrays(fetch(growth)))
+        algorithm = growth.GetClientSideObject()
+        chance = random.Random(5)
+        for _ in range(8):
+            ends = [sorted(chance.sample(range(60), 2)) for _ in range(3)]
+            extent = [end for pair in ends for end in pair]
+            algorithm.Modified()
+            algorithm.UpdateExtent(extent)
+            part = algorithm.GetOutputDataObject(0)
+            self.assertEqual(list(part.GetExtent()), extent)
+            (i0, i1), (j0, j1), (k0, k1) = ends
+            ids, depth = (values.reshape(k1 - k0 + 1, j1 - j0 + 1, i1 - i0 + 1) for values in arrays(part))
+            box = (slice(k0, k1 + 1), slice(j0, j1 + 1), slice(i0, i1 + 1))
+            self.assertEqual(ids.tobytes(), whole_ids[box].tobytes())
+            self.assertEqual(depth.tobytes(), whole_depth[box].tobytes())
+
+    def test_threads_do_not_change_a_bit(self):
+        growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.85)
+        digests = set()
+        for threads in (1, 2, 3):
+            growth.NumberOfThreads = threads
+            ids, depth = arrays(fetch(growth))
+            digests.add(hashlib.sha256(ids.tobytes() + depth.tobytes()).hexdigest())
+        self.assertEqual(len(digests), 1)
+
+    def test_bad_properties_give_one_error_and_no_image(self):
+        for name, value in (
+            ("VoxelSize", 0.0),
+            ("VoxelSize", -0.1),
+            ("VoxelSize", float("nan")),
+            ("VoxelSize", 50.0),
+            ("TargetFibreVolumeFraction", -0.5),
+            ("TargetFibreVolumeFraction", 1.0),
+            ("GrowthIterations", -1),
+            ("MinimumGap", -0.01),
+            ("SurfaceTolerance", -0.01),
+            ("SurfaceRoughness", 0.6),
+            ("Margin", -1.0),
+            ("NumberOfThreads", -1),
+        ):
+            with self.subTest(property=name, value=value):
+                growth = FibreRadialGrowth(Input=self.fibres())
+                with self.assertError(name):
+                    setattr(growth, name, value)
+                    growth.UpdatePipeline()
+
+    def test_a_target_out_of_reach_says_what_can_be_reached(self):
+        growth = FibreRadialGrowth(Input=self.fibres(), TargetFibreVolumeFraction=0.995, MinimumGap=0.1)
+        with self.assertError(r"TargetFibreVolumeFraction 0\.995 cannot be reached: growth fills at most 0\.\d+"):
+            growth.UpdatePipeline()
+
+    def test_an_image_beyond_memory(self):
+        growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.0001)
+        with self.assertError(r"VoxelSize 0\.0001 .*GB"):
+            growth.UpdatePipeline()
+
+
+if __name__ == "__main__":
+    main()
