@@ -48,7 +48,8 @@ public:
   ///@}
 
   ///@{
-  /** Area of the fibres' circles on the end faces over the area of the faces, in (0, 1). Default 0.7. */
+  /** In (0, 1), default 0.7. One bundle: area of the fibres' circles on the end faces over the area of the faces. Two bundles,
+   * whose faces lie outside the domain: the fibres' volume within the domain over that of the domain. */
   vtkSetMacro(FibreVolumeFraction, double);
   vtkGetMacro(FibreVolumeFraction, double);
   ///@}

@@ -7,6 +7,7 @@
 #include "Random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -35,7 +36,8 @@ struct Bundle
 {
   int id = 1;
   double length = 0.0;
-  double angle = 0.0; ///< of the axis, from +z towards +x (radians)
+  double angle = 0.0;   ///< of the axis, from +z towards +x (radians)
+  double density = 0.0; ///< wanted of the circles on each face
   Circles bottom;
   Circles top;
 };
@@ -54,6 +56,15 @@ void requireRange(double value, bool good, const char* property, const char* ran
 double regionSide(const BundleInitializerOptions& options)
 {
   return options.side + 2.0 * options.margin;
+}
+
+/// Indices in order of falling radius, ties in order of index.
+std::vector<std::size_t> largestFirst(const std::vector<double>& radii)
+{
+  std::vector<std::size_t> order(radii.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+  return order;
 }
 
 /// Throws unless every circle has room in its rectangle.
@@ -90,12 +101,14 @@ double reachableDensity(Circles circles, const Context& context)
 }
 
 [[noreturn]] void throwDensity(
-  const BundleInitializerOptions& options, const Circles& jammed, const char* face, const Context& context)
+  const BundleInitializerOptions& options, const Bundle& bundle, const Circles& jammed, const char* face, const Context& context)
 {
   std::ostringstream message;
   message.precision(3);
+  // In proportion: for crossing bundles the faces' density is not the domain's.
+  const double reachable = reachableDensity(jammed, context) * options.fibreVolumeFraction / bundle.density;
   message << "FibreVolumeFraction " << options.fibreVolumeFraction << " cannot be reached: the circles on the " << face
-          << " face come apart only at " << reachableDensity(jammed, context)
+          << " face of bundle " << bundle.id << " come apart only at " << reachable
           << ". Lower FibreVolumeFraction, or spread the radii more widely";
   if (options.numberOfBundles == 2)
   {
@@ -159,15 +172,38 @@ Eigen::Vector2d placeOnRing(
   return frame.clampCentre(from + shift, radius);
 }
 
-/// Mean angle (degrees) between the bundle's fibres and its axis.
-double meanAngle(const Bundle& bundle)
+/// How a bundle's fibres lie to its nominal axis.
+struct Orientation
 {
-  double sum = 0.0;
+  double meanAngle = 0.0; ///< degrees, of the fibres to the axis
+  double drift = 0.0;     ///< degrees, of the fibres' mean direction to the axis
+  /// Per component, sum over sum of magnitudes of the fibres' directions: by how much one sense outweighs the other.
+  Eigen::Vector2d bias = Eigen::Vector2d::Zero();
+};
+
+Orientation orientationOf(const Bundle& bundle)
+{
+  double angles = 0.0;
+  double along = 0.0;
+  Eigen::Vector2d across = Eigen::Vector2d::Zero();
+  Eigen::Vector2d magnitude = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < bundle.bottom.size(); ++i)
   {
-    sum += std::atan2((bundle.top.centres[i] - bundle.bottom.centres[i]).norm(), bundle.length);
+    const Eigen::Vector2d shift = bundle.top.centres[i] - bundle.bottom.centres[i];
+    const double length = std::hypot(shift.norm(), bundle.length);
+    angles += std::atan2(shift.norm(), bundle.length);
+    along += bundle.length / length;
+    across += shift / length;
+    magnitude += shift.cwiseAbs() / length;
   }
-  return sum / static_cast<double>(bundle.bottom.size()) / degree;
+  Orientation orientation;
+  orientation.meanAngle = angles / static_cast<double>(bundle.bottom.size()) / degree;
+  orientation.drift = std::atan2(across.norm(), along) / degree;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    orientation.bias[axis] = magnitude[axis] > 0.0 ? across[axis] / magnitude[axis] : 0.0;
+  }
+  return orientation;
 }
 
 enum class TopFace
@@ -203,27 +239,50 @@ TopFace packTop(Bundle& bundle, const BundleInitializerOptions& options, int att
   placeCircles(top, onRing, trialsPerCircle);
 
   const double tolerance = std::min(0.05, 0.02 * options.meanDispersion);
+  constexpr double driftTolerance = 0.1;
+  std::optional<Circles> accepted;
+  double acceptedDrift = 0.0;
   double best = 0.0;
   for (int step = 0; step < 30; ++step)
   {
     if (!relaxCircles(top, {}, context).separated)
     {
+      if (accepted)
+      {
+        break;
+      }
       return TopFace::Jammed;
     }
-    reached = meanAngle(bundle);
-    if (std::abs(reached - options.meanDispersion) <= tolerance)
+    const Orientation orientation = orientationOf(bundle);
+    reached = orientation.meanAngle;
+    if (std::abs(reached - options.meanDispersion) <= tolerance && (!accepted || orientation.drift < acceptedDrift))
     {
-      return TopFace::Done;
+      accepted = top;
+      acceptedDrift = orientation.drift;
+    }
+    if (accepted && (acceptedDrift <= driftTolerance || step >= 15))
+    {
+      break;
     }
     best = std::max(best, reached);
     const double scale = std::clamp(std::tan(options.meanDispersion * degree) / std::tan(reached * degree), 0.5, 2.0);
     for (std::size_t i = 0; i < top.size(); ++i)
     {
-      top.centres[i] = top.frame(i).clampCentre(bottom.centres[i] + scale * (top.centres[i] - bottom.centres[i]), top.radii[i]);
+      Eigen::Vector2d shift = scale * (top.centres[i] - bottom.centres[i]);
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        shift[axis] *= 1.0 - (shift[axis] > 0.0 ? orientation.bias[axis] : -orientation.bias[axis]);
+      }
+      top.centres[i] = top.frame(i).clampCentre(bottom.centres[i] + shift, top.radii[i]);
     }
   }
-  reached = best;
-  return TopFace::DispersionMissed;
+  if (!accepted)
+  {
+    reached = best;
+    return TopFace::DispersionMissed;
+  }
+  top = *accepted;
+  return TopFace::Done;
 }
 
 /// Packs both faces of a bundle whose bottom holds radii and frames.
@@ -261,7 +320,7 @@ void packFaces(Bundle& bundle, const BundleInitializerOptions& options, const Co
   }
   if (jammed)
   {
-    throwDensity(options, *jammed, jammedFace, context);
+    throwDensity(options, bundle, *jammed, jammedFace, context);
   }
   std::ostringstream message;
   message.precision(3);
@@ -276,6 +335,7 @@ std::vector<Bundle> layOutSingle(const BundleInitializerOptions& options)
   const double face = regionSide(options);
   Bundle bundle;
   bundle.length = options.side;
+  bundle.density = options.fibreVolumeFraction;
   Rectangle frame;
   frame.lower.setConstant(-0.5 * face);
   frame.upper.setConstant(0.5 * face);
@@ -291,16 +351,234 @@ void requireDensity(const std::vector<Bundle>& bundles, const BundleInitializerO
   for (const Bundle& bundle : bundles)
   {
     const double density = bundle.bottom.density();
-    if (std::abs(density - options.fibreVolumeFraction) > 0.05 * options.fibreVolumeFraction)
+    if (std::abs(density - bundle.density) > 0.05 * bundle.density)
     {
       std::ostringstream message;
       message.precision(3);
       message << "FibreVolumeFraction " << options.fibreVolumeFraction
-              << " cannot be reached with whole fibres of these radii: the nearest is " << density
-              << ". Enlarge Side, or lower MaximumRadius";
+              << " cannot be reached with whole fibres of these radii: the nearest is "
+              << density * options.fibreVolumeFraction / bundle.density << ". Enlarge Side, or lower MaximumRadius";
       throw Infeasible(message.str());
     }
   }
+}
+
+/// The two bundles of a crossing, without radii and frames, each long enough for its fibres to run right through the region.
+std::vector<Bundle> crossingBundles(const BundleInitializerOptions& options, double density)
+{
+  const double half = 0.5 * options.crossingAngle * degree;
+  std::vector<Bundle> bundles(2);
+  for (int b = 0; b < 2; ++b)
+  {
+    bundles[static_cast<std::size_t>(b)].id = b + 1;
+    bundles[static_cast<std::size_t>(b)].angle = b == 0 ? half : -half;
+    bundles[static_cast<std::size_t>(b)].density = density;
+    // A square turned by the half angle fits into a square of this side, and the bundle covers as much in both directions.
+    bundles[static_cast<std::size_t>(b)].length = regionSide(options) * (std::cos(half) + std::sin(half));
+  }
+  return bundles;
+}
+
+/// A layer of a crossing bundle, as wide as the bundle is long.
+Rectangle layerFrame(const Bundle& bundle, double low, double high)
+{
+  Rectangle frame;
+  frame.lower = Eigen::Vector2d(-0.5 * bundle.length, low);
+  frame.upper = Eigen::Vector2d(0.5 * bundle.length, high);
+  return frame;
+}
+
+/// Sheets: layers of equal thickness, the bundles taking turns; each circle, largest first, goes to the layer with most area
+/// left.
+std::vector<Bundle> layOutSheets(const BundleInitializerOptions& options, double density)
+{
+  const double height = regionSide(options);
+  const double wanted = options.sheetThickness > 0.0 ? options.sheetThickness : height / 6.0;
+  const int layers = std::max(2, static_cast<int>(std::lround(std::min(height / wanted, 1e6))));
+  std::vector<Bundle> bundles = crossingBundles(options, density);
+  for (int k = 0; k < layers; ++k)
+  {
+    Bundle& bundle = bundles[static_cast<std::size_t>(k % 2)];
+    bundle.bottom.frames.push_back(layerFrame(bundle, height * (double(k) / layers - 0.5), height * ((k + 1.0) / layers - 0.5)));
+  }
+  for (Bundle& bundle : bundles)
+  {
+    Circles& circles = bundle.bottom;
+    const double capacity = density * circles.frames.front().area();
+    const auto count = circles.frames.size();
+    circles.radii = drawRadii(options.radius, options.seed, capacity * static_cast<double>(count), itemOf(0, bundle.id));
+    circles.frameOf.assign(circles.size(), 0);
+    requireFit(circles, "SheetThickness");
+    std::vector<double> left(count, capacity);
+    for (const std::size_t i : largestFirst(circles.radii))
+    {
+      const auto layer = std::max_element(left.begin(), left.end());
+      circles.frameOf[i] = static_cast<int>(layer - left.begin());
+      *layer -= pi * circles.radii[i] * circles.radii[i];
+    }
+  }
+  return bundles;
+}
+
+/// Divides a bundle's circles among thin layers: each takes the largest circles left, with room to spare, and then others in the
+/// order they were drawn, up to a thickness drawn around `wanted` (µm). Returns the layers' thicknesses, each just so that the
+/// layer has the density asked for.
+std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& options, double wanted)
+{
+  Circles& circles = bundle.bottom;
+  circles.frameOf.assign(circles.size(), -1);
+  const double areaPerThickness = bundle.density * bundle.length;
+  double left = 0.0;
+  for (const double r : circles.radii)
+  {
+    left += pi * r * r;
+  }
+  const std::vector<std::size_t> largest = largestFirst(circles.radii);
+  RandomEngine engine = randomStream(options.seed, RandomStage::Packing, itemOf(0, bundle.id + 16));
+  std::vector<double> thicknesses;
+  std::size_t nextLargest = 0;
+  std::size_t nextDrawn = 0;
+  while (left > 0.0)
+  {
+    while (nextLargest < circles.size() && circles.frameOf[largest[nextLargest]] >= 0)
+    {
+      ++nextLargest;
+    }
+    if (nextLargest == circles.size())
+    {
+      break;
+    }
+    const double room = 1.05 * 2.0 * circles.radii[largest[nextLargest]];
+    const double thickness = std::max(room, wanted * (0.75 + 0.5 * uniform(engine)));
+    const bool last = left < areaPerThickness * thickness;
+    // What does not fill a layer of its own thickens the one before.
+    const bool merge = last && !thicknesses.empty();
+    const int layer = static_cast<int>(thicknesses.size()) - (merge ? 1 : 0);
+    double taken = 0.0;
+    const auto take = [&](std::size_t i)
+    {
+      circles.frameOf[i] = layer;
+      taken += pi * circles.radii[i] * circles.radii[i];
+    };
+    // Large circles keep together in few thick layers, so that the others can be thin.
+    for (; nextLargest < circles.size() && taken < 0.6 * areaPerThickness * thickness; ++nextLargest)
+    {
+      if (circles.frameOf[largest[nextLargest]] < 0)
+      {
+        take(largest[nextLargest]);
+      }
+    }
+    for (; nextDrawn < circles.size() && (last || taken < areaPerThickness * thickness); ++nextDrawn)
+    {
+      if (circles.frameOf[nextDrawn] < 0)
+      {
+        take(nextDrawn);
+      }
+    }
+    left -= taken;
+    if (merge)
+    {
+      thicknesses.back() += taken / areaPerThickness;
+    }
+    else
+    {
+      thicknesses.push_back(taken / areaPerThickness);
+    }
+  }
+  return thicknesses;
+}
+
+/// Interwoven: each bundle's thin layers in random order, stacked along y so that both bundles rise evenly.
+std::vector<Bundle> layOutInterwoven(const BundleInitializerOptions& options, double density, double thicknessInDiameters)
+{
+  const double height = regionSide(options);
+  std::vector<Bundle> bundles = crossingBundles(options, density);
+  double radiusSum = 0.0;
+  std::size_t count = 0;
+  for (Bundle& bundle : bundles)
+  {
+    bundle.bottom.radii = drawRadii(options.radius, options.seed, 0.5 * density * bundle.length * height, itemOf(0, bundle.id));
+    radiusSum = std::accumulate(bundle.bottom.radii.begin(), bundle.bottom.radii.end(), radiusSum);
+    count += bundle.bottom.size();
+  }
+  const double wanted = thicknessInDiameters * 2.0 * radiusSum / static_cast<double>(count);
+  std::vector<std::vector<double>> thicknesses;
+  std::vector<std::vector<std::size_t>> order;
+  double total = 0.0;
+  for (Bundle& bundle : bundles)
+  {
+    thicknesses.push_back(weave(bundle, options, wanted));
+    total = std::accumulate(thicknesses.back().begin(), thicknesses.back().end(), total);
+    order.emplace_back(thicknesses.back().size());
+    std::vector<std::size_t>& shuffled = order.back();
+    std::iota(shuffled.begin(), shuffled.end(), std::size_t(0));
+    RandomEngine engine = randomStream(options.seed, RandomStage::Packing, itemOf(1, bundle.id + 16));
+    for (std::size_t k = shuffled.size(); k > 1; --k)
+    {
+      std::swap(shuffled[k - 1], shuffled[std::min(k - 1, static_cast<std::size_t>(uniform(engine) * static_cast<double>(k)))]);
+    }
+    bundle.bottom.frames.resize(shuffled.size());
+  }
+  // The drawn areas miss their half by less than a circle; the layers share that out.
+  const double stretch = height / total;
+  double level = -0.5 * height;
+  std::array<double, 2> filled{ { 0.0, 0.0 } };
+  std::array<std::size_t, 2> next{ { 0, 0 } };
+  while (next[0] < order[0].size() || next[1] < order[1].size())
+  {
+    const bool second = next[0] == order[0].size() || (next[1] < order[1].size() && filled[1] < filled[0]);
+    const std::size_t b = second ? 1 : 0;
+    const std::size_t layer = order[b][next[b]++];
+    const double thickness = stretch * thicknesses[b][layer];
+    bundles[b].bottom.frames[layer] = layerFrame(bundles[b], level, level + thickness);
+    level += thickness;
+    filled[b] += thickness;
+  }
+  for (const Bundle& bundle : bundles)
+  {
+    requireFit(bundle.bottom, "Side");
+  }
+  return bundles;
+}
+
+void packAll(std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context)
+{
+  requireDensity(bundles, options);
+  const double share = 0.9 / static_cast<double>(bundles.size());
+  for (std::size_t b = 0; b < bundles.size(); ++b)
+  {
+    const double begin = 0.05 + share * static_cast<double>(b);
+    packFaces(bundles[b], options, context, begin, begin + share);
+  }
+}
+
+/// Two bundles with both their faces packed to a density.
+std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double density, const Context& context)
+{
+  if (options.crossingStyle == CrossingStyle::Interwoven)
+  {
+    // Narrow layers waste space along their walls: where one does not hold its density, thicker layers may.
+    constexpr double thickest = 6.0;
+    for (double diameters = 1.5;; diameters *= 1.25)
+    {
+      std::vector<Bundle> bundles = layOutInterwoven(options, density, diameters);
+      try
+      {
+        packAll(bundles, options, context);
+        return bundles;
+      }
+      catch (const Infeasible&)
+      {
+        if (1.25 * diameters > thickest)
+        {
+          throw;
+        }
+      }
+    }
+  }
+  std::vector<Bundle> bundles = layOutSheets(options, density);
+  packAll(bundles, options, context);
+  return bundles;
 }
 
 void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options, Fibres& fibres)
@@ -327,6 +605,68 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
     }
     fibres.addPoint(last, radius);
   }
+}
+
+Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptions& options)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(options.side);
+  for (const Bundle& bundle : bundles)
+  {
+    appendFibres(bundle, options, fibres);
+  }
+  return fibres;
+}
+
+Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+{
+  std::vector<Bundle> bundles = layOutSingle(options);
+  packAll(bundles, options, context);
+  report.fibreVolumeFraction = bundles.front().bottom.density();
+  report.meanDispersion = orientationOf(bundles.front()).meanAngle;
+  return fibresOf(bundles, options);
+}
+
+/// Crossing bundles whose capsules fill the domain to the fraction asked for. Their faces lie outside the domain, and dispersed
+/// fibres that start and end within the faces crowd between them, so the density of the faces is a little lower, and is found by
+/// trying: in proportion to what the domain came to hold.
+Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+{
+  const double asked = options.fibreVolumeFraction;
+  const double tilt = options.meanDispersion * degree;
+  double density = asked * std::cos(tilt) * (1.0 - 0.5 * std::tan(tilt));
+  std::optional<Fibres> best;
+  for (int round = 0; round < 6; ++round)
+  {
+    const std::vector<Bundle> bundles = packCrossing(options, density, context);
+    Fibres fibres = fibresOf(bundles, options);
+    const double reached = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+    if (!best || std::abs(reached - asked) < std::abs(report.fibreVolumeFraction - asked))
+    {
+      double angles = 0.0;
+      for (const Bundle& bundle : bundles)
+      {
+        angles += orientationOf(bundle).meanAngle * static_cast<double>(bundle.bottom.size());
+      }
+      report.fibreVolumeFraction = reached;
+      report.meanDispersion = angles / static_cast<double>(fibres.size());
+      best = std::move(fibres);
+    }
+    if (std::abs(reached - asked) <= 0.004 || reached <= 0.0)
+    {
+      break;
+    }
+    density = std::min(0.95, density * asked / reached);
+  }
+  if (std::abs(report.fibreVolumeFraction - asked) > 0.05 * asked)
+  {
+    std::ostringstream message;
+    message.precision(3);
+    message << "FibreVolumeFraction " << asked << " cannot be reached with whole fibres of these radii: the nearest is "
+            << report.fibreVolumeFraction << ". Enlarge Side, or lower MaximumRadius";
+    throw Infeasible(message.str());
+  }
+  return std::move(*best);
 }
 
 /// Throws OutOfMemory where the fibres asked for could not be held.
@@ -416,34 +756,12 @@ Fibres initialiseBundles(const BundleInitializerOptions& options, const Context&
   options.validate();
   requireMemoryFor(options);
   context.report(0.0, "Drawing radii");
-  if (options.numberOfBundles != 1)
-  {
-    throw InvalidInput("NumberOfBundles 2 is not available yet: give 1");
-  }
-  std::vector<Bundle> bundles = layOutSingle(options);
-  requireDensity(bundles, options);
-
-  Fibres fibres;
-  fibres.domain = Domain::cube(options.side);
-  double faceArea = 0.0;
-  double angleSum = 0.0;
-  for (std::size_t b = 0; b < bundles.size(); ++b)
-  {
-    const double share = 0.9 / static_cast<double>(bundles.size());
-    packFaces(bundles[b], options, context, 0.05 + share * static_cast<double>(b), 0.05 + share * static_cast<double>(b + 1));
-    for (const Rectangle& frame : bundles[b].bottom.frames)
-    {
-      faceArea += frame.area();
-    }
-    angleSum += meanAngle(bundles[b]) * static_cast<double>(bundles[b].bottom.size());
-    appendFibres(bundles[b], options, fibres);
-  }
+  BundleInitializerReport reached;
+  Fibres fibres =
+    options.numberOfBundles == 2 ? initialiseCrossing(options, context, reached) : initialiseSingle(options, context, reached);
   if (report != nullptr)
   {
-    const double circleArea = std::accumulate(
-      fibres.targetRadii.begin(), fibres.targetRadii.end(), 0.0, [](double sum, double r) { return sum + pi * r * r; });
-    report->fibreVolumeFraction = circleArea / faceArea;
-    report->meanDispersion = angleSum / static_cast<double>(fibres.size());
+    *report = reached;
   }
   context.report(1.0, "Bundle initialised");
   return fibres;

@@ -23,8 +23,10 @@ enum class CrossingStyle
 /// What initialiseBundles is to make. Lengths in µm, angles in degrees.
 struct BundleInitializerOptions
 {
-  double side = 30.0;               ///< side of the cubic domain [-side/2, side/2]³
-  double fibreVolumeFraction = 0.7; ///< area of the circles on the end faces over the area of the faces, in (0, 1)
+  double side = 30.0; ///< side of the cubic domain [-side/2, side/2]³
+  /// In (0, 1). One bundle: area of the circles on the end faces over the area of the faces. Two bundles, whose faces lie outside
+  /// the domain: volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain.
+  double fibreVolumeFraction = 0.7;
   RadiusDistributionOptions radius; ///< of the fibres' outer radii
   double meanDispersion = 5.0;      ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
   DispersionModel dispersionModel = DispersionModel::Watson;
@@ -48,10 +50,10 @@ struct BundleInitializerOptions
   std::string describe() const;
 };
 
-/// What came of it, bundle by bundle joined (the density over all faces, the dispersion over all fibres).
+/// What came of it, over all bundles.
 struct BundleInitializerReport
 {
-  double fibreVolumeFraction = 0.0; ///< area fraction on the end faces
+  double fibreVolumeFraction = 0.0; ///< as the option of that name measures it
   double meanDispersion = 0.0;      ///< degrees, to the nominal axes
 };
 
@@ -62,8 +64,9 @@ struct BundleInitializerReport
 /// The radii are drawn until the density is met (see drawRadii). On the first face circles are placed largest first and
 /// relaxed (see CirclePacking.h). Each fibre then draws its angle from the dispersion model, and its end is placed on the ring
 /// that this angle leaves on the opposite face, at the first of several random azimuths that is free, or least crowded; those
-/// circles are relaxed too, and all displacements rescaled, until the mean angle is within 0.05° (and 2 %) of meanDispersion. A
-/// fibre is never left out.
+/// circles are relaxed too. Their displacements are rescaled, and relaxed again, until the mean angle is within 0.05° (and 2 %)
+/// of meanDispersion and, as far as that is possible (usually to 0.1°), the mean direction is the axis. A fibre is never left
+/// out.
 ///
 /// The faces of a single bundle are z = ±side/2, exactly. A crossing bundle's faces bound a cuboid that covers the whole domain
 /// (and margin) and is divided into the layers of its crossing style along y.

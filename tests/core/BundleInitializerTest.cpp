@@ -181,14 +181,30 @@ TEST(BundleInitializer, SameSeedSameBitsOnAnyNumberOfThreads)
 
 TEST(BundleInitializer, WhatCannotBeReachedSaysWhatCan)
 {
-  EXPECT_NE(errorOf([](auto& o) { o.fibreVolumeFraction = 0.95; }).find("only at 0.8"), std::string::npos);
-  BundleInitializerOptions options;
-  options.fibreVolumeFraction = 0.95;
-  EXPECT_THROW(initialiseBundles(options), Infeasible);
-  options.fibreVolumeFraction = 0.7;
-  options.meanDispersion = 45.0;
-  EXPECT_THROW(initialiseBundles(options), Infeasible);
-  EXPECT_NE(errorOf([](auto& o) { o.meanDispersion = 45.0; }).find("came to 4"), std::string::npos);
+  const auto reached = [](const char* before, double density, double dispersion)
+  {
+    BundleInitializerOptions options;
+    options.side = 15.0;
+    options.fibreVolumeFraction = density;
+    options.meanDispersion = dispersion;
+    try
+    {
+      initialiseBundles(options);
+    }
+    catch (const Infeasible& error)
+    {
+      const std::string message = error.what();
+      const auto at = message.find(before);
+      return at == std::string::npos ? -1.0 : std::atof(message.c_str() + at + std::string(before).size());
+    }
+    return 0.0;
+  };
+  const double density = reached("come apart only at ", 0.95, 5.0);
+  EXPECT_GT(density, 0.75);
+  EXPECT_LT(density, 0.88);
+  const double dispersion = reached("faces came to ", 0.7, 45.0);
+  EXPECT_GT(dispersion, 30.0);
+  EXPECT_LT(dispersion, 45.0);
 }
 
 TEST(BundleInitializer, StopsWhenAsked)
@@ -228,4 +244,129 @@ TEST(BundleInitializer, BadParametersAreNamed)
   names("CrossingStyle", [](auto& o) { o.crossingStyle = static_cast<CrossingStyle>(2); });
   names("Side 1e+07", [](auto& o) { o.side = 1e7; });
   names("Side gives", [](auto& o) { o.side = 0.3; });
+}
+
+TEST(BundleInitializer, BundlesCrossAtTheAngleAsked)
+{
+  for (const CrossingStyle style : { CrossingStyle::Interwoven, CrossingStyle::Sheets })
+  {
+    for (const double asked : { 15.0, 30.0, 60.0, 90.0 })
+    {
+      BundleInitializerOptions options;
+      options.numberOfBundles = 2;
+      options.crossingAngle = asked;
+      options.crossingStyle = style;
+      const Fibres fibres = initialiseBundles(options);
+      validate(fibres);
+      const double half = 0.5 * asked * degree;
+      const Eigen::Vector3d first(std::sin(half), 0.0, std::cos(half));
+      const Eigen::Vector3d second(-std::sin(half), 0.0, std::cos(half));
+      EXPECT_NEAR(meanAngleTo(fibres, first, 1), options.meanDispersion, 0.1);
+      EXPECT_NEAR(meanAngleTo(fibres, second, 2), options.meanDispersion, 0.1);
+      EXPECT_NEAR(std::acos(bundleAxis(fibres, 1).dot(bundleAxis(fibres, 2))) / degree, asked, 0.25);
+      expectNoOverlap(fibres, 0);
+      expectNoOverlap(fibres, 1);
+    }
+  }
+}
+
+TEST(BundleInitializer, CrossingBundlesKeepToTheirLayers)
+{
+  for (const CrossingStyle style : { CrossingStyle::Interwoven, CrossingStyle::Sheets })
+  {
+    for (const std::uint64_t seed : { 1, 2, 3 })
+    {
+      BundleInitializerOptions options;
+      options.numberOfBundles = 2;
+      options.crossingStyle = style;
+      options.meanDispersion = 10.0;
+      options.seed = seed;
+      const Fibres fibres = initialiseBundles(options);
+      // A straight fibre covers the interval of y between its end circles. Those of different bundles must not share any of it.
+      std::size_t changes = 0;
+      const auto interval = [&](std::size_t f)
+      {
+        const double a = endPoint(fibres, f, 0).y();
+        const double b = endPoint(fibres, f, 1).y();
+        const double r = fibres.targetRadii[f];
+        return std::make_pair(std::min(a, b) - r, std::max(a, b) + r);
+      };
+      std::vector<std::pair<double, int>> levels;
+      for (std::size_t i = 0; i < fibres.size(); ++i)
+      {
+        const auto [low, high] = interval(i);
+        EXPECT_GE(low, -15.0 - 1e-9);
+        EXPECT_LE(high, 15.0 + 1e-9);
+        levels.emplace_back(0.5 * (low + high), fibres.bundleIds[i]);
+        for (std::size_t j = 0; j < i; ++j)
+        {
+          const auto [otherLow, otherHigh] = interval(j);
+          ASSERT_TRUE(fibres.bundleIds[i] == fibres.bundleIds[j] || low > otherHigh - 1e-9 || high < otherLow + 1e-9);
+        }
+      }
+      std::sort(levels.begin(), levels.end());
+      for (std::size_t i = 1; i < levels.size(); ++i)
+      {
+        changes += levels[i].second != levels[i - 1].second ? 1 : 0;
+      }
+      if (style == CrossingStyle::Sheets)
+      {
+        EXPECT_EQ(changes, 5u); // six sheets
+      }
+      else
+      {
+        EXPECT_GT(changes, 6u);
+        EXPECT_LT(changes, 16u);
+      }
+    }
+  }
+}
+
+TEST(BundleInitializer, CrossingBundlesFillTheDomainAsAsked)
+{
+  for (const CrossingStyle style : { CrossingStyle::Interwoven, CrossingStyle::Sheets })
+  {
+    for (const double dispersion : { 0.0, 5.0, 20.0 })
+    {
+      BundleInitializerOptions options;
+      options.numberOfBundles = 2;
+      options.crossingStyle = style;
+      options.crossingAngle = 60.0;
+      options.meanDispersion = dispersion;
+      BundleInitializerReport report;
+      const Fibres fibres = initialiseBundles(options, {}, &report);
+      EXPECT_NEAR(report.fibreVolumeFraction, options.fibreVolumeFraction, 0.005);
+      // Counted independently: random points of the domain, and all fibres' axes at each.
+      RandomEngine engine = randomStream(9, RandomStage::Packing);
+      constexpr int samples = 20000;
+      double covered = 0.0;
+      for (int s = 0; s < samples; ++s)
+      {
+        const double x = uniform(engine);
+        const double y = uniform(engine);
+        const double z = uniform(engine);
+        const Eigen::Vector3d p = 30.0 * (Eigen::Vector3d(x, y, z).array() - 0.5);
+        for (std::size_t f = 0; f < fibres.size(); ++f)
+        {
+          const Eigen::Vector3d a = endPoint(fibres, f, 0);
+          const Eigen::Vector3d direction = (endPoint(fibres, f, 1) - a).normalized();
+          const Eigen::Vector3d apart = p - a - (p - a).dot(direction) * direction;
+          covered += apart.squaredNorm() < fibres.targetRadii[f] * fibres.targetRadii[f] ? 1.0 : 0.0;
+        }
+      }
+      EXPECT_NEAR(covered / samples, options.fibreVolumeFraction, 0.03);
+    }
+  }
+}
+
+TEST(BundleInitializer, SheetsTooThinForAFibreAreRefused)
+{
+  const std::string message = errorOf(
+    [](auto& o)
+    {
+      o.numberOfBundles = 2;
+      o.crossingStyle = CrossingStyle::Sheets;
+      o.sheetThickness = 1.0;
+    });
+  EXPECT_NE(message.find("SheetThickness"), std::string::npos) << message;
 }
