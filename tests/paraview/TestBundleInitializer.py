@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-ranks: 2
+"""BundleInitializer through ParaView: its faces, radii and directions checked with code of this file's own, and its errors."""
+
+import os
+
+import numpy as np
+from cactus_testing import CactusTestCase, fetch, main
+from paraview.simple import BundleInitializer
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+
+def ends(data):
+    """First points, last points, radii and bundles of all fibres."""
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
+    ids = vtk_to_numpy(data.GetLines().GetConnectivityArray())
+    cells = data.GetCellData()
+    return (
+        points[ids[offsets[:-1]]],
+        points[ids[offsets[1:] - 1]],
+        vtk_to_numpy(cells.GetArray("TargetRadius")),
+        vtk_to_numpy(cells.GetArray("BundleId")),
+    )
+
+
+def smallest_gap(centres, radii):
+    distances = np.linalg.norm(centres[:, None, :] - centres[None, :, :], axis=2) - radii[:, None] - radii[None, :]
+    np.fill_diagonal(distances, np.inf)
+    return distances.min()
+
+
+def angles_to(first, last, axis):
+    direction = (last - first) / np.linalg.norm(last - first, axis=1)[:, None]
+    return np.degrees(np.arccos(np.clip(direction @ axis, -1, 1)))
+
+
+class BundleInitializerTest(CactusTestCase):
+    def test_single_bundle(self):
+        data = fetch(BundleInitializer(MeanDispersion=10))
+        first, last, radii, bundles = ends(data)
+        self.assertEqual(data.GetNumberOfLines(), len(radii))
+        self.assertAlmostEqual((np.pi * radii**2).sum() / 900, 0.7, delta=0.005)
+        self.assertTrue((bundles == 1).all())
+        self.assertTrue(((radii >= 0.2) & (radii <= 2)).all())
+        for face, z in ((first, -15), (last, 15)):
+            self.assertTrue((face[:, 2] == z).all())
+            self.assertGreater(smallest_gap(face, radii), -1e-9)
+            self.assertLessEqual((np.abs(face[:, :2]) + radii[:, None]).max(), 15 + 1e-9)
+        self.assertAlmostEqual(angles_to(first, last, np.array([0, 0, 1])).mean(), 10, delta=0.25)
+        provenance = data.GetFieldData().GetAbstractArray("Provenance").GetValue(0)
+        for parameter in ("Side=30", "MeanDispersion=10", "GammaShape=2.4", "Seed=1"):
+            self.assertIn(parameter, provenance)
+        domain = data.GetFieldData().GetArray("Domain")
+        self.assertEqual([domain.GetValue(i) for i in range(6)], [-15, 15] * 3)
+
+    def test_crossing(self):
+        for style in ("Interwoven", "Sheets"):
+            data = fetch(BundleInitializer(NumberOfBundles=2, CrossingAngle=60, CrossingStyle=style, FibreVolumeFraction=0.6))
+            first, last, radii, bundles = ends(data)
+            for bundle, x in ((1, 0.5), (2, -0.5)):
+                own = bundles == bundle
+                angles = angles_to(first[own], last[own], np.array([x, 0, np.sqrt(0.75)]))
+                self.assertAlmostEqual(angles.mean(), 5, delta=0.25)
+                self.assertGreater(smallest_gap(first[own], radii[own]), -1e-9)
+                self.assertGreater(smallest_gap(last[own], radii[own]), -1e-9)
+
+    def test_radii(self):
+        table = fetch(BundleInitializer(Side=12, RadiusDistribution="Table", RadiusTable="0.4, 0.5 0.75", FibreVolumeFraction=0.5))
+        self.assertEqual(sorted(set(ends(table)[2])), [0.4, 0.5, 0.75])
+        path = os.path.join(self.folder, "radii.txt")
+        with open(path, "w") as file:
+            file.write("0.4\n0.5\n0.75\n")
+        from_file = fetch(
+            BundleInitializer(Side=12, RadiusDistribution="Table", RadiusTableFile=path, FibreVolumeFraction=0.5)
+        )
+        self.assertTrue((ends(from_file)[2] == ends(table)[2]).all())
+        lognormal = BundleInitializer(RadiusDistribution="Lognormal", LognormalMean=0.7, LognormalDeviation=0.1, Side=40)
+        radii = ends(fetch(lognormal))[2]
+        self.assertAlmostEqual(radii.mean(), 0.7, delta=0.015)
+        self.assertAlmostEqual(radii.std(), 0.1, delta=0.01)
+
+    def test_seeds(self):
+        one = ends(fetch(BundleInitializer(Seed=5)))
+        again = ends(fetch(BundleInitializer(Seed=5)))
+        other = ends(fetch(BundleInitializer(Seed=6)))
+        self.assertTrue((one[1] == again[1]).all())
+        self.assertFalse(one[1].shape == other[1].shape and (one[1] == other[1]).all())
+
+    def test_what_cannot_be_is_refused_by_name(self):
+        for pattern, values in (
+            (r"FibreVolumeFraction 0\.95 .* only at 0\.[78]", {"Side": 15, "FibreVolumeFraction": 0.95}),
+            (r"MeanDispersion 45.* came to [34]\d", {"Side": 15, "MeanDispersion": 45}),
+            (r"Side is -1", {"Side": -1}),
+            (r"Side is nan", {"Side": float("nan")}),
+            (r"Side 1e\+07 .* GB", {"Side": 1e7}),
+            (r"Side gives", {"Side": 0.5}),
+            (r"FibreVolumeFraction is 1", {"FibreVolumeFraction": 1}),
+            (r"FibreVolumeFraction is 0", {"FibreVolumeFraction": 0}),
+            (r"GammaShape is 0", {"GammaShape": 0}),
+            (r"GammaScale is -1", {"GammaScale": -1}),
+            (r"LognormalMean is 0", {"RadiusDistribution": "Lognormal", "LognormalMean": 0}),
+            (r"LognormalDeviation is 0", {"RadiusDistribution": "Lognormal", "LognormalDeviation": 0}),
+            (r"RadiusTable is empty", {"RadiusDistribution": "Table"}),
+            (r"RadiusTable holds \"thin\"", {"RadiusDistribution": "Table", "RadiusTable": "0.5 thin"}),
+            (r"RadiusTable holds 7", {"RadiusDistribution": "Table", "RadiusTable": "0.5 7"}),
+            (r"RadiusTableFile /no/such", {"RadiusDistribution": "Table", "RadiusTableFile": "/no/such"}),
+            (r"MinimumRadius is 0", {"MinimumRadius": 0}),
+            (r"MinimumRadius 3 is larger than MaximumRadius 2", {"MinimumRadius": 3}),
+            (r"hardly any", {"MinimumRadius": 50, "MaximumRadius": 51}),
+            (r"MeanDispersion is 46", {"MeanDispersion": 46}),
+            (r"NumberOfBundles is 3", {"NumberOfBundles": 3}),
+            (r"CrossingAngle is 91", {"NumberOfBundles": 2, "CrossingAngle": 91}),
+            (r"SheetThickness is -1", {"SheetThickness": -1}),
+            (r"SheetThickness gives", {"NumberOfBundles": 2, "CrossingStyle": "Sheets", "SheetThickness": 1}),
+            (r"Margin is -1", {"Margin": -1}),
+            (r"SpacingFactor is 0", {"SpacingFactor": 0}),
+            (r"MinimumSpacing is 0", {"MinimumSpacing": 0}),
+            (r"MaximumSpacing is 0\.5", {"MaximumSpacing": 0.5}),
+            (r"Seed is -1", {"Seed": -1}),
+        ):
+            with self.subTest(values=values):
+                bundle = BundleInitializer(**values)
+                with self.assertError(pattern):
+                    bundle.UpdatePipeline()
+                self.assertEqual(bundle.GetDataInformation().GetNumberOfCells(), 0)
+
+
+if __name__ == "__main__":
+    main()
