@@ -159,9 +159,9 @@ struct alignas(64) CellWork
   float second[FieldCell::size];
   float current[FieldCell::size];
   int rank[FieldCell::size];
-  float x[FieldCell::sizeX];
-  float y[FieldCell::sizeY];
-  float z[FieldCell::sizeZ];
+  float x[FieldCell::size];
+  float y[FieldCell::size];
+  float z[FieldCell::size];
   float centre[3];
   /// Distance from the cell's centre to its farthest sample, with room for rounding.
   float extent;
@@ -277,27 +277,19 @@ CACTUS_INLINE void evaluateCellBody(Candidates& all, const CellRelevance& releva
       }
       const float x = all.x[c], y = all.y[c], z = all.z[c], ux = all.ux[c], uy = all.uy[c], uz = all.uz[c];
       const float length = all.length[c], radius = all.radius[c], slope = all.slope[c], lean = all.lean[c];
-      float* out = work.current;
-      for (int k = 0; k < FieldCell::sizeZ; ++k)
+      for (int i = 0; i < FieldCell::size; ++i)
       {
-        const float dz = work.z[k] - z;
-        for (int j = 0; j < FieldCell::sizeY; ++j, out += FieldCell::sizeX)
-        {
-          const float dy = work.y[j] - y;
-          const float base = dy * uy + dz * uz;
-          for (int i = 0; i < FieldCell::sizeX; ++i)
-          {
-            const float dx = work.x[i] - x;
-            const float foot = dx * ux + base;
-            const float ex = dx - foot * ux;
-            const float ey = dy - foot * uy;
-            const float ez = dz - foot * uz;
-            const float distance2 = ex * ex + (ey * ey + ez * ez);
-            const float along = smaller(larger(foot + lean * std::sqrt(distance2), 0.0f), length);
-            const float rest = along - foot;
-            out[i] = larger(radius + slope * along - std::sqrt(distance2 + rest * rest), out[i]);
-          }
-        }
+        const float dx = work.x[i] - x;
+        const float dy = work.y[i] - y;
+        const float dz = work.z[i] - z;
+        const float foot = dx * ux + (dy * uy + dz * uz);
+        const float ex = dx - foot * ux;
+        const float ey = dy - foot * uy;
+        const float ez = dz - foot * uz;
+        const float distance2 = ex * ex + (ey * ey + ez * ez);
+        const float along = smaller(larger(foot + lean * std::sqrt(distance2), 0.0f), length);
+        const float rest = along - foot;
+        work.current[i] = larger(radius + slope * along - std::sqrt(distance2 + rest * rest), work.current[i]);
       }
     }
     for (int b = group.ballBegin; b < group.ballEnd; ++b)
@@ -307,20 +299,12 @@ CACTUS_INLINE void evaluateCellBody(Candidates& all, const CellRelevance& releva
         continue;
       }
       const float x = all.bx[b], y = all.by[b], z = all.bz[b], radius = all.br[b];
-      float* out = work.current;
-      for (int k = 0; k < FieldCell::sizeZ; ++k)
+      for (int i = 0; i < FieldCell::size; ++i)
       {
-        const float dz = work.z[k] - z;
-        for (int j = 0; j < FieldCell::sizeY; ++j, out += FieldCell::sizeX)
-        {
-          const float dy = work.y[j] - y;
-          const float base = dy * dy + dz * dz;
-          for (int i = 0; i < FieldCell::sizeX; ++i)
-          {
-            const float dx = work.x[i] - x;
-            out[i] = larger(radius - std::sqrt(dx * dx + base), out[i]);
-          }
-        }
+        const float dx = work.x[i] - x;
+        const float dy = work.y[i] - y;
+        const float dz = work.z[i] - z;
+        work.current[i] = larger(radius - std::sqrt(dx * dx + (dy * dy + dz * dz)), work.current[i]);
       }
     }
     const int rank = group.rank;
@@ -835,17 +819,11 @@ void CapsuleField::sweep(const VoxelGrid& grid, const FieldRelevance& relevance,
               {
                 continue;
               }
-              for (int i = 0; i < FieldCell::sizeX; ++i)
+              for (int i = 0; i < FieldCell::size; ++i)
               {
-                work.x[i] = float((ci + i - half) * h);
-              }
-              for (int j = 0; j < FieldCell::sizeY; ++j)
-              {
-                work.y[j] = float((cj + j - half) * h);
-              }
-              for (int k = 0; k < FieldCell::sizeZ; ++k)
-              {
-                work.z[k] = float((ck + k - half) * h);
+                work.x[i] = float((ci + i % FieldCell::sizeX - half) * h);
+                work.y[i] = float((cj + i / FieldCell::sizeX % FieldCell::sizeY - half) * h);
+                work.z[i] = float((ck + i / (FieldCell::sizeX * FieldCell::sizeY) - half) * h);
               }
               evaluateCell(search->candidates, cellRelevance, work);
               sink(cell, thread);
@@ -870,6 +848,7 @@ void CapsuleField::sweep(const VoxelGrid& grid, const FieldRelevance& relevance,
   {
     throw Cancelled("stopped by the user");
   }
+  context.checkpoint();
   context.report(progressTo, message);
 }
 

@@ -19,6 +19,7 @@ namespace cactus
 namespace
 {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double bandInVoxels = 4.0;
 constexpr double samplesForFraction = 8e6;
 /// Width of the classes (µm) in which arrival times are counted.
@@ -121,6 +122,39 @@ Arrivals countArrivals(
   return arrivals;
 }
 
+/// The growth at which `target` of the samples lie in a fibre; infinite where the counts end before.
+double growthAt(const Arrivals& arrivals, double target)
+{
+  const double needed = target * static_cast<double>(arrivals.samples);
+  double before = 0.0;
+  for (std::size_t c = 0; c < arrivals.counts.size(); ++c)
+  {
+    const auto count = static_cast<double>(arrivals.counts[c]);
+    if (count > 0.0 && before + count >= needed)
+    {
+      return arrivals.first + growthClass * (static_cast<double>(c) + (needed - before) / count);
+    }
+    before += count;
+  }
+  return infinity;
+}
+
+/// About `samples` points spread evenly over the domain.
+VoxelGrid sampleGrid(const Domain& domain, double samples)
+{
+  const Eigen::Vector3d size = domain.size();
+  VoxelGrid grid;
+  grid.spacing = std::cbrt(domain.volume() / samples);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int count = std::max(1, static_cast<int>(std::round(size[axis] / grid.spacing)));
+    grid.count[static_cast<std::size_t>(axis)] = count;
+    // Centred: what a side leaves over is shared by its two ends.
+    grid.origin[axis] = domain.lower[axis] + 0.5 * (size[axis] - (count - 1) * grid.spacing);
+  }
+  return grid;
+}
+
 } // namespace
 
 void validate(const FibreRadialGrowthOptions& options)
@@ -194,57 +228,38 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
     return options.growthIterations * whole.spacing;
   }
 
-  const Eigen::Vector3d size = fibres.domain.size();
-  VoxelGrid grid;
-  grid.spacing = std::cbrt(fibres.domain.volume() / samplesForFraction);
-  for (int axis = 0; axis < 3; ++axis)
+  // Few samples tell roughly how far to grow: the less far the many have to look, the faster.
+  Context quiet = context;
+  quiet.progress = nullptr;
+  const Arrivals rough =
+    countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForFraction / 64.0), largestGrowth, quiet);
+  double reach = std::min(growthAt(rough, target) + 0.1, largestGrowth);
+  Arrivals arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForFraction), reach, context);
+  while (!(growthAt(arrivals, target) < infinity) && reach < largestGrowth)
   {
-    grid.count[std::size_t(axis)] = std::max(1, static_cast<int>(std::round(size[axis] / grid.spacing)));
-    // Centred: what a side leaves over is shared by its two ends.
-    grid.origin[axis] = fibres.domain.lower[axis] + 0.5 * (size[axis] - (grid.count[std::size_t(axis)] - 1) * grid.spacing);
+    reach = std::min(reach + 2.0, largestGrowth);
+    arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForFraction), reach, context);
   }
-
-  for (double reach = 0.5;; reach = std::min(4.0 * reach, largestGrowth))
+  const double growth = growthAt(arrivals, target);
+  if (!(growth < infinity))
   {
-    const Arrivals arrivals = countArrivals(fibres, options, grid, reach, context);
-    const double needed = target * static_cast<double>(arrivals.samples);
-    if (static_cast<double>(arrivals.reachable) < needed)
-    {
-      if (reach < largestGrowth)
-      {
-        continue;
-      }
-      throw Infeasible(text("TargetFibreVolumeFraction ", target, " cannot be reached: growth fills at most ",
-        static_cast<double>(arrivals.reachable) / static_cast<double>(arrivals.samples), " of the domain with MinimumGap ",
-        options.minimumGap, " and SurfaceTolerance ", options.surfaceTolerance,
-        " µm. Ask for less, make the gap smaller, or start from more fibres"));
-    }
-    double before = 0.0;
-    double growth = arrivals.first;
-    for (std::size_t c = 0; c < arrivals.counts.size(); ++c)
-    {
-      const auto count = static_cast<double>(arrivals.counts[c]);
-      if (before + count >= needed)
-      {
-        growth += growthClass * (static_cast<double>(c) + (needed - before) / count);
-        break;
-      }
-      before += count;
-    }
-    // The shrunk chain of a fibre is all that is sure to be there along the whole of it.
-    const auto thinnest = std::min_element(fibres.radii.begin(), fibres.radii.end());
-    const double core = *thinnest * (1.0 - options.surfaceRoughness);
-    if (growth <= -core)
-    {
-      const auto point = static_cast<std::size_t>(thinnest - fibres.radii.begin());
-      const auto next = std::upper_bound(fibres.offsets.begin(), fibres.offsets.end(), point);
-      const auto fibre = static_cast<std::size_t>(next - fibres.offsets.begin()) - 1;
-      throw Infeasible(text("TargetFibreVolumeFraction ", target, " needs all fibres shrunk by ", -growth,
-        " µm, which severs fibre ", fibres.fibreIds[fibre], " of radius ", *thinnest,
-        " µm: ask for more, choose a smaller SurfaceRoughness, or start from fewer fibres"));
-    }
-    return growth;
+    throw Infeasible(text("TargetFibreVolumeFraction ", target, " cannot be reached: growth fills at most ",
+      static_cast<double>(arrivals.reachable) / static_cast<double>(arrivals.samples), " of the domain with MinimumGap ",
+      options.minimumGap, " and SurfaceTolerance ", options.surfaceTolerance,
+      " µm. Ask for less, make the gap smaller, or start from more fibres"));
   }
+  // The shrunk chain of a fibre is all that is sure to be there along the whole of it.
+  const auto thinnest = std::min_element(fibres.radii.begin(), fibres.radii.end());
+  if (growth <= -*thinnest * (1.0 - options.surfaceRoughness))
+  {
+    const auto point = static_cast<std::size_t>(thinnest - fibres.radii.begin());
+    const auto next = std::upper_bound(fibres.offsets.begin(), fibres.offsets.end(), point);
+    const auto fibre = static_cast<std::size_t>(next - fibres.offsets.begin()) - 1;
+    throw Infeasible(text("TargetFibreVolumeFraction ", target, " needs all fibres shrunk by ", -growth,
+      " µm, which severs fibre ", fibres.fibreIds[fibre], " of radius ", *thinnest,
+      " µm: ask for more, choose a smaller SurfaceRoughness, or start from fewer fibres"));
+  }
+  return growth;
 }
 
 void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,

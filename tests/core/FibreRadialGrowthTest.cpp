@@ -665,7 +665,7 @@ TEST(FibreRadialGrowth, StopsWhenAsked)
   FibreRadialGrowthOptions options;
   options.voxelSize = 0.05;
   Context context;
-  context.threads = 2;
+  context.threads = 1;
   double last = -1.0;
   context.progress = [&](double fraction, const std::string&)
   {
@@ -675,9 +675,15 @@ TEST(FibreRadialGrowth, StopsWhenAsked)
   context.cancelled = [&] { return last > 0.3; };
   const VoxelGrid grid = growthGrid(fibres.domain, options);
   EXPECT_THROW(growFibres(fibres, options, 0.1, grid, context), Cancelled);
+  EXPECT_GT(last, 0.3);
   EXPECT_LT(last, 0.9);
+
   options.targetFibreVolumeFraction = 0.8;
+  context.threads = 2;
+  context.progress = nullptr;
+  context.cancelled = [] { return true; };
   EXPECT_THROW(growthFor(fibres, options, context), Cancelled);
+  EXPECT_THROW(growFibres(fibres, options, 0.1, grid, context), Cancelled);
 }
 
 TEST(FibreRadialGrowth, FibresFarAwayOrLongerThanTheDomainAreNoTrouble)
