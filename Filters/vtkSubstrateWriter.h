@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkSubstrateWriter
+ * @brief Writes a substrate as a folder that a Monte-Carlo diffusion simulator runs on.
+ *
+ * Input 0 `Outer`, input 1 `Inner` (optional): closed, outward triangle surfaces with cell data `FibreId` and `BundleId`. Input 2
+ * `Fibres` (optional): their centre lines. The folder is written when the filter executes: one ASCII PLY file (µm) per fibre and
+ * surface, configurations for MC/DC, a manifest, a README.txt and, with `Fibres`, a strand file.
+ *
+ * Output: a table of the files written, with fibre, bundle, triangles, volume and area.
+ *
+ * The folder appears whole or not at all. One that is there is replaced if it is a substrate folder with nothing else in it, and
+ * refused otherwise. On several ranks the first one writes.
+ */
+#ifndef vtkSubstrateWriter_h
+#define vtkSubstrateWriter_h
+
+#include "CactusFiltersModule.h"
+
+#include <vtkTableAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkSubstrateWriter : public vtkTableAlgorithm
+{
+public:
+  static vtkSubstrateWriter* New();
+  vtkTypeMacro(vtkSubstrateWriter, vtkTableAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The folder to write. The folder that it is in has to exist. */
+  vtkSetFilePathMacro(FolderName);
+  vtkGetFilePathMacro(FolderName);
+  ///@}
+
+  ///@{
+  /** Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them. */
+  vtkSetMacro(AllowOpenSurfaces, bool);
+  vtkGetMacro(AllowOpenSurfaces, bool);
+  vtkBooleanMacro(AllowOpenSurfaces, bool);
+  ///@}
+
+  ///@{
+  /** Threads to use; 0 takes all. The files do not depend on it. */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+protected:
+  vtkSubstrateWriter();
+  ~vtkSubstrateWriter() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkSubstrateWriter(const vtkSubstrateWriter&) = delete;
+  void operator=(const vtkSubstrateWriter&) = delete;
+
+  char* FolderName = nullptr;
+  bool AllowOpenSurfaces = false;
+  int NumberOfThreads = 0;
+};
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Context.h"
+#include "Domain.h"
+#include "FibreSurfaces.h"
+#include "Fibres.h"
+#include "McdcConfiguration.h"
+
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// What goes into a substrate folder.
+struct SubstrateFolderContents
+{
+  Domain domain;
+  FibreSurfaces outer;
+  FibreSurfaces inner;
+  const Fibres* fibres = nullptr;      ///< centre lines, if they are to be written too (`fibres.strands`)
+  std::vector<std::string> provenance; ///< one line per stage so far
+  bool allowOpenSurfaces = false;      ///< write surfaces that leak, too
+  McdcOptions mcdc;
+};
+
+/// One surface's file, as the manifest lists it.
+struct SubstrateFile
+{
+  std::string path; ///< relative to the folder
+  std::string surface;
+  int fibreId = 0;
+  int bundleId = 0;
+  std::size_t triangles = 0;
+  double volume = 0.0; ///< µm³
+  double area = 0.0;   ///< µm²
+  bool closed = false; ///< a closed 2-manifold that points outward
+};
+
+/// Writes a folder for simulators and returns what its manifest lists:
+///
+///   outer/fibre_00001.ply, inner/…   ASCII PLY, µm, one file per fibre and surface
+///   mcdc/intra.conf, mcdc/extra.conf MC/DC configurations that run as written, with lists of the surfaces and a PGSE scheme
+///   fibres.strands                   the centre lines, where given
+///   manifest.json, README.txt
+///
+/// The folder appears whole or not at all: it is written beside its place and renamed. One that is there is replaced if it is a
+/// substrate folder without anything else in it, and refused otherwise, so that neither other data nor results of simulations are
+/// lost. Throws InvalidInput (no surfaces, a surface that is not a closed outward 2-manifold, unless allowed; the message names
+/// the fibre), FileError, and Cancelled when stopped.
+std::vector<SubstrateFile> writeSubstrateFolder(
+  const SubstrateFolderContents& contents, const std::string& folder, const Context& context = {});
+
+} // namespace cactus

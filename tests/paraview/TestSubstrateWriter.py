@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The substrate folder, read again by a parser of its own: what is written is what went in, once, whole, or not at all."""
+
+import json
+import os
+
+from cactus_testing import CactusTestCase, fetch, main, produce
+from paraview.simple import SubstrateWriter
+from surfaces import POLYGON, surfaces, tube, two_tubes
+
+
+def read_ply(path):
+    """Points and triangles of an ASCII PLY file, read as strictly as a simulator that knows one dialect does."""
+    with open(path, encoding="ascii") as file:
+        lines = [line.rstrip("\n") for line in file]
+    end = lines.index("end_header")
+    header = [line for line in lines[:end] if not line.startswith("comment")]
+    assert header[:2] == ["ply", "format ascii 1.0"], header
+    vertices, faces = int(header[2].split()[-1]), int(header[6].split()[-1])
+    assert header[2:] == [
+        f"element vertex {vertices}",
+        "property float x",
+        "property float y",
+        "property float z",
+        f"element face {faces}",
+        "property list uchar int vertex_indices",
+    ], header
+    body = lines[end + 1 :]
+    assert len(body) == vertices + faces
+    points = [tuple(map(float, line.split())) for line in body[:vertices]]
+    triangles = [tuple(map(int, line.split())) for line in body[vertices:]]
+    assert all(len(point) == 3 for point in points)
+    assert all(len(t) == 4 and t[0] == 3 and all(0 <= i < vertices for i in t[1:]) for t in triangles)
+    return points, [t[1:] for t in triangles]
+
+
+def volume_of(points, triangles):
+    volume = 0.0
+    for triangle in triangles:
+        a, b, c = (points[i] for i in triangle)
+        volume += (
+            a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+        ) / 6
+    return volume
+
+
+def is_closed(triangles):
+    """Every directed edge stands there once, and its reverse, too."""
+    edges = [(t[i], t[(i + 1) % 3]) for t in triangles for i in range(3)]
+    return len(set(edges)) == len(edges) and all((b, a) in set(edges) for a, b in edges)
+
+
+class Writer(CactusTestCase):
+    def setUp(self):
+        super().setUp()
+        self.fibres, self.outer, self.inner = two_tubes()
+        self.target = os.path.join(self.folder, "substrate")
+
+    def write(self, **properties):
+        arguments = {"Outer": produce(self.outer), "Inner": produce(self.inner), "FolderName": self.target}
+        arguments.update(properties)
+        writer = SubstrateWriter(**arguments)
+        writer.UpdatePipeline()
+        return writer
+
+    def test_files_hold_the_surfaces(self):
+        table = fetch(self.write(Fibres=produce(self.fibres)))
+        self.assertEqual(os.listdir(self.folder), ["substrate"])
+        self.assertEqual(
+            sorted(os.listdir(self.target)), ["README.txt", "fibres.strands", "inner", "manifest.json", "mcdc", "outer"]
+        )
+        with open(os.path.join(self.target, "manifest.json")) as file:
+            manifest = json.load(file)
+        self.assertEqual(manifest["domain"], [-5, 5, -5, 5, -5, 5])
+        self.assertEqual(manifest["fibres"], 2)
+        wanted = {
+            "outer/fibre_00003.ply": (3, 10 * POLYGON),
+            "outer/fibre_00005.ply": (5, 22.5 * POLYGON),
+            "inner/fibre_00003.ply": (3, 4.9 * POLYGON),
+            "inner/fibre_00005.ply": (5, 8.1 * POLYGON),
+        }
+        self.assertEqual({entry["path"] for entry in manifest["files"]}, set(wanted))
+        self.assertEqual(table.GetNumberOfRows(), 4)
+        for entry in manifest["files"]:
+            fibre, volume = wanted[entry["path"]]
+            points, triangles = read_ply(os.path.join(self.target, entry["path"]))
+            self.assertEqual(entry["fibre"], fibre)
+            self.assertEqual(entry["bundle"], 1 + fibre % 2)
+            self.assertEqual(len(triangles), entry["triangles"])
+            self.assertAlmostEqual(volume_of(points, triangles), volume, places=3)
+            self.assertAlmostEqual(entry["volume_um3"], volume_of(points, triangles), places=5)
+            self.assertTrue(is_closed(triangles))
+            self.assertTrue(entry["closed"])
+            self.assertEqual(len({i for t in triangles for i in t}), len(points), "no point is left over")
+
+    def test_points_keep_nine_digits(self):
+        self.write()
+        points, _ = read_ply(os.path.join(self.target, "outer/fibre_00003.ply"))
+        for index, point in enumerate(points):
+            for got, wanted in zip(point, self.outer.GetPoint(index)):
+                self.assertLessEqual(abs(got - wanted), 5e-9 * abs(wanted) + 1e-30)
+
+    def test_configuration_finds_its_files(self):
+        self.write()
+        for compartment, kind in (("intra", "inner"), ("extra", "outer")):
+            with open(os.path.join(self.target, "mcdc", compartment + ".conf")) as file:
+                words = file.read().split()
+            self.assertEqual(words[-1], "<END>")
+            self.assertEqual(words[words.index("ini_walkers_pos") + 1], compartment)
+            with open(os.path.join(self.target, words[words.index("ply_file_list") + 1])) as file:
+                scale, *paths = file.read().split()
+            self.assertEqual(float(scale), 1e-3)
+            self.assertEqual(paths, [f"{kind}/fibre_00003.ply", f"{kind}/fibre_00005.ply"])
+            for path in paths:
+                self.assertTrue(os.path.isfile(os.path.join(self.target, path)))
+
+    def test_without_inner_surfaces(self):
+        writer = SubstrateWriter(Outer=produce(self.outer), FolderName=self.target)
+        writer.UpdatePipeline()
+        self.assertEqual(fetch(writer).GetNumberOfRows(), 2)
+        self.assertEqual(sorted(os.listdir(self.target)), ["README.txt", "manifest.json", "mcdc", "outer"])
+
+    def test_bad_places(self):
+        with self.assertError(r"FolderName is empty"):
+            self.write(FolderName="")
+        with self.assertError(r"cannot write folder .*nowhere"):
+            self.write(FolderName=os.path.join(self.folder, "nowhere", "substrate"))
+        with self.assertError(r"cannot write folder"):
+            self.write(FolderName="/proc/substrate")
+        self.assertEqual(os.listdir(self.folder), [])
+        os.mkdir(self.target)
+        with open(os.path.join(self.target, "thesis.tex"), "w") as file:
+            file.write("precious")
+        with self.assertError(r"is there already and is not a substrate folder"):
+            self.write()
+        self.assertEqual(os.listdir(self.target), ["thesis.tex"])
+
+    def test_bad_surfaces(self):
+        part = tube(-2, 0, 1, 10)
+        part.BuildCells()
+        part.DeleteCell(7)
+        part.RemoveDeletedCells()
+        leaking = surfaces({3: part, 5: tube(2, 0, 1.5, 10)}, 0, 10)
+        with self.assertError(r"outer surface of fibre 3 is not closed \(3 open"):
+            self.write(Outer=produce(leaking))
+        with self.assertError(r"Outer holds inner surfaces"):
+            self.write(Outer=produce(self.inner))
+        self.outer.GetFieldData().RemoveArray("Domain")
+        with self.assertError(r"Domain"):
+            self.write()
+        self.assertEqual(os.listdir(self.folder), [])
+        self.write(Outer=produce(leaking), AllowOpenSurfaces=1)
+        self.assertEqual(os.listdir(self.folder), ["substrate"])
+
+
+if __name__ == "__main__":
+    main()
