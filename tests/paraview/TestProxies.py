@@ -98,7 +98,13 @@ class Proxies(CactusTestCase):
 
         def check(group, element):
             if group in ("sources", "filters"):
-                proxy = getattr(simple, element.get("name"))()
+                # Without an input the proxy would take the active source, whatever that is.
+                sources = {"vtkPolyData": simple.Sphere, "vtkImageData": simple.Wavelet}
+                inputs = {
+                    one.get("name"): sources[one.find("DataTypeDomain/DataType").get("value")]()
+                    for one in element.findall("InputProperty")
+                }
+                proxy = getattr(simple, element.get("name"))(**inputs)
                 for one in numbers(element):
                     values = [proxy.SMProxy.GetProperty(one.get("name")).GetElement(i) for i in range(len(defaults(one)))]
                     self.assertEqual(values, defaults(one), one.get("name"))
