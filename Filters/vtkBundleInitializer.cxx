@@ -18,7 +18,7 @@ namespace
 /// The radii of a table given as text or as a file.
 std::vector<double> radiusTable(const char* text, const char* file)
 {
-  const std::vector<double> listed = cactus::parseRadiusTable(text != nullptr ? text : "");
+  std::vector<double> listed = cactus::parseRadiusTable(text != nullptr ? text : "");
   if (file == nullptr || *file == '\0')
   {
     return listed;

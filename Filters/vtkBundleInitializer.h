@@ -124,7 +124,7 @@ public:
   ///@}
 
   ///@{
-  /** Thickness (µm) of each layer of SHEETS; 0 (default) takes a sixth of the height. */
+  /** Least thickness (µm) of each layer of SHEETS; 0 (default) takes a sixth of the height, or what the largest radius needs. */
   vtkSetMacro(SheetThickness, double);
   vtkGetMacro(SheetThickness, double);
   ///@}

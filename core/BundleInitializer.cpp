@@ -149,7 +149,7 @@ Eigen::Vector2d placeOnRing(
   for (const Eigen::Vector2d& mirror :
     { Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1), Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1) })
   {
-    const Eigen::Vector2d centre = from + drawn.cwiseProduct(mirror);
+    Eigen::Vector2d centre = from + drawn.cwiseProduct(mirror);
     if (frame.holds(centre, radius))
     {
       return centre;
@@ -393,8 +393,10 @@ Rectangle layerFrame(const Bundle& bundle, double low, double high)
 std::vector<Bundle> layOutSheets(const BundleInitializerOptions& options, double density)
 {
   const double height = regionSide(options);
-  const double wanted = options.sheetThickness > 0.0 ? options.sheetThickness : height / 6.0;
-  const int layers = std::max(2, static_cast<int>(std::lround(std::min(height / wanted, 1e6))));
+  // By default every fibre that may be drawn has room.
+  const double wanted =
+    options.sheetThickness > 0.0 ? options.sheetThickness : std::max(height / 6.0, 1.05 * 2.0 * options.radius.maximum);
+  const int layers = std::max(2, static_cast<int>(std::min(height / wanted + 1e-9, 1e6)));
   std::vector<Bundle> bundles = crossingBundles(options, density);
   for (int k = 0; k < layers; ++k)
   {

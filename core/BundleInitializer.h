@@ -33,7 +33,8 @@ struct BundleInitializerOptions
   int numberOfBundles = 1;     ///< 1 or 2
   double crossingAngle = 90.0; ///< between the axes of two bundles, in (0, 90]
   CrossingStyle crossingStyle = CrossingStyle::Interwoven;
-  double sheetThickness = 0.0; ///< of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height
+  /// Least thickness of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height, or what the largest radius needs.
+  double sheetThickness = 0.0;
   /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides), so that the domain
   /// can be cut from the middle of what the optimiser spreads.
   double margin = 0.0;

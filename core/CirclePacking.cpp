@@ -79,9 +79,8 @@ Eigen::Vector2d tieBreak(std::size_t i, std::size_t j)
 }
 
 /// The moving parts of relaxCircles.
-class Relaxer
+struct Relaxer
 {
-public:
   Relaxer(Circles& given, const RelaxationOptions& wanted, const Context& caller)
     : circles(given)
     , options(wanted)
@@ -163,7 +162,6 @@ public:
     return result;
   }
 
-private:
   static constexpr std::size_t blockSize = 512;
   static constexpr std::size_t serialBelow = 4096;
 

@@ -361,6 +361,14 @@ TEST(BundleInitializer, CrossingBundlesFillTheDomainAsAsked)
 
 TEST(BundleInitializer, SheetsTooThinForAFibreAreRefused)
 {
+  EXPECT_EQ(errorOf(
+              [](auto& o)
+              {
+                o.side = 20.0;
+                o.numberOfBundles = 2;
+                o.crossingStyle = CrossingStyle::Sheets;
+              }),
+    "no error"); // the default thickness takes any fibre
   const std::string message = errorOf(
     [](auto& o)
     {
