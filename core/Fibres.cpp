@@ -17,7 +17,13 @@ namespace cactus
 namespace
 {
 
-constexpr double degrees = 180.0 / 3.14159265358979323846;
+constexpr double pi = 3.14159265358979323846;
+constexpr double degrees = 180.0 / pi;
+
+double coneVolume(double r0, double r1, double height)
+{
+  return pi / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * height;
+}
 
 double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
 {
@@ -129,9 +135,18 @@ void validate(const Fibres& fibres)
   }
 }
 
+double chainVolume(const Fibres& fibres, std::size_t fibre)
+{
+  double volume = 0.0;
+  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
+  {
+    volume += coneVolume(fibres.radii[i], fibres.radii[i + 1], (fibres.points[i + 1] - fibres.points[i]).norm());
+  }
+  return volume;
+}
+
 double capsuleVolumeInDomain(const Fibres& fibres)
 {
-  constexpr double pi = 3.14159265358979323846;
   double volume = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
@@ -162,7 +177,7 @@ double capsuleVolumeInDomain(const Fibres& fibres)
       }
       const double r0 = fibres.radii[i] + t0 * (fibres.radii[i + 1] - fibres.radii[i]);
       const double r1 = fibres.radii[i] + t1 * (fibres.radii[i + 1] - fibres.radii[i]);
-      volume += pi / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * (t1 - t0) * d.norm();
+      volume += coneVolume(r0, r1, (t1 - t0) * d.norm());
     }
   }
   return volume;

@@ -36,6 +36,9 @@ struct Fibres
 /// fibre ids unique; the domain is finite, has positive size and is not periodic.
 void validate(const Fibres& fibres);
 
+/// Volume (µm³) of one fibre: its capsules as truncated cones between control points, without end caps.
+double chainVolume(const Fibres& fibres, std::size_t fibre);
+
 /// Volume (µm³) of the union-free sum of the fibres' capsules inside the domain, each chain measured as truncated cones
 /// between control points clipped to the domain along the centre line. Overlaps count twice, end caps are left out.
 double capsuleVolumeInDomain(const Fibres& fibres);

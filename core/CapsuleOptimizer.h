@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Context.h"
+#include "FibreCosts.h"
+#include "Fibres.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// How the descent turns gradients into steps.
+enum class DescentMethod
+{
+  Momentum = 0, ///< heavy ball, preconditioned with the diagonal of the Gauss–Newton Hessian
+  Adagrad = 1   ///< Duchi et al. 2011, as in the paper
+};
+
+/// Parameters of the joint fibre optimisation (paper, "Joint fibre optimisation").
+struct CapsuleOptimizerOptions
+{
+  int maximumIterations = 3000;
+  /// Largest relative penetration D = 1 − d/(rp + rq) that may remain between capsules of different fibres.
+  double overlapTolerance = 1e-3;
+  DescentMethod method = DescentMethod::Momentum;
+  /// Weights of the cost terms, by priority: overlap first.
+  double overlapWeight = 1.0;
+  FibreCostWeights weights;
+  /// Momentum: fraction of the Newton step along each coordinate. Adagrad: first step in µm.
+  double stepSize = 1.0;
+  /// Part of the last step that the next one carries on (Momentum only), in [0, 1).
+  double momentum = 0.9;
+  /// Stiffness, relative to that of a contact, of the thread that spreads a step along its fibre (Momentum only): fibres then
+  /// move as a whole instead of kinking control point by control point. 0 for none.
+  double smoothing = 5.0;
+  /// Curvature, length and compactness fade by this factor in every iteration (Momentum only), so that at first they shape the
+  /// fibres and at last cannot hold an overlap open; 1 keeps them.
+  double relaxation = 0.98;
+  /// Compactness lets a bundle widen where its fibres would fill more than this of its cuboid.
+  double packingLimit = 0.70;
+  /// The overlap cost acts as if capsules were thicker by this factor, so that the descent ends strictly apart.
+  double safetyMargin = 1.005;
+  /// Largest change of a radius, as a fraction of the radius that came in; 0 keeps radii as they are.
+  double radiusTolerance = 0.0;
+  /// Stop after this many seconds and keep the best state; 0 for no limit.
+  double timeBudget = 0.0;
+};
+
+/// Throws InvalidInput naming the property that is out of range.
+void validate(const CapsuleOptimizerOptions& options);
+
+/// One row of the convergence table, measured at the start of an iteration.
+struct ConvergenceRow
+{
+  int iteration = 0;
+  double overlapCost = 0.0;
+  double maximumPenetration = 0.0;
+  std::size_t overlappingPairs = 0;
+  double curvatureCost = 0.0;
+  double lengthCost = 0.0;
+  double radiusCost = 0.0;
+  double compactnessCost = 0.0;
+  double seconds = 0.0;
+};
+
+/// Why the descent ended.
+enum class StopReason
+{
+  Converged,
+  MaximumIterations,
+  TimeBudget,
+  Stopped
+};
+
+struct OptimisationResult
+{
+  StopReason reason = StopReason::Converged;
+  std::vector<ConvergenceRow> convergence;
+  /// Of the fibres handed back, measured afresh over all neighbours.
+  double maximumPenetration = 0.0;
+  std::size_t overlappingPairs = 0; ///< above the tolerance
+  std::vector<double> overlap;      ///< per control point, largest D there
+};
+
+/// Moves control points (and, where allowed, radii) until no two capsules of different fibres penetrate by more than the
+/// tolerance, or until iterations, time or patience run out; then `fibres` holds the state with the smallest largest penetration.
+/// End points slide in the plane across their bundle's axis. Same bits on any number of threads. Throws InvalidInput (fibres,
+/// options).
+OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context);
+
+} // namespace cactus

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Capsules.h"
+
+#include "Context.h"
+#include "NeighbourSearch.h"
+#include "OverlapCost.h"
+
+#include <algorithm>
+
+namespace cactus
+{
+
+Capsules capsulesOf(const Fibres& fibres)
+{
+  Capsules capsules;
+  capsules.bodies.reserve(fibres.points.size());
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      Capsule capsule;
+      std::copy_n(fibres.points[i].data(), 3, capsule.p0);
+      std::copy_n(fibres.points[i + 1].data(), 3, capsule.p1);
+      capsule.r0 = fibres.radii[i];
+      capsule.r1 = fibres.radii[i + 1];
+      capsules.bodies.push_back(capsule);
+      capsules.first.push_back(static_cast<std::uint32_t>(i));
+      capsules.fibre.push_back(static_cast<std::uint32_t>(f));
+    }
+  }
+  return capsules;
+}
+
+OverlapReport measureOverlap(const Fibres& fibres, double tolerance, int threads)
+{
+  Context context;
+  context.threads = threads;
+  const Capsules capsules = capsulesOf(fibres);
+  NeighbourList neighbours;
+  findNeighbours(capsules, 0.0, context.threadCount(), neighbours);
+  std::vector<CapsuleOverlap> overlaps;
+  const OverlapTotals totals = evaluateOverlap(capsules, neighbours, 1.0, tolerance, context.threadCount(), overlaps);
+  OverlapReport report;
+  report.largestPenetration = totals.penetration;
+  report.overlappingPairs = totals.overlappingPairs;
+  report.perPoint.assign(fibres.points.size(), 0.0);
+  for (std::size_t k = 0; k < capsules.size(); ++k)
+  {
+    for (const std::size_t i : { std::size_t(capsules.first[k]), std::size_t(capsules.first[k]) + 1 })
+    {
+      report.perPoint[i] = std::max(report.perPoint[i], overlaps[k].penetration);
+    }
+  }
+  return report;
+}
+
+} // namespace cactus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Fibres.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// Both ends of a capsule with their radii in one cache line, which is what a loop over pairs reads.
+struct alignas(64) Capsule
+{
+  double p0[3];
+  double r0;
+  double p1[3];
+  double r1;
+};
+
+/// All capsules of all fibres, in fibre order. Capsule k spans the control points first[k] and first[k] + 1.
+struct Capsules
+{
+  std::vector<Capsule> bodies;
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> fibre; ///< index of the fibre in its Fibres, not FibreId
+
+  std::size_t size() const { return bodies.size(); }
+};
+
+Capsules capsulesOf(const Fibres& fibres);
+
+/// How far the capsules of different fibres penetrate each other.
+struct OverlapReport
+{
+  double largestPenetration = 0.0; ///< largest D = 1 − d/(rp + rq) (paper, overlapping cost function); 0 where nothing overlaps
+  std::size_t overlappingPairs = 0; ///< pairs with D above the tolerance asked for
+  std::vector<double> perPoint;     ///< largest D of the capsules at each control point; 0 where it touches nothing
+};
+
+/// Measures every pair of capsules of different fibres with exact closest points. Tolerance: the D above which a pair counts.
+OverlapReport measureOverlap(const Fibres& fibres, double tolerance = 0.0, int threads = 0);
+
+} // namespace cactus

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FibreCosts.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Widens the box laterally until the bundle's capsules fill no more of it than `packingLimit`.
+void expandToDensity(const Fibres& fibres, int bundle, double packingLimit, BundleBox& box)
+{
+  double volume = 0.0;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    if (fibres.bundleIds[f] != bundle)
+    {
+      continue;
+    }
+    volume += chainVolume(fibres, f);
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      const double height = fibres.points[i].dot(box.axis);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
+    }
+  }
+  const double width = box.upperU - box.lowerU;
+  const double depth = box.upperV - box.lowerV;
+  const double density = volume / (width * depth * (highest - lowest));
+  const double growth = 0.5 * (std::sqrt(std::max(1.0, density / packingLimit)) - 1.0);
+  box.lowerU -= growth * width;
+  box.upperU += growth * width;
+  box.lowerV -= growth * depth;
+  box.upperV += growth * depth;
+}
+
+} // namespace
+
+std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
+{
+  std::map<int, BundleBox> boxes;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    auto found = boxes.find(fibres.bundleIds[f]);
+    if (found == boxes.end())
+    {
+      BundleBox box;
+      box.axis = bundleAxis(fibres, fibres.bundleIds[f]);
+      int lateral = 0;
+      box.axis.cwiseAbs().minCoeff(&lateral);
+      box.v = Eigen::Vector3d::Unit(lateral);
+      box.v = (box.v - box.v.dot(box.axis) * box.axis).normalized();
+      box.u = box.v.cross(box.axis);
+      box.lowerU = box.lowerV = std::numeric_limits<double>::infinity();
+      box.upperU = box.upperV = -std::numeric_limits<double>::infinity();
+      found = boxes.emplace(fibres.bundleIds[f], box).first;
+    }
+    BundleBox& box = found->second;
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      const double u = fibres.points[i].dot(box.u);
+      const double v = fibres.points[i].dot(box.v);
+      const double r = fibres.radii[i];
+      box.lowerU = std::min(box.lowerU, u - r);
+      box.upperU = std::max(box.upperU, u + r);
+      box.lowerV = std::min(box.lowerV, v - r);
+      box.upperV = std::max(box.upperV, v + r);
+    }
+  }
+  for (auto& entry : boxes)
+  {
+    expandToDensity(fibres, entry.first, packingLimit, entry.second);
+  }
+  std::vector<BundleBox> perFibre;
+  for (const int bundle : fibres.bundleIds)
+  {
+    perFibre.push_back(boxes.at(bundle));
+  }
+  return perFibre;
+}
+
+FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit)
+  : Weights(weights)
+  , ReferenceLength(fibres.points.size(), 0.0)
+  , ReferenceRadius(fibres.radii)
+  , Boxes(bundleBoxes(fibres, packingLimit))
+{
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      this->ReferenceLength[i] = (fibres.points[i + 1] - fibres.points[i]).norm();
+    }
+  }
+}
+
+FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double relaxation, std::vector<Eigen::Vector3d>& gradient,
+  std::vector<double>& radiusGradient, std::vector<double>& stiffness) const
+{
+  FibreCostTotals totals;
+  const std::size_t begin = fibres.offsets[f];
+  const std::size_t end = fibres.offsets[f + 1];
+  const auto& x = fibres.points;
+  const auto& r = fibres.radii;
+
+  if (this->Weights.curvature > 0.0)
+  {
+    for (std::size_t i = begin + 1; i + 1 < end; ++i)
+    {
+      const Eigen::Vector3d u = x[i] - x[i - 1];
+      const Eigen::Vector3d w = x[i + 1] - x[i];
+      const double lengthU = u.norm();
+      const double lengthW = w.norm();
+      const double inverse = 1.0 / (lengthU * lengthW);
+      const double cosine = u.dot(w) * inverse;
+      const double radiusSum = r[i - 1] + r[i] + r[i + 1];
+      const double bend = 1.0 - cosine;
+      const double scale = relaxation * this->Weights.curvature * 3.0 / radiusSum;
+      totals.curvature += scale * bend * bend;
+      const double byCosine = -2.0 * scale * bend;
+      const Eigen::Vector3d byU = byCosine * (w * inverse - cosine / (lengthU * lengthU) * u);
+      const Eigen::Vector3d byW = byCosine * (u * inverse - cosine / (lengthW * lengthW) * w);
+      gradient[i - 1] -= byU;
+      gradient[i] += byU - byW;
+      gradient[i + 1] += byW;
+      const double byRadius = -scale * bend * bend / radiusSum;
+      radiusGradient[i - 1] += byRadius;
+      radiusGradient[i] += byRadius;
+      radiusGradient[i + 1] += byRadius;
+      // (1 − cos θ)² ≈ θ⁴/4 has curvature 3 θ² ≈ 6 (1 − cos θ) in θ, and θ changes by 1/ℓ per unit of displacement.
+      const double curvature = 6.0 * scale * bend;
+      stiffness[i - 1] += 4.0 * curvature / (lengthU * lengthU);
+      stiffness[i] += 4.0 * curvature * inverse * 4.0;
+      stiffness[i + 1] += 4.0 * curvature / (lengthW * lengthW);
+    }
+  }
+  if (this->Weights.length > 0.0)
+  {
+    for (std::size_t i = begin; i + 1 < end; ++i)
+    {
+      const Eigen::Vector3d d = x[i + 1] - x[i];
+      const double length = d.norm();
+      const double stretch = length - this->ReferenceLength[i];
+      if (stretch <= 0.0)
+      {
+        continue;
+      }
+      const double inverseRadii = 1.0 / r[i] + 1.0 / r[i + 1];
+      const double k = relaxation * this->Weights.length * 20.0 / inverseRadii;
+      totals.length += 0.5 * k * stretch * stretch;
+      const Eigen::Vector3d pull = k * stretch / length * d;
+      gradient[i] -= pull;
+      gradient[i + 1] += pull;
+      const double byInverse = -0.5 * k * stretch * stretch / inverseRadii;
+      radiusGradient[i] -= byInverse / (r[i] * r[i]);
+      radiusGradient[i + 1] -= byInverse / (r[i + 1] * r[i + 1]);
+      stiffness[i] += 2.0 * k;
+      stiffness[i + 1] += 2.0 * k;
+    }
+  }
+  const BundleBox& box = this->Boxes[f];
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const double deviation = r[i] - this->ReferenceRadius[i];
+    totals.radius += this->Weights.radius * deviation * deviation;
+    radiusGradient[i] += 2.0 * this->Weights.radius * deviation;
+
+    if (this->Weights.compactness > 0.0)
+    {
+      const double before = i > begin ? this->ReferenceLength[i - 1] : this->ReferenceLength[i];
+      const double after = i + 1 < end ? this->ReferenceLength[i] : before;
+      const double k = relaxation * this->Weights.compactness * 0.25 * (before + after) * (before + after);
+      const auto confine = [&](const Eigen::Vector3d& direction, double lower, double upper)
+      {
+        const double position = x[i].dot(direction);
+        const double above = position + r[i] - upper;
+        const double below = lower - (position - r[i]);
+        const double excess = std::max(above, below);
+        if (excess <= 0.0)
+        {
+          return;
+        }
+        totals.compactness += 0.5 * k * excess * excess;
+        gradient[i] += (above >= below ? k * excess : -k * excess) * direction;
+        radiusGradient[i] += k * excess;
+        stiffness[i] += k;
+      };
+      confine(box.u, box.lowerU, box.upperU);
+      confine(box.v, box.lowerV, box.upperV);
+    }
+  }
+  return totals;
+}
+
+} // namespace cactus

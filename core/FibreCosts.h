@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Domain.h"
+#include "Fibres.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// Weights of the terms that keep a fibre in shape, relative to the overlap cost.
+struct FibreCostWeights
+{
+  double curvature = 1.0;
+  double length = 0.1;
+  double radius = 1.0;
+  double compactness = 1.0;
+};
+
+/// A bundle's own cuboid: the box, aligned with the bundle's axis, that its fibres fill. Compactness keeps them in it.
+struct BundleBox
+{
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(); ///< direction of the bundle
+  Eigen::Vector3d u = Eigen::Vector3d::UnitX();    ///< first lateral direction
+  Eigen::Vector3d v = Eigen::Vector3d::UnitY();    ///< second lateral direction
+  double lowerU = 0.0, upperU = 0.0;               ///< µm, where surfaces of fibres may reach along u
+  double lowerV = 0.0, upperV = 0.0;
+};
+
+/// The cuboids of all bundles, indexed by fibre: laterally the extent of the fibres as they come in, widened where they would
+/// fill more than `packingLimit` of it. One lateral direction is the domain axis that is most perpendicular to the bundle.
+std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit);
+
+/// Sums of the cost terms over fibres.
+struct FibreCostTotals
+{
+  double curvature = 0.0;
+  double length = 0.0;
+  double radius = 0.0;
+  double compactness = 0.0;
+};
+
+/// The terms that involve one fibre alone (the paper names them; its supplement, which defines them, is not published with it):
+///  - curvature, per triple of control points: 3 / (r1 + r2 + r3) · (1 − cos θ)², θ the angle between the two segments;
+///  - length, per segment: k/2 · max(0, ℓ − L)², k = 20 / (1/r1 + 1/r2), L the segment's length before optimisation;
+///  - radius, per control point: (r − r_target)²;
+///  - compactness, per control point: ½ ℓ² e², e how far the fibre's surface leaves its bundle's cuboid sideways, ℓ the mean
+///  length of the
+///    segments at the point. It replaces an attraction to the axis, which would compress the core of a bundle that is already
+///    dense.
+/// Each adds weight × its exact gradient to `gradient` (per control point) and `radiusGradient`, and a diagonal that bounds
+/// its curvature to `stiffness`. All arrays are indexed by control point; only those of fibre `f` are touched.
+class FibreCosts
+{
+public:
+  /// Takes reference lengths, target radii and cuboids from the fibres as they come in.
+  FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit);
+
+  /// `relaxation` scales curvature, length and compactness.
+  FibreCostTotals add(const Fibres& fibres, std::size_t f, double relaxation, std::vector<Eigen::Vector3d>& gradient,
+    std::vector<double>& radiusGradient, std::vector<double>& stiffness) const;
+
+  const BundleBox& boxOf(std::size_t fibre) const { return this->Boxes[fibre]; }
+
+private:
+  FibreCostWeights Weights;
+  std::vector<double> ReferenceLength; ///< of the segment that starts at a control point
+  std::vector<double> ReferenceRadius;
+  std::vector<BundleBox> Boxes;
+};
+
+} // namespace cactus

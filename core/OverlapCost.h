@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Capsules.h"
+#include "NeighbourSearch.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// What the overlap cost does to one capsule: half of the sums over its neighbours (the other half belongs to them) for the cost,
+/// and the whole gradient with respect to its own control points and radii.
+struct CapsuleOverlap
+{
+  double gradient0[3];     ///< with respect to p0 (µm³)
+  double radius0;          ///< with respect to r0
+  double gradient1[3];     ///< with respect to p1
+  double radius1;          ///< with respect to r1
+  double stiffness0;       ///< diagonal of the Gauss–Newton Hessian for each coordinate of p0 (µm²)
+  double stiffness1;       ///< the same for p1
+  double cost;             ///< half of the summed pair costs (µm⁴)
+  double penetration;      ///< largest D = 1 − d/(rp + rq), without the margin; negative where nothing touches
+  std::size_t overlapping; ///< neighbours with D above the tolerance
+};
+
+/// Sums over all capsules, taken in a fixed order.
+struct OverlapTotals
+{
+  double cost = 0.0;
+  double penetration = 0.0;
+  std::size_t overlappingPairs = 0;
+};
+
+/// Overlap cost (paper, overlapping cost function): Σ over pairs of D²·|p0 − p1|·|q0 − q1|·rp·rq for D > 0, with D = margin −
+/// d/(rp + rq) and rp, rq interpolated at the closest points; margin 1 is the paper's form, a little more lets a descent end
+/// strictly apart. The gradient is exact: it includes how the closest points slide where the radius varies along a capsule. Each
+/// capsule gathers its own part from its neighbours, so the result has the same bits on any number of threads.
+OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& neighbours, double margin, double tolerance,
+  int threads, std::vector<CapsuleOverlap>& result);
+
+} // namespace cactus

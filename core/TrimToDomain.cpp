@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TrimToDomain.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Whether the segment p–q passes through the domain grown by `margin` on all sides (slab test).
+bool reaches(const Domain& domain, const Eigen::Vector3d& p, const Eigen::Vector3d& q, double margin)
+{
+  double enter = 0.0;
+  double leave = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double lower = domain.lower[axis] - margin - p[axis];
+    const double upper = domain.upper[axis] + margin - p[axis];
+    const double direction = q[axis] - p[axis];
+    if (direction == 0.0)
+    {
+      if (lower > 0.0 || upper < 0.0)
+      {
+        return false;
+      }
+      continue;
+    }
+    enter = std::max(enter, std::min(lower / direction, upper / direction));
+    leave = std::min(leave, std::max(lower / direction, upper / direction));
+  }
+  return enter <= leave;
+}
+
+} // namespace
+
+Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
+{
+  Fibres trimmed;
+  trimmed.domain = fibres.domain;
+  if (kept != nullptr)
+  {
+    kept->clear();
+  }
+  int nextId = fibres.fibreIds.empty() ? 1 : *std::max_element(fibres.fibreIds.begin(), fibres.fibreIds.end()) + 1;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> pieces; // first and last control point
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      if (!reaches(fibres.domain, fibres.points[i], fibres.points[i + 1], 2.0 * std::max(fibres.radii[i], fibres.radii[i + 1])))
+      {
+        continue;
+      }
+      if (!pieces.empty() && pieces.back().second == i)
+      {
+        pieces.back().second = i + 1;
+      }
+      else
+      {
+        pieces.emplace_back(i, i + 1);
+      }
+    }
+    const auto longest = std::max_element(
+      pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.second - a.first < b.second - b.first; });
+    for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
+    {
+      trimmed.addFibre(piece == longest ? fibres.fibreIds[f] : nextId++, fibres.bundleIds[f], fibres.targetRadii[f]);
+      for (std::size_t i = piece->first; i <= piece->second; ++i)
+      {
+        trimmed.addPoint(fibres.points[i], fibres.radii[i]);
+        if (kept != nullptr)
+        {
+          kept->push_back(i);
+        }
+      }
+    }
+  }
+  return trimmed;
+}
+
+} // namespace cactus
