@@ -112,7 +112,7 @@ inline __attribute__((always_inline)) void addLanes(
   const Vector alongP = byRp * taperP;
   const Vector alongQ = byRq * taperQ;
   const Vector determinant = a * e - b * b;
-  const Mask skew = determinant > 1e-9 * a * e;
+  const Mask skew = determinant > 1e-12 * a * e;
   const Mask sFree = (s > zero) & (s < one) & skew;
   const Mask tFree = (t > zero) & (t < one) & skew;
   const Vector inverseDeterminant = select(sFree & tFree, one, zero) / select(skew, determinant, one);

@@ -17,7 +17,7 @@ template <typename Real>
 inline __attribute__((always_inline)) void closestParameters(
   const Real& a, const Real& e, const Real& b, const Real& c, const Real& f, Real& s, Real& t)
 {
-  constexpr double parallel = 1e-9; // sin² of the angle below which segments count as parallel
+  constexpr double parallel = 1e-12; // sin² of the angle below which segments count as parallel
   const Real zero = a - a;
   const Real one = zero + 1.0;
   const auto isParallel = a * e - b * b <= parallel * a * e;

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkCapsuleOptimizer
+ * @brief Bends fibres until no two of them overlap (CACTUS 2023, "Joint fibre optimisation").
+ *
+ * Input: fibres (polylines with point data `Radius`), from one connection or several; bundles and fibres that share ids are
+ * renumbered in the order of the connections. All inputs have to have the same `Domain`.
+ *
+ * Output 0 `Fibres`: the fibres, with point data `Overlap` (largest relative penetration D = 1 - d / (rp + rq) of the capsules at
+ * a control point; 0 where nothing is touched) and field data `Converged` (1 or 0) and `MaximumPenetration`. Output 1
+ * `Convergence`: one row per iteration.
+ *
+ * Where overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how
+ * many and how large, and the output is the best state that was seen.
+ */
+#ifndef vtkCapsuleOptimizer_h
+#define vtkCapsuleOptimizer_h
+
+#include "CactusFiltersModule.h"
+
+#include <vtkPolyDataAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkCapsuleOptimizer : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkCapsuleOptimizer* New();
+  vtkTypeMacro(vtkCapsuleOptimizer, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** How gradients become steps. */
+  enum DescentMethods
+  {
+    MOMENTUM = 0,
+    ADAGRAD = 1
+  };
+
+  ///@{
+  /** Iterations after which to give up. */
+  vtkSetMacro(MaximumIterations, int);
+  vtkGetMacro(MaximumIterations, int);
+  ///@}
+
+  ///@{
+  /** Largest relative penetration D = 1 - d / (rp + rq) allowed between capsules of different fibres. */
+  vtkSetMacro(OverlapTolerance, double);
+  vtkGetMacro(OverlapTolerance, double);
+  ///@}
+
+  ///@{
+  /** MOMENTUM (preconditioned heavy ball) or ADAGRAD (as in the paper). */
+  vtkSetMacro(Method, int);
+  vtkGetMacro(Method, int);
+  ///@}
+
+  ///@{
+  /** Weight of the overlap cost. */
+  vtkSetMacro(OverlapWeight, double);
+  vtkGetMacro(OverlapWeight, double);
+  ///@}
+
+  ///@{
+  /** Weight of the curvature cost. */
+  vtkSetMacro(CurvatureWeight, double);
+  vtkGetMacro(CurvatureWeight, double);
+  ///@}
+
+  ///@{
+  /** Weight of the length cost. */
+  vtkSetMacro(LengthWeight, double);
+  vtkGetMacro(LengthWeight, double);
+  ///@}
+
+  ///@{
+  /** Weight of the radius cost; acts where RadiusTolerance is above 0. */
+  vtkSetMacro(RadiusWeight, double);
+  vtkGetMacro(RadiusWeight, double);
+  ///@}
+
+  ///@{
+  /** Weight of the compactness cost. */
+  vtkSetMacro(CompactnessWeight, double);
+  vtkGetMacro(CompactnessWeight, double);
+  ///@}
+
+  ///@{
+  /** MOMENTUM: part of the Newton step along the fibre that is taken. ADAGRAD: length of the first step in µm. */
+  vtkSetMacro(StepSize, double);
+  vtkGetMacro(StepSize, double);
+  ///@}
+
+  ///@{
+  /** Factor by which curvature, length and compactness fade in each iteration (MOMENTUM). */
+  vtkSetMacro(Relaxation, double);
+  vtkGetMacro(Relaxation, double);
+  ///@}
+
+  ///@{
+  /** Share of its cuboid above which a bundle is allowed to widen. */
+  vtkSetMacro(PackingLimit, double);
+  vtkGetMacro(PackingLimit, double);
+  ///@}
+
+  ///@{
+  /** Largest change of a radius as a fraction of it; 0 keeps radii. */
+  vtkSetMacro(RadiusTolerance, double);
+  vtkGetMacro(RadiusTolerance, double);
+  ///@}
+
+  ///@{
+  /** Cut away what lies outside the domain. */
+  vtkSetMacro(TrimToDomain, bool);
+  vtkGetMacro(TrimToDomain, bool);
+  vtkBooleanMacro(TrimToDomain, bool);
+  ///@}
+
+  ///@{
+  /** Seconds after which to stop with the best state; 0 for no limit. */
+  vtkSetMacro(TimeBudget, double);
+  vtkGetMacro(TimeBudget, double);
+  ///@}
+
+  ///@{
+  /** Threads to use; 0 takes all. The result does not depend on it. */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+protected:
+  vtkCapsuleOptimizer();
+  ~vtkCapsuleOptimizer() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkCapsuleOptimizer(const vtkCapsuleOptimizer&) = delete;
+  void operator=(const vtkCapsuleOptimizer&) = delete;
+
+  int MaximumIterations = 3000;
+  double OverlapTolerance = 1e-3;
+  int Method = MOMENTUM;
+  double OverlapWeight = 1.0;
+  double CurvatureWeight = 1.0;
+  double LengthWeight = 0.1;
+  double RadiusWeight = 1.0;
+  double CompactnessWeight = 1.0;
+  double StepSize = 1.0;
+  double Relaxation = 0.98;
+  double PackingLimit = 0.7;
+  double RadiusTolerance = 0.0;
+  bool TrimToDomain = true;
+  double TimeBudget = 0.0;
+  int NumberOfThreads = 0;
+};
+
+#endif

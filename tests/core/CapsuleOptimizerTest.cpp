@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CapsuleOptimizer.h"
+
+#include "Error.h"
+#include "RandomBundle.h"
+#include "SegmentDistance.h"
+#include "TrimToDomain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+
+using cactus::Fibres;
+
+/// Largest D over all pairs of capsules of different fibres, without any of the machinery under test.
+double largestPenetration(const Fibres& fibres)
+{
+  double largest = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t g = f + 1; g < fibres.size(); ++g)
+    {
+      for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+      {
+        for (std::size_t j = fibres.offsets[g]; j + 1 < fibres.offsets[g + 1]; ++j)
+        {
+          const auto pair = cactus::closestPoints(fibres.points[i], fibres.points[i + 1], fibres.points[j], fibres.points[j + 1]);
+          const double sum = (1.0 - pair.s) * fibres.radii[i] + pair.s * fibres.radii[i + 1] + (1.0 - pair.t) * fibres.radii[j] +
+                             pair.t * fibres.radii[j + 1];
+          largest = std::max(largest, 1.0 - pair.distance / sum);
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+Fibres crossingPair()
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  for (int f = 0; f < 2; ++f)
+  {
+    fibres.addFibre(f + 1, f + 1, 0.8);
+    for (int i = 0; i <= 10; ++i)
+    {
+      const double along = -5.0 + i;
+      fibres.addPoint(f == 0 ? Eigen::Vector3d(along, 0.05, 0.0) : Eigen::Vector3d(0.0, -0.05, along), 0.8);
+    }
+  }
+  return fibres;
+}
+
+} // namespace
+
+// Guarantee 1: after the optimiser no two capsules of different fibres penetrate by more than the tolerance.
+TEST(CapsuleOptimizer, PartsADisorderedBundle)
+{
+  Fibres fibres = randomBundle(11, 40, 12, 8.0, 0.0);
+  EXPECT_GT(largestPenetration(fibres), 0.5);
+  const cactus::OptimisationResult result = cactus::optimise(fibres, {}, {});
+  EXPECT_EQ(result.reason, cactus::StopReason::Converged);
+  const double largest = largestPenetration(fibres);
+  EXPECT_LE(largest, 1e-3);
+  EXPECT_NEAR(result.maximumPenetration, largest, 1e-12);
+  EXPECT_NEAR(*std::max_element(result.overlap.begin(), result.overlap.end()), largest, 1e-12);
+  EXPECT_EQ(result.overlappingPairs, 0u);
+}
+
+// Guarantee 1 with the published descent.
+TEST(CapsuleOptimizer, AdagradPartsThemToo)
+{
+  Fibres fibres = randomBundle(12, 20, 12, 8.0, 0.0);
+  cactus::CapsuleOptimizerOptions options;
+  options.method = cactus::DescentMethod::Adagrad;
+  options.stepSize = 0.05;
+  options.weights = { 0.01, 0.01, 0.0, 0.0 };
+  EXPECT_EQ(cactus::optimise(fibres, options, {}).reason, cactus::StopReason::Converged);
+  EXPECT_LE(largestPenetration(fibres), 1e-3);
+}
+
+// Two crossing cylinders: both bend out of each other's way by the same amount, and the ends stay in their planes.
+TEST(CapsuleOptimizer, TwoCrossingCylinders)
+{
+  Fibres fibres = crossingPair();
+  const Fibres before = fibres;
+  EXPECT_EQ(cactus::optimise(fibres, {}, {}).reason, cactus::StopReason::Converged);
+  EXPECT_LE(largestPenetration(fibres), 1e-3);
+  EXPECT_NEAR(fibres.points[5][1], -fibres.points[16][1], 1e-6);
+  EXPECT_GT(fibres.points[5][1], 0.7);
+  for (const std::size_t end : { 0, 10, 11, 21 })
+  {
+    const int axis = end < 11 ? 0 : 2;
+    EXPECT_DOUBLE_EQ(fibres.points[end][axis], before.points[end][axis]);
+  }
+}
+
+// Guarantee 4: same input and parameters, same bits, on any number of threads.
+TEST(CapsuleOptimizer, SameBitsOnAnyNumberOfThreads)
+{
+  cactus::CapsuleOptimizerOptions options;
+  options.maximumIterations = 40;
+  options.radiusTolerance = 0.02;
+  for (const auto method : { cactus::DescentMethod::Momentum, cactus::DescentMethod::Adagrad })
+  {
+    options.method = method;
+    options.stepSize = method == cactus::DescentMethod::Momentum ? 1.0 : 0.02;
+    cactus::Context context;
+    context.threads = 1;
+    Fibres one = randomBundle(13, 300, 30, 14.0, 0.0);
+    const auto first = cactus::optimise(one, options, context);
+    for (const int threads : { 2, 4 })
+    {
+      context.threads = threads;
+      Fibres many = randomBundle(13, 300, 30, 14.0, 0.0);
+      const auto second = cactus::optimise(many, options, context);
+      ASSERT_EQ(one.radii, many.radii);
+      for (std::size_t i = 0; i < one.points.size(); ++i)
+      {
+        ASSERT_EQ(one.points[i], many.points[i]);
+      }
+      ASSERT_EQ(first.convergence.back().overlapCost, second.convergence.back().overlapCost);
+      ASSERT_EQ(first.overlap, second.overlap);
+    }
+  }
+}
+
+// Guarantee 6: what is stopped, or out of iterations, keeps its best result and says so.
+TEST(CapsuleOptimizer, KeepsTheBestStateWhenStopped)
+{
+  Fibres fibres = randomBundle(14, 40, 12, 6.0, 0.0);
+  int calls = 0;
+  cactus::Context context;
+  context.cancelled = [&] { return ++calls > 5; };
+  const auto stopped = cactus::optimise(fibres, {}, context);
+  EXPECT_EQ(stopped.reason, cactus::StopReason::Stopped);
+  EXPECT_EQ(stopped.convergence.size(), 6u);
+  EXPECT_NEAR(stopped.maximumPenetration, largestPenetration(fibres), 1e-12);
+
+  cactus::CapsuleOptimizerOptions options;
+  options.maximumIterations = 3;
+  const auto limited = cactus::optimise(fibres, options, {});
+  EXPECT_EQ(limited.reason, cactus::StopReason::MaximumIterations);
+  EXPECT_GT(limited.overlappingPairs, 0u);
+  options.maximumIterations = 100000;
+  options.timeBudget = 1e-6;
+  EXPECT_EQ(cactus::optimise(fibres, options, {}).reason, cactus::StopReason::TimeBudget);
+}
+
+// Guarantee: a state without overlap is left alone.
+TEST(CapsuleOptimizer, LeavesAGoodStateAlone)
+{
+  Fibres fibres = crossingPair();
+  for (std::size_t i = 0; i < 11; ++i)
+  {
+    fibres.points[i][1] += 1.7;
+  }
+  const Fibres before = fibres;
+  const auto result = cactus::optimise(fibres, {}, {});
+  EXPECT_EQ(result.convergence.size(), 1u);
+  EXPECT_EQ(fibres.points[5], before.points[5]);
+}
+
+// Guarantee: radii change only within RadiusTolerance.
+TEST(CapsuleOptimizer, RadiiStayWithinTheirTolerance)
+{
+  Fibres fibres = randomBundle(15, 60, 12, 6.0, 0.0);
+  const Fibres before = fibres;
+  cactus::CapsuleOptimizerOptions options;
+  options.radiusTolerance = 0.03;
+  options.maximumIterations = 100;
+  cactus::optimise(fibres, options, {});
+  double changed = 0.0;
+  for (std::size_t i = 0; i < fibres.radii.size(); ++i)
+  {
+    const double change = fibres.radii[i] / before.radii[i] - 1.0;
+    EXPECT_LE(std::abs(change), 0.03 + 1e-12);
+    changed = std::max(changed, std::abs(change));
+  }
+  EXPECT_GT(changed, 1e-3);
+}
+
+// Guarantee 5: parameters out of range give an error that names them.
+TEST(CapsuleOptimizer, NamesTheParameterThatIsOutOfRange)
+{
+  const auto message = [](auto&& spoil)
+  {
+    cactus::CapsuleOptimizerOptions options;
+    spoil(options);
+    Fibres fibres = crossingPair();
+    try
+    {
+      cactus::optimise(fibres, options, {});
+    }
+    catch (const cactus::InvalidInput& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using Options = cactus::CapsuleOptimizerOptions;
+  const double nan = std::nan("");
+  EXPECT_NE(message([](Options& o) { o.maximumIterations = -1; }).find("MaximumIterations"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.overlapTolerance = 0.0; }).find("OverlapTolerance"), std::string::npos);
+  EXPECT_NE(message([&](Options& o) { o.stepSize = nan; }).find("StepSize"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.weights.curvature = -1.0; }).find("CurvatureWeight"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.timeBudget = -1.0; }).find("TimeBudget"), std::string::npos);
+  Fibres broken = crossingPair();
+  broken.points[3][2] = nan;
+  EXPECT_THROW(cactus::optimise(broken, {}, {}), cactus::InvalidInput);
+  EXPECT_THROW(
+    {
+      Fibres none;
+      cactus::optimise(none, {}, {});
+    },
+    cactus::InvalidInput);
+}
+
+// Trimming keeps the domain filled, cuts what is outside, and gives a fibre that comes back an id of its own.
+TEST(TrimToDomain, CutsAndSplits)
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  fibres.addFibre(7, 2, 0.5); // leaves upwards in the middle and comes back
+  for (int i = 0; i <= 40; ++i)
+  {
+    const double x = -10.0 + 0.5 * i;
+    fibres.addPoint({ x, 0.0, std::abs(x) < 2.0 ? 9.0 : 0.0 }, 0.5);
+  }
+  fibres.addFibre(9, 1, 0.5); // never comes near
+  fibres.addPoint({ 20, 0, 0 }, 0.5);
+  fibres.addPoint({ 20, 5, 0 }, 0.5);
+  fibres.addFibre(3, 1, 0.5); // outside, but its surface is inside
+  fibres.addPoint({ 5.3, -5, 0 }, 0.5);
+  fibres.addPoint({ 5.3, 5, 0 }, 0.5);
+  std::vector<std::size_t> kept;
+  const Fibres trimmed = cactus::trimToDomain(fibres, &kept);
+  ASSERT_EQ(trimmed.size(), 3u);
+  EXPECT_EQ(trimmed.fibreIds, (std::vector<int>{ 7, 10, 3 }));
+  EXPECT_EQ(trimmed.bundleIds, (std::vector<int>{ 2, 2, 1 }));
+  ASSERT_EQ(kept.size(), trimmed.points.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    EXPECT_EQ(trimmed.points[i], fibres.points[kept[i]]);
+  }
+  // Everything of the first fibre that is in the domain is still there, and nothing far outside.
+  EXPECT_NEAR(cactus::capsuleVolumeInDomain(trimmed), cactus::capsuleVolumeInDomain(fibres), 1e-12);
+  for (const auto& point : trimmed.points)
+  {
+    EXPECT_GT(trimmed.domain.depth(point), -5.0);
+  }
+}
