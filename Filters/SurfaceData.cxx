@@ -59,8 +59,8 @@ FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surf
   {
     if (kind != nullptr && static_cast<int>(kind->GetComponent(cell, 0)) != surface)
     {
-      throw InvalidInput(port + " holds " + (surface == 0 ? "inner" : "outer") +
-                         " surfaces (cell data Surface): connect MyelinSurface's port " + port);
+      const std::string other = surface == 0 ? "inner" : "outer";
+      throw InvalidInput(port + " holds " + other + " surfaces (cell data Surface): connect MyelinSurface's port " + port);
     }
     cellsOf[static_cast<int>(fibreId->GetComponent(cell, 0))].push_back(cell);
   }

@@ -49,6 +49,7 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("MVF", s.myelinVolumeFraction);
   number("AggregateGRatio", s.aggregateGRatio);
   number("CapsuleVolumeFraction", s.capsuleVolumeFraction);
+  number("LargestPenetration", s.largestPenetration);
   number("MeanDispersion_deg", s.meanDispersion);
   number("TangentDispersion_deg", s.tangentDispersion);
   number("MeanTargetRadius_um", s.meanTargetRadius);

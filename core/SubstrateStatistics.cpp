@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SubstrateStatistics.h"
 
+#include "Capsules.h"
 #include "CrossSection.h"
 #include "Error.h"
 #include "Parallel.h"
@@ -260,6 +261,7 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
   result.myelinVolumeFraction = hasBoth ? (outerVolume - innerVolume) / domainVolume : notANumber;
   result.aggregateGRatio = hasBoth ? std::sqrt(1.0 - result.myelinVolumeFraction / result.fibreVolumeFraction) : notANumber;
   result.capsuleVolumeFraction = capsuleVolumeInDomain(fibres) / domainVolume;
+  result.largestPenetration = measureOverlap(fibres, 0.0, context.threadCount()).largestPenetration;
   result.meanDispersion = meanDispersion(fibres);
   result.tangentDispersion = meanTangentDispersion(fibres);
   result.meanTargetRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.targetRadius; });

@@ -57,6 +57,7 @@ struct SubstrateStatistics
   double myelinVolumeFraction = 0.0;  ///< the difference: a fibre without an inner surface is myelin throughout
   double aggregateGRatio = 0.0;       ///< sqrt(1 - MVF / FVF), Stikov 2015
   double capsuleVolumeFraction = 0.0; ///< of the capsules, overlaps twice
+  double largestPenetration = 0.0;    ///< D = 1 - d / (rp + rq) over all pairs of capsules of different fibres; 0 without overlap
   double meanDispersion = 0.0;        ///< degrees, end to end
   double tangentDispersion = 0.0;     ///< degrees, by segment
   double meanTargetRadius = 0.0;      ///< µm, over fibres

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -223,6 +224,14 @@ TEST(SubstrateStatistics, SaysWhatIsWrong)
   EXPECT_NE(messageOf({}, options).find("CutSpacing"), std::string::npos);
   options.cutSpacing = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(messageOf({}, options).find("CutSpacing"), std::string::npos);
+}
+
+TEST(SubstrateStatistics, LargestPenetration)
+{
+  auto fibres = twoFibres(); // 4 µm apart
+  EXPECT_EQ(cactus::measureSubstrate(fibres, {}, {}).largestPenetration, 0.0);
+  std::fill(fibres.radii.begin(), fibres.radii.end(), 2.5);
+  EXPECT_NEAR(cactus::measureSubstrate(fibres, {}, {}).largestPenetration, 0.2, 1e-12);
 }
 
 // Guarantee 4: the same bits on any number of threads.

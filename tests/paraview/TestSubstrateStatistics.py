@@ -36,6 +36,7 @@ class Statistics(CactusTestCase):
         self.assertAlmostEqual(row["MeanOuterRadius_um"], 1.25 * EQUIVALENT, places=5)
         self.assertAlmostEqual(row["MeanInnerRadius_um"], 0.8 * EQUIVALENT, places=5)
         self.assertAlmostEqual(row["MeanDispersion_deg"], 0)
+        self.assertEqual(row["LargestPenetration"], 0)
         self.assertEqual([row[n] for n in ("OuterClosed", "OuterOpen", "InnerClosed", "InnerOpen")], [2, 0, 2, 0])
         self.assertEqual(row["Triangles"], self.outer.GetNumberOfCells() + self.inner.GetNumberOfCells())
 
