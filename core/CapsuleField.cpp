@@ -19,9 +19,11 @@ namespace cactus
 namespace
 {
 
-constexpr double ballsPerRadius = 3.0;
+// Seeds per radius of length, and their radii as fractions of the capsule's: few and large enough for bumps of about a radius'
+// length, which grow into an uneven calibre rather than a grainy surface.
+constexpr double ballsPerRadius = 1.5;
 constexpr double smallestBall = 0.5;
-constexpr double largestBall = 0.8;
+constexpr double largestBall = 0.9;
 constexpr int blockSize = 16;
 constexpr float nowhere = -1e30f;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -821,9 +823,12 @@ void CapsuleField::sweep(const VoxelGrid& grid, const FieldRelevance& relevance,
               }
               for (int i = 0; i < FieldCell::size; ++i)
               {
-                work.x[i] = float((ci + i % FieldCell::sizeX - half) * h);
-                work.y[i] = float((cj + i / FieldCell::sizeX % FieldCell::sizeY - half) * h);
-                work.z[i] = float((ck + i / (FieldCell::sizeX * FieldCell::sizeY) - half) * h);
+                const int inRow = i % FieldCell::sizeX;
+                const int row = i / FieldCell::sizeX % FieldCell::sizeY;
+                const int plane = i / (FieldCell::sizeX * FieldCell::sizeY);
+                work.x[i] = float((ci + inRow - half) * h);
+                work.y[i] = float((cj + row - half) * h);
+                work.z[i] = float((ck + plane - half) * h);
               }
               evaluateCell(search->candidates, cellRelevance, work);
               sink(cell, thread);

@@ -67,7 +67,7 @@ struct FieldCell
 ///
 /// With SurfaceRoughness ρ > 0 a fibre is its chain of capsules shrunk to 1 - ρ, which keeps it in one piece, united with balls
 /// dropped at random into the capsules (paper, "FRG description": "randomly placing seed points within all capsule fibres"). Each
-/// ball touches the capsule's surface from inside and has between half and 0.8 of its radius, so its centre lies in the shrunk
+/// ball touches the capsule's surface from inside and has between half and 0.9 of its radius, so its centre lies in the shrunk
 /// chain. Hence capsule - ρ·radius <= s_i <= capsule. A ball depends on seed, fibre id and segment alone.
 ///
 /// Fibres are ranked by increasing fibre id.

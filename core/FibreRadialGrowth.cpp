@@ -180,7 +180,7 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
     throw InvalidInput(text("VoxelSize ", options.voxelSize, " is larger than the domain, whose smallest side is ",
       size.minCoeff(), " µm: choose a smaller VoxelSize"));
   }
-  const double most = std::numeric_limits<int>::max() / 4;
+  const double most = 0.25 * std::numeric_limits<int>::max();
   if (size.maxCoeff() * 1.1 + 2.0 * options.margin > most * options.voxelSize)
   {
     throw InvalidInput(text("VoxelSize ", options.voxelSize, " divides the domain's ", size.maxCoeff(),
