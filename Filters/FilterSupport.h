@@ -8,15 +8,21 @@
 #include <vtkAlgorithm.h>
 #include <vtkSetGet.h>
 
-#include <exception>
+#include <cstdint>
 #include <new>
+#include <string>
 
 namespace cactus
 {
 
-/// Context whose progress goes to `algorithm` and which stops when the user aborts it.
+/// Context whose progress goes to `algorithm` and which stops when the user aborts it. Throws InvalidInput for a negative number of
+/// threads.
 inline Context contextFor(vtkAlgorithm* algorithm, int threads = 0)
 {
+  if (threads < 0)
+  {
+    throw InvalidInput("NumberOfThreads is " + std::to_string(threads) + ": give 0 for all, or how many");
+  }
   Context context;
   context.threads = threads;
   context.progress = [algorithm](double fraction, const std::string& message)
@@ -27,6 +33,16 @@ inline Context contextFor(vtkAlgorithm* algorithm, int threads = 0)
   // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
   context.cancelled = [algorithm] { return algorithm->GetAbortExecute() != 0; };
   return context;
+}
+
+/// A user's seed as core takes it. Throws InvalidInput for a negative one.
+inline std::uint64_t seedFrom(int seed)
+{
+  if (seed < 0)
+  {
+    throw InvalidInput("Seed is " + std::to_string(seed) + ": give a number that is not negative");
+  }
+  return static_cast<std::uint64_t>(seed);
 }
 
 /// Runs `work` and returns 1, or reports what it threw as the algorithm's error and returns 0.

@@ -72,11 +72,7 @@ int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, v
       options.spacingFactor = this->SpacingFactor;
       options.minimumSpacing = this->MinimumSpacing;
       options.maximumSpacing = this->MaximumSpacing;
-      if (this->Seed < 0)
-      {
-        throw cactus::InvalidInput("Seed is " + std::to_string(this->Seed) + ": give a number that is not negative");
-      }
-      options.seed = static_cast<std::uint64_t>(this->Seed);
+      options.seed = cactus::seedFrom(this->Seed);
 
       cactus::BundleInitializerReport report;
       const cactus::Fibres fibres = cactus::initialiseBundles(options, cactus::contextFor(this), &report);

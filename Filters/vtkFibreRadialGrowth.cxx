@@ -29,10 +29,6 @@ namespace
 
 cactus::FibreRadialGrowthOptions optionsFrom(vtkFibreRadialGrowth* self)
 {
-  if (self->GetNumberOfThreads() < 0)
-  {
-    throw cactus::InvalidInput("NumberOfThreads must be 0 (all) or more");
-  }
   cactus::FibreRadialGrowthOptions options;
   options.voxelSize = self->GetVoxelSize();
   options.targetFibreVolumeFraction = self->GetTargetFibreVolumeFraction();
@@ -41,7 +37,7 @@ cactus::FibreRadialGrowthOptions optionsFrom(vtkFibreRadialGrowth* self)
   options.surfaceTolerance = self->GetSurfaceTolerance();
   options.surfaceRoughness = self->GetSurfaceRoughness();
   options.margin = self->GetMargin();
-  options.seed = static_cast<std::uint64_t>(static_cast<std::uint32_t>(self->GetSeed()));
+  options.seed = cactus::seedFrom(self->GetSeed());
   cactus::validate(options);
   return options;
 }

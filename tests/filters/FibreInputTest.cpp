@@ -14,7 +14,9 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringOutputWindow.h>
 #include <vtkTrivialProducer.h>
+#include <vtkWriter.h>
 
+#include <vtkFibreRadialGrowth.h>
 #include <vtkStrandWriter.h>
 
 #include <gtest/gtest.h>
@@ -224,7 +226,7 @@ protected:
   vtkNew<Filter> filter;
 };
 
-using Filters = testing::Types<vtkStrandWriter>;
+using Filters = testing::Types<vtkStrandWriter, vtkFibreRadialGrowth>;
 TYPED_TEST_SUITE(FibreInput, Filters);
 
 TYPED_TEST(FibreInput, GoodOneGivesNoError)

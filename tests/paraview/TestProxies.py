@@ -1,24 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the plugin puts before the user: every proxy of every XML file can be made, explains itself, and is named as it is called."""
 
-import glob
-import os
 import re
-import xml.etree.ElementTree as ElementTree
 
-from cactus_testing import CactusTestCase, main
+from cactus_testing import CactusTestCase, main, make, proxies
 from paraview import servermanager, simple
-
-FOLDER = os.environ["CACTUS_XML_DIR"]
-
-
-def described_proxies():
-    """(group, XML element) of each proxy that the plugin describes."""
-    for path in sorted(glob.glob(os.path.join(FOLDER, "*.xml"))):
-        for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
-            for element in group:
-                if element.tag.endswith("Proxy"):
-                    yield group.get("name"), element
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
 
 def properties(element):
@@ -43,7 +30,7 @@ def text(element):
 class Proxies(CactusTestCase):
     def each(self, check):
         """Calls check(group, XML element) for each proxy; a failure says which one."""
-        found = list(described_proxies())
+        found = list(proxies())
         self.assertGreater(len(found), 1)
         for group, element in found:
             with self.subTest(proxy=element.get("name")):
@@ -98,13 +85,7 @@ class Proxies(CactusTestCase):
 
         def check(group, element):
             if group in ("sources", "filters"):
-                # Without an input the proxy would take the active source, whatever that is.
-                sources = {"vtkPolyData": simple.Sphere, "vtkImageData": simple.Wavelet}
-                inputs = {
-                    one.get("name"): sources[one.find("DataTypeDomain/DataType").get("value")]()
-                    for one in element.findall("InputProperty")
-                }
-                proxy = getattr(simple, element.get("name"))(**inputs)
+                proxy = make(element, {"vtkPolyData": vtkPolyData(), "vtkImageData": vtkImageData()})
                 for one in numbers(element):
                     values = [proxy.SMProxy.GetProperty(one.get("name")).GetElement(i) for i in range(len(defaults(one)))]
                     self.assertEqual(values, defaults(one), one.get("name"))

@@ -6,6 +6,7 @@ fails by every error and warning that it did not ask for with assertError.
 """
 
 import contextlib
+import glob
 import json
 import os
 import re
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import VTK_STRING, vtkLogger, vtkOutputWindow
@@ -89,6 +91,22 @@ def produce(data):
     producer = simple.PVTrivialProducer()
     producer.GetClientSideObject().SetOutput(data)
     return producer
+
+
+def proxies():
+    """(group, XML element) of each proxy that the plugin describes."""
+    for path in sorted(glob.glob(os.path.join(os.environ["CACTUS_XML_DIR"], "*.xml"))):
+        for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
+            yield from ((group.get("name"), element) for element in group if element.tag.endswith("Proxy"))
+
+
+def make(element, data):
+    """The source or filter that an XML element describes, on inputs that hold `data`: {VTK class name: data object}."""
+    inputs = {}
+    for port in element.findall("InputProperty"):
+        if port.find("Hints/Optional") is None:
+            inputs[port.get("name")] = produce(data[port.find("DataTypeDomain/DataType").get("value")])
+    return getattr(simple, element.get("name"))(**inputs)
 
 
 def mesh_oracle(folder, *arguments):

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A property out of its range, or not a number, gets one error that names the property, from every source and filter."""
+
+from cactus_testing import CactusTestCase, fetch, main, make, proxies
+from paraview import simple
+from paraview.servermanager import vtkSMPropertyHelper
+
+
+def numbers(element):
+    return [
+        one
+        for one in element
+        if one.tag in ("DoubleVectorProperty", "IntVectorProperty") and one.get("information_only") != "1"
+    ]
+
+
+def bad_values(one):
+    """Below the least value, beside the choices, and not a number. The largest value in the XML is a convenience of the panel."""
+    for domain in one:
+        if domain.tag in ("DoubleRangeDomain", "IntRangeDomain") and domain.get("min") is not None:
+            yield float(domain.get("min")) - 1
+        elif domain.tag == "EnumerationDomain":
+            values = [int(entry.get("value")) for entry in domain.findall("Entry")]
+            yield from (min(values) - 1, max(values) + 1)
+    if one.tag == "DoubleVectorProperty":
+        yield from (float("nan"), float("inf"))
+
+
+class PropertyRanges(CactusTestCase):
+    @classmethod
+    def setUpClass(cls):
+        """A good input for each kind of data."""
+        fibres = simple.BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2)
+        image = simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.2, GrowthIterations=1)
+        cls.fibres, cls.image = fetch(fibres), fetch(image)
+        simple.Delete(image)
+        simple.Delete(fibres)
+
+    def make(self, element, one):
+        """The source or filter with good inputs, and with what switches the property on."""
+        proxy = make(element, {"vtkPolyData": self.fibres, "vtkImageData": self.image})
+        switches = one.findall("Hints/PropertyWidgetDecorator[@value]")
+        while switches:
+            switch = switches.pop()
+            vtkSMPropertyHelper(proxy.SMProxy, switch.get("property")).Set(float(switch.get("value")))
+            switches += element.findall(f"*[@name='{switch.get('property')}']/Hints/PropertyWidgetDecorator[@value]")
+        return proxy
+
+    def test_each_gets_one_error_that_names_it(self):
+        checked = 0
+        for element in (element for group, element in proxies() if group in ("sources", "filters")):
+            for one in numbers(element):
+                for value in bad_values(one):
+                    with self.subTest(proxy=element.get("name"), property=one.get("name"), value=value):
+                        proxy = self.make(element, one)
+                        vtkSMPropertyHelper(proxy.SMProxy, one.get("name")).Set(value)
+                        proxy.SMProxy.UpdateVTKObjects()
+                        with self.assertError(one.get("name")):
+                            proxy.UpdatePipeline()
+                        simple.Delete(proxy)
+                        checked += 1
+        self.assertGreater(checked, 20)
+
+
+if __name__ == "__main__":
+    main()
