@@ -16,6 +16,7 @@
 #include <vtkTrivialProducer.h>
 #include <vtkWriter.h>
 
+#include <vtkCapsuleOptimizer.h>
 #include <vtkFibreRadialGrowth.h>
 #include <vtkStrandWriter.h>
 
@@ -226,7 +227,7 @@ protected:
   vtkNew<Filter> filter;
 };
 
-using Filters = testing::Types<vtkStrandWriter, vtkFibreRadialGrowth>;
+using Filters = testing::Types<vtkStrandWriter, vtkCapsuleOptimizer, vtkFibreRadialGrowth>;
 TYPED_TEST_SUITE(FibreInput, Filters);
 
 TYPED_TEST(FibreInput, GoodOneGivesNoError)

@@ -36,7 +36,7 @@ class Ranks(CactusTestCase):
         growth = FibreRadialGrowth(Input=StrandReader(FileName=path), VoxelSize=0.12, TargetFibreVolumeFraction=0.5)
         growth.UpdatePipeline()
         together = os.path.join(self.folder, "together.pvti")
-        SaveData(together, proxy=growth)
+        SaveData(together, proxy=growth, DataMode="Binary")  # Debian's ParaView cannot read the appended data that is the default
         reader = vtkXMLPImageDataReader()
         reader.SetFileName(together)
         reader.Update()

@@ -4,6 +4,7 @@
 from cactus_testing import CactusTestCase, fetch, main, make, proxies
 from paraview import simple
 from paraview.servermanager import vtkSMPropertyHelper
+from surfaces import two_tubes
 
 
 def numbers(element):
@@ -33,12 +34,13 @@ class PropertyRanges(CactusTestCase):
         fibres = simple.BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2)
         image = simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.2, GrowthIterations=1)
         cls.fibres, cls.image = fetch(fibres), fetch(image)
+        _, cls.outer, _ = two_tubes()
         simple.Delete(image)
         simple.Delete(fibres)
 
     def make(self, element, one):
         """The source or filter with good inputs, and with what switches the property on."""
-        proxy = make(element, {"vtkPolyData": self.fibres, "vtkImageData": self.image})
+        proxy = make(element, {"Outer": self.outer, "vtkPolyData": self.fibres, "vtkImageData": self.image})
         switches = one.findall("Hints/PropertyWidgetDecorator[@value]")
         while switches:
             switch = switches.pop()

@@ -18,6 +18,7 @@ class Ranks(CactusTestCase):
             writer = vtkXMLPolyDataWriter()
             writer.SetFileName(path)
             writer.SetInputData(data)
+            writer.SetDataModeToBinary()  # Debian's ParaView cannot read the appended data that is the default
             self.assertEqual(writer.Write(), 1)
             readers[name] = XMLPolyDataReader(FileName=[path])
         return readers

@@ -101,11 +101,12 @@ def proxies():
 
 
 def make(element, data):
-    """The source or filter that an XML element describes, on inputs that hold `data`: {VTK class name: data object}."""
+    """The source or filter that an XML element describes, on inputs that hold `data`: {input's name or VTK class: data object}."""
     inputs = {}
     for port in element.findall("InputProperty"):
         if port.find("Hints/Optional") is None:
-            inputs[port.get("name")] = produce(data[port.find("DataTypeDomain/DataType").get("value")])
+            name = port.get("name")
+            inputs[name] = produce(data.get(name) or data[port.find("DataTypeDomain/DataType").get("value")])
     return getattr(simple, element.get("name"))(**inputs)
 
 
