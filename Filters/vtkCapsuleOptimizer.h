@@ -141,8 +141,8 @@ private:
   double OverlapTolerance = 1e-3;
   int Method = MOMENTUM;
   double OverlapWeight = 1.0;
-  double CurvatureWeight = 1.0;
-  double LengthWeight = 0.1;
+  double CurvatureWeight = 2.0;
+  double LengthWeight = 0.5;
   double RadiusWeight = 1.0;
   double CompactnessWeight = 1.0;
   double StepSize = 1.0;

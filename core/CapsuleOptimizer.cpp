@@ -156,22 +156,24 @@ private:
   {
     const std::size_t begin = this->State.offsets[f];
     const std::size_t end = this->State.offsets[f + 1];
-    double largest = 0.0;
     this->smoothGradient(f);
     for (std::size_t i = begin; i < end; ++i)
     {
-      const double r = this->State.radii[i];
       Eigen::Vector3d& velocity = this->Velocity[i];
       velocity = this->Options.momentum * velocity - this->Options.stepSize * this->Gradient[i];
-      this->constrainEnds(f, i, velocity);
       const double speed = velocity.norm();
-      const double limit = 0.3 * r;
+      const double limit = 0.3 * this->State.radii[i];
       if (speed > limit)
       {
         velocity *= limit / speed;
       }
-      this->State.points[i] += velocity;
-      double change = velocity.norm();
+    }
+    this->constrainEnds(f, this->Velocity[begin], this->Velocity[end - 1]);
+    double largest = 0.0;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      this->State.points[i] += this->Velocity[i];
+      double change = this->Velocity[i].norm();
       if (this->Options.radiusTolerance > 0.0)
       {
         double& radiusVelocity = this->RadiusVelocity[i];
@@ -227,10 +229,10 @@ private:
     const std::size_t begin = this->State.offsets[f];
     const std::size_t end = this->State.offsets[f + 1];
     double largest = 0.0;
+    this->constrainEnds(f, this->Gradient[begin], this->Gradient[end - 1]);
     for (std::size_t i = begin; i < end; ++i)
     {
-      Eigen::Vector3d gradient = this->Gradient[i];
-      this->constrainEnds(f, i, gradient);
+      const Eigen::Vector3d& gradient = this->Gradient[i];
       Eigen::Vector3d& squares = this->Velocity[i];
       squares += gradient.cwiseAbs2();
       const Eigen::Vector3d change = -this->Options.stepSize * gradient.cwiseQuotient((squares.array().sqrt() + 1e-12).matrix());
@@ -247,14 +249,12 @@ private:
     return largest;
   }
 
-  /// End points stay in their plane across the bundle's axis, so that fibres keep spanning the domain.
-  void constrainEnds(std::size_t f, std::size_t i, Eigen::Vector3d& direction) const
+  /// Both ends of a fibre stay in their planes across the bundle's axis, so that fibres keep spanning the domain.
+  void constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector3d& last) const
   {
-    if (i == this->State.offsets[f] || i + 1 == this->State.offsets[f + 1])
-    {
-      const Eigen::Vector3d& axis = this->Costs.boxOf(f).axis;
-      direction -= direction.dot(axis) * axis;
-    }
+    const Eigen::Vector3d& axis = this->Costs.boxOf(f).axis;
+    first -= first.dot(axis) * axis;
+    last -= last.dot(axis) * axis;
   }
 
   double changeRadius(std::size_t i, double change)

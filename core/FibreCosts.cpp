@@ -101,6 +101,7 @@ FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, do
     {
       this->ReferenceLength[i] = (fibres.points[i + 1] - fibres.points[i]).norm();
     }
+    this->ReferenceChord.push_back(fibres.points[fibres.offsets[f + 1] - 1] - fibres.points[fibres.offsets[f]]);
   }
 }
 
@@ -169,6 +170,17 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
     }
   }
   const BundleBox& box = this->Boxes[f];
+  if (this->Weights.compactness > 0.0)
+  {
+    const Eigen::Vector3d turned = x[end - 1] - x[begin] - this->ReferenceChord[f];
+    const double length = this->ReferenceLength[begin];
+    const double k = relaxation * this->Weights.compactness * length * length;
+    totals.compactness += 0.5 * k * turned.squaredNorm();
+    gradient[begin] -= k * turned;
+    gradient[end - 1] += k * turned;
+    stiffness[begin] += 2.0 * k;
+    stiffness[end - 1] += 2.0 * k;
+  }
   for (std::size_t i = begin; i < end; ++i)
   {
     const double deviation = r[i] - this->ReferenceRadius[i];

@@ -15,8 +15,8 @@ namespace cactus
 /// Weights of the terms that keep a fibre in shape, relative to the overlap cost.
 struct FibreCostWeights
 {
-  double curvature = 1.0;
-  double length = 0.1;
+  double curvature = 2.0;
+  double length = 0.5;
   double radius = 1.0;
   double compactness = 1.0;
 };
@@ -70,6 +70,7 @@ private:
   FibreCostWeights Weights;
   std::vector<double> ReferenceLength; ///< of the segment that starts at a control point
   std::vector<double> ReferenceRadius;
+  std::vector<Eigen::Vector3d> ReferenceChord; ///< from the first control point of a fibre to its last
   std::vector<BundleBox> Boxes;
 };
 
