@@ -57,8 +57,11 @@ public:
   {
     this->refreshNeighbours();
     ConvergenceRow row;
+    const Clock::time_point start = Clock::now();
     const OverlapTotals overlap = evaluateOverlap(
       this->Bodies, this->Neighbours, this->Options.safetyMargin, this->Options.overlapTolerance, this->Threads, this->Overlaps);
+    this->EvaluationSeconds += secondsSince(start);
+    this->PairEvaluations += static_cast<double>(this->Neighbours.indices.size());
     row.overlapCost = this->Options.overlapWeight * overlap.cost;
     row.maximumPenetration = std::max(0.0, overlap.penetration);
     row.overlappingPairs = overlap.overlappingPairs;
@@ -98,6 +101,15 @@ public:
     }
   }
 
+  /// Hands over what this descent has cost so far.
+  void account(OptimisationResult& result) const
+  {
+    result.pairEvaluations = this->PairEvaluations;
+    result.neighbourSearches = this->Searches;
+    result.evaluationSeconds = this->EvaluationSeconds;
+    result.searchSeconds = this->SearchSeconds;
+  }
+
 private:
   /// The lists reach a little further than contact and hold until something could have come that far.
   void refreshNeighbours()
@@ -109,7 +121,10 @@ private:
     }
     // Follow the pace: a list should hold for about twenty steps.
     this->Reach = needed + std::min(std::max(40.0 * this->lastMove(), 0.05 * this->MeanRadius), 0.6 * this->MeanRadius);
+    const Clock::time_point start = Clock::now();
     findNeighbours(this->Bodies, this->Reach, this->Threads, this->Neighbours);
+    this->SearchSeconds += secondsSince(start);
+    ++this->Searches;
     this->Moved = 0.0;
     this->StepsSinceSearch = 0;
   }
@@ -300,6 +315,10 @@ private:
   double Reach = 0.0;
   double Moved = 0.0; ///< upper bound of how far anything moved or grew since the last search
   int StepsSinceSearch = 0;
+  double PairEvaluations = 0.0;
+  int Searches = 0;
+  double EvaluationSeconds = 0.0;
+  double SearchSeconds = 0.0;
 };
 
 std::string describe(const ConvergenceRow& row)
@@ -393,6 +412,7 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
       }
       descent.step();
     }
+    descent.account(result);
     fibres.points = std::move(bestPoints);
     fibres.radii = std::move(bestRadii);
   }

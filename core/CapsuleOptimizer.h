@@ -82,6 +82,11 @@ struct OptimisationResult
   double maximumPenetration = 0.0;
   std::size_t overlappingPairs = 0; ///< above the tolerance
   std::vector<double> overlap;      ///< per control point, largest D there
+  /// What the descent did: pairs of capsules evaluated (each counted from both sides), neighbour searches, and seconds in each.
+  double pairEvaluations = 0.0;
+  int neighbourSearches = 0;
+  double evaluationSeconds = 0.0;
+  double searchSeconds = 0.0;
 };
 
 /// Moves control points (and, where allowed, radii) until no two capsules of different fibres penetrate by more than the
