@@ -122,7 +122,7 @@ private:
     // Follow the pace: a list should hold for about twenty steps.
     this->Reach = needed + std::min(std::max(40.0 * this->lastMove(), 0.05 * this->MeanRadius), 0.6 * this->MeanRadius);
     const Clock::time_point start = Clock::now();
-    findNeighbours(this->Bodies, this->Reach, this->Threads, this->Neighbours);
+    findNeighbours(this->Bodies, { this->Reach, 0.0 }, this->Threads, this->Neighbours);
     this->SearchSeconds += secondsSince(start);
     ++this->Searches;
     this->Moved = 0.0;

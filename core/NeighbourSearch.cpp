@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NeighbourSearch.h"
 
-#include "Error.h"
 #include "SegmentDistance.h"
+#include "Vectors.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace cactus
 {
@@ -14,175 +15,417 @@ namespace cactus
 namespace
 {
 
+constexpr std::size_t runLength = 6;
+constexpr std::size_t width = 16;
+
+typedef float Vector __attribute__((vector_size(4 * width)));
+typedef std::int32_t Mask __attribute__((vector_size(4 * width)));
+
+typedef float Four __attribute__((vector_size(16)));
+typedef std::int32_t FourInts __attribute__((vector_size(16)));
+typedef std::int64_t TwoInts __attribute__((vector_size(16)));
+
+/// A bounding box; the fourth number of each corner means nothing.
 struct Box
 {
-  float lower[3];
-  float upper[3];
+  Four lower;
+  Four upper;
 };
 
-using CellRange = std::array<std::array<int, 3>, 2>;
-
-/// A uniform grid over the capsules' bounding box.
-struct CellGrid
-{
-  double lower[3];
-  double inverseSize = 1.0;
-  int count[3];
-
-  int cellOf(double x, int axis) const
-  {
-    const double cell = std::floor((x - lower[axis]) * inverseSize);
-    return static_cast<int>(std::min(std::max(cell, 0.0), count[axis] - 1.0));
-  }
-  CellRange range(const Box& box) const
-  {
-    CellRange cells;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      cells[0][axis] = cellOf(box.lower[axis], axis);
-      cells[1][axis] = cellOf(box.upper[axis], axis);
-    }
-    return cells;
-  }
-  std::array<int, 3> position(std::size_t cell) const
-  {
-    const auto x = static_cast<int>(cell % std::size_t(count[0]));
-    const auto rest = cell / std::size_t(count[0]);
-    return { { x, static_cast<int>(rest % std::size_t(count[1])), static_cast<int>(rest / std::size_t(count[1])) } };
-  }
-  std::size_t index(int i, int j, int k) const
-  {
-    return std::size_t(i) + std::size_t(count[0]) * (std::size_t(j) + std::size_t(count[1]) * std::size_t(k));
-  }
-};
-
-Box boxOf(const Capsule& capsule, double extra)
+/// A run as a cell sees it: consecutive capsules of one fibre. The fourth numbers of the box hold the first of them and one past
+/// the last.
+struct Run
 {
   Box box;
-  const double radius = std::max(capsule.r0, capsule.r1) + extra;
+
+  void setRange(std::uint32_t first, std::uint32_t last)
+  {
+    std::memcpy(reinterpret_cast<char*>(&this->box.lower) + 12, &first, 4);
+    std::memcpy(reinterpret_cast<char*>(&this->box.upper) + 12, &last, 4);
+  }
+  std::uint32_t first() const { return fourth(this->box.lower); }
+  std::uint32_t last() const { return fourth(this->box.upper); }
+
+private:
+  static std::uint32_t fourth(const Four& corner)
+  {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, reinterpret_cast<const char*>(&corner) + 12, 4);
+    return bits;
+  }
+};
+
+inline bool overlap(const Box& a, const Box& b)
+{
+  const FourInts mask = (a.lower <= b.upper) & (b.lower <= a.upper);
+  const auto halves = (TwoInts)mask; // the same bits
+  return (halves[0] & (halves[1] | ~std::int64_t(0xffffffff))) == -1;
+}
+
+inline Four larger(const Four& a, const Four& b)
+{
+  return a > b ? a : b;
+}
+
+inline Four smaller(const Four& a, const Four& b)
+{
+  return a < b ? a : b;
+}
+
+/// A capsule's bounding box, larger by half of the reach. Two boxes of capsules within reach of each other overlap; a last
+/// part in a million sees to it that single precision does not lose a pair.
+Box boxOf(const Capsule& capsule, const Reach& reach)
+{
+  const double radius = std::max(capsule.r0, capsule.r1) * (1.0 + reach.relative) + 0.5 * reach.absolute;
+  Box box = {};
   for (int axis = 0; axis < 3; ++axis)
   {
-    // Rounded outwards: single precision must not lose a pair.
-    box.lower[axis] = std::nextafter(static_cast<float>(std::min(capsule.p0[axis], capsule.p1[axis]) - radius), -INFINITY);
-    box.upper[axis] = std::nextafter(static_cast<float>(std::max(capsule.p0[axis], capsule.p1[axis]) + radius), INFINITY);
+    const double lower = std::min(capsule.p0[axis], capsule.p1[axis]) - radius;
+    const double upper = std::max(capsule.p0[axis], capsule.p1[axis]) + radius;
+    box.lower[axis] = static_cast<float>(lower - 1e-6 * std::abs(lower));
+    box.upper[axis] = static_cast<float>(upper + 1e-6 * std::abs(upper));
   }
   return box;
 }
 
-bool within(const Capsule& p, const Capsule& q, double reach)
+void extend(Box& box, const Box& by)
 {
-  double a = 0.0, b = 0.0, c = 0.0, e = 0.0, f = 0.0;
-  double d1[3], d2[3], r[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    d1[axis] = p.p1[axis] - p.p0[axis];
-    d2[axis] = q.p1[axis] - q.p0[axis];
-    r[axis] = p.p0[axis] - q.p0[axis];
-    a += d1[axis] * d1[axis];
-    b += d1[axis] * d2[axis];
-    c += d1[axis] * r[axis];
-    e += d2[axis] * d2[axis];
-    f += d2[axis] * r[axis];
-  }
-  double s = 0.0, t = 0.0;
-  closestParameters(a, e, b, c, f, s, t);
-  double squared = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double difference = r[axis] + s * d1[axis] - t * d2[axis];
-    squared += difference * difference;
-  }
-  const double limit = std::max(p.r0, p.r1) + std::max(q.r0, q.r1) + reach;
-  return squared < limit * limit;
+  box.lower = smaller(box.lower, by.lower);
+  box.upper = larger(box.upper, by.upper);
 }
 
-CellGrid gridFor(const std::vector<Box>& boxes)
+std::vector<Run> runsOf(const Capsules& capsules, const Reach& reach, int threads)
 {
-  double lower[3] = { INFINITY, INFINITY, INFINITY };
-  double upper[3] = { -INFINITY, -INFINITY, -INFINITY };
-  double extent = 0.0;
-  for (const Box& box : boxes)
+  std::vector<std::uint32_t> first;
+  for (std::size_t k = 0; k < capsules.size();)
   {
-    for (int axis = 0; axis < 3; ++axis)
+    first.push_back(static_cast<std::uint32_t>(k));
+    const std::size_t begin = k;
+    while (k < capsules.size() && k < begin + runLength && capsules.fibre[k] == capsules.fibre[begin])
     {
-      lower[axis] = std::min<double>(lower[axis], box.lower[axis]);
-      upper[axis] = std::max<double>(upper[axis], box.upper[axis]);
-      extent += box.upper[axis] - box.lower[axis];
+      ++k;
     }
   }
-  // Cells about as large as the mean bounding box, but no more of them than twice the capsules.
-  double size = extent / (3.0 * static_cast<double>(boxes.size()));
-  const double volume = (upper[0] - lower[0]) * (upper[1] - lower[1]) * (upper[2] - lower[2]);
-  size = std::max(size, std::cbrt(volume / (2.0 * static_cast<double>(boxes.size()))));
-  CellGrid grid;
-  grid.inverseSize = 1.0 / size;
-  for (int axis = 0; axis < 3; ++axis)
+  std::vector<Run> runs(first.size());
+  first.push_back(static_cast<std::uint32_t>(capsules.size()));
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::size_t i = 0; i < runs.size(); ++i)
   {
-    grid.lower[axis] = lower[axis];
-    grid.count[axis] = static_cast<int>((upper[axis] - lower[axis]) * grid.inverseSize) + 1;
-  }
-  return grid;
-}
-
-/// A capsule as a cell sees it; everything that rejects a pair lies side by side.
-struct Entry
-{
-  Box box;
-  std::array<int, 3> cell; ///< the first cell that the box reaches
-  std::uint32_t capsule;
-  std::uint32_t fibre;
-};
-
-bool overlap(const Box& a, const Box& b)
-{
-  return a.lower[0] <= b.upper[0] && b.lower[0] <= a.upper[0] && a.lower[1] <= b.upper[1] && b.lower[1] <= a.upper[1] &&
-         a.lower[2] <= b.upper[2] && b.lower[2] <= a.upper[2];
-}
-
-/// Counting sort of the capsules into all cells that their boxes reach; within a cell they stay in increasing order. The entries
-/// of cell c are start[c] … start[c + 1] − 1.
-std::vector<Entry> enterCells(
-  const Capsules& capsules, const std::vector<Box>& boxes, const CellGrid& grid, std::vector<std::size_t>& start)
-{
-  const auto forEachCell = [&](std::size_t k, auto&& visit)
-  {
-    const CellRange range = grid.range(boxes[k]);
-    for (int z = range[0][2]; z <= range[1][2]; ++z)
+    runs[i].box = boxOf(capsules.bodies[first[i]], reach);
+    for (std::uint32_t k = first[i] + 1; k < first[i + 1]; ++k)
     {
-      for (int y = range[0][1]; y <= range[1][1]; ++y)
+      extend(runs[i].box, boxOf(capsules.bodies[k], reach));
+    }
+    runs[i].setRange(first[i], first[i + 1]);
+  }
+  return runs;
+}
+
+/// A uniform grid over the runs' bounding box.
+class CellGrid
+{
+public:
+  /// Cells about as large as the mean run along each axis, but not more of them than runs.
+  explicit CellGrid(const std::vector<Run>& runs)
+  {
+    Box all = runs.front().box;
+    double extent[3] = {};
+    for (const Run& run : runs)
+    {
+      extend(all, run.box);
+      const Four size = run.box.upper - run.box.lower;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        for (int x = range[0][0]; x <= range[1][0]; ++x)
+        extent[axis] += size[axis];
+      }
+    }
+    const auto count = static_cast<double>(runs.size());
+    double cells = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cells *= (static_cast<double>(all.upper[axis]) - all.lower[axis]) / (extent[axis] / count);
+    }
+    const double coarser = std::cbrt(std::max(1.0, cells / count));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double inverse = count / (coarser * extent[axis]);
+      this->Lower[axis] = all.lower[axis];
+      this->InverseSize[axis] = static_cast<float>(inverse);
+      this->Last[axis] = static_cast<float>(std::floor((static_cast<double>(all.upper[axis]) - all.lower[axis]) * inverse));
+    }
+  }
+
+  std::size_t size() const
+  {
+    return this->index(static_cast<int>(this->Last[0]), static_cast<int>(this->Last[1]), static_cast<int>(this->Last[2])) + 1;
+  }
+
+  /// Increases with each coordinate, so that the cell of the larger of two coordinates is the larger of their cells.
+  FourInts cellOf(const Four& position) const
+  {
+    const Four cell = (position - this->Lower) * this->InverseSize;
+    return __builtin_convertvector(smaller(larger(cell, Four{}), this->Last), FourInts);
+  }
+
+  std::size_t index(int x, int y, int z) const
+  {
+    return std::size_t(x) +
+           (std::size_t(this->Last[0]) + 1) * (std::size_t(y) + (std::size_t(this->Last[1]) + 1) * std::size_t(z));
+  }
+
+  /// visit(cell, index) for every cell that the box reaches.
+  template <typename Visit>
+  void forEachCell(const Box& box, Visit&& visit) const
+  {
+    const FourInts first = this->cellOf(box.lower);
+    const FourInts last = this->cellOf(box.upper);
+    for (int z = first[2]; z <= last[2]; ++z)
+    {
+      for (int y = first[1]; y <= last[1]; ++y)
+      {
+        const std::size_t row = this->index(0, y, z);
+        for (int x = first[0]; x <= last[0]; ++x)
         {
-          visit(grid.index(x, y, z), range[0]);
+          visit(FourInts{ x, y, z, 0 }, row + std::size_t(x));
         }
       }
     }
-  };
-  const std::size_t cells = grid.index(0, 0, grid.count[2]);
+  }
+
+private:
+  Four Lower = {};
+  Four InverseSize = {};
+  Four Last = {};
+};
+
+/// Counting sort of the runs into all cells that their boxes reach: those of cell c are at start[c] … start[c + 1] − 1, in an
+/// order that depends on the threads; whoever reads them sorts what is taken.
+std::vector<Run> enterCells(const std::vector<Run>& runs, const CellGrid& grid, int threads, std::vector<std::size_t>& start)
+{
+  const std::size_t cells = grid.size();
   start.assign(cells + 1, 0);
-  for (std::size_t k = 0; k < boxes.size(); ++k)
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::size_t i = 0; i < runs.size(); ++i)
   {
-    forEachCell(k, [&](std::size_t cell, const std::array<int, 3>&) { ++start[cell + 1]; });
+    grid.forEachCell(runs[i].box,
+      [&](const FourInts&, std::size_t cell)
+      {
+#pragma omp atomic
+        ++start[cell];
+      });
   }
-  for (std::size_t cell = 0; cell < cells; ++cell)
+  std::size_t sum = 0;
+  for (std::size_t& entry : start)
   {
-    start[cell + 1] += start[cell];
+    sum += entry;
+    entry = sum;
   }
-  std::vector<Entry> entries(start[cells]);
-  std::vector<std::size_t> cursor(start.begin(), start.end() - 1);
-  for (std::size_t k = 0; k < boxes.size(); ++k)
+  std::vector<Run> entries(sum);
+  // From the end of each cell towards its start, which is where its cursor is left.
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::size_t i = 0; i < runs.size(); ++i)
   {
-    forEachCell(k,
-      [&](std::size_t cell, const std::array<int, 3>& first) {
-        entries[cursor[cell]++] = { boxes[k], first, static_cast<std::uint32_t>(k), capsules.fibre[k] };
+    grid.forEachCell(runs[i].box,
+      [&](const FourInts&, std::size_t cell)
+      {
+        std::size_t place = 0;
+#pragma omp atomic capture
+        place = --start[cell];
+        entries[place] = runs[i];
       });
   }
   return entries;
 }
 
+/// The capsules that may be within reach of a run, relative to a point near it so that single precision is enough, padded to
+/// whole vectors with capsules that are far away.
+class Candidates
+{
+public:
+  /// Makes room for `count`, all far away.
+  void reset(std::size_t count)
+  {
+    this->Size = 0;
+    const std::size_t padded = (count + width - 1) / width * width;
+    if (padded > this->Capacity)
+    {
+      this->Capacity = 2 * padded;
+      this->Numbers.resize(7 * this->Capacity);
+      this->Indices.resize(this->Capacity);
+    }
+    for (int number = 0; number < 7; ++number)
+    {
+      const float far = number < 3 ? 1e9f : number < 6 ? 1.001e9f : 0.0f;
+      float* column = this->column(number);
+      for (std::size_t i = padded > width ? padded - width : 0; i < padded; ++i)
+      {
+        column[i] = far;
+      }
+    }
+  }
+  void add(std::uint32_t index, const Capsule& capsule, const double (&origin)[3], const Reach& reach)
+  {
+    float* place = this->Numbers.data() + this->Size;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[std::size_t(axis) * this->Capacity] = static_cast<float>(capsule.p0[axis] - origin[axis]);
+      place[std::size_t(axis + 3) * this->Capacity] = static_cast<float>(capsule.p1[axis] - origin[axis]);
+    }
+    place[6 * this->Capacity] =
+      static_cast<float>(std::max(capsule.r0, capsule.r1) * (1.0 + reach.relative) + 0.5 * reach.absolute);
+    this->Indices[this->Size++] = index;
+  }
+  std::size_t size() const { return this->Size; }
+  const float* column(int number) const { return this->Numbers.data() + std::size_t(number) * this->Capacity; }
+  float* column(int number) { return this->Numbers.data() + std::size_t(number) * this->Capacity; }
+  const std::uint32_t* indices() const { return this->Indices.data(); }
+
+private:
+  std::size_t Size = 0;
+  std::size_t Capacity = 0;
+  std::vector<float> Numbers; ///< columns: p0, p1, largest radius with its half of the reach
+  std::vector<std::uint32_t> Indices;
+};
+
+/// Appends those candidates to `found` that are within reach of p.
+CACTUS_VECTOR_CLONES void selectNeighbours(const Candidates& candidates, const float (&p)[7], std::vector<std::uint32_t>& found)
+{
+  const std::size_t count = candidates.size();
+  const std::size_t before = found.size();
+  found.resize(before + count + width);
+  std::uint32_t* next = found.data() + before;
+  const Vector zero = {};
+  for (std::size_t n = 0; n < count; n += width)
+  {
+    Vector q[7];
+    for (int number = 0; number < 7; ++number)
+    {
+      std::memcpy(&q[number], candidates.column(number) + n, sizeof(Vector));
+    }
+    Vector a = zero, b = zero, c = zero, e = zero, f = zero;
+    Vector u[3], v[3], r[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      u[axis] = zero + (p[3 + axis] - p[axis]);
+      v[axis] = q[3 + axis] - q[axis];
+      r[axis] = p[axis] - q[axis];
+      a += u[axis] * u[axis];
+      b += u[axis] * v[axis];
+      c += u[axis] * r[axis];
+      e += v[axis] * v[axis];
+      f += v[axis] * r[axis];
+    }
+    Vector s, t;
+    closestParameters<Vector, float>(a, e, b, c, f, s, t);
+    Vector squared = zero;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Vector w = r[axis] + s * u[axis] - t * v[axis];
+      squared += w * w;
+    }
+    const Vector limit = p[6] + q[6];
+    // The errors of single precision in squared are below 10⁻⁶ of these squares, also where segments are nearly parallel: s may
+    // then be off, but the distance hardly depends on it.
+    const Mask near = squared < limit * limit + 1e-5f * (limit * limit + a + e);
+    for (std::size_t l = 0; l < width; ++l)
+    {
+      *next = candidates.indices()[n + l];
+      next -= near[l];
+    }
+  }
+  found.resize(static_cast<std::size_t>(next - found.data()));
+}
+
+/// Finds the neighbours of the capsules of one run, in increasing order.
+class RunSearch
+{
+public:
+  RunSearch(const Capsules& capsules, const Reach& reach, const CellGrid& grid, const std::vector<std::size_t>& start,
+    const std::vector<Run>& entries)
+    : Bodies(capsules)
+    , Limits(reach)
+    , Grid(grid)
+    , Start(start)
+    , Entries(entries)
+  {
+  }
+
+  /// Appends to `indices`; counts[k] becomes the number of neighbours of capsule k.
+  void find(const Run& run, std::vector<std::uint32_t>& indices, std::size_t* counts)
+  {
+    this->collect(run);
+    double origin[3];
+    std::copy_n(this->Bodies.bodies[run.first()].p0, 3, origin);
+    std::size_t count = 0;
+    for (const auto& other : this->Others)
+    {
+      count += other[1] - other[0];
+    }
+    this->Near.reset(count);
+    for (const auto& other : this->Others)
+    {
+      for (std::uint32_t k = other[0]; k < other[1]; ++k)
+      {
+        this->Near.add(k, this->Bodies.bodies[k], origin, this->Limits);
+      }
+    }
+    for (std::uint32_t k = run.first(); k < run.last(); ++k)
+    {
+      const Capsule& body = this->Bodies.bodies[k];
+      float numbers[7];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        numbers[axis] = static_cast<float>(body.p0[axis] - origin[axis]);
+        numbers[3 + axis] = static_cast<float>(body.p1[axis] - origin[axis]);
+      }
+      numbers[6] = static_cast<float>(std::max(body.r0, body.r1) * (1.0 + this->Limits.relative) + 0.5 * this->Limits.absolute);
+      const std::size_t before = indices.size();
+      selectNeighbours(this->Near, numbers, indices);
+      counts[k] = indices.size() - before;
+    }
+  }
+
+private:
+  /// The runs of other fibres whose boxes overlap this one's, in increasing order.
+  void collect(const Run& run)
+  {
+    std::size_t taken = 0;
+    this->Grid.forEachCell(run.box,
+      [&](const FourInts& cell, std::size_t index)
+      {
+        const std::size_t begin = this->Start[index];
+        const std::size_t end = this->Start[index + 1];
+        this->Others.resize(std::max(this->Others.size(), taken + end - begin + 1));
+        // Whether a run is taken is anybody's guess, so there is no branch on it.
+        for (std::size_t m = begin; m < end; ++m)
+        {
+          const Run& other = this->Entries[m];
+          this->Others[taken] = { { other.first(), other.last() } };
+          // Two boxes may share several cells: the other run is taken in the first one only.
+          const FourInts difference = this->Grid.cellOf(larger(run.box.lower, other.box.lower)) - cell;
+          taken += overlap(run.box, other.box) & ((difference[0] | difference[1] | difference[2]) == 0);
+        }
+      });
+    this->Others.resize(taken);
+    const std::uint32_t fibre = this->Bodies.fibre[run.first()];
+    this->Others.erase(std::remove_if(this->Others.begin(), this->Others.end(),
+                         [&](const auto& other) { return this->Bodies.fibre[other[0]] == fibre; }),
+      this->Others.end());
+    std::sort(this->Others.begin(), this->Others.end());
+  }
+
+  const Capsules& Bodies;
+  const Reach& Limits;
+  const CellGrid& Grid;
+  const std::vector<std::size_t>& Start;
+  const std::vector<Run>& Entries;
+  std::vector<std::array<std::uint32_t, 2>> Others;
+  Candidates Near;
+};
+
 } // namespace
 
-void findNeighbours(const Capsules& capsules, double reach, int threads, NeighbourList& list)
+void findNeighbours(const Capsules& capsules, const Reach& reach, int threads, NeighbourList& list)
 {
   const std::size_t count = capsules.size();
   list.offsets.assign(count + 1, 0);
@@ -191,52 +434,26 @@ void findNeighbours(const Capsules& capsules, double reach, int threads, Neighbo
   {
     return;
   }
-  std::vector<Box> boxes(count);
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t k = 0; k < count; ++k)
+  const std::vector<Run> runs = runsOf(capsules, reach, threads);
+  constexpr std::size_t blockSize = 1024;
+  const std::size_t blocks = (runs.size() + blockSize - 1) / blockSize;
+  std::vector<std::vector<std::uint32_t>> found(blocks); // joined once all are known
   {
-    boxes[k] = boxOf(capsules.bodies[k], 0.5 * reach);
-  }
-  const CellGrid grid = gridFor(boxes);
-  std::vector<std::size_t> start;
-  const std::vector<Entry> entries = enterCells(capsules, boxes, grid, start);
-
-  // Blocks of cells, each with a list of pairs of its own.
-  const std::size_t cells = start.size() - 1;
-  constexpr std::size_t blockSize = 4096;
-  const std::size_t blocks = (cells + blockSize - 1) / blockSize;
-  std::vector<std::vector<std::array<std::uint32_t, 2>>> pairs(blocks);
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-  for (std::size_t block = 0; block < blocks; ++block)
-  {
-    const std::size_t end = std::min(cells, (block + 1) * blockSize);
-    for (std::size_t cell = block * blockSize; cell < end; ++cell)
+    const CellGrid grid(runs);
+    std::vector<std::size_t> start;
+    const std::vector<Run> entries = enterCells(runs, grid, threads, start);
+#pragma omp parallel num_threads(threads)
     {
-      const std::array<int, 3> here = grid.position(cell);
-      for (std::size_t m = start[cell]; m < start[cell + 1]; ++m)
+      RunSearch search(capsules, reach, grid, start, entries);
+#pragma omp for schedule(dynamic, 1)
+      for (std::size_t block = 0; block < blocks; ++block)
       {
-        const Entry& one = entries[m];
-        for (std::size_t n = m + 1; n < start[cell + 1]; ++n)
+        const std::size_t end = std::min(runs.size(), (block + 1) * blockSize);
+        for (std::size_t i = block * blockSize; i < end; ++i)
         {
-          const Entry& other = entries[n];
-          // Two boxes may share several cells: the pair is taken in the first one only.
-          if (one.fibre != other.fibre && overlap(one.box, other.box) && std::max(one.cell[0], other.cell[0]) == here[0] &&
-              std::max(one.cell[1], other.cell[1]) == here[1] && std::max(one.cell[2], other.cell[2]) == here[2] &&
-              within(capsules.bodies[one.capsule], capsules.bodies[other.capsule], reach))
-          {
-            pairs[block].push_back({ { one.capsule, other.capsule } });
-          }
+          search.find(runs[i], found[block], list.offsets.data() + 1);
         }
       }
-    }
-  }
-
-  for (const auto& found : pairs)
-  {
-    for (const auto& pair : found)
-    {
-      ++list.offsets[pair[0] + 1];
-      ++list.offsets[pair[1] + 1];
     }
   }
   for (std::size_t k = 0; k < count; ++k)
@@ -244,21 +461,12 @@ void findNeighbours(const Capsules& capsules, double reach, int threads, Neighbo
     list.offsets[k + 1] += list.offsets[k];
   }
   list.indices.resize(list.offsets[count]);
-  std::vector<std::size_t> cursor(list.offsets.begin(), list.offsets.end() - 1);
-  for (auto& found : pairs)
-  {
-    for (const auto& pair : found)
-    {
-      list.indices[cursor[pair[0]]++] = pair[1];
-      list.indices[cursor[pair[1]]++] = pair[0];
-    }
-    std::vector<std::array<std::uint32_t, 2>>().swap(found);
-  }
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t k = 0; k < count; ++k)
+  for (std::size_t block = 0; block < blocks; ++block)
   {
-    std::sort(list.indices.begin() + static_cast<std::ptrdiff_t>(list.offsets[k]),
-      list.indices.begin() + static_cast<std::ptrdiff_t>(list.offsets[k + 1]));
+    const std::size_t begin = list.offsets[runs[block * blockSize].first()];
+    std::copy(found[block].begin(), found[block].end(), list.indices.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::vector<std::uint32_t>().swap(found[block]);
   }
 }
 

@@ -12,14 +12,14 @@ namespace cactus
 /// t_q), with a = d1·d1, e = d2·d2 (both positive), b = d1·d2, c = d1·(p0 − q0), f = d2·(p0 − q0). Closed form: the stationary s
 /// is clamped, t follows from it, and where t has to be clamped s follows from that; clamping both independently is wrong unless
 /// the segments are parallel. Of parallel segments, whose closest points are not unique, it takes the middle of the part that
-/// runs side by side. Free of branches; Real is double or a vector of doubles (of which `?:` picks lane by lane).
-template <typename Real>
+/// runs side by side. Free of branches; Real is a Scalar or a vector of them (of which `?:` picks lane by lane).
+template <typename Real, typename Scalar = double>
 inline __attribute__((always_inline)) void closestParameters(
   const Real& a, const Real& e, const Real& b, const Real& c, const Real& f, Real& s, Real& t)
 {
-  constexpr double parallel = 1e-12; // sin² of the angle below which segments count as parallel
+  constexpr Scalar parallel = 1e-12; // sin² of the angle below which segments count as parallel
   const Real zero = a - a;
-  const Real one = zero + 1.0;
+  const Real one = zero + Scalar(1);
   const auto isParallel = a * e - b * b <= parallel * a * e;
   const Real stationary = (b * f - c * e) / (isParallel ? one : a * e - b * b);
   const Real inverseA = one / a;
@@ -29,7 +29,7 @@ inline __attribute__((always_inline)) void closestParameters(
   Real high = from < to ? to : from;
   low = low > zero ? low : zero;
   high = high < one ? high : one;
-  Real first = isParallel ? 0.5 * (low + high) : stationary;
+  Real first = isParallel ? Scalar(0.5) * (low + high) : stationary;
   first = first > zero ? first : zero;
   first = first < one ? first : one;
   const Real free = (b * first + f) / e;

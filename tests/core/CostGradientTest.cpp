@@ -57,7 +57,7 @@ Gradient overlapGradient(const Fibres& fibres, double& cost)
 {
   const cactus::Capsules capsules = cactus::capsulesOf(fibres);
   cactus::NeighbourList neighbours;
-  cactus::findNeighbours(capsules, 0.5, 2, neighbours);
+  cactus::findNeighbours(capsules, { 0.5, 0.0 }, 2, neighbours);
   std::vector<cactus::CapsuleOverlap> parts;
   cost = cactus::evaluateOverlap(capsules, neighbours, margin, 0.0, 2, parts).cost;
   Gradient gradient{ std::vector<Eigen::Vector3d>(fibres.points.size(), Eigen::Vector3d::Zero()),

@@ -11,45 +11,58 @@
 namespace
 {
 
-std::vector<std::uint32_t> allPairs(const cactus::Capsules& capsules, std::size_t k, double reach)
+/// Distance of two capsules over the limit up to which they are neighbours.
+double relativeDistance(const cactus::Capsule& p, const cactus::Capsule& q, const cactus::Reach& reach)
 {
   using Eigen::Vector3d;
-  std::vector<std::uint32_t> found;
-  const cactus::Capsule& p = capsules.bodies[k];
-  for (std::size_t other = 0; other < capsules.size(); ++other)
-  {
-    const cactus::Capsule& q = capsules.bodies[other];
-    if (capsules.fibre[other] != capsules.fibre[k] &&
-        cactus::closestPoints(Vector3d::Map(p.p0), Vector3d::Map(p.p1), Vector3d::Map(q.p0), Vector3d::Map(q.p1)).distance <
-          std::max(p.r0, p.r1) + std::max(q.r0, q.r1) + reach)
-    {
-      found.push_back(static_cast<std::uint32_t>(other));
-    }
-  }
-  return found;
+  const auto pair = cactus::closestPoints(Vector3d::Map(p.p0), Vector3d::Map(p.p1), Vector3d::Map(q.p0), Vector3d::Map(q.p1));
+  return pair.distance / ((std::max(p.r0, p.r1) + std::max(q.r0, q.r1)) * (1.0 + reach.relative) + reach.absolute);
 }
 
 } // namespace
 
-// Guarantee: the search misses no pair and invents none, for thick and thin capsules mixed and any reach.
+// Guarantee: the search misses no pair and invents none, for thick and thin, long and short, parallel and skew capsules mixed,
+// any reach, and far from the origin.
 TEST(NeighbourSearch, FindsWhatAllPairsFind)
 {
-  for (const double reach : { 0.0, 0.1, 1.0 })
+  for (const cactus::Reach reach : { cactus::Reach{ 0.0, 0.0 }, cactus::Reach{ 0.1, 0.0 }, cactus::Reach{ 1.0, 0.2 } })
   {
-    cactus::Fibres fibres = randomBundle(3, 40, 12, 6.0, 0.3);
-    fibres.radii[17] = 3.0;
-    const cactus::Capsules capsules = cactus::capsulesOf(fibres);
-    cactus::NeighbourList list;
-    cactus::findNeighbours(capsules, reach, 2, list);
-    std::size_t pairs = 0;
-    for (std::size_t k = 0; k < capsules.size(); ++k)
+    for (const double bend : { 0.0, 0.3 })
     {
-      const std::vector<std::uint32_t> mine(list.indices.begin() + static_cast<std::ptrdiff_t>(list.offsets[k]),
-        list.indices.begin() + static_cast<std::ptrdiff_t>(list.offsets[k + 1]));
-      ASSERT_EQ(mine, allPairs(capsules, k, reach)) << "capsule " << k << ", reach " << reach;
-      pairs += mine.size();
+      cactus::Fibres fibres = randomBundle(3, 40, 12, 6.0, bend);
+      fibres.radii[17] = 3.0;
+      fibres.points[40] += Eigen::Vector3d(2.0, -3.0, 0.0);
+      for (auto& point : fibres.points)
+      {
+        point += Eigen::Vector3d(250.0, -250.0, 100.0);
+      }
+      // Two fibres that are parallel to the last bit.
+      for (std::size_t i = 0; i < 12; ++i)
+      {
+        fibres.points[12 + i] = fibres.points[i] + Eigen::Vector3d(0.5, 0.0, 0.0);
+      }
+      const cactus::Capsules capsules = cactus::capsulesOf(fibres);
+      cactus::NeighbourList list;
+      cactus::findNeighbours(capsules, reach, 2, list);
+      std::size_t pairs = 0;
+      for (std::size_t k = 0; k < capsules.size(); ++k)
+      {
+        const auto begin = list.indices.begin() + static_cast<std::ptrdiff_t>(list.offsets[k]);
+        const auto end = list.indices.begin() + static_cast<std::ptrdiff_t>(list.offsets[k + 1]);
+        ASSERT_TRUE(std::is_sorted(begin, end));
+        ASSERT_EQ(std::adjacent_find(begin, end), end);
+        for (std::size_t other = 0; other < capsules.size(); ++other)
+        {
+          const bool listed = std::binary_search(begin, end, static_cast<std::uint32_t>(other));
+          const double distance = relativeDistance(capsules.bodies[k], capsules.bodies[other], reach);
+          const bool eligible = capsules.fibre[other] != capsules.fibre[k];
+          ASSERT_FALSE(eligible && distance < 1.0 && !listed) << k << " misses " << other << " at " << distance;
+          ASSERT_FALSE(listed && (!eligible || distance > 1.0 + 1e-4)) << k << " invents " << other << " at " << distance;
+          pairs += listed;
+        }
+      }
+      EXPECT_GT(pairs, 1000u);
     }
-    EXPECT_GT(pairs, 1000u);
   }
 }
 
@@ -58,11 +71,11 @@ TEST(NeighbourSearch, SameOnAnyNumberOfThreads)
 {
   const cactus::Capsules capsules = cactus::capsulesOf(randomBundle(4, 300, 30, 12.0, 0.2));
   cactus::NeighbourList one;
-  cactus::findNeighbours(capsules, 0.2, 1, one);
+  cactus::findNeighbours(capsules, { 0.2, 0.0 }, 1, one);
   for (const int threads : { 2, 3, 4 })
   {
     cactus::NeighbourList many;
-    cactus::findNeighbours(capsules, 0.2, threads, many);
+    cactus::findNeighbours(capsules, { 0.2, 0.0 }, threads, many);
     EXPECT_EQ(one.offsets, many.offsets);
     EXPECT_EQ(one.indices, many.indices);
   }
