@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The names and defaults that scripts rely on: they may be added to, not changed."""
+
+from cactus_testing import CactusTestCase, main, make, proxies
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+
+# None: the property is public, its default is not.
+NAMES = {
+    "BundleInitializer": {
+        "Side": 30,
+        "FibreVolumeFraction": 0.7,
+        "RadiusDistribution": "Gamma",
+        "GammaShape": 2.4,
+        "GammaScale": 0.25,
+        "MinimumRadius": 0.2,
+        "MaximumRadius": 2.0,
+        "MeanDispersion": 5,
+        "DispersionModel": "Watson",
+        "NumberOfBundles": 1,
+        "CrossingAngle": 90,
+        "CrossingStyle": "Interwoven",
+        "Seed": 1,
+    },
+    "CapsuleOptimizer": {
+        "MaximumIterations": 3000,
+        "OverlapTolerance": 1e-3,
+        "OverlapWeight": None,
+        "CurvatureWeight": None,
+        "LengthWeight": None,
+        "RadiusWeight": None,
+        "CompactnessWeight": None,
+        "StepSize": None,
+        "TrimToDomain": 1,
+        "NumberOfThreads": 0,
+        "TimeBudget": 0,
+    },
+    "FibreRadialGrowth": {
+        "VoxelSize": 0.1,
+        "TargetFibreVolumeFraction": 0,
+        "GrowthIterations": 4,
+        "MinimumGap": 0.02,
+        "SurfaceRoughness": None,
+        "Seed": 1,
+        "NumberOfThreads": 0,
+    },
+    "SubstrateStatistics": {},
+    "StrandReader": {"FileName": None},
+    "SubstrateWriter": {},
+}
+CHOICES = {
+    ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table"],
+    ("BundleInitializer", "DispersionModel"): ["Watson", "Cone"],
+    ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],
+}
+PORTS = {
+    "CapsuleOptimizer": ["Fibres", "Convergence"],
+}
+
+
+class PublicNames(CactusTestCase):
+    def setUp(self):
+        super().setUp()
+        self.elements = {element.get("name"): element for _, element in proxies()}
+
+    def test_properties_and_defaults(self):
+        for name, properties in NAMES.items():
+            proxy = make(self.elements[name], {"vtkPolyData": vtkPolyData(), "vtkImageData": vtkImageData()})
+            for one, default in properties.items():
+                with self.subTest(proxy=name, property=one):
+                    value = getattr(proxy, one)
+                    if default is not None:
+                        self.assertEqual(value, default)
+
+    def test_choices(self):
+        for (name, one), choices in CHOICES.items():
+            entries = self.elements[name].findall(f"*[@name='{one}']/EnumerationDomain/Entry")
+            self.assertEqual([entry.get("text") for entry in entries], choices, one)
+
+    def test_output_ports(self):
+        for name, ports in PORTS.items():
+            self.assertEqual([port.get("name") for port in self.elements[name].findall("OutputPort")], ports)
+
+
+if __name__ == "__main__":
+    main()
