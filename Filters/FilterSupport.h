@@ -15,8 +15,8 @@
 namespace cactus
 {
 
-/// Context whose progress goes to `algorithm` and which stops when the user aborts it. Throws InvalidInput for a negative number of
-/// threads.
+/// Context whose progress goes to `algorithm` and which stops when the user aborts it. Throws InvalidInput for a negative number
+/// of threads.
 inline Context contextFor(vtkAlgorithm* algorithm, int threads = 0)
 {
   if (threads < 0)
