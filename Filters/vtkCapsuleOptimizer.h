@@ -146,7 +146,7 @@ private:
   double RadiusWeight = 1.0;
   double CompactnessWeight = 1.0;
   double StepSize = 1.0;
-  double Relaxation = 0.98;
+  double Relaxation = 0.97;
   double PackingLimit = 0.7;
   double RadiusTolerance = 0.0;
   bool TrimToDomain = true;

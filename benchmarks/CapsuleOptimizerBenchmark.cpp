@@ -35,7 +35,7 @@ void overlapCost(benchmark::State& state)
 {
   const Capsules capsules = capsulesOf(benchmarkBundle(static_cast<std::size_t>(state.range(0))));
   NeighbourList neighbours;
-  findNeighbours(capsules, { 0.1, 0.0 }, 1, neighbours);
+  findNeighbours(capsules, 0.1, 1, neighbours);
   std::vector<CapsuleOverlap> overlaps;
   for (auto _ : state)
   {
@@ -53,7 +53,7 @@ void neighbourSearch(benchmark::State& state)
   NeighbourList neighbours;
   for (auto _ : state)
   {
-    findNeighbours(capsules, { 0.1, 0.0 }, 1, neighbours);
+    findNeighbours(capsules, 0.1, 1, neighbours);
   }
   state.counters["pairs"] =
     benchmark::Counter(static_cast<double>(neighbours.indices.size()), benchmark::Counter::kIsIterationInvariantRate);

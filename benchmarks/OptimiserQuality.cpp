@@ -185,13 +185,13 @@ void measure(const std::string& name, Fibres fibres, const CapsuleOptimizerOptio
     std::snprintf(crossing, sizeof(crossing), "%.1f → %.1f", crossingAngle(before), crossingAngle(fibres));
   }
   std::printf("| %s | %zu | %zu | %zu → %zu | %.1e | %d | %.1f | %.3f → %.3f | %.1f → %.1f | %.1f → %.1f | %s | %.2f | %.1f %% | "
-              "%.0f %% | %.1f |\n",
+              "%.0f %% (%d) | %.1f |\n",
     name.c_str(), fibres.size(), fibres.points.size(), overlap.overlappingPairs, result.overlappingPairs,
     result.maximumPenetration, last.iteration, last.seconds, capsuleVolumeInDomain(before) / before.domain.volume(),
     capsuleVolumeInDomain(fibres) / fibres.domain.volume(), meanDispersion(before), meanDispersion(fibres),
     meanTangentDispersion(before), meanTangentDispersion(fibres), crossing, sharpestBend(fibres),
     100.0 * (totalLength(fibres) / totalLength(before) - 1.0), 100.0 * result.searchSeconds / last.seconds,
-    1e-6 * result.pairEvaluations / result.evaluationSeconds);
+    result.neighbourSearches, 1e-6 * result.pairEvaluations / result.evaluationSeconds);
   std::fflush(stdout);
 }
 
@@ -253,7 +253,7 @@ int run(int count, char** arguments)
   }
   std::printf(
     "| state | fibres | control points | overlapping pairs | largest D | iterations | seconds | capsule fraction | dispersion "
-    "(°) | tangents (°) | crossing (°) | bend / radius | length | search | million pairs/s |\n"
+    "(°) | tangents (°) | crossing (°) | bend / radius | length | search (times) | million pairs/s |\n"
     "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   int failed = 0;
   for (const std::string& name : names)

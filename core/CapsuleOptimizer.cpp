@@ -26,6 +26,10 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Largest step of a control point with momentum, as a multiple of its radius: fibres that push each other away at full speed
+/// land in others, and every neighbour list is worthless at once.
+constexpr double fastest = 0.1;
+
 /// The state of one descent: positions, radii, velocities and the neighbour lists that go with them.
 class Descent
 {
@@ -41,15 +45,10 @@ public:
     , RadiusGradient(fibres.points.size())
     , Stiffness(fibres.points.size())
     , Velocity(fibres.points.size(), Eigen::Vector3d::Zero())
-    , RadiusVelocity(fibres.points.size(), 0.0)
+    , RadiusVelocity(options.radiusTolerance > 0.0 ? fibres.points.size() : 0, 0.0)
+    , Displacement(fibres.points.size())
+    , Allowance(fibres.points.size())
   {
-    double sum = 0.0;
-    for (const double radius : fibres.radii)
-    {
-      sum += radius;
-    }
-    this->MeanRadius = sum / static_cast<double>(fibres.radii.size());
-    this->LargestDiameter = 2.0 * *std::max_element(fibres.radii.begin(), fibres.radii.end());
   }
 
   /// Cost, penetration and gradient of the present state.
@@ -86,15 +85,15 @@ public:
   void step()
   {
     const std::size_t count = this->State.size();
-    std::vector<double> moved(count, 0.0);
+    std::vector<char> exceeded(count);
 #pragma omp parallel for num_threads(this->Threads) schedule(dynamic, 16)
     for (std::size_t f = 0; f < count; ++f)
     {
-      moved[f] = this->Options.method == DescentMethod::Momentum ? this->stepMomentum(f) : this->stepAdagrad(f);
+      exceeded[f] = this->Options.method == DescentMethod::Momentum ? this->stepMomentum(f) : this->stepAdagrad(f);
       this->copyToCapsules(f);
     }
-    this->Moved += *std::max_element(moved.begin(), moved.end());
     ++this->StepsSinceSearch;
+    this->Exceeded = std::find(exceeded.begin(), exceeded.end(), true) != exceeded.end();
     if (this->Options.method == DescentMethod::Momentum)
     {
       this->Relaxation = std::max(1e-4, this->Relaxation * this->Options.relaxation);
@@ -111,27 +110,45 @@ public:
   }
 
 private:
-  /// The lists reach a little further than contact and hold until something could have come that far.
+  /// The lists reach a little further than contact and hold until something could have come further than foreseen.
   void refreshNeighbours()
   {
-    const double needed = (this->Options.safetyMargin - 1.0) * this->LargestDiameter;
-    if (!this->Neighbours.offsets.empty() && 2.0 * this->Moved + needed <= this->Reach)
+    if (!this->Neighbours.offsets.empty() && !this->Exceeded)
     {
       return;
     }
-    // Follow the pace: a list should hold for about twenty steps.
-    this->Reach = needed + std::min(std::max(40.0 * this->lastMove(), 0.05 * this->MeanRadius), 0.6 * this->MeanRadius);
+    // Each capsule reaches as far as it would come at its present speed in a few steps, but for those that will be pushed
+    // suddenly at least by some share of its radius. A search costs about as much as one evaluation, a wide list costs time in
+    // every step: that share follows from letting a list hold for some eight steps.
+    constexpr double foresight = 6.0;
+    if (this->StepsSinceSearch > 0)
+    {
+      const double change = this->StepsSinceSearch < 7 ? 1.4 : this->StepsSinceSearch > 10 ? 0.75 : 1.0;
+      this->Slack = std::min(std::max(change * this->Slack, 0.02), 0.4);
+    }
+    const double margin = this->Options.safetyMargin - 1.0;
+    std::vector<float> reach(this->Bodies.size());
+#pragma omp parallel for num_threads(this->Threads) schedule(static)
+    for (std::size_t i = 0; i < this->Allowance.size(); ++i)
+    {
+      const double radius = this->State.radii[i];
+      const double foreseen = foresight * std::min(this->Velocity[i].norm(), fastest * radius);
+      this->Allowance[i] = static_cast<float>(std::max(foreseen, this->Slack * radius));
+      this->Displacement[i].setZero();
+    }
+#pragma omp parallel for num_threads(this->Threads) schedule(static)
+    for (std::size_t k = 0; k < reach.size(); ++k)
+    {
+      const std::size_t i = this->Bodies.first[k];
+      const double radius = std::max(this->State.radii[i], this->State.radii[i + 1]);
+      reach[k] = std::max(this->Allowance[i], this->Allowance[i + 1]) + static_cast<float>(margin * radius * 1.0001);
+    }
     const Clock::time_point start = Clock::now();
-    findNeighbours(this->Bodies, { this->Reach, 0.0 }, this->Threads, this->Neighbours);
+    findNeighbours(this->Bodies, reach, this->Threads, this->Neighbours);
     this->SearchSeconds += secondsSince(start);
     ++this->Searches;
-    this->Moved = 0.0;
+    this->Exceeded = false;
     this->StepsSinceSearch = 0;
-  }
-
-  double lastMove() const
-  {
-    return this->StepsSinceSearch > 0 ? this->Moved / this->StepsSinceSearch : 0.0;
   }
 
   /// Sums what the two capsules at each control point want of it.
@@ -166,8 +183,18 @@ private:
     }
   }
 
-  /// Displaces the fibre's control points and returns the largest change of a position plus that of a radius.
-  double stepMomentum(std::size_t f)
+  /// Displaces a control point, and says whether it has come further than the neighbour lists allow.
+  bool move(std::size_t i, const Eigen::Vector3d& by, double growth)
+  {
+    this->State.points[i] += by;
+    Eigen::Vector4f& total = this->Displacement[i];
+    total.head<3>() += by.cast<float>();
+    total[3] += static_cast<float>(std::abs(growth));
+    // Growth counts twice: for the radius and, generously, for the margin.
+    return total.head<3>().norm() + 2.0f * total[3] > this->Allowance[i];
+  }
+
+  bool stepMomentum(std::size_t f)
   {
     const std::size_t begin = this->State.offsets[f];
     const std::size_t end = this->State.offsets[f + 1];
@@ -177,29 +204,28 @@ private:
       Eigen::Vector3d& velocity = this->Velocity[i];
       velocity = this->Options.momentum * velocity - this->Options.stepSize * this->Gradient[i];
       const double speed = velocity.norm();
-      const double limit = 0.3 * this->State.radii[i];
+      const double limit = fastest * this->State.radii[i];
       if (speed > limit)
       {
         velocity *= limit / speed;
       }
     }
     this->constrainEnds(f, this->Velocity[begin], this->Velocity[end - 1]);
-    double largest = 0.0;
+    bool exceeded = false;
     for (std::size_t i = begin; i < end; ++i)
     {
-      this->State.points[i] += this->Velocity[i];
-      double change = this->Velocity[i].norm();
+      double growth = 0.0;
       if (this->Options.radiusTolerance > 0.0)
       {
         double& radiusVelocity = this->RadiusVelocity[i];
         const double radiusStiffness = this->diagonal(i) + 2.0 * this->Options.weights.radius;
         radiusVelocity =
           this->Options.momentum * radiusVelocity - this->Options.stepSize / radiusStiffness * this->RadiusGradient[i];
-        change += this->changeRadius(i, radiusVelocity);
+        growth = this->changeRadius(i, radiusVelocity);
       }
-      largest = std::max(largest, change);
+      exceeded |= this->move(i, this->Velocity[i], growth);
     }
-    return largest;
+    return exceeded;
   }
 
   /// Replaces the gradient of a fibre by M⁻¹ · gradient, with M the diagonal stiffness plus a stiff thread along the fibre: the
@@ -239,11 +265,11 @@ private:
     return this->Options.smoothing * (this->State.points[i + 1] - this->State.points[i]).squaredNorm();
   }
 
-  double stepAdagrad(std::size_t f)
+  bool stepAdagrad(std::size_t f)
   {
     const std::size_t begin = this->State.offsets[f];
     const std::size_t end = this->State.offsets[f + 1];
-    double largest = 0.0;
+    bool exceeded = false;
     this->constrainEnds(f, this->Gradient[begin], this->Gradient[end - 1]);
     for (std::size_t i = begin; i < end; ++i)
     {
@@ -251,17 +277,16 @@ private:
       Eigen::Vector3d& squares = this->Velocity[i];
       squares += gradient.cwiseAbs2();
       const Eigen::Vector3d change = -this->Options.stepSize * gradient.cwiseQuotient((squares.array().sqrt() + 1e-12).matrix());
-      this->State.points[i] += change;
-      double moved = change.norm();
+      double growth = 0.0;
       if (this->Options.radiusTolerance > 0.0)
       {
         double& radiusSquares = this->RadiusVelocity[i];
         radiusSquares += this->RadiusGradient[i] * this->RadiusGradient[i];
-        moved += this->changeRadius(i, -this->Options.stepSize * this->RadiusGradient[i] / (std::sqrt(radiusSquares) + 1e-12));
+        growth = this->changeRadius(i, -this->Options.stepSize * this->RadiusGradient[i] / (std::sqrt(radiusSquares) + 1e-12));
       }
-      largest = std::max(largest, moved);
+      exceeded |= this->move(i, change, growth);
     }
-    return largest;
+    return exceeded;
   }
 
   /// Both ends of a fibre stay in their planes across the bundle's axis, so that fibres keep spanning the domain.
@@ -279,7 +304,7 @@ private:
     const double before = this->State.radii[i];
     double& radius = this->State.radii[i];
     radius = std::min(std::max(radius + change, reference * (1.0 - tolerance)), reference * (1.0 + tolerance));
-    return std::abs(radius - before);
+    return radius - before;
   }
 
   void copyToCapsules(std::size_t f)
@@ -309,11 +334,11 @@ private:
   std::vector<double> Stiffness;
   std::vector<Eigen::Vector3d> Velocity; ///< for Adagrad the sums of squared gradients
   std::vector<double> RadiusVelocity;
-  double MeanRadius = 1.0;
-  double LargestDiameter = 0.0;
   double Relaxation = 1.0;
-  double Reach = 0.0;
-  double Moved = 0.0; ///< upper bound of how far anything moved or grew since the last search
+  std::vector<Eigen::Vector4f> Displacement; ///< of each control point since the last search, and the sum of its radius's changes
+  std::vector<float> Allowance;              ///< how far that may go before the next search
+  bool Exceeded = false;                     ///< whether it has gone further anywhere
+  double Slack = 0.3;                        ///< least allowance, as a multiple of the radius
   int StepsSinceSearch = 0;
   double PairEvaluations = 0.0;
   int Searches = 0;

@@ -37,7 +37,7 @@ OverlapReport measureOverlap(const Fibres& fibres, double tolerance, int threads
   context.threads = threads;
   const Capsules capsules = capsulesOf(fibres);
   NeighbourList neighbours;
-  findNeighbours(capsules, { 0.0, 0.0 }, context.threadCount(), neighbours);
+  findNeighbours(capsules, 0.0, context.threadCount(), neighbours);
   std::vector<CapsuleOverlap> overlaps;
   const OverlapTotals totals = evaluateOverlap(capsules, neighbours, 1.0, tolerance, context.threadCount(), overlaps);
   OverlapReport report;

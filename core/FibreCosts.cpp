@@ -14,6 +14,12 @@ namespace cactus
 namespace
 {
 
+/// Share of its length before optimisation below which a segment resists compression.
+constexpr double shortest = 0.75;
+
+/// Smallest radius of curvature, relative to the fibre's radius, that a bend is free to take.
+constexpr double sharpest = 1.2;
+
 /// Widens the box laterally until the bundle's capsules fill no more of it than `packingLimit`.
 void expandToDensity(const Fibres& fibres, int bundle, double packingLimit, BundleBox& box)
 {
@@ -92,6 +98,7 @@ std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
 FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit)
   : Weights(weights)
   , ReferenceLength(fibres.points.size(), 0.0)
+  , SmallestCosine(fibres.points.size(), -1.0f)
   , ReferenceRadius(fibres.radii)
   , Boxes(bundleBoxes(fibres, packingLimit))
 {
@@ -100,6 +107,16 @@ FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, do
     for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
     {
       this->ReferenceLength[i] = (fibres.points[i + 1] - fibres.points[i]).norm();
+    }
+    for (std::size_t i = fibres.offsets[f] + 1; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      // Two segments of length ℓ at the angle θ touch a circle of radius ℓ / (2 sin(θ/2)) in their three points. Never more than
+      // a right angle, and never less than there was.
+      const double length = shortest * std::min(this->ReferenceLength[i - 1], this->ReferenceLength[i]);
+      const double sine = std::min(length / (2.0 * sharpest * fibres.radii[i]), std::sqrt(0.5));
+      const Eigen::Vector3d u = (fibres.points[i] - fibres.points[i - 1]).normalized();
+      const Eigen::Vector3d w = (fibres.points[i + 1] - fibres.points[i]).normalized();
+      this->SmallestCosine[i] = static_cast<float>(std::min(1.0 - 2.0 * sine * sine, u.dot(w)));
     }
     this->ReferenceChord.push_back(fibres.points[fibres.offsets[f + 1] - 1] - fibres.points[fibres.offsets[f]]);
   }
@@ -145,6 +162,7 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
       stiffness[i + 1] += 4.0 * curvature / (lengthW * lengthW);
     }
   }
+  this->addLimits(fibres, f, totals, gradient, stiffness);
   if (this->Weights.length > 0.0)
   {
     for (std::size_t i = begin; i + 1 < end; ++i)
@@ -212,6 +230,64 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
     }
   }
   return totals;
+}
+
+void FibreCosts::addLimits(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, std::vector<Eigen::Vector3d>& gradient,
+  std::vector<double>& stiffness) const
+{
+  const std::size_t begin = fibres.offsets[f];
+  const std::size_t end = fibres.offsets[f + 1];
+  const auto& x = fibres.points;
+  if (this->Weights.curvature > 0.0)
+  {
+    for (std::size_t i = begin + 1; i + 1 < end; ++i)
+    {
+      const Eigen::Vector3d u = x[i] - x[i - 1];
+      const Eigen::Vector3d w = x[i + 1] - x[i];
+      const double squaredU = u.squaredNorm();
+      const double squaredW = w.squaredNorm();
+      const double inverse = 1.0 / std::sqrt(squaredU * squaredW);
+      const double cosine = u.dot(w) * inverse;
+      const double excess = this->SmallestCosine[i] - cosine;
+      if (excess <= 0.0)
+      {
+        continue;
+      }
+      const double area = this->ReferenceLength[i - 1] * this->ReferenceLength[i];
+      const double scale = 0.25 * this->Weights.curvature * area * area;
+      totals.curvature += scale * excess * excess;
+      const double byCosine = -2.0 * scale * excess;
+      const Eigen::Vector3d byU = byCosine * (w * inverse - cosine / squaredU * u);
+      const Eigen::Vector3d byW = byCosine * (u * inverse - cosine / squaredW * w);
+      gradient[i - 1] -= byU;
+      gradient[i] += byU - byW;
+      gradient[i + 1] += byW;
+      // An end point changes the cosine by at most 1/ℓ per unit of displacement; twice that for what the three do together.
+      stiffness[i - 1] += 4.0 * scale / squaredU;
+      stiffness[i] += 4.0 * scale * (1.0 / squaredU + 1.0 / squaredW + 2.0 * inverse);
+      stiffness[i + 1] += 4.0 * scale / squaredW;
+    }
+  }
+  if (this->Weights.length > 0.0)
+  {
+    for (std::size_t i = begin; i + 1 < end; ++i)
+    {
+      const Eigen::Vector3d d = x[i + 1] - x[i];
+      const double length = d.norm();
+      const double compression = shortest * this->ReferenceLength[i] - length;
+      if (compression <= 0.0)
+      {
+        continue;
+      }
+      const double k = this->Weights.length * this->ReferenceLength[i] * this->ReferenceLength[i];
+      totals.length += 0.5 * k * compression * compression;
+      const Eigen::Vector3d push = k * compression / length * d;
+      gradient[i] += push;
+      gradient[i + 1] -= push;
+      stiffness[i] += 2.0 * k;
+      stiffness[i + 1] += 2.0 * k;
+    }
+  }
 }
 
 } // namespace cactus

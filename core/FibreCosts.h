@@ -52,6 +52,11 @@ struct FibreCostTotals
 ///  length of the
 ///    segments at the point. It replaces an attraction to the axis, which would compress the core of a bundle that is already
 ///    dense.
+/// Two limits do not fade, since a fibre that folds up finds no way out: they belong to curvature and length, and share their
+/// weights.
+///  - bends, per triple: ¼ (L1 L2)² · max(0, cos θ_max − cos θ)², θ_max the angle at which the radius of curvature is 1.2 fibre
+///  radii (at most 90°);
+///  - compression, per segment: ½ L² · max(0, ¾ L − ℓ)².
 /// Each adds weight × its exact gradient to `gradient` (per control point) and `radiusGradient`, and a diagonal that bounds
 /// its curvature to `stiffness`. All arrays are indexed by control point; only those of fibre `f` are touched.
 class FibreCosts
@@ -60,15 +65,19 @@ public:
   /// Takes reference lengths, target radii and cuboids from the fibres as they come in.
   FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit);
 
-  /// `relaxation` scales curvature, length and compactness.
+  /// `relaxation` scales curvature, length and compactness, but not their limits.
   FibreCostTotals add(const Fibres& fibres, std::size_t f, double relaxation, std::vector<Eigen::Vector3d>& gradient,
     std::vector<double>& radiusGradient, std::vector<double>& stiffness) const;
 
   const BundleBox& boxOf(std::size_t fibre) const { return this->Boxes[fibre]; }
 
 private:
+  void addLimits(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, std::vector<Eigen::Vector3d>& gradient,
+    std::vector<double>& stiffness) const;
+
   FibreCostWeights Weights;
   std::vector<double> ReferenceLength; ///< of the segment that starts at a control point
+  std::vector<float> SmallestCosine;   ///< of the bend at a control point, below which it is too sharp
   std::vector<double> ReferenceRadius;
   std::vector<Eigen::Vector3d> ReferenceChord; ///< from the first control point of a fibre to its last
   std::vector<BundleBox> Boxes;

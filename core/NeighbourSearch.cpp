@@ -72,11 +72,11 @@ inline Four smaller(const Four& a, const Four& b)
   return a < b ? a : b;
 }
 
-/// A capsule's bounding box, larger by half of the reach. Two boxes of capsules within reach of each other overlap; a last
+/// A capsule's bounding box, larger by its reach. Two boxes of capsules within reach of each other overlap; a last
 /// part in a million sees to it that single precision does not lose a pair.
-Box boxOf(const Capsule& capsule, const Reach& reach)
+Box boxOf(const Capsule& capsule, float reach)
 {
-  const double radius = std::max(capsule.r0, capsule.r1) * (1.0 + reach.relative) + 0.5 * reach.absolute;
+  const double radius = std::max(capsule.r0, capsule.r1) + static_cast<double>(reach);
   Box box = {};
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -94,7 +94,7 @@ void extend(Box& box, const Box& by)
   box.upper = larger(box.upper, by.upper);
 }
 
-std::vector<Run> runsOf(const Capsules& capsules, const Reach& reach, int threads)
+std::vector<Run> runsOf(const Capsules& capsules, const std::vector<float>& reach, int threads)
 {
   std::vector<std::uint32_t> first;
   for (std::size_t k = 0; k < capsules.size();)
@@ -111,10 +111,10 @@ std::vector<Run> runsOf(const Capsules& capsules, const Reach& reach, int thread
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (std::size_t i = 0; i < runs.size(); ++i)
   {
-    runs[i].box = boxOf(capsules.bodies[first[i]], reach);
+    runs[i].box = boxOf(capsules.bodies[first[i]], reach[first[i]]);
     for (std::uint32_t k = first[i] + 1; k < first[i + 1]; ++k)
     {
-      extend(runs[i].box, boxOf(capsules.bodies[k], reach));
+      extend(runs[i].box, boxOf(capsules.bodies[k], reach[k]));
     }
     runs[i].setRange(first[i], first[i + 1]);
   }
@@ -263,7 +263,7 @@ public:
       }
     }
   }
-  void add(std::uint32_t index, const Capsule& capsule, const double (&origin)[3], const Reach& reach)
+  void add(std::uint32_t index, const Capsule& capsule, const double (&origin)[3], float reach)
   {
     float* place = this->Numbers.data() + this->Size;
     for (int axis = 0; axis < 3; ++axis)
@@ -271,8 +271,7 @@ public:
       place[std::size_t(axis) * this->Capacity] = static_cast<float>(capsule.p0[axis] - origin[axis]);
       place[std::size_t(axis + 3) * this->Capacity] = static_cast<float>(capsule.p1[axis] - origin[axis]);
     }
-    place[6 * this->Capacity] =
-      static_cast<float>(std::max(capsule.r0, capsule.r1) * (1.0 + reach.relative) + 0.5 * reach.absolute);
+    place[6 * this->Capacity] = static_cast<float>(std::max(capsule.r0, capsule.r1)) + reach;
     this->Indices[this->Size++] = index;
   }
   std::size_t size() const { return this->Size; }
@@ -283,7 +282,7 @@ public:
 private:
   std::size_t Size = 0;
   std::size_t Capacity = 0;
-  std::vector<float> Numbers; ///< columns: p0, p1, largest radius with its half of the reach
+  std::vector<float> Numbers; ///< columns: p0, p1, largest radius plus reach
   std::vector<std::uint32_t> Indices;
 };
 
@@ -340,10 +339,10 @@ CACTUS_VECTOR_CLONES void selectNeighbours(const Candidates& candidates, const f
 class RunSearch
 {
 public:
-  RunSearch(const Capsules& capsules, const Reach& reach, const CellGrid& grid, const std::vector<std::size_t>& start,
-    const std::vector<Run>& entries)
+  RunSearch(const Capsules& capsules, const std::vector<float>& reach, const CellGrid& grid,
+    const std::vector<std::size_t>& start, const std::vector<Run>& entries)
     : Bodies(capsules)
-    , Limits(reach)
+    , Reach(reach)
     , Grid(grid)
     , Start(start)
     , Entries(entries)
@@ -366,7 +365,7 @@ public:
     {
       for (std::uint32_t k = other[0]; k < other[1]; ++k)
       {
-        this->Near.add(k, this->Bodies.bodies[k], origin, this->Limits);
+        this->Near.add(k, this->Bodies.bodies[k], origin, this->Reach[k]);
       }
     }
     for (std::uint32_t k = run.first(); k < run.last(); ++k)
@@ -378,7 +377,7 @@ public:
         numbers[axis] = static_cast<float>(body.p0[axis] - origin[axis]);
         numbers[3 + axis] = static_cast<float>(body.p1[axis] - origin[axis]);
       }
-      numbers[6] = static_cast<float>(std::max(body.r0, body.r1) * (1.0 + this->Limits.relative) + 0.5 * this->Limits.absolute);
+      numbers[6] = static_cast<float>(std::max(body.r0, body.r1)) + this->Reach[k];
       const std::size_t before = indices.size();
       selectNeighbours(this->Near, numbers, indices);
       counts[k] = indices.size() - before;
@@ -415,7 +414,7 @@ private:
   }
 
   const Capsules& Bodies;
-  const Reach& Limits;
+  const std::vector<float>& Reach;
   const CellGrid& Grid;
   const std::vector<std::size_t>& Start;
   const std::vector<Run>& Entries;
@@ -425,7 +424,7 @@ private:
 
 } // namespace
 
-void findNeighbours(const Capsules& capsules, const Reach& reach, int threads, NeighbourList& list)
+void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, int threads, NeighbourList& list)
 {
   const std::size_t count = capsules.size();
   list.offsets.assign(count + 1, 0);
@@ -468,6 +467,11 @@ void findNeighbours(const Capsules& capsules, const Reach& reach, int threads, N
     std::copy(found[block].begin(), found[block].end(), list.indices.begin() + static_cast<std::ptrdiff_t>(begin));
     std::vector<std::uint32_t>().swap(found[block]);
   }
+}
+
+void findNeighbours(const Capsules& capsules, double reach, int threads, NeighbourList& list)
+{
+  findNeighbours(capsules, std::vector<float>(capsules.size(), static_cast<float>(0.5 * reach)), threads, list);
 }
 
 } // namespace cactus

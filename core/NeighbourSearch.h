@@ -18,19 +18,16 @@ struct NeighbourList
   std::vector<std::uint32_t> indices;
 };
 
-/// How far beyond contact a neighbour may be: by `absolute` µm plus `relative` times its own and the capsule's radius.
-struct Reach
-{
-  double absolute = 0.0;
-  double relative = 0.0;
-};
-
-/// Finds all pairs of capsules of different fibres with distance < (rp + rq)(1 + relative) + absolute (radii taken at their
-/// larger end; within a relative 10⁻⁵ of that limit a pair may be listed or not, beyond it never, within it always).
+/// Finds all pairs of capsules of different fibres with distance < rp + rq + reach[p] + reach[q] (µm, one per capsule; radii taken
+/// at their larger end; nothing is missed; a pair beyond that limit by less
+/// than a relative 10⁻⁴ may be listed too).
 ///
 /// Cells of fixed size (Turau 1991, as the paper) hold short runs of consecutive capsules of a fibre, which have most of their
 /// neighbours in common; a run is entered wherever its bounding box reaches, so that thick and thin fibres can be mixed. Same
 /// result on any number of threads.
-void findNeighbours(const Capsules& capsules, const Reach& reach, int threads, NeighbourList& list);
+void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, int threads, NeighbourList& list);
+
+/// The same with distance < rp + rq + reach for all.
+void findNeighbours(const Capsules& capsules, double reach, int threads, NeighbourList& list);
 
 } // namespace cactus

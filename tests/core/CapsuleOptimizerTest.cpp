@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace
@@ -80,6 +82,27 @@ TEST(CapsuleOptimizer, AdagradPartsThemToo)
   options.weights = { 0.01, 0.01, 0.0, 0.0 };
   EXPECT_EQ(cactus::optimise(fibres, options, {}).reason, cactus::StopReason::Converged);
   EXPECT_LE(largestPenetration(fibres), 1e-3);
+}
+
+// Guarantee: no bend ends sharper than its fibre is thick, and no segment collapses, however dense and disordered the bundle.
+TEST(CapsuleOptimizer, BendsNoFibreSharperThanItsRadius)
+{
+  Fibres fibres = randomBundle(11, 60, 12, 8.0, 0.0);
+  const Fibres before = fibres;
+  cactus::optimise(fibres, {}, {});
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const Eigen::Vector3d w = fibres.points[i + 1] - fibres.points[i];
+      EXPECT_GT(w.norm(), 0.5 * (before.points[i + 1] - before.points[i]).norm());
+      if (i > fibres.offsets[f])
+      {
+        const Eigen::Vector3d u = fibres.points[i] - fibres.points[i - 1];
+        EXPECT_GT(0.5 * u.norm() * w.norm() * (u + w).norm() / u.cross(w).norm(), fibres.radii[i]);
+      }
+    }
+  }
 }
 
 // Two crossing cylinders: both bend out of each other's way by the same amount, and the ends stay in their planes.
