@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the optimiser makes of initial states of all kinds: one row of a Markdown table per state.
 //
-//   cactus_optimiser_quality [--threads N] [--iterations N] [--seconds N] [--seed N] [--OPTION VALUE]... STATE...
+//   cactus_optimiser_quality [--threads N] [--iterations N] [--seconds N] [--seed N] [--method momentum|adagrad]
+//     [--convergence FILE.csv] [--OPTION VALUE]... STATE...
 //
 // where STATE is a name below, a pattern of them ("single-*"), or the path of a strand file, and OPTION is a parameter of the
 // optimiser in lower case (relaxation, momentum, smoothing, step, curvature, length, compactness, packing, margin, radius).
 #include "BundleInitializer.h"
 #include "CapsuleOptimizer.h"
 #include "Capsules.h"
-#include "Error.h"
+#include "FibreShape.h"
 #include "StrandFile.h"
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fnmatch.h>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <string>
@@ -28,8 +26,6 @@ namespace
 {
 
 using namespace cactus;
-
-constexpr double degrees = 180.0 / 3.14159265358979323846;
 
 struct State
 {
@@ -126,72 +122,47 @@ std::vector<State> states()
   return all;
 }
 
-double totalLength(const Fibres& fibres)
-{
-  double length = 0.0;
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
-    {
-      length += (fibres.points[i + 1] - fibres.points[i]).norm();
-    }
-  }
-  return length;
-}
+/// Where to write each convergence table, one after the other; empty for nowhere.
+std::string convergencePath;
 
-/// Smallest radius of the circle through three consecutive control points, as a multiple of the fibre's radius there.
-double sharpestBend(const Fibres& fibres)
+void writeConvergence(const std::string& name, const std::vector<ConvergenceRow>& rows)
 {
-  double smallest = INFINITY;
-  for (std::size_t f = 0; f < fibres.size(); ++f)
+  std::ofstream file(convergencePath, std::ios::app);
+  for (const ConvergenceRow& row : rows)
   {
-    for (std::size_t i = fibres.offsets[f] + 1; i + 1 < fibres.offsets[f + 1]; ++i)
-    {
-      const Eigen::Vector3d u = fibres.points[i] - fibres.points[i - 1];
-      const Eigen::Vector3d v = fibres.points[i + 1] - fibres.points[i];
-      const double twiceSine = 2.0 * u.cross(v).norm();
-      const double radius = u.norm() * v.norm() * (u + v).norm() / std::max(twiceSine, 1e-300);
-      smallest = std::min(smallest, radius / fibres.radii[i]);
-    }
+    file << name << ',' << row.iteration << ',' << row.overlapCost << ',' << row.maximumPenetration << ',' << row.overlappingPairs
+         << ',' << row.curvatureCost << ',' << row.lengthCost << ',' << row.compactnessCost << ',' << row.seconds << '\n';
   }
-  return smallest;
-}
-
-/// Largest angle between the axes of two bundles; 0 for one.
-double crossingAngle(const Fibres& fibres)
-{
-  double largest = 0.0;
-  const int bundles = *std::max_element(fibres.bundleIds.begin(), fibres.bundleIds.end());
-  for (int a = 1; a <= bundles; ++a)
-  {
-    for (int b = a + 1; b <= bundles; ++b)
-    {
-      const double cosine = std::abs(bundleAxis(fibres, a).dot(bundleAxis(fibres, b)));
-      largest = std::max(largest, degrees * std::acos(std::min(1.0, cosine)));
-    }
-  }
-  return largest;
 }
 
 void measure(const std::string& name, Fibres fibres, const CapsuleOptimizerOptions& options, const Context& context)
 {
   const Fibres before = fibres;
   const OverlapReport overlap = measureOverlap(before, options.overlapTolerance, context.threads);
+  const std::clock_t start = std::clock();
   const OptimisationResult result = optimise(fibres, options, context);
+  const double processorSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const ConvergenceRow& last = result.convergence.back();
-  char crossing[32] = "–";
-  if (crossingAngle(before) > 0.0)
+  if (!convergencePath.empty())
   {
-    std::snprintf(crossing, sizeof(crossing), "%.1f → %.1f", crossingAngle(before), crossingAngle(fibres));
+    writeConvergence(name, result.convergence);
   }
-  std::printf("| %s | %zu | %zu | %zu → %zu | %.1e | %d | %.1f | %.3f → %.3f | %.1f → %.1f | %.1f → %.1f | %s | %.2f | %.1f %% | "
-              "%.0f %% (%d) | %.1f |\n",
+  const FibreShape old = measureShape(before);
+  const FibreShape now = measureShape(fibres);
+  char crossing[32] = "–";
+  if (old.crossingAngle > 0.0)
+  {
+    std::snprintf(crossing, sizeof(crossing), "%.1f → %.1f", old.crossingAngle, now.crossingAngle);
+  }
+  std::printf(
+    "| %s | %zu | %zu | %zu → %zu | %.1e | %d | %.1f, %.1f | %.3f → %.3f | %.1f → %.1f | %.1f → %.1f | %s | %.2f | %.1f %% | "
+    "%.0f %% (%d) | %.1f |\n",
     name.c_str(), fibres.size(), fibres.points.size(), overlap.overlappingPairs, result.overlappingPairs,
-    result.maximumPenetration, last.iteration, last.seconds, capsuleVolumeInDomain(before) / before.domain.volume(),
-    capsuleVolumeInDomain(fibres) / fibres.domain.volume(), meanDispersion(before), meanDispersion(fibres),
-    meanTangentDispersion(before), meanTangentDispersion(fibres), crossing, sharpestBend(fibres),
-    100.0 * (totalLength(fibres) / totalLength(before) - 1.0), 100.0 * result.searchSeconds / last.seconds,
-    result.neighbourSearches, 1e-6 * result.pairEvaluations / result.evaluationSeconds);
+    result.maximumPenetration, last.iteration, last.seconds, processorSeconds,
+    capsuleVolumeInDomain(before) / before.domain.volume(), capsuleVolumeInDomain(fibres) / fibres.domain.volume(),
+    old.meanDispersion, now.meanDispersion, old.tangentDispersion, now.tangentDispersion, crossing, now.smallestBendRadius,
+    100.0 * (now.totalLength / old.totalLength - 1.0), 100.0 * result.searchSeconds / last.seconds, result.neighbourSearches,
+    1e-6 * result.pairEvaluations / result.evaluationSeconds);
   std::fflush(stdout);
 }
 
@@ -224,6 +195,14 @@ int run(int count, char** arguments)
     {
       options.maximumIterations = std::atoi(arguments[++i]);
     }
+    else if (argument == "--method")
+    {
+      options.method = std::string(arguments[++i]) == "adagrad" ? DescentMethod::Adagrad : DescentMethod::Momentum;
+    }
+    else if (argument == "--convergence")
+    {
+      convergencePath = arguments[++i];
+    }
     else if (argument == "--seed")
     {
       seed = std::strtoull(arguments[++i], nullptr, 10);
@@ -251,10 +230,10 @@ int run(int count, char** arguments)
     }
     return 0;
   }
-  std::printf(
-    "| state | fibres | control points | overlapping pairs | largest D | iterations | seconds | capsule fraction | dispersion "
-    "(°) | tangents (°) | crossing (°) | bend / radius | length | search (times) | million pairs/s |\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf("| state | fibres | control points | overlapping pairs | largest D | iterations | seconds: wall, processor | "
+              "capsule fraction | dispersion "
+              "(°) | tangents (°) | crossing (°) | bend / radius | length | search (times) | million pairs/s |\n"
+              "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   int failed = 0;
   for (const std::string& name : names)
   {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FibreShape.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+double largestCrossingAngle(const Fibres& fibres)
+{
+  constexpr double degrees = 180.0 / 3.14159265358979323846;
+  std::vector<Eigen::Vector3d> axes;
+  for (const int bundle : std::set<int>(fibres.bundleIds.begin(), fibres.bundleIds.end()))
+  {
+    axes.push_back(bundleAxis(fibres, bundle));
+  }
+  double largest = 0.0;
+  for (std::size_t a = 0; a < axes.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < axes.size(); ++b)
+    {
+      // The arc tangent keeps its precision where bundles are nearly parallel.
+      largest = std::max(largest, degrees * std::atan2(axes[a].cross(axes[b]).norm(), std::abs(axes[a].dot(axes[b]))));
+    }
+  }
+  return largest;
+}
+
+} // namespace
+
+FibreShape measureShape(const Fibres& fibres)
+{
+  FibreShape shape;
+  shape.meanDispersion = meanDispersion(fibres);
+  shape.tangentDispersion = meanTangentDispersion(fibres);
+  shape.crossingAngle = largestCrossingAngle(fibres);
+  shape.smallestBendRadius = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const Eigen::Vector3d v = fibres.points[i + 1] - fibres.points[i];
+      shape.totalLength += v.norm();
+      if (i == fibres.offsets[f])
+      {
+        continue;
+      }
+      const Eigen::Vector3d u = fibres.points[i] - fibres.points[i - 1];
+      // Turns below a millionth are rounding.
+      const double sine = u.cross(v).norm() / (u.norm() * v.norm());
+      if (sine > 1e-6 || u.dot(v) < 0.0)
+      {
+        shape.smallestBendRadius =
+          std::min(shape.smallestBendRadius, 0.5 * (u + v).norm() / std::max(sine, 1e-12) / fibres.radii[i]);
+      }
+    }
+  }
+  return shape;
+}
+
+} // namespace cactus
