@@ -3,6 +3,7 @@
 
 #include "CapsuleOptimizer.h"
 #include "FibreData.h"
+#include "FibreShape.h"
 #include "FilterSupport.h"
 #include "TrimToDomain.h"
 #include "WholeData.h"
@@ -92,6 +93,14 @@ void fillTable(const std::vector<cactus::ConvergenceRow>& rows, vtkTable* table)
   addColumn(table, "Seconds", rows, &Row::seconds);
 }
 
+void setNumber(vtkDataObject* data, const char* name, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  data->GetFieldData()->AddArray(array);
+}
+
 const char* reasonText(cactus::StopReason reason)
 {
   switch (reason)
@@ -167,8 +176,10 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation*, vtkInformationVector** inp
       cactus::validate(options);
 
       cactus::Fibres fibres = joined(inputs[0]);
+      const cactus::FibreShape before = cactus::measureShape(fibres);
       const cactus::OptimisationResult result =
         cactus::optimise(fibres, options, cactus::contextFor(this, this->NumberOfThreads));
+      const cactus::FibreShape after = cactus::measureShape(fibres);
 
       auto* output = vtkPolyData::GetData(outputs, 0);
       std::vector<std::size_t> kept(fibres.points.size());
@@ -199,10 +210,15 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation*, vtkInformationVector** inp
       flag->SetName("Converged");
       flag->InsertNextValue(converged ? 1 : 0);
       output->GetFieldData()->AddArray(flag);
-      vtkNew<vtkDoubleArray> penetration;
-      penetration->SetName("MaximumPenetration");
-      penetration->InsertNextValue(result.maximumPenetration);
-      output->GetFieldData()->AddArray(penetration);
+      setNumber(output, "MaximumPenetration", result.maximumPenetration);
+      setNumber(output, "InitialMeanDispersion", before.meanDispersion);
+      setNumber(output, "MeanDispersion", after.meanDispersion);
+      setNumber(output, "InitialTangentDispersion", before.tangentDispersion);
+      setNumber(output, "TangentDispersion", after.tangentDispersion);
+      setNumber(output, "InitialCrossingAngle", before.crossingAngle);
+      setNumber(output, "CrossingAngle", after.crossingAngle);
+      setNumber(output, "SmallestBendRadius", after.smallestBendRadius);
+      setNumber(output, "LengthIncrease", after.totalLength / before.totalLength - 1.0);
 
       std::ostringstream parameters;
       parameters.precision(15);

@@ -7,8 +7,10 @@
  * renumbered in the order of the connections. All inputs have to have the same `Domain`.
  *
  * Output 0 `Fibres`: the fibres, with point data `Overlap` (largest relative penetration D = 1 - d / (rp + rq) of the capsules at
- * a control point; 0 where nothing is touched) and field data `Converged` (1 or 0) and `MaximumPenetration`. Output 1
- * `Convergence`: one row per iteration.
+ * a control point; 0 where nothing is touched) and field data `Converged` (1 or 0) and `MaximumPenetration`; and, of the whole
+ * fibres before they are trimmed, `MeanDispersion` (degrees, end to end), `TangentDispersion` (degrees, by segment),
+ * `CrossingAngle` (degrees; 0 for one bundle), each also with `Initial` in front, `SmallestBendRadius` (as a multiple of the
+ * fibre's radius there) and `LengthIncrease` (a fraction). Output 1 `Convergence`: one row per iteration.
  *
  * Where overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how
  * many and how large, and the output is the best state that was seen.
