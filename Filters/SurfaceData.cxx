@@ -8,13 +8,18 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkTypeInt32Array.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
+#include <utility>
 
 namespace cactus
 {
@@ -104,6 +109,72 @@ FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surf
     return mesh;
   };
   return result;
+}
+
+void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output)
+{
+  std::size_t pointCount = 0;
+  std::size_t triangleCount = 0;
+  for (const NamedSurface& named : surfaces)
+  {
+    pointCount += named.mesh.points.size();
+    triangleCount += named.mesh.triangles.size();
+  }
+  if (std::max(pointCount, 3 * triangleCount) > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw OutOfMemory(std::to_string(triangleCount) +
+                      " triangles are more than one surface can hold: choose a larger VoxelSize or "
+                      "DecimationError, or a smaller domain");
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(pointCount));
+  auto* coordinates = static_cast<double*>(points->GetVoidPointer(0));
+  vtkNew<vtkTypeInt32Array> offsets;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(triangleCount + 1));
+  vtkNew<vtkTypeInt32Array> corners;
+  corners->SetNumberOfValues(static_cast<vtkIdType>(3 * triangleCount));
+  const char* names[] = { "FibreId", "BundleId", "Surface" };
+  vtkNew<vtkIntArray> columns[3];
+  for (int column = 0; column < 3; ++column)
+  {
+    columns[column]->SetName(names[column]);
+    columns[column]->SetNumberOfValues(static_cast<vtkIdType>(triangleCount));
+  }
+  vtkIdType point = 0;
+  vtkIdType triangle = 0;
+  for (NamedSurface& named : surfaces)
+  {
+    const auto first = static_cast<std::int32_t>(point);
+    for (const Eigen::Vector3d& p : named.mesh.points)
+    {
+      std::copy(p.data(), p.data() + 3, coordinates + 3 * point++);
+    }
+    for (const auto& t : named.mesh.triangles)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        corners->SetValue(3 * triangle + i, first + t[static_cast<std::size_t>(i)]);
+      }
+      columns[0]->SetValue(triangle, named.fibreId);
+      columns[1]->SetValue(triangle, named.bundleId);
+      columns[2]->SetValue(triangle, surface);
+      ++triangle;
+    }
+    named.mesh = TriangleMesh();
+  }
+  for (vtkIdType i = 0; i <= triangle; ++i)
+  {
+    offsets->SetValue(i, static_cast<std::int32_t>(3 * i));
+  }
+  vtkNew<vtkCellArray> triangles;
+  triangles->SetData(offsets, corners);
+  output->SetPoints(points);
+  output->SetPolys(triangles);
+  for (const auto& column : columns)
+  {
+    output->GetCellData()->AddArray(column);
+  }
 }
 
 void requireSameDomain(const Domain& domain, vtkPolyData* surfaces, const std::string& port)

@@ -4,8 +4,10 @@
 
 #include "Domain.h"
 #include "FibreSurfaces.h"
+#include "TriangleMesh.h"
 
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -19,6 +21,19 @@ namespace cactus
 /// is what the array `Surface` has to hold. An input without cells gives no surfaces. Throws InvalidInput where there are cells
 /// other than triangles, no FibreId, or the other kind of surface.
 FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surface);
+
+/// A surface and whose it is.
+struct NamedSurface
+{
+  int fibreId = 0;
+  int bundleId = 0;
+  TriangleMesh mesh;
+};
+
+/// The reverse: one vtkPolyData of all surfaces in their order, each with points of its own, with cell data `FibreId`, `BundleId`
+/// and `Surface`. Meshes are let go one by one, so that a large substrate is not held twice. Throws OutOfMemory for more points
+/// or triangles than a 32-bit index counts.
+void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output);
 
 /// Throws InvalidInput where `surfaces` has field data Domain, and another one than `domain` to 1e-6 µm. Null is no surfaces.
 void requireSameDomain(const Domain& domain, vtkPolyData* surfaces, const std::string& port);

@@ -11,8 +11,8 @@
  * Input: fibres (polylines with point data `Radius`). Output: an image of cubic voxels that fill the field data `Domain`, its
  * points the voxels' centres, with
  * - point data `FibreId` (int32): the fibre, 0 outside every fibre;
- * - point data `Depth` (float, µm): signed distance bound to the fibre's surface, positive inside, at most -(MinimumGap/2 +
- *   SurfaceTolerance) outside every fibre and cut off at 4 voxels outside;
+ * - point data `Depth` (float, µm): signed distance bound to the fibre's surface, positive inside, cut off at 4 voxels
+ *   outside;
  * - field data `Domain`, `Provenance`; `Growth`, `MinimumGap`, `SurfaceTolerance`, `VoxelSize` (µm, one number each, as used);
  * per fibre `FibreTable.FibreId`, `FibreTable.BundleId`, `FibreTable.TargetRadius`, in the order of the input.
  *

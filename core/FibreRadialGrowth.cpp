@@ -281,7 +281,7 @@ void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, d
   const double band = std::max(bandInVoxels * grid.spacing, halfGap);
   FieldRelevance relevance;
   relevance.bestReach = growth + band;
-  relevance.secondReach = growth;
+  relevance.secondReach = growth + halfGap;
   relevance.sumReach = 2.0 * (growth + halfGap);
   const double reach = std::max(relevance.bestReach, largestRadius(fibres) + relevance.sumReach) + 2.0 * grid.spacing;
   const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, sampleBox(grid), std::max(reach, 0.0));
@@ -312,7 +312,7 @@ void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, d
             const float f = std::min(best + g, 0.5f * (best - cell.second[row + i]) - w);
             const bool inside = f > 0.0f;
             *ids = inside ? idOfRank[static_cast<std::size_t>(cell.rank[row + i])] : 0;
-            *depths = inside ? f : std::max(std::min(f, -w), lowest);
+            *depths = inside ? f : std::max(f, lowest);
           }
         }
       }

@@ -65,8 +65,8 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
 /// - f_i does not fall along the way from any point to the centre of the ball that seeded it, so growth adds no islands.
 ///
 /// `part` is the part of `growthGrid()` to compute. In every voxel FibreId is i where f_i > 0 and 0 elsewhere; Depth is f_i
-/// inside fibre i, and outside every fibre the largest of all fields but at most -gap/2, as LabelImage promises, and at least `-4
-/// spacing`: farther out it is only known to be as far. The result equals, bit for bit, that part of the whole, on any number of
+/// inside fibre i, and outside every fibre the largest of all fields, but at least `-4 spacing`: farther out it is only known to
+/// be as far. The result equals, bit for bit, that part of the whole, on any number of
 /// threads. Throws InvalidInput (an empty part or one outside the grid, options, fibres), OutOfMemory, Cancelled.
 void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
   std::int32_t* fibreId, float* depth, const Context& context = {});

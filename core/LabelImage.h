@@ -31,9 +31,10 @@ struct VoxelGrid
 
 /// Which fibre each voxel belongs to, and how deep it lies in it.
 ///
-/// The pair (fibreId, depth) gives every fibre i a field on the grid: depth where fibreId is i, depth where fibreId is 0 (there
-/// it is negative), and -(depth + gap) where another fibre is. With `gap` the room that growth kept between neighbours, the
-/// fields of two fibres sum to at most -gap at every sample, so their zero surfaces cannot meet.
+/// With `gap` the room that growth kept between neighbours, the pair gives every fibre i a field on the grid: depth where fibreId
+/// is i, and -(depth + gap) where another fibre is. Where fibreId is 0, depth is the largest of all fields; it is not positive.
+/// So where it is above -gap/2 it is that of one fibre, the nearest, and all others have at most -(depth + gap); else it stands
+/// for all. The fields of two fibres sum to at most -gap at every sample, so their zero surfaces cannot meet. See FibreField.
 struct LabelImage
 {
   VoxelGrid grid;

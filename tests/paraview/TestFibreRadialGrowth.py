@@ -50,7 +50,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertEqual(data.GetArray("Depth").GetDataType(), VTK_FLOAT)
         ids, depth = arrays(image)
         self.assertTrue(((ids > 0) == (depth > 0)).all())
-        self.assertTrue((depth[ids == 0] <= -0.015 + 1e-9).all())
+        self.assertTrue((depth[ids == 0] >= -4 * 0.1 - 1e-6).all())
         field = image.GetFieldData()
         table = [field.GetArray("FibreTable." + name) for name in ("FibreId", "BundleId", "TargetRadius")]
         self.assertTrue(set(ids) - {0} <= set(vtk_to_numpy(table[0])))

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkMyelinSurface
+ * @brief Closed outer and inner surfaces of all fibres of a label image, with myelin of the thickness asked for.
+ *
+ * Input: the image that vtkFibreRadialGrowth makes, with its field data. Output 0 `Outer` and 1 `Inner`: triangles with cell data
+ * `FibreId`, `BundleId` and `Surface` (0 outer, 1 inner), in increasing order of fibres, which share no points; field data
+ * `Domain` and `Provenance`. Output 2 `Fibre statistics`: a table with one row per fibre of the image's FibreTable.
+ *
+ * Each surface is a closed, outward 2-manifold in one piece, cut off flat at the faces of the domain; inner caps lie a little
+ * inside the outer ones. The method, what it guarantees and where the limits are stand in core/MyelinSurface.h; the contouring
+ * is core/Isosurface.h, since marching cubes promises neither a manifold nor that surfaces of neighbours do not meet.
+ *
+ * The column `Myelin` tells how a fibre came out: 0 as asked; 1 thinner than asked, since the axon would fall to pieces; 2
+ * thicker than asked, since myelin is at least MinimumGap thick; 3 without an inner surface, since the fibre is too thin for
+ * both; 4 no voxel of the image belongs to the fibre, which has neither surface.
+ *
+ * All of the image is needed at once. Where the pipeline runs on several ranks, the first one gives the result.
+ */
+#ifndef vtkMyelinSurface_h
+#define vtkMyelinSurface_h
+
+#include "CactusFiltersModule.h"
+
+#include <vtkPolyDataAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkMyelinSurface : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkMyelinSurface* New();
+  vtkTypeMacro(vtkMyelinSurface, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Values of GRatioModel. */
+  enum
+  {
+    CONSTANT = 0,
+    LOG_LINEAR = 1,
+    DISTRIBUTED = 2,
+    TARGET_AXON_VOLUME_FRACTION = 3
+  };
+
+  ///@{
+  /** How the thickness of the myelin is found. */
+  vtkSetMacro(GRatioModel, int);
+  vtkGetMacro(GRatioModel, int);
+  ///@}
+
+  ///@{
+  /** Ratio of inner to outer diameter (CONSTANT), or the mean of it over the fibres (DISTRIBUTED). */
+  vtkSetMacro(GRatio, double);
+  vtkGetMacro(GRatio, double);
+  ///@}
+
+  ///@{
+  /** Standard deviation of the g-ratio over the fibres (DISTRIBUTED). */
+  vtkSetMacro(GRatioDeviation, double);
+  vtkGetMacro(GRatioDeviation, double);
+  ///@}
+
+  ///@{
+  /** Fraction of the domain that the axons are to fill (TARGET_AXON_VOLUME_FRACTION). */
+  vtkSetMacro(TargetAxonVolumeFraction, double);
+  vtkGetMacro(TargetAxonVolumeFraction, double);
+  ///@}
+
+  ///@{
+  /** How often the fibres' fields are smoothed before they are contoured. */
+  vtkSetMacro(SmoothingIterations, int);
+  vtkGetMacro(SmoothingIterations, int);
+  ///@}
+
+  ///@{
+  /** Largest distance (µm) by which coarsening may move a surface; 0: no coarsening. */
+  vtkSetMacro(DecimationError, double);
+  vtkGetMacro(DecimationError, double);
+  ///@}
+
+  ///@{
+  /** Cut off at the faces of the domain; else where the image ends. */
+  vtkSetMacro(ClipToDomain, bool);
+  vtkGetMacro(ClipToDomain, bool);
+  vtkBooleanMacro(ClipToDomain, bool);
+  ///@}
+
+  ///@{
+  /** Seed of the fibres' g-ratios (DISTRIBUTED). */
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /** Threads to use; 0 means all. The result does not depend on it. */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+protected:
+  vtkMyelinSurface();
+  ~vtkMyelinSurface() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkMyelinSurface(const vtkMyelinSurface&) = delete;
+  void operator=(const vtkMyelinSurface&) = delete;
+
+  int GRatioModel = CONSTANT;
+  double GRatio = 0.7;
+  double GRatioDeviation = 0.04;
+  double TargetAxonVolumeFraction = 0.0;
+  int SmoothingIterations = 2;
+  double DecimationError = 0.005;
+  bool ClipToDomain = true;
+  int Seed = 1;
+  int NumberOfThreads = 0;
+};
+
+#endif

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FibreField.h"
+
+#include "Error.h"
+#include "Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// A sample nearer to a face than this part of a voxel is left out: the cells between them would be too flat.
+constexpr double thinnestCell = 0.3;
+
+} // namespace
+
+FibreField::FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain)
+  : Image(image)
+{
+  const VoxelGrid& grid = image.grid;
+  const double h = grid.spacing;
+  if (!(h > 0.0) || !std::isfinite(h) || !grid.origin.allFinite() || grid.count[0] < 1 || grid.count[1] < 1 ||
+      grid.count[2] < 1 || image.fibreId == nullptr || image.depth == nullptr)
+  {
+    throw InvalidInput("the label image is empty or has no valid spacing");
+  }
+  if (!(image.gap >= 0.0) || !std::isfinite(image.gap))
+  {
+    throw InvalidInput("the gap between the fibres of the label image must be 0 or more");
+  }
+  const Eigen::Vector3d firstSample = grid.position(grid.lower[0], grid.lower[1], grid.lower[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto a = Eigen::Index(axis);
+    const double imageLower = firstSample[a] - 0.5 * h;
+    const double imageUpper = imageLower + h * grid.count[axis];
+    Box.lower[a] = clipToDomain ? std::max(domain.lower[a], imageLower) : imageLower;
+    Box.upper[a] = clipToDomain ? std::min(domain.upper[a], imageUpper) : imageUpper;
+    // Where image and domain end together, they may differ by rounding.
+    if (clipToDomain && std::abs(imageLower - domain.lower[a]) < 1e-6 * h)
+    {
+      Box.lower[a] = domain.lower[a];
+    }
+    if (clipToDomain && std::abs(imageUpper - domain.upper[a]) < 1e-6 * h)
+    {
+      Box.upper[a] = domain.upper[a];
+    }
+    const int from = std::max(0, static_cast<int>(std::ceil((Box.lower[a] + thinnestCell * h - firstSample[a]) / h)));
+    const int to =
+      std::min(grid.count[axis] - 1, static_cast<int>(std::floor((Box.upper[a] - thinnestCell * h - firstSample[a]) / h)));
+    if (!(Box.upper[a] > Box.lower[a]) || from > to)
+    {
+      throw InvalidInput("the label image does not reach into its Domain along axis " + std::to_string(axis) +
+                         ": give the image of this domain, or switch ClipToDomain off");
+    }
+    First[axis] = grid.lower[axis] + from;
+    Count[axis] = to - from + 1;
+  }
+}
+
+NodeLattice FibreField::lattice(double inset) const
+{
+  const VoxelGrid& grid = this->Image.grid;
+  if (!(inset >= 0.0) || inset > 0.25 * grid.spacing)
+  {
+    throw InvalidInput("the inset of caps must lie between 0 and a quarter of a voxel");
+  }
+  NodeLattice lattice;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto a = Eigen::Index(axis);
+    auto& planes = lattice.planes[axis];
+    planes.reserve(std::size_t(this->Count[axis]) + 2);
+    planes.push_back(this->Box.lower[a] + inset);
+    for (int i = 0; i < this->Count[axis]; ++i)
+    {
+      planes.push_back(grid.origin[a] + grid.spacing * (this->First[axis] + i));
+    }
+    planes.push_back(this->Box.upper[a] - inset);
+  }
+  return lattice;
+}
+
+int FibreField::sampleOf(std::size_t axis, int node) const
+{
+  return this->First[axis] + std::clamp(node - 1, 0, this->Count[axis] - 1);
+}
+
+std::int32_t FibreField::nearest(int i, int j, int k) const
+{
+  // A neighbour y in direction d and the sample beyond it continue to 2 f(y) - f(y + d) here, exactly where the fibre's surface
+  // is flat. The fibre that is here has about the depth of this sample, any other at least a gap less. Straight neighbours tell
+  // best, and only where there are none the others are asked.
+  const VoxelGrid& grid = this->Image.grid;
+  std::int32_t best = 0;
+  float bestEstimate = -std::numeric_limits<float>::infinity();
+  for (int distance = 1; distance <= 3 && best == 0; ++distance)
+  {
+    const float step = static_cast<float>(grid.spacing * std::sqrt(double(distance)));
+    for (int n = 0; n < 27; ++n)
+    {
+      const std::array<int, 3> d{ { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 } };
+      if (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]) != distance || !this->holds(i + d[0], j + d[1], k + d[2]))
+      {
+        continue;
+      }
+      const std::size_t next = grid.index(i + d[0], j + d[1], k + d[2]);
+      const std::int32_t id = this->Image.fibreId[next];
+      if (id == 0)
+      {
+        continue;
+      }
+      float estimate = this->Image.depth[next] - step;
+      if (this->holds(i + 2 * d[0], j + 2 * d[1], k + 2 * d[2]))
+      {
+        const std::size_t beyond = grid.index(i + 2 * d[0], j + 2 * d[1], k + 2 * d[2]);
+        if (this->Image.fibreId[beyond] == id)
+        {
+          estimate = 2.0f * this->Image.depth[next] - this->Image.depth[beyond];
+        }
+      }
+      if (estimate > bestEstimate || (estimate == bestEstimate && id < best))
+      {
+        bestEstimate = estimate;
+        best = id;
+      }
+    }
+  }
+  return best;
+}
+
+bool FibreField::holds(int i, int j, int k) const
+{
+  const VoxelGrid& grid = this->Image.grid;
+  return i >= grid.lower[0] && j >= grid.lower[1] && k >= grid.lower[2] && i < grid.lower[0] + grid.count[0] &&
+         j < grid.lower[1] + grid.count[1] && k < grid.lower[2] + grid.count[2];
+}
+
+float FibreField::field(std::int32_t fibre, std::size_t index, int i, int j, int k) const
+{
+  const std::int32_t id = this->Image.fibreId[index];
+  const float depth = this->Image.depth[index];
+  const auto gap = static_cast<float>(this->Image.gap);
+  if (id == fibre || (id == 0 && (depth <= -0.5f * gap || this->nearest(i, j, k) == fibre)))
+  {
+    return depth;
+  }
+  return -(depth + gap);
+}
+
+double FibreField::atSample(std::int32_t fibre, int i, int j, int k) const
+{
+  return this->field(fibre, this->Image.grid.index(i, j, k), i, j, k);
+}
+
+std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(int reach, const Context& context) const
+{
+  const NodeLattice all = this->lattice();
+  const std::size_t count = all.blockCount();
+  std::vector<std::vector<std::int32_t>> idsOf(count);
+  parallelFor(
+    count, context,
+    [&](std::size_t block)
+    {
+      NodeRange range = nodesOfBlock(all, block);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        range.first[axis] -= reach;
+        range.count[axis] += 2 * reach;
+      }
+      auto& ids = idsOf[block];
+      std::int32_t last = 0;
+      const int i0 = this->sampleOf(0, range.first[0]);
+      const int i1 = this->sampleOf(0, range.first[0] + range.count[0] - 1);
+      for (int k = range.first[2]; k < range.first[2] + range.count[2]; ++k)
+      {
+        for (int j = range.first[1]; j < range.first[1] + range.count[1]; ++j)
+        {
+          const std::size_t row = this->Image.grid.index(i0, this->sampleOf(1, j), this->sampleOf(2, k));
+          bool finite = true;
+          bool fits = true;
+          for (int i = 0; i <= i1 - i0; ++i)
+          {
+            const std::int32_t id = this->Image.fibreId[row + std::size_t(i)];
+            const float depth = this->Image.depth[row + std::size_t(i)];
+            finite = finite && std::isfinite(depth);
+            fits = fits && (depth > 0.0f) == (id > 0);
+            if (id != last && id != 0)
+            {
+              const auto place = std::lower_bound(ids.begin(), ids.end(), id);
+              if (place == ids.end() || *place != id)
+              {
+                ids.insert(place, id);
+              }
+              last = id;
+            }
+          }
+          if (!finite)
+          {
+            throw InvalidInput("the label image has a Depth that is not finite (NaN or infinite)");
+          }
+          if (!fits && (ids.empty() || ids.front() >= 0))
+          {
+            throw InvalidInput(
+              "the label image has a Depth that does not fit its FibreId: Depth must be positive just where FibreId is");
+          }
+        }
+      }
+      if (!ids.empty() && ids.front() < 0)
+      {
+        throw InvalidInput("the label image has a FibreId of " + std::to_string(ids.front()) + ": ids count from 1");
+      }
+    },
+    "looking for fibres", 0.0, 0.05);
+  std::map<std::int32_t, std::vector<std::uint32_t>> blocksOf;
+  for (std::size_t block = 0; block < count; ++block)
+  {
+    for (const std::int32_t id : idsOf[block])
+    {
+      blocksOf[id].push_back(static_cast<std::uint32_t>(block));
+    }
+  }
+  return blocksOf;
+}
+
+void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out) const
+{
+  for (int k = 0; k < range.count[2]; ++k)
+  {
+    const int z = this->sampleOf(2, range.first[2] + k);
+    for (int j = 0; j < range.count[1]; ++j)
+    {
+      const int y = this->sampleOf(1, range.first[1] + j);
+      const std::size_t row = this->Image.grid.index(this->First[0], y, z);
+      for (int i = 0; i < range.count[0]; ++i, ++out)
+      {
+        const int x = this->sampleOf(0, range.first[0] + i);
+        *out = this->field(fibre, row + std::size_t(x - this->First[0]), x, y, z);
+      }
+    }
+  }
+}
+
+Eigen::Vector3d FibreField::nodesAt(const Eigen::Vector3d& point) const
+{
+  const Eigen::Vector3d first(this->First[0] - 1, this->First[1] - 1, this->First[2] - 1);
+  return (point - this->Image.grid.origin) / this->Image.grid.spacing - first;
+}
+
+SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes)
+  : Field(field)
+  , Lattice(field.lattice())
+  , Blocks(std::move(blocks))
+{
+  std::size_t size = 0;
+  for (const std::uint32_t block : Blocks)
+  {
+    Offsets.push_back(size);
+    const NodeRange range = nodesOfBlock(Lattice, block);
+    size += std::size_t(range.count[0] + 2) * std::size_t(range.count[1] + 2) * std::size_t(range.count[2] + 2);
+  }
+  Values.resize(size);
+  std::vector<float> buffer;
+  std::vector<float> before;
+  for (std::size_t b = 0; b < Blocks.size(); ++b)
+  {
+    NodeRange range = nodesOfBlock(Lattice, Blocks[b]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      range.first[axis] -= 1 + passes;
+      range.count[axis] += 2 * (1 + passes);
+    }
+    buffer.resize(range.size());
+    field.atNodes(fibre, range, buffer.data());
+    // Each pass leaves one node less on every side. Strides stay.
+    const std::array<std::size_t, 3> stride{ { 1, std::size_t(range.count[0]),
+      std::size_t(range.count[0]) * std::size_t(range.count[1]) } };
+    const std::size_t all = range.size();
+    for (int pass = 0; pass < passes; ++pass)
+    {
+      for (const std::size_t step : stride)
+      {
+        // Values at the rim become wrong, and are not used.
+        before = buffer;
+        for (std::size_t n = step; n + step < all; ++n)
+        {
+          buffer[n] = 0.5f * before[n] + 0.25f * (before[n - step] + before[n + step]);
+        }
+      }
+    }
+    float* out = Values.data() + Offsets[b];
+    for (int k = passes; k + passes < range.count[2]; ++k)
+    {
+      for (int j = passes; j + passes < range.count[1]; ++j)
+      {
+        const float* row = buffer.data() + std::size_t(passes) + stride[1] * std::size_t(j) + stride[2] * std::size_t(k);
+        out = std::copy(row, row + range.count[0] - 2 * passes, out);
+      }
+    }
+  }
+}
+
+const float* SmoothedField::find(std::uint32_t block) const
+{
+  const auto place = std::lower_bound(this->Blocks.begin(), this->Blocks.end(), block);
+  return place == this->Blocks.end() || *place != block
+           ? nullptr
+           : this->Values.data() + this->Offsets[std::size_t(place - this->Blocks.begin())];
+}
+
+void SmoothedField::values(double level, double smallest, const NodeRange& around, float* out) const
+{
+  std::size_t block = 0;
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    const int at = (around.first[std::size_t(axis)] + 1) / NodeLattice::blockCells;
+    block = block * std::size_t(this->Lattice.blocks(axis)) + std::size_t(at);
+  }
+  const float* in = this->find(static_cast<std::uint32_t>(block));
+  const auto t = static_cast<float>(level);
+  const auto least = static_cast<float>(smallest);
+  for (std::size_t n = 0; n < around.size(); ++n)
+  {
+    const float field = in[n] - t;
+    out[n] = field > 0.0f ? std::max(field, least) : std::min(field, -least);
+  }
+}
+
+double SmoothedField::value(const Eigen::Vector3d& at) const
+{
+  // The cell between samples that holds the point, or the nearest one, and how far into it the point lies.
+  const Eigen::Vector3d place = this->Field.nodesAt(at);
+  std::array<int, 3> cell;
+  std::array<double, 3> t;
+  std::size_t block = 0;
+  for (std::size_t axis = 3; axis-- > 0;)
+  {
+    const int last = this->Lattice.cells(int(axis)) - 1; // the last node that is a sample
+    const double inside = std::clamp(place[Eigen::Index(axis)], 1.0, double(last));
+    cell[axis] = std::min(static_cast<int>(inside), std::max(1, last - 1));
+    t[axis] = inside - cell[axis];
+    block = block * std::size_t(this->Lattice.blocks(int(axis))) + std::size_t(cell[axis] / NodeLattice::blockCells);
+  }
+  const float* values = this->find(static_cast<std::uint32_t>(block));
+  if (values == nullptr)
+  {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const NodeRange range = nodesOfBlock(this->Lattice, block);
+  const std::array<std::ptrdiff_t, 3> stride{ { 1, range.count[0] + 2,
+    std::ptrdiff_t(range.count[0] + 2) * (range.count[1] + 2) } };
+  const float* corner = values;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    corner += stride[axis] * (cell[axis] - range.first[axis] + 1);
+  }
+  double result = 0.0;
+  for (int n = 0; n < 8; ++n)
+  {
+    const double weight = (n & 1 ? t[0] : 1.0 - t[0]) * (n & 2 ? t[1] : 1.0 - t[1]) * (n & 4 ? t[2] : 1.0 - t[2]);
+    result += weight * double(corner[(n & 1 ? stride[0] : 0) + (n & 2 ? stride[1] : 0) + (n & 4 ? stride[2] : 0)]);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double bend = 0.5 * t[axis] * (1.0 - t[axis]);
+    const bool before = cell[axis] > 1;
+    const bool behind = cell[axis] + 3 <= this->Lattice.cells(int(axis));
+    if (bend < 1e-6 || (!before && !behind))
+    {
+      continue;
+    }
+    const std::size_t one = (axis + 1) % 3;
+    const std::size_t other = (axis + 2) % 3;
+    const std::ptrdiff_t step = stride[axis];
+    for (int n = 0; n < 4; ++n)
+    {
+      const double weight = (n & 1 ? t[one] : 1.0 - t[one]) * (n & 2 ? t[other] : 1.0 - t[other]);
+      const float* line = corner + (n & 1 ? stride[one] : 0) + (n & 2 ? stride[other] : 0);
+      const double f1 = line[0];
+      const double f2 = line[step];
+      const double bendBefore = before ? double(line[-step]) - 2.0 * f1 + f2 : 0.0;
+      const double bendBehind = behind ? f1 - 2.0 * f2 + double(line[2 * step]) : 0.0;
+      result -= weight * bend * (!behind ? bendBefore : !before ? bendBehind : agreedBend(bendBefore, bendBehind));
+    }
+  }
+  return result;
+}
+
+} // namespace cactus

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Context.h"
+#include "Domain.h"
+#include "Isosurface.h"
+#include "LabelImage.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace cactus
+{
+
+/// A label image held by somebody else; see LabelImage for what its numbers mean.
+struct LabelImageView
+{
+  VoxelGrid grid;
+  const std::int32_t* fibreId = nullptr;
+  const float* depth = nullptr;
+  double gap = 0.0; ///< µm, the room that growth kept between two fibres; see FibreRadialGrowthOptions::gap
+};
+
+/// The fields of all fibres of a label image, in a box whose faces cut them off.
+///
+/// At the samples a field is what LabelImage says, and the sum of two fields is at most -gap. The lattice's inner planes run
+/// through the samples, and its outermost ones are the faces of the box, where a field has the value of the sample beside it.
+class FibreField
+{
+public:
+  /// The box is `domain` or, with `clipToDomain` off, what the image's voxels fill. A domain that reaches beyond the image is cut
+  /// off where the image ends. Throws InvalidInput where nothing is left, or the image is not a proper one.
+  FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain);
+
+  const LabelImageView& image() const { return this->Image; }
+  /// What the lattice fills.
+  const Domain& box() const { return this->Box; }
+  /// Planes through the samples; the outermost ones are moved into the box by `inset` (µm, less than a quarter of a voxel).
+  NodeLattice lattice(double inset = 0.0) const;
+
+  /// Of each fibre, in increasing order of fibres, the blocks of the lattice with a node that belongs to it or has one at most
+  /// `reach` nodes away. Throws InvalidInput for a negative FibreId, a Depth that is not finite or does not fit its FibreId, and
+  /// Cancelled.
+  std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(int reach, const Context& context = {}) const;
+
+  /// The field of a fibre at a sample of the image.
+  double atSample(std::int32_t fibre, int i, int j, int k) const;
+  /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside.
+  void atNodes(std::int32_t fibre, const NodeRange& range, float* out) const;
+  /// Where a point is, counted in nodes of the lattice; the first sample is at 1.
+  Eigen::Vector3d nodesAt(const Eigen::Vector3d& point) const;
+
+private:
+  /// Index in the image of the sample that a node takes its value from.
+  int sampleOf(std::size_t axis, int node) const;
+  /// Of a sample outside all fibres that is nearer than gap/2 to one: to which, as its neighbours tell.
+  std::int32_t nearest(int i, int j, int k) const;
+  bool holds(int i, int j, int k) const;
+  float field(std::int32_t fibre, std::size_t index, int i, int j, int k) const;
+
+  LabelImageView Image;
+  Domain Box;
+  std::array<int, 3> First{ { 0, 0, 0 } }; ///< first sample used, per axis
+  std::array<int, 3> Count{ { 0, 0, 0 } }; ///< number of samples used, per axis
+};
+
+/// The field of one fibre, smoothed, held for all blocks near the fibre.
+///
+/// Smoothing averages each node with its neighbours, (1 2 1)/4 along each axis in turn. That is a linear operation with weights
+/// that are positive and sum to 1, so what holds for all fields goes on to hold: two of them sum to at most -gap, and none
+/// changes by more than the distance between two samples. So surfaces of smoothed fields keep their gap, whatever the shape of
+/// the fibres; on average over a convex part of radius r they move inwards by passes · spacing² / (4 r).
+class SmoothedField
+{
+public:
+  SmoothedField(const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes);
+
+  const std::vector<std::uint32_t>& blocks() const { return this->Blocks; }
+
+  /// The field less `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0 than
+  /// `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles.
+  void values(double level, double smallest, const NodeRange& around, float* out) const;
+
+  /// The field at a point of the blocks: trilinear, and along each axis corrected for the curvature that the samples on either
+  /// side agree on, as contour() does. A point beyond the outermost samples has the value of the nearest point among them; far
+  /// from the fibre it is minus infinity.
+  double value(const Eigen::Vector3d& at) const;
+
+private:
+  /// Values of a block and one node beyond on every side; null where the block is not held.
+  const float* find(std::uint32_t block) const;
+
+  const FibreField& Field;
+  NodeLattice Lattice;
+  std::vector<std::uint32_t> Blocks;
+  std::vector<std::size_t> Offsets; ///< of the blocks' values
+  std::vector<float> Values;
+};
+
+} // namespace cactus

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Context.h"
+#include "Domain.h"
+#include "FibreField.h"
+#include "GRatio.h"
+#include "SurfaceCheck.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// Parameters of the surfaces; lengths in µm.
+struct MyelinSurfaceOptions
+{
+  GRatioModel model = GRatioModel::Constant;
+  /// The ratio of inner to outer diameter (Constant), or its mean (Distributed), in (0, 1).
+  double gRatio = 0.7;
+  /// Standard deviation of the g-ratio (Distributed), in [0, 0.3].
+  double gRatioDeviation = 0.04;
+  /// Fraction of the box that the axons are to fill (TargetAxonVolumeFraction), in (0, 1).
+  double targetAxonVolumeFraction = 0.0;
+  /// Steps of smoothing before a surface is coarsened; 0: none.
+  int smoothingIterations = 2;
+  /// Largest distance by which smoothing and coarsening together may move a surface, at most the tolerance that growth kept; 0:
+  /// surfaces stay as contoured.
+  double decimationError = 0.005;
+  /// Cut fibres off at the faces of the domain, else where the image ends.
+  bool clipToDomain = true;
+  std::uint64_t seed = 1;
+};
+
+/// Throws InvalidInput, naming the parameter, for a value out of range.
+void validate(const MyelinSurfaceOptions& options);
+
+/// What comes with a label image; lengths in µm.
+struct LabelImageFacts
+{
+  Domain domain;
+  double minimumGap = 0.02;        ///< least distance between the surfaces of two fibres
+  double surfaceTolerance = 0.005; ///< room beside the gap, on either side, for moving surfaces
+  std::vector<int> fibreIds;       ///< all fibres, unique, in any order
+  std::vector<int> bundleIds;      ///< one per fibre
+  std::vector<double> targetRadii; ///< one per fibre
+};
+
+/// How a fibre's myelin came out.
+enum class MyelinState
+{
+  AsAsked = 0,
+  Thinner = 1, ///< than asked: else the axon would fall to pieces
+  Thicker = 2, ///< than asked: myelin is at least MinimumGap thick
+  NoAxon = 3,  ///< the fibre is too thin to hold an axon in one piece inside myelin of that thickness: no inner surface
+  NoFibre = 4  ///< no voxel of the image belongs to the fibre: neither surface
+};
+
+/// The surfaces of one fibre and what was measured on them.
+struct FibreSurfacePair
+{
+  int fibreId = 0;
+  int bundleId = 0;
+  double targetRadius = 0.0;
+  TriangleMesh outer; ///< empty for NoFibre
+  TriangleMesh inner; ///< empty for NoFibre and NoAxon
+  SurfaceReport outerReport;
+  SurfaceReport innerReport;
+  MyelinState state = MyelinState::NoFibre;
+  double thickness = 0.0; ///< µm, depth of the inner surface below the outer one
+  double targetGRatio = 0.0;
+  double gRatio = 0.0;        ///< reached: sqrt(inner volume / outer volume); 0 without an axon
+  double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
+  double largestMove = 0.0;   ///< µm, the largest |field - level| found on the final surfaces away from caps
+};
+
+/// Outer and inner surfaces of all fibres of a label image, in increasing order of fibres.
+///
+/// The outer surface of a fibre is where its field (see FibreField) is 0, contoured by contour(), with flat caps on the faces of
+/// the box. The inner surface is where the field is `thickness`, its caps moved into the box by MinimumGap (by a quarter of a
+/// voxel where that is less) so that they do not meet the outer ones. The thickness is solved for so that inner volume over outer
+/// volume is the square of the fibre's g-ratio, measured on the final surfaces.
+///
+/// Smoothing and coarsening keep every surface within decimationError of its level, in terms of the field, which is checked at
+/// points spread over it; so surfaces of two fibres stay MinimumGap apart. Each surface is checked for being a closed, outward
+/// 2-manifold in one piece; where one that was coarsened fails any check, it is made anew with less coarsening, at last with
+/// none.
+///
+/// Of a fibre's pieces the largest is kept. Throws InvalidInput (options; an image that is not valid; a fibre in the image that
+/// is not in the table; decimationError above the tolerance), Infeasible (a target fraction that cannot be met), Cancelled.
+std::vector<FibreSurfacePair> myelinSurfaces(
+  const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context = {});
+
+} // namespace cactus

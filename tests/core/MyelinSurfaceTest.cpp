@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: two smoothed fields sum to at most -gap everywhere on the grid; models give the g-ratios that they state.
+#include "MyelinSurface.h"
+#include "Error.h"
+#include "FibreField.h"
+#include "FibreRadialGrowth.h"
+#include "GRatio.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace cactus;
+
+/// Three fibres that meet in the middle of a cube of 3 µm.
+LabelImage meeting(FibreRadialGrowthOptions options)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(3.0);
+  for (int f = 0; f < 3; ++f)
+  {
+    fibres.addFibre(f + 1, 1, 0.5);
+    const double angle = 2.1 * f;
+    fibres.addPoint({ 0.55 * std::cos(angle), 0.55 * std::sin(angle), -2.0 }, 0.5);
+    fibres.addPoint({ 0.6 * std::cos(angle + 0.3), 0.6 * std::sin(angle + 0.3), 2.0 }, 0.5);
+  }
+  return growFibres(fibres, options, 0.3, growthGrid(fibres.domain, options));
+}
+
+TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
+{
+  FibreRadialGrowthOptions options;
+  const LabelImage image = meeting(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  const NodeLattice lattice = field.lattice();
+  for (const int passes : { 0, 1, 4 })
+  {
+    std::vector<std::uint32_t> all(lattice.blockCount());
+    for (std::uint32_t block = 0; block < all.size(); ++block)
+    {
+      all[block] = block;
+    }
+    const SmoothedField one(field, 1, all, passes);
+    const SmoothedField two(field, 2, all, passes);
+    const SmoothedField three(field, 3, all, passes);
+    double largest = -1.0;
+    for (const std::uint32_t block : all)
+    {
+      NodeRange range = nodesOfBlock(lattice, block);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        range.first[axis] -= 1;
+        range.count[axis] += 2;
+      }
+      std::vector<float> a(range.size());
+      std::vector<float> b(range.size());
+      std::vector<float> c(range.size());
+      one.values(0.0, 0.0, range, a.data());
+      two.values(0.0, 0.0, range, b.data());
+      three.values(0.0, 0.0, range, c.data());
+      for (std::size_t n = 0; n < a.size(); ++n)
+      {
+        largest = std::max({ largest, double(a[n]) + b[n], double(b[n]) + c[n], double(c[n]) + a[n] });
+      }
+    }
+    EXPECT_LE(largest, -options.gap() + 1e-6);
+    EXPECT_GE(largest, -options.gap() - 0.01);
+  }
+}
+
+TEST(SmoothedField, InterpolatesTheSamples)
+{
+  FibreRadialGrowthOptions options;
+  const LabelImage image = meeting(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  const auto blocks = field.findFibres(0);
+  ASSERT_EQ(blocks.size(), 3u);
+  const SmoothedField one(field, 1, blocks.at(1), 0);
+  int inside = 0;
+  for (int k = 0; k < image.grid.count[2]; ++k)
+  {
+    for (int j = 0; j < image.grid.count[1]; ++j)
+    {
+      for (int i = 0; i < image.grid.count[0]; ++i)
+      {
+        if (image.fibreId[image.grid.index(i, j, k)] == 1)
+        {
+          ASSERT_NEAR(one.value(image.grid.position(i, j, k)), image.depth[image.grid.index(i, j, k)], 1e-6);
+          ++inside;
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(FibreField, RefusesWhatIsNoLabelImage)
+{
+  FibreRadialGrowthOptions options;
+  LabelImage image = meeting(options);
+  const auto find = [&]
+  {
+    return FibreField({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true)
+      .findFibres(1);
+  };
+  EXPECT_NO_THROW(find());
+  const float depth = image.depth[1234];
+  image.depth[1234] = std::nanf("");
+  EXPECT_THROW(find(), InvalidInput);
+  image.depth[1234] = depth > 0.0f ? -depth : 1.0f;
+  EXPECT_THROW(find(), InvalidInput);
+  EXPECT_THROW(FibreField({ image.grid, image.fibreId.data(), nullptr, 0.03 }, Domain::cube(3.0), true), InvalidInput);
+}
+
+TEST(GRatio, LogLinearSolvesItsRelation)
+{
+  for (const double outer : { 1.0, 1.7, 3.0, 8.0 })
+  {
+    const double inner = logLinearGRatio(outer) * outer;
+    EXPECT_NEAR(inner + 2.0 * (0.35 + 0.006 * inner + 0.024 * std::log(inner)), outer, 1e-9);
+  }
+  EXPECT_EQ(logLinearGRatio(0.5), smallestGRatio);
+  EXPECT_EQ(logLinearGRatio(1e3), largestGRatio);
+  EXPECT_THROW(logLinearGRatio(0.0), InvalidInput);
+  EXPECT_THROW(logLinearGRatio(std::nan("")), InvalidInput);
+}
+
+TEST(GRatio, DistributedHasItsMeanAndDeviationAndDependsOnSeedAndFibre)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  const int count = 20000;
+  for (int fibre = 1; fibre <= count; ++fibre)
+  {
+    const double g = distributedGRatio(0.7, 0.05, 3, fibre);
+    EXPECT_GE(g, smallestGRatio);
+    EXPECT_LE(g, largestGRatio);
+    sum += g;
+    squares += g * g;
+  }
+  EXPECT_NEAR(sum / count, 0.7, 0.002);
+  EXPECT_NEAR(std::sqrt(squares / count - sum * sum / count / count), 0.05, 0.002);
+  EXPECT_EQ(distributedGRatio(0.7, 0.05, 3, 17), distributedGRatio(0.7, 0.05, 3, 17));
+  EXPECT_NE(distributedGRatio(0.7, 0.05, 3, 17), distributedGRatio(0.7, 0.05, 4, 17));
+  EXPECT_NE(distributedGRatio(0.7, 0.05, 3, 17), distributedGRatio(0.7, 0.05, 3, 18));
+  EXPECT_EQ(distributedGRatio(0.6, 0.0, 1, 1), 0.6);
+  EXPECT_THROW(distributedGRatio(0.2, 0.05, 1, 1), InvalidInput);
+  EXPECT_THROW(distributedGRatio(0.7, -0.1, 1, 1), InvalidInput);
+}
+
+} // namespace

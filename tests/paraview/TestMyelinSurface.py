@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 300
+"""Myelin surfaces through ParaView: their measures by formula, and their soundness judged by the mesh oracle."""
+
+import hashlib
+import math
+import os
+
+import numpy
+from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
+from paraview.simple import FibreRadialGrowth, MyelinSurface, StrandReader
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray
+
+
+def strands(side, lines):
+    """The text of a strand file of polylines {radius, [points]}."""
+    text = [f"{side}", f"{len(lines)}"]
+    for radius, points in lines:
+        text.append(str(len(points)))
+        text += [f"{p[0]:.9g} {p[1]:.9g} {p[2]:.9g} {radius}" for p in points]
+    return "\n".join(text) + "\n"
+
+
+def hexagonal(side=4.0, pitch=1.1, radius=0.5):
+    """Bent fibres on a hexagonal lattice, which meet all their neighbours when they grow."""
+    rows = int(side / pitch) + 1
+    lines = []
+    for row in range(-rows, rows + 1):
+        for column in range(-rows, rows + 1):
+            x, y = (column + 0.5 * (row % 2)) * pitch, row * pitch * math.sqrt(0.75)
+            if max(abs(x), abs(y)) < 0.5 * side:
+                along = numpy.linspace(-0.6 * side, 0.6 * side, 7)
+                lines.append((radius, [(x + 0.05 * math.sin(2 * z + row), y + 0.05 * math.cos(2 * z), z) for z in along]))
+    return strands(side, lines)
+
+
+def parts(surface):
+    """{fibre: (points, triangles)} of an output of the filter; fails unless fibres share no points and come in order."""
+    ids = vtk_to_numpy(surface.GetCellData().GetArray("FibreId"))
+    assert (numpy.diff(ids) >= 0).all()
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    result = {}
+    used = 0
+    for fibre in numpy.unique(ids):
+        own = triangles[ids == fibre]
+        first, last = own.min(), own.max()
+        assert first == used
+        used = last + 1
+        result[int(fibre)] = (points[first : last + 1], own - first)
+    assert used == len(points)
+    return result
+
+
+def volume(part):
+    points, triangles = part
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    return numpy.einsum("ij,ij->i", a, numpy.cross(b, c)).sum() / 6
+
+
+def column(table, name):
+    return vtk_to_numpy(table.GetColumnByName(name))
+
+
+class MyelinSurfaceTest(CactusTestCase):
+    def growth(self, text, **properties):
+        path = os.path.join(self.folder, "fibres.strands")
+        with open(path, "w") as file:
+            file.write(text)
+        return FibreRadialGrowth(Input=StrandReader(FileName=path), **properties)
+
+    def judge(self, surfaces, *arguments):
+        """What the oracle finds in {name: part}."""
+        folder = os.path.join(self.folder, "judged")
+        os.makedirs(folder, exist_ok=True)
+        for old in os.listdir(folder):
+            os.remove(os.path.join(folder, old))
+        for name, (points, triangles) in surfaces.items():
+            with open(os.path.join(folder, name + ".ply"), "w") as file:
+                file.write("ply\nformat ascii 1.0\n")
+                file.write(f"element vertex {len(points)}\nproperty double x\nproperty double y\nproperty double z\n")
+                file.write(f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+                file.writelines("%.17g %.17g %.17g\n" % tuple(point) for point in points)
+                file.writelines("3 %d %d %d\n" % tuple(triangle) for triangle in triangles)
+        return mesh_oracle(folder, *arguments)
+
+    def assertSound(self, outer, inner, gap):
+        """All closed, outward, free of self-intersections and contacts; inner in outer; outer ones `gap` apart."""
+        surfaces = {f"outer{fibre}": part for fibre, part in outer.items()}
+        found = self.judge(surfaces, "--gap", str(gap))
+        count = len(outer)
+        self.assertEqual(
+            found["summary"],
+            {
+                "meshes": count,
+                "closed": count,
+                "manifold": count,
+                "outward": count,
+                "self_intersecting": 0,
+                "intersecting_pairs": 0,
+                "near_pairs": 0,
+            },
+        )
+        self.assertEqual([mesh["pieces"] for mesh in found["meshes"]], [1] * count)
+        surfaces.update({f"inner{fibre}": part for fibre, part in inner.items()})
+        found = self.judge(surfaces)
+        for name in ("closed", "manifold", "outward"):
+            self.assertEqual(found["summary"][name], count + len(inner))
+        self.assertEqual(found["summary"]["self_intersecting"] + found["summary"]["intersecting_pairs"], 0)
+        inside = {(pair["a"], pair["b"]) for pair in found["pairs"] if pair["relation"] == "a_in_b"}
+        self.assertEqual(inside, {(f"inner{fibre}.ply", f"outer{fibre}.ply") for fibre in inner})
+
+    def test_one_straight_fibre(self):
+        growth = self.growth(strands(6, [(1.0, [(0.03, -0.02, -9), (0.03, -0.02, 9)])]), GrowthIterations=0, SurfaceRoughness=0)
+        for smoothing in (0, 2):
+            surface = MyelinSurface(Input=growth, GRatio=0.6, SmoothingIterations=smoothing)
+            outer, inner = (parts(fetch(surface, port))[1] for port in (0, 1))
+            # Blurring moves a cylinder's surface inwards by n h² / (4 r).
+            radius = 1.0 - smoothing * 0.1**2 / 4
+            self.assertAlmostEqual(volume(outer), math.pi * radius**2 * 6, delta=0.006 * math.pi * 6)
+            self.assertAlmostEqual(volume(inner) / volume(outer), 0.36, delta=0.36 * 0.003)
+            # Flat caps, exactly on the faces of the domain; those of the axon a gap inside.
+            self.assertEqual((outer[0][:, 2].min(), outer[0][:, 2].max()), (-3.0, 3.0))
+            self.assertAlmostEqual(inner[0][:, 2].max(), 2.98, 12)
+            self.assertAlmostEqual(inner[0][:, 2].min(), -2.98, 12)
+            # Points lie where the surface is, and the myelin is as thick all around.
+            side = numpy.abs(outer[0][:, 2]) < 2.9
+            distance = numpy.hypot(outer[0][side, 0] - 0.03, outer[0][side, 1] + 0.02)
+            self.assertLess(numpy.abs(distance - radius).max(), 0.008)
+            table = fetch(surface, 2)
+            self.assertEqual(table.GetNumberOfRows(), 1)
+            self.assertAlmostEqual(column(table, "OuterVolume_um3")[0], volume(outer), 9)
+            self.assertAlmostEqual(column(table, "InnerVolume_um3")[0], volume(inner), 9)
+            self.assertAlmostEqual(column(table, "GRatio")[0], math.sqrt(volume(inner) / volume(outer)), 9)
+            self.assertAlmostEqual(column(table, "Thickness_um")[0], 0.4, delta=0.01)
+            self.assertEqual(list(column(table, "Myelin")), [0])
+
+    def test_bundle_grown_to_contact_is_sound(self):
+        growth = self.growth(hexagonal(), TargetFibreVolumeFraction=0.9, VoxelSize=0.08)
+        surface = MyelinSurface(Input=growth)
+        outer, inner = (parts(fetch(surface, port)) for port in (0, 1))
+        self.assertGreater(len(outer), 12)
+        self.assertEqual(set(inner), set(outer))
+        self.assertSound(outer, inner, 0.02)
+        table = fetch(surface, 2)
+        self.assertEqual(set(column(table, "OuterClosed")) | set(column(table, "InnerClosed")), {1})
+        self.assertLess(max(column(table, "OuterSquaredEdgeRatio").max(), column(table, "InnerSquaredEdgeRatio").max()), 1000)
+        total = [sum(volume(part) for part in one.values()) for one in (outer, inner)]
+        self.assertAlmostEqual(total[0] / 4**3, 0.9, delta=0.02)
+        self.assertAlmostEqual(math.sqrt(total[1] / total[0]), 0.7, delta=0.005)
+
+    def test_skew_fibres_are_sound(self):
+        lines = [
+            (0.6, [(-4, -1, 0.2), (0, -0.2, 0.1), (4, 1, -0.3)]),
+            (0.5, [(-1, -4, 1.0), (0.1, 0, 1.2), (1, 4, 0.9)]),
+            (0.4, [(0.9, 0.9, -4), (1.1, 0.8, -1.1), (1.9, 1.6, 4)]),
+        ]
+        growth = self.growth(strands(5, lines), GrowthIterations=3, VoxelSize=0.1)
+        surface = MyelinSurface(Input=growth, SmoothingIterations=1)
+        self.assertSound(*(parts(fetch(surface, port)) for port in (0, 1)), 0.02)
+
+    def test_coarsening_keeps_its_distance(self):
+        growth = self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.85)
+        surface = MyelinSurface(Input=growth, DecimationError=0)
+        fine = parts(fetch(surface, 0))
+        counts = []
+        for error in (0.0025, 0.005):
+            surface.DecimationError = error
+            coarse = parts(fetch(surface, 0))
+            counts.append(sum(len(triangles) for _, triangles in coarse.values()))
+            for fibre, (points, _) in coarse.items():
+                self.assertAlmostEqual(volume(coarse[fibre]), volume(fine[fibre]), delta=0.006 * volume(fine[fibre]))
+        self.assertLess(counts[1], counts[0])
+        self.assertLess(counts[1], 0.12 * sum(len(triangles) for _, triangles in fine.values()))
+
+    def test_models(self):
+        growth = self.growth(hexagonal(), TargetFibreVolumeFraction=0.8)
+        surface = MyelinSurface(Input=growth, GRatioModel="Distributed", GRatio=0.65, GRatioDeviation=0.06)
+        table = fetch(surface, 2)
+        as_asked = column(table, "Myelin") == 0
+        self.assertGreater(as_asked.mean(), 0.9)
+        wanted, reached = column(table, "TargetGRatio").copy(), column(table, "GRatio").copy()
+        self.assertLess(numpy.abs(wanted - reached)[as_asked].max(), 0.002)
+        self.assertAlmostEqual(wanted.mean(), 0.65, delta=0.05)
+        self.assertGreater(wanted.std(), 0.02)
+        surface.Seed = 2
+        self.assertTrue((column(fetch(surface, 2), "TargetGRatio") != wanted).all())
+
+        surface.GRatioModel = "TargetAxonVolumeFraction"
+        surface.TargetAxonVolumeFraction = 0.37
+        axons = sum(volume(part) for part in parts(fetch(surface, 1)).values())
+        self.assertAlmostEqual(axons / 4**3, 0.37, delta=0.002)
+        surface.TargetAxonVolumeFraction = 0.85
+        with self.assertError(r"TargetAxonVolumeFraction 0\.85 cannot be reached"):
+            surface.UpdatePipeline()
+
+    def test_log_linear_model(self):
+        lines = [(1.5, [(-2, 0, -9), (-2, 0, 9)]), (0.45, [(2, 0, -9), (2, 0, 9)])]
+        growth = self.growth(strands(8, lines), GrowthIterations=0, SurfaceRoughness=0)
+        table = fetch(MyelinSurface(Input=growth, GRatioModel="LogLinear", SmoothingIterations=0), 2)
+        diameter, low, high = 3.0, 0.1, 3.0
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            thick = 0.35 + 0.006 * middle + 0.024 * math.log(middle)
+            low, high = (middle, high) if middle + 2 * thick < diameter else (low, middle)
+        self.assertAlmostEqual(column(table, "GRatio")[0], low / diameter, delta=0.004)
+        self.assertAlmostEqual(column(table, "TargetGRatio")[1], 0.3, 12)
+
+    def test_beyond_the_domain(self):
+        text = strands(4, [(0.8, [(0, 0, -9), (0, 0, 9)])])
+        growth = self.growth(text, GrowthIterations=0, SurfaceRoughness=0, Margin=0.5)
+        surface = MyelinSurface(Input=growth)
+        clipped = parts(fetch(surface, 0))[1]
+        self.assertEqual(clipped[0][:, 2].max(), 2.0)
+        surface.ClipToDomain = 0
+        whole = parts(fetch(surface, 0))[1]
+        self.assertAlmostEqual(whole[0][:, 2].max(), 2.5, 12)
+        self.assertAlmostEqual(volume(whole) / volume(clipped), 5 / 4, delta=0.002)
+
+    def test_threads_do_not_change_a_bit(self):
+        surface = MyelinSurface(Input=self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.85))
+        digests = set()
+        for threads in (1, 2, 3):
+            surface.NumberOfThreads = threads
+            digest = hashlib.sha256()
+            for port in (0, 1):
+                output = fetch(surface, port)
+                digest.update(vtk_to_numpy(output.GetPoints().GetData()).tobytes())
+                digest.update(vtk_to_numpy(output.GetPolys().GetConnectivityArray()).tobytes())
+            digests.add(digest.hexdigest())
+        self.assertEqual(len(digests), 1)
+
+    def test_data_model(self):
+        surface = MyelinSurface(Input=self.growth(hexagonal(3.0), GrowthIterations=1))
+        for port in (0, 1):
+            output = fetch(surface, port)
+            self.assertEqual(set(vtk_to_numpy(output.GetCellData().GetArray("Surface"))), {port})
+            self.assertEqual(set(vtk_to_numpy(output.GetCellData().GetArray("BundleId"))), {1})
+            self.assertEqual([output.GetFieldData().GetArray("Domain").GetValue(i) for i in range(6)], 3 * [-1.5, 1.5])
+            stages = output.GetFieldData().GetAbstractArray("Provenance")
+            self.assertIn("MyelinSurface", stages.GetValue(stages.GetNumberOfValues() - 1))
+
+    def test_bad_properties(self):
+        growth = self.growth(hexagonal(3.0), GrowthIterations=1)
+        for name, value in (
+            ("GRatioModel", 7),
+            ("GRatio", 0.0),
+            ("GRatio", 1.0),
+            ("GRatio", float("nan")),
+            ("SmoothingIterations", -1),
+            ("DecimationError", -0.1),
+            ("DecimationError", 0.006),
+            ("NumberOfThreads", -1),
+        ):
+            with self.subTest(property=name, value=value):
+                surface = MyelinSurface(Input=growth)
+                with self.assertError(name):
+                    surface.SMProxy.GetProperty(name).SetElement(0, value)
+                    surface.SMProxy.UpdateVTKObjects()
+                    surface.UpdatePipeline()
+        surface = MyelinSurface(Input=growth, GRatioModel="Distributed", GRatioDeviation=0.5)
+        with self.assertError("GRatioDeviation"):
+            surface.UpdatePipeline()
+        surface = MyelinSurface(Input=growth, GRatioModel="TargetAxonVolumeFraction")
+        with self.assertError("TargetAxonVolumeFraction"):
+            surface.UpdatePipeline()
+
+    def test_bad_images(self):
+        image = fetch(self.growth(hexagonal(3.0), GrowthIterations=1, VoxelSize=0.2))
+
+        def spoilt(spoil):
+            copy = image.NewInstance()
+            copy.DeepCopy(image)
+            spoil(copy)
+            return MyelinSurface(Input=produce(copy))
+
+        def set_value(name, value):
+            return lambda data: data.GetPointData().GetArray(name).SetValue(700, value)
+
+        def as_double(data):
+            array = vtkDoubleArray()
+            array.SetName("Depth")
+            array.SetNumberOfValues(data.GetNumberOfPoints())
+            data.GetPointData().AddArray(array)
+
+        for spoil, message in (
+            (lambda data: data.GetPointData().RemoveArray("FibreId"), "FibreId"),
+            (lambda data: data.GetPointData().RemoveArray("Depth"), "Depth"),
+            (as_double, "Depth"),
+            (lambda data: data.GetFieldData().RemoveArray("Domain"), "Domain"),
+            (lambda data: data.GetFieldData().RemoveArray("MinimumGap"), "MinimumGap"),
+            (lambda data: data.GetFieldData().RemoveArray("SurfaceTolerance"), "SurfaceTolerance"),
+            (lambda data: data.GetFieldData().RemoveArray("FibreTable.FibreId"), "FibreTable.FibreId"),
+            (lambda data: data.SetSpacing(0.2, 0.2, 0.3), "cubes"),
+            (set_value("Depth", float("nan")), "not finite"),
+            (set_value("FibreId", -3), "FibreId of -3|does not fit"),
+            (lambda data: data.GetFieldData().GetArray("FibreTable.FibreId").SetValue(0, 999), "not in its FibreTable"),
+            (lambda data: data.SetOrigin(100, 0, 0), "Domain"),
+            (lambda data: data.Initialize(), "empty"),
+        ):
+            with self.assertError(message):
+                spoilt(spoil).UpdatePipeline()
+
+
+if __name__ == "__main__":
+    main()
