@@ -9,7 +9,7 @@
  *
  * Each surface is a closed, outward 2-manifold in one piece, cut off flat at the faces of the domain; inner caps lie a little
  * inside the outer ones. The method, what it guarantees and where the limits are stand in core/MyelinSurface.h; the contouring
- * is core/Isosurface.h, since marching cubes promises neither a manifold nor that surfaces of neighbours do not meet.
+ * is core/Isosurface.h, since marching cubes does not promise a manifold.
  *
  * The column `Myelin` tells how a fibre came out: 0 as asked; 1 thinner than asked, since the axon would fall to pieces; 2
  * thicker than asked, since myelin is at least MinimumGap thick; 3 without an inner surface, since the fibre is too thin for
@@ -71,7 +71,7 @@ public:
   ///@}
 
   ///@{
-  /** Largest distance (µm) by which coarsening may move a surface; 0: no coarsening. */
+  /** Distance (µm) by which coarsening may move a surface, an aim and no strict bound; 0: no coarsening. */
   vtkSetMacro(DecimationError, double);
   vtkGetMacro(DecimationError, double);
   ///@}

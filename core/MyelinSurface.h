@@ -24,10 +24,10 @@ struct MyelinSurfaceOptions
   double gRatioDeviation = 0.04;
   /// Fraction of the box that the axons are to fill (TargetAxonVolumeFraction), in (0, 1).
   double targetAxonVolumeFraction = 0.0;
-  /// Steps of smoothing before a surface is coarsened; 0: none.
+  /// Passes of smoothing of the fields before they are contoured (see SmoothedField); 0: none.
   int smoothingIterations = 2;
-  /// Largest distance by which smoothing and coarsening together may move a surface, at most the tolerance that growth kept; 0:
-  /// surfaces stay as contoured.
+  /// Distance by which coarsening may move a surface, at most the tolerance that growth kept, as an aim and no strict bound (see
+  /// myelinSurfaces()); 0: surfaces stay as contoured.
   double decimationError = 0.005;
   /// Cut fibres off at the faces of the domain, else where the image ends.
   bool clipToDomain = true;
@@ -83,10 +83,13 @@ struct FibreSurfacePair
 /// voxel where that is less) so that they do not meet the outer ones. The thickness is solved for so that inner volume over outer
 /// volume is the square of the fibre's g-ratio, measured on the final surfaces.
 ///
-/// Smoothing and coarsening keep every surface within decimationError of its level, in terms of the field, which is checked at
-/// points spread over it; so surfaces of two fibres stay MinimumGap apart. Each surface is checked for being a closed, outward
-/// 2-manifold in one piece; where one that was coarsened fails any check, it is made anew with less coarsening, at last with
-/// none.
+/// Each surface is checked for being a closed, outward 2-manifold in one piece. Coarsening aims at decimationError; the field at
+/// points spread over a coarsened surface may be off its level by about 1.5 times that outwards and 3 times that inwards, and by
+/// somewhat more than on the surface as contoured where that is off already (creases that samples do not resolve). A coarsened
+/// surface that fails a check is made anew with less coarsening, at last with none, and then may hold needles.
+///
+/// Limits: two coarsened surfaces can come nearer than MinimumGap by a few nm, and whether a coarsened surface intersects itself
+/// is not checked. With decimationError 0 none intersects itself. See largestMove and the reports for what was reached.
 ///
 /// Of a fibre's pieces the largest is kept. Throws InvalidInput (options; an image that is not valid; a fibre in the image that
 /// is not in the table; decimationError above the tolerance), Infeasible (a target fraction that cannot be met), Cancelled.
