@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws a substrate: a cut across it in the colours of the paper's cross-sections, beside a view in three dimensions."""
+
+from paraview import servermanager, simple
+from vtkmodules.vtkFiltersGeneral import vtkContourTriangulator
+
+MYELIN = [0.80, 0.20, 0.18]
+AXON = [0.26, 0.45, 0.80]
+EXTRA_AXONAL = [1.0, 1.0, 1.0]
+
+
+def _filled_cut(surface, height):
+    """The cross-section of closed surfaces at z = height, as filled polygons."""
+    cut = simple.Slice(Input=surface)
+    cut.SliceType.Origin = [0.0, 0.0, height]
+    cut.SliceType.Normal = [0.0, 0.0, 1.0]
+    cut.UpdatePipeline()
+    triangulator = vtkContourTriangulator()
+    triangulator.SetInputData(servermanager.Fetch(cut))
+    triangulator.Update()
+    filled = simple.TrivialProducer()
+    filled.GetClientSideObject().SetOutput(triangulator.GetOutput())
+    simple.Delete(cut)
+    return filled
+
+
+def _show(source, view, colour, flat):
+    display = simple.Show(source, view)
+    simple.ColorBy(display, None)
+    display.DiffuseColor = colour
+    display.AmbientColor = colour
+    if flat:
+        display.Ambient, display.Diffuse = 1.0, 0.0
+    else:
+        display.Specular, display.SpecularPower = 0.25, 30.0
+    return display
+
+
+def _view(pixels):
+    view = simple.CreateRenderView()
+    view.ViewSize = [pixels, pixels]
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Single Color"
+    view.Background = EXTRA_AXONAL
+    view.OrientationAxesVisibility = 0
+    return view
+
+
+def draw_substrate(outer, inner, side, filename, pixels=900):
+    """Writes a PNG, 2 × `pixels` wide: left the cut at z = 0 (axon blue, myelin red, extra-axonal space white), right the fibres, of
+    which the axons stand out of the myelin at the top. `outer` and `inner` are pipeline ports, `side` the domain's side in µm."""
+    cut = _view(pixels)
+    _show(_filled_cut(outer, 0.0), cut, MYELIN, flat=True)
+    # A little above, so that it covers.
+    _show(_filled_cut(inner, 0.0), cut, AXON, flat=True).Position = [0.0, 0.0, 0.01 * side]
+    cut.CameraParallelProjection = 1
+    cut.CameraPosition = [0.0, 0.0, 2.0 * side]
+    cut.CameraFocalPoint = [0.0, 0.0, 0.0]
+    cut.CameraViewUp = [0.0, 1.0, 0.0]
+    cut.CameraParallelScale = 0.51 * side
+
+    solid = _view(pixels)
+    stripped = simple.Clip(Input=outer, ClipType="Plane")
+    stripped.ClipType.Origin = [0.0, 0.0, 0.22 * side]
+    stripped.ClipType.Normal = [0.0, 0.0, 1.0]
+    stripped.Invert = 1
+    _show(stripped, solid, MYELIN, flat=False)
+    _show(inner, solid, AXON, flat=False)
+    solid.CameraPosition = [2.1 * side, -1.7 * side, 1.6 * side]
+    solid.CameraFocalPoint = [0.0, 0.0, 0.0]
+    solid.CameraViewUp = [0.0, 0.0, 1.0]
+
+    layout = simple.CreateLayout("Substrate")
+    simple.AssignViewToLayout(view=cut, layout=layout, hint=0)
+    layout.SplitHorizontal(0, 0.5)
+    simple.AssignViewToLayout(view=solid, layout=layout, hint=2)
+    layout.SetSize(2 * pixels, pixels)
+    simple.SaveScreenshot(filename, layout, ImageResolution=[2 * pixels, pixels], CompressionLevel="9")
+    # A render window that lives until Python ends takes the process down with it.
+    for view in (cut, solid):
+        simple.Delete(view)
