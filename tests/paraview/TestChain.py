@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 600
+"""The whole chain through ParaView, on a small bundle and on a small crossing, judged by brute force and by the mesh oracle."""
+
+import os
+
+import numpy as np
+from cactus_testing import CactusTestCase, fetch, main, mesh_oracle
+from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateStatistics, SubstrateWriter
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+
+def capsules(data):
+    """p, q (ends), r, s (radii at them) and fibre of every capsule."""
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    radii = vtk_to_numpy(data.GetPointData().GetArray("Radius"))
+    offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
+    ids = vtk_to_numpy(data.GetLines().GetConnectivityArray())
+    first = np.setdiff1d(np.arange(len(ids)), offsets[1:] - 1)
+    fibre = np.searchsorted(offsets, first, side="right") - 1
+    return points[ids[first]], points[ids[first + 1]], radii[ids[first]], radii[ids[first + 1]], fibre
+
+
+def distance_to_points(x, p, d):
+    """Parameter and distance of the point of p + [0, 1] d that is closest to x, row by row."""
+    t = np.clip(np.einsum("ij,ij->i", x - p, d) / np.einsum("ij,ij->i", d, d), 0, 1)
+    return t, np.linalg.norm(p + t[:, None] * d - x, axis=1)
+
+
+def largest_penetration(data):
+    """Largest D = 1 - d / (rp + rq) over all pairs of capsules of different fibres.
+
+    The distance of two segments is the least of: the four distances of an end to the other segment, and, where both feet of the
+    common perpendicular of the two lines lie inside, its length.
+    """
+    p, q, r, s, fibre = capsules(data)
+    d = q - p
+    largest = -np.inf
+    for k in range(len(p)):
+        other = np.nonzero(fibre > fibre[k])[0]
+        # Whoever's sphere around does not reach mine cannot touch.
+        reach = 0.5 * (np.linalg.norm(d[other], axis=1) + np.linalg.norm(d[k])) + np.maximum(r, s)[other] + max(r[k], s[k])
+        other = other[np.linalg.norm(0.5 * (p[other] + q[other]) - 0.5 * (p[k] + q[k]), axis=1) <= reach]
+        if len(other) == 0:
+            continue
+        candidates = []
+        one = lambda x: np.broadcast_to(x, (len(other), 3))
+        for end, t in ((p[k], 0.0), (q[k], 1.0)):
+            u, distance = distance_to_points(one(end), p[other], d[other])
+            candidates.append((distance, np.full(len(other), t), u))
+        for ends, u in ((p[other], 0.0), (q[other], 1.0)):
+            t, distance = distance_to_points(ends, one(p[k]), one(d[k]))
+            candidates.append((distance, t, np.full(len(other), u)))
+        a, e, b = d[k] @ d[k], np.einsum("ij,ij->i", d[other], d[other]), d[other] @ d[k]
+        w = p[k] - p[other]
+        c, f = w @ d[k], np.einsum("ij,ij->i", w, d[other])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t = (b * f - c * e) / (a * e - b * b)
+            u = (a * f - b * c) / (a * e - b * b)
+        inside = (t > 0) & (t < 1) & (u > 0) & (u < 1)
+        t, u = np.where(inside, t, 0), np.where(inside, u, 0)
+        length = np.linalg.norm(w + t[:, None] * d[k] - u[:, None] * d[other], axis=1)
+        candidates.append((np.where(inside, length, np.inf), t, u))
+        distance, t, u = (np.array(column) for column in zip(*candidates))
+        best = np.argmin(distance, axis=0)
+        pick = (best, np.arange(len(other)))
+        radii = (1 - t[pick]) * r[k] + t[pick] * s[k] + (1 - u[pick]) * r[other] + u[pick] * s[other]
+        largest = max(largest, np.max(1 - distance[pick] / radii))
+    return largest
+
+
+def row(proxy, port=0, index=-1):
+    table = fetch(proxy, port)
+    index = index % table.GetNumberOfRows()
+    names = [table.GetColumnName(column) for column in range(table.GetNumberOfColumns())]
+    return {name: table.GetValueByName(index, name).ToDouble() for name in names}
+
+
+def enclosed_volume(data):
+    """Volume that each fibre's triangles enclose, by the divergence theorem."""
+    points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    corners = points[vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+    parts = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    return np.bincount(vtk_to_numpy(data.GetCellData().GetArray("FibreId")), weights=parts)
+
+
+class ChainTest(CactusTestCase):
+    def run_chain(self, side, fraction, **bundle):
+        source = BundleInitializer(Side=side, Seed=3, **bundle)
+        optimised = CapsuleOptimizer(Input=source)
+        data = fetch(optimised)
+        self.assertEqual(data.GetFieldData().GetArray("Converged").GetValue(0), 1)
+        # Guarantee 1, by brute force.
+        worst = largest_penetration(data)
+        self.assertLessEqual(worst, 1e-3 + 1e-9)
+        self.assertAlmostEqual(max(worst, 0), row(optimised, 1)["MaximumPenetration"], places=6)
+
+        fibres = OutputPort(optimised, 0)
+        grown = FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=fraction)
+        surfaces = MyelinSurface(Input=grown, GRatio=0.7)
+        outer, inner = fetch(surfaces, 0), fetch(surfaces, 1)
+        ids = set(vtk_to_numpy(data.GetCellData().GetArray("FibreId")))
+        self.assertEqual(ids, set(vtk_to_numpy(outer.GetCellData().GetArray("FibreId"))))
+
+        # Guarantee 3: fractions of the meshes, measured here once more.
+        volume = side**3
+        outer_volume, inner_volume = enclosed_volume(outer), enclosed_volume(inner)
+        fvf, avf = outer_volume.sum() / volume, inner_volume.sum() / volume
+        self.assertAlmostEqual(fvf, fraction, delta=0.01)
+        self.assertAlmostEqual(np.sqrt(avf / fvf), 0.7, delta=0.005)
+        statistics = SubstrateStatistics(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1))
+        reached = row(statistics)
+        self.assertAlmostEqual(reached["FVF"], fvf, places=9)
+        self.assertAlmostEqual(reached["AVF"], avf, places=9)
+        self.assertEqual(reached["OuterOpen"] + reached["InnerOpen"], 0)
+        self.assertAlmostEqual(reached["LargestPenetration"], max(worst, 0), places=6)
+
+        # Guarantee 2, by exact predicates on what a simulator is given.
+        folder = os.path.join(self.folder, "substrate")
+        SubstrateWriter(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), FolderName=folder).UpdatePipeline()
+        judged = mesh_oracle(folder, "--gap", "0.0199")
+        for mesh in judged["meshes"]:
+            for quality in ("closed", "manifold", "outward"):
+                self.assertTrue(mesh[quality], f"{mesh['file']} is not {quality}")
+            self.assertFalse(mesh["self_intersecting"], mesh["file"])
+        # The only pairs that meet or come near are an axon and its own myelin's outside, which holds it.
+        for pair in judged["pairs"]:
+            self.assertIn(pair["relation"], ("a_in_b", "b_in_a"), pair)
+            self.assertEqual(os.path.basename(pair["a"]), os.path.basename(pair["b"]), pair)
+        axons = set(vtk_to_numpy(inner.GetCellData().GetArray("FibreId")))
+        self.assertEqual(len(judged["pairs"]), len(axons))
+        return data, reached
+
+    def test_single_bundle(self):
+        data, reached = self.run_chain(12, 0.9, MeanDispersion=10)
+        self.assertGreater(data.GetNumberOfCells(), 30)
+        self.assertAlmostEqual(reached["MeanDispersion_deg"], 10, delta=1)
+
+    def test_crossing(self):
+        data, _ = self.run_chain(12, 0.7, NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5)
+        points = vtk_to_numpy(data.GetPoints().GetData())
+        offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
+        ids = vtk_to_numpy(data.GetLines().GetConnectivityArray())
+        bundle = vtk_to_numpy(data.GetCellData().GetArray("BundleId"))
+        chords = points[ids[offsets[1:] - 1]] - points[ids[offsets[:-1]]]
+        axes = []
+        for which in (1, 2):
+            mine = chords[bundle == which]
+            axes.append((mine / np.linalg.norm(mine, axis=1)[:, None]).sum(axis=0))
+        cosine = axes[0] @ axes[1] / np.linalg.norm(axes[0]) / np.linalg.norm(axes[1])
+        self.assertAlmostEqual(np.degrees(np.arccos(cosine)), 60, delta=2)
+
+
+if __name__ == "__main__":
+    main()
