@@ -26,13 +26,14 @@ def _filled_cut(surface, height):
 
 def _show(source, view, colour, flat):
     display = simple.Show(source, view)
-    simple.ColorBy(display, None)
+    display.ColorArrayName = ["POINTS", ""]
     display.DiffuseColor = colour
     display.AmbientColor = colour
     if flat:
         display.Ambient, display.Diffuse = 1.0, 0.0
     else:
-        display.Specular, display.SpecularPower = 0.25, 30.0
+        display.Ambient, display.Diffuse = 0.3, 0.9
+        display.Specular, display.SpecularPower = 0.2, 30.0
     return display
 
 
@@ -66,9 +67,11 @@ def draw_substrate(outer, inner, side, filename, pixels=900):
     stripped.Invert = 1
     _show(stripped, solid, MYELIN, flat=False)
     _show(inner, solid, AXON, flat=False)
-    solid.CameraPosition = [2.1 * side, -1.7 * side, 1.6 * side]
+    solid.CameraPosition = [2.2 * side, -1.7 * side, 1.6 * side]
     solid.CameraFocalPoint = [0.0, 0.0, 0.0]
     solid.CameraViewUp = [0.0, 0.0, 1.0]
+    simple.ResetCamera(solid)
+    solid.GetActiveCamera().Zoom(1.25)
 
     layout = simple.CreateLayout("Substrate")
     simple.AssignViewToLayout(view=cut, layout=layout, hint=0)
