@@ -106,7 +106,7 @@ private:
   double TargetFibreVolumeFraction = 0.0;
   int GrowthIterations = 4;
   double MinimumGap = 0.02;
-  double SurfaceTolerance = 0.005;
+  double SurfaceTolerance = 0.0075;
   double SurfaceRoughness = 0.2;
   double Margin = 0.0;
   int Seed = 1;

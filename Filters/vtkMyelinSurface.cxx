@@ -216,15 +216,14 @@ int vtkMyelinSurface::RequestData(vtkInformation*, vtkInformationVector** inputs
       {
         outer.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.outer) });
         inner.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.inner) });
-        incomplete += fibre.state == cactus::MyelinState::NoAxon || fibre.state == cactus::MyelinState::NoFibre ? 1 : 0;
+        incomplete += fibre.state == cactus::MyelinState::NoAxon ? 1 : 0; // NoFibre: it only passes by outside
       }
       cactus::toPolyData(std::move(outer), 0, vtkPolyData::GetData(outputs, 0));
       cactus::toPolyData(std::move(inner), 1, vtkPolyData::GetData(outputs, 1));
       if (incomplete > 0)
       {
-        vtkWarningMacro(
-          << incomplete << " of " << fibres.size()
-          << " fibres have no axon, since they are too thin or outside the image: see column Myelin of Fibre statistics");
+        vtkWarningMacro(<< incomplete << " of " << fibres.size()
+                        << " fibres are too thin in the image to hold an axon: see column Myelin of Fibre statistics");
       }
 
       std::ostringstream parameters;

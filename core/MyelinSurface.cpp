@@ -341,7 +341,7 @@ private:
     const SmoothedField& field, CappedSurface& surface, double level, const char* which, FibreSurfacePair& pair) const
   {
     const double error = this->Options.decimationError;
-    for (double part = 1.0; error > 0.0 && part > 0.03; part *= 0.5)
+    for (double part = 1.0; error > 0.0 && part > 0.2; part *= 0.5)
     {
       CappedSurface trial = surface;
       SurfaceDecimationOptions decimation;
@@ -356,13 +356,13 @@ private:
         continue;
       }
       const Deviation deviation = this->deviation(field, trial, level);
-      if (std::max(-deviation.lowest, deviation.highest) > error)
+      if (std::max(-deviation.lowest, 0.2 * deviation.highest) > error)
       {
         // Where the surface as contoured is off by as much (at creases that the samples do not resolve) it is none of
         // coarsening's.
         const Deviation before = this->deviation(field, surface, level);
         if (deviation.lowest < 1.2 * std::min(before.lowest, -1.2 * error) ||
-            deviation.highest > 1.5 * std::max(before.highest, 2.0 * error))
+            deviation.highest > 1.5 * std::max(before.highest, 4.0 * error))
         {
           continue;
         }

@@ -92,10 +92,10 @@ constexpr double flattestTriangle = 0.03;
 /// Least cosine between a triangle's normals before and after a collapse.
 constexpr double leastTurn = 0.3;
 /// Errors of the sweeps, as parts of the largest one.
-constexpr double sweepErrors[] = { 0.02, 0.1, 0.25, 0.5, 0.75, 1.0 };
+constexpr double sweepErrors[] = { 0.1, 0.4, 1.0 };
 /// Collapses of less than this part of the largest error are made without a look at the field.
 constexpr double unnoticed = 0.05;
-constexpr int sweepsPerError = 12;
+constexpr int sweepsPerError = 10;
 
 class Decimation
 {
@@ -117,7 +117,7 @@ public:
       const double error = part * this->Options.maximumError;
       for (int sweep = 0; sweep < sweepsPerError; ++sweep)
       {
-        if (this->sweep(error * error) * 50 < this->Alive)
+        if (this->sweep(error * error, sweep == 0) * 20 < this->Alive)
         {
           break;
         }
@@ -204,6 +204,7 @@ private:
     this->First.assign(this->Points.size(), -1);
     this->Next.resize(3 * this->Triangles.size());
     this->Locked.assign(this->Points.size(), 0);
+    this->Changed.assign(this->Points.size(), 0);
     this->Mark.assign(this->Points.size(), 0);
     this->Alive = this->Triangles.size();
     for (std::size_t t = this->Triangles.size(); t-- > 0;)
@@ -237,8 +238,9 @@ private:
     return (this->Faces[std::size_t(t[0])] & this->Faces[std::size_t(t[1])] & this->Faces[std::size_t(t[2])]) != 0;
   }
 
-  /// Tries every edge once; the number of triangles removed.
-  std::size_t sweep(double limit)
+  /// Tries every edge once or, but for the first sweep of an error, every edge near which something has changed since it was
+  /// tried; the number of triangles removed.
+  std::size_t sweep(double limit, bool all)
   {
     const std::size_t before = this->Alive;
     ++this->Sweep;
@@ -249,7 +251,8 @@ private:
         const std::int32_t u = this->Triangles[t][i];
         const std::int32_t v = this->Triangles[t][(i + 1) % 3];
         // Each edge from one of its two sides; and a point moves once in a sweep, so that cheap collapses spread evenly.
-        if (u < v && this->Locked[std::size_t(u)] != this->Sweep && this->Locked[std::size_t(v)] != this->Sweep)
+        const bool isNew = all || std::max(this->Changed[std::size_t(u)], this->Changed[std::size_t(v)]) + 1 >= this->Sweep;
+        if (u < v && isNew && this->Locked[std::size_t(u)] != this->Sweep && this->Locked[std::size_t(v)] != this->Sweep)
         {
           this->tryCollapse(u, v, limit);
         }
@@ -504,6 +507,13 @@ private:
       c = next;
     }
     this->First[std::size_t(v)] = -1;
+    for (std::int32_t c = this->First[std::size_t(u)]; c >= 0; c = this->Next[std::size_t(c)])
+    {
+      for (const std::int32_t corner : this->Triangles[std::size_t(c) / 3])
+      {
+        this->Changed[std::size_t(corner)] = this->Sweep;
+      }
+    }
   }
 
   void unlink(std::int32_t point, std::int32_t corner)
@@ -558,6 +568,7 @@ private:
   std::vector<std::int32_t> First; ///< per point, a corner (3 · triangle + place) that it is, or -1
   std::vector<std::int32_t> Next;  ///< per corner, the next one that is the same point, or -1
   std::vector<int> Locked;         ///< per point, the sweep in which it was moved
+  std::vector<int> Changed;        ///< per point, the sweep in which a triangle at it changed
   std::vector<int> Mark;
   int MarkValue = 0;
   int Sweep = 0;

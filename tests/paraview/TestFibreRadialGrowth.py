@@ -56,7 +56,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertTrue(set(ids) - {0} <= set(vtk_to_numpy(table[0])))
         self.assertEqual({column.GetNumberOfTuples() for column in table}, {table[0].GetNumberOfTuples()})
         self.assertAlmostEqual(table[2].GetValue(0), 0.6)
-        for name, value in (("Growth", 0.2), ("MinimumGap", 0.02), ("SurfaceTolerance", 0.005), ("VoxelSize", 0.1)):
+        for name, value in (("Growth", 0.2), ("MinimumGap", 0.02), ("SurfaceTolerance", 0.0075), ("VoxelSize", 0.1)):
             self.assertAlmostEqual(field.GetArray(name).GetValue(0), value)
         self.assertEqual([field.GetArray("Domain").GetValue(i) for i in range(6)], [-3, 3, -3, 3, -3, 3])
         stages = field.GetAbstractArray("Provenance")
