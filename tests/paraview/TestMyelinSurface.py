@@ -250,7 +250,7 @@ class MyelinSurfaceTest(CactusTestCase):
             ("GRatio", float("nan")),
             ("SmoothingIterations", -1),
             ("DecimationError", -0.1),
-            ("DecimationError", 0.006),
+            ("DecimationError", 0.008),
             ("NumberOfThreads", -1),
         ):
             with self.subTest(property=name, value=value):
