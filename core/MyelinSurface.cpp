@@ -4,6 +4,7 @@
 #include "Error.h"
 #include "Parallel.h"
 #include "SurfaceDecimation.h"
+#include "SurfaceIntersection.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -351,7 +352,8 @@ private:
       decimation.field = [&field](const Eigen::Vector3d& p) { return field.value(p); };
       decimate(trial, decimation);
       const SurfaceReport report = checkSurface(trial.mesh);
-      if (!sound(report) || report.degenerateTriangles > 0 || report.largestSquaredEdgeRatio >= worstSquaredEdgeRatio)
+      if (!sound(report) || report.degenerateTriangles > 0 || report.largestSquaredEdgeRatio >= worstSquaredEdgeRatio ||
+          meetsItself(trial.mesh))
       {
         continue;
       }
