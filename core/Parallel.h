@@ -14,11 +14,12 @@ namespace cactus
 
 /// Runs body(i) for i in [0, count), dynamically shared among the context's threads, for bodies that write to slots of their own.
 /// What a body throws ends the loop and is rethrown in the caller's thread, the one of the smallest index that threw; throws
-/// Cancelled once the caller wants to stop. Progress runs from `from` to `to`.
+/// Cancelled where the caller wants to stop, before, during or right after the loop. Progress runs from `from` to `to`.
 template <typename Body>
 void parallelFor(
   std::size_t count, const Context& context, Body&& body, const std::string& message = "", double from = 0.0, double to = 1.0)
 {
+  context.checkpoint();
   std::exception_ptr failure;
   std::size_t failedIndex = count;
   std::atomic<bool> stop{ false };
@@ -68,10 +69,12 @@ void parallelFor(
   {
     std::rethrow_exception(failure);
   }
+  // The other threads may have done the whole of it before the caller's thread came to ask.
   if (stop)
   {
     throw Cancelled("stopped by the user");
   }
+  context.checkpoint();
 }
 
 } // namespace cactus
