@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "TriangleMesh.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+/// An axis-aligned box in single precision, rounded outwards: it holds what it was made around.
+struct FloatBox
+{
+  std::array<float, 3> lower;
+  std::array<float, 3> upper;
+
+  bool overlaps(const FloatBox& other) const
+  {
+    return this->lower[0] <= other.upper[0] && other.lower[0] <= this->upper[0] && this->lower[1] <= other.upper[1] &&
+           other.lower[1] <= this->upper[1] && this->lower[2] <= other.upper[2] && other.lower[2] <= this->upper[2];
+  }
+
+  /// No larger than the squared distance (µm²) of what the two boxes hold; 0 where they overlap.
+  double squaredDistance(const FloatBox& other) const
+  {
+    double sum = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double before = double(other.lower[axis]) - double(this->upper[axis]);
+      const double behind = double(this->lower[axis]) - double(other.upper[axis]);
+      const double apart = before > behind ? before : behind;
+      sum += apart > 0.0 ? apart * apart : 0.0;
+    }
+    return sum;
+  }
+
+  float longestSide() const
+  {
+    const float x = this->upper[0] - this->lower[0];
+    const float y = this->upper[1] - this->lower[1];
+    const float z = this->upper[2] - this->lower[2];
+    return x > y ? (x > z ? x : z) : (y > z ? y : z);
+  }
+};
+
+/// The box around triangle number `triangle`.
+FloatBox boxOf(const TriangleMesh& mesh, std::size_t triangle);
+
+/// A tree of boxes over a surface's triangles, for everything that asks which triangles are near something.
+///
+/// Boxes are halved at the middle of their triangles' centres (at the median, where the middle leaves one side empty or the tree
+/// has become deep), down to leaves of up to leafSize triangles: O(n log n), and no deeper than maximumDepth. About 24 bytes a
+/// triangle. The tree is the same for the same mesh, and queries allocate nothing.
+class TriangleTree
+{
+public:
+  static constexpr std::uint32_t leafSize = 4;
+  static constexpr int maximumDepth = 72;
+
+  struct Node
+  {
+    FloatBox box;
+    std::uint32_t first; ///< of a leaf its first entry in order(), else the first of its two children, which are neighbours
+    std::uint32_t count; ///< triangles of a leaf, 0 for other nodes
+
+    bool isLeaf() const { return this->count > 0; }
+  };
+
+  /// Over all triangles of `mesh`, which has to outlive the tree and stay as it is; its indices have to be valid.
+  explicit TriangleTree(const TriangleMesh& mesh);
+  /// Over some of them.
+  TriangleTree(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles);
+
+  const TriangleMesh& mesh() const { return *this->Mesh; }
+  bool empty() const { return this->Nodes.empty(); }
+  /// Node 0 is the root, if there is one.
+  const std::vector<Node>& nodes() const { return this->Nodes; }
+  /// Triangles by leaf.
+  const std::vector<std::uint32_t>& order() const { return this->Order; }
+  const Eigen::Vector3d& corner(std::uint32_t triangle, int i) const
+  {
+    return this->Mesh->points[std::size_t(this->Mesh->triangles[triangle][std::size_t(i)])];
+  }
+
+private:
+  void build(std::vector<std::uint32_t> triangles);
+
+  const TriangleMesh* Mesh;
+  std::vector<Node> Nodes;
+  std::vector<std::uint32_t> Order;
+};
+
+/// Calls visit(triangle) for the triangles of all leaves that `wanted(box)` leads to, until it returns true. Returns whether it
+/// did.
+template <typename Wanted, typename Visit>
+bool visitTriangles(const TriangleTree& tree, Wanted&& wanted, Visit&& visit)
+{
+  std::array<std::uint32_t, TriangleTree::maximumDepth + 2> stack;
+  std::size_t height = 0;
+  if (!tree.empty())
+  {
+    stack[height++] = 0;
+  }
+  while (height > 0)
+  {
+    const TriangleTree::Node& node = tree.nodes()[stack[--height]];
+    if (!wanted(node.box))
+    {
+      continue;
+    }
+    if (!node.isLeaf())
+    {
+      stack[height++] = node.first + 1;
+      stack[height++] = node.first;
+      continue;
+    }
+    for (std::uint32_t entry = node.first; entry < node.first + node.count; ++entry)
+    {
+      if (visit(tree.order()[entry]))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Calls visit(triangle of a, triangle of b) for all pairs whose boxes overlap, until it returns true. Returns whether it did. Of
+/// a tree with itself, each pair of different triangles comes once.
+template <typename Visit>
+bool visitOverlaps(const TriangleTree& a, const TriangleTree& b, Visit&& visit)
+{
+  const bool same = &a == &b;
+  std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * TriangleTree::maximumDepth + 4> stack;
+  std::size_t height = 0;
+  if (!a.empty() && !b.empty())
+  {
+    stack[height++] = { 0, 0 };
+  }
+  std::array<FloatBox, TriangleTree::leafSize> boxesB;
+  while (height > 0)
+  {
+    const auto [i, j] = stack[--height];
+    const TriangleTree::Node& p = a.nodes()[i];
+    const TriangleTree::Node& q = b.nodes()[j];
+    const bool withItself = same && i == j;
+    if (withItself && !p.isLeaf())
+    {
+      stack[height++] = { p.first, p.first + 1 };
+      stack[height++] = { p.first + 1, p.first + 1 };
+      stack[height++] = { p.first, p.first };
+      continue;
+    }
+    if (!p.box.overlaps(q.box))
+    {
+      continue;
+    }
+    if (!p.isLeaf() && (q.isLeaf() || p.box.longestSide() >= q.box.longestSide()))
+    {
+      stack[height++] = { p.first + 1, j };
+      stack[height++] = { p.first, j };
+      continue;
+    }
+    if (!q.isLeaf())
+    {
+      stack[height++] = { i, q.first + 1 };
+      stack[height++] = { i, q.first };
+      continue;
+    }
+    for (std::uint32_t n = 0; n < q.count; ++n)
+    {
+      boxesB[n] = boxOf(b.mesh(), b.order()[q.first + n]);
+    }
+    for (std::uint32_t m = 0; m < p.count; ++m)
+    {
+      const FloatBox box = withItself ? boxesB[m] : boxOf(a.mesh(), a.order()[p.first + m]);
+      for (std::uint32_t n = withItself ? m + 1 : 0; n < q.count; ++n)
+      {
+        if (box.overlaps(boxesB[n]) && visit(a.order()[p.first + m], b.order()[q.first + n]))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+} // namespace cactus

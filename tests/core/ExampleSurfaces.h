@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces to try things on.
+#pragma once
+
+#include "TriangleMesh.h"
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace example
+{
+
+/// A tetrahedron with a corner at `origin` and edges of length `size` along the axes.
+inline cactus::TriangleMesh tetrahedron(const Eigen::Vector3d& origin, double size)
+{
+  cactus::TriangleMesh mesh;
+  mesh.points = { origin, origin + Eigen::Vector3d(size, 0, 0), origin + Eigen::Vector3d(0, size, 0),
+    origin + Eigen::Vector3d(0, 0, size) };
+  mesh.triangles = { { { 0, 2, 1 } }, { { 0, 1, 3 } }, { { 0, 3, 2 } }, { { 1, 2, 3 } } };
+  return mesh;
+}
+
+/// A closed tube along z around (x, y), from z = `lower` to `upper`, with capped ends; its rings are moved sideways by up to
+/// `noise`.
+inline cactus::TriangleMesh tube(double x, double y, double radius, double lower, double upper, int sides = 24, int rings = 20,
+  double noise = 0.0, unsigned seed = 1)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-noise, noise);
+  cactus::TriangleMesh mesh;
+  for (int ring = 0; ring <= rings; ++ring)
+  {
+    for (int side = 0; side < sides; ++side)
+    {
+      const double angle = 2.0 * 3.14159265358979323846 * side / sides;
+      const double sine = 2 * side % sides == 0 ? 0.0 : std::sin(angle); // the points on the x axis lie on it exactly
+      mesh.points.emplace_back(x + radius * std::cos(angle) + (noise > 0.0 ? uniform(random) : 0.0),
+        y + radius * sine + (noise > 0.0 ? uniform(random) : 0.0), lower + (upper - lower) * ring / rings);
+    }
+  }
+  const auto bottom = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.emplace_back(x, y, lower);
+  mesh.points.emplace_back(x, y, upper);
+  for (int side = 0; side < sides; ++side)
+  {
+    const int next = (side + 1) % sides;
+    for (int ring = 0; ring < rings; ++ring)
+    {
+      const int low = ring * sides;
+      const int high = low + sides;
+      mesh.triangles.push_back({ { low + side, low + next, high + next } });
+      mesh.triangles.push_back({ { low + side, high + next, high + side } });
+    }
+    mesh.triangles.push_back({ { bottom, next, side } });
+    mesh.triangles.push_back({ { bottom + 1, rings * sides + side, rings * sides + next } });
+  }
+  return mesh;
+}
+
+/// Both surfaces as one.
+inline cactus::TriangleMesh both(cactus::TriangleMesh a, const cactus::TriangleMesh& b)
+{
+  const auto shift = static_cast<std::int32_t>(a.points.size());
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  for (const auto& t : b.triangles)
+  {
+    a.triangles.push_back({ { t[0] + shift, t[1] + shift, t[2] + shift } });
+  }
+  return a;
+}
+
+} // namespace example
