@@ -105,6 +105,8 @@ Expansion<N + M> sum(const Expansion<N>& a, const Expansion<M>& b, double sign)
   return result;
 }
 
+} // namespace
+
 int exactOrientation(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d)
 {
   std::array<Expansion<2>, 3> ad;
@@ -123,37 +125,6 @@ int exactOrientation(const Vector3d& a, const Vector3d& b, const Vector3d& c, co
     return product(ad[u], sum(product(bd[v], cd[w]), product(bd[w], cd[v]), -1.0));
   };
   return sum(sum(term(0), term(1), 1.0), term(2), 1.0).sign();
-}
-
-} // namespace
-
-int orientation(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d)
-{
-  const double adx = a[0] - d[0];
-  const double ady = a[1] - d[1];
-  const double adz = a[2] - d[2];
-  const double bdx = b[0] - d[0];
-  const double bdy = b[1] - d[1];
-  const double bdz = b[2] - d[2];
-  const double cdx = c[0] - d[0];
-  const double cdy = c[1] - d[1];
-  const double cdz = c[2] - d[2];
-  const double yz = bdy * cdz;
-  const double zy = bdz * cdy;
-  const double zx = bdz * cdx;
-  const double xz = bdx * cdz;
-  const double xy = bdx * cdy;
-  const double yx = bdy * cdx;
-  const double volume = adx * (yz - zy) + ady * (zx - xz) + adz * (xy - yx);
-  const double size = std::fabs(adx) * (std::fabs(yz) + std::fabs(zy)) + std::fabs(ady) * (std::fabs(zx) + std::fabs(xz)) +
-                      std::fabs(adz) * (std::fabs(xy) + std::fabs(yx));
-  const double bound = (7.0 + 56.0 * epsilon) * epsilon * size;
-  if (volume > bound || -volume > bound)
-  {
-    return volume > 0.0 ? 1 : -1;
-  }
-  // No term at all: in a plane across an axis, as caps are.
-  return size == 0.0 ? 0 : exactOrientation(a, b, c, d);
 }
 
 int orientationAlong(int dropped, const Vector3d& a, const Vector3d& b, const Vector3d& c)

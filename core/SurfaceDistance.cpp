@@ -189,7 +189,7 @@ struct NodePair
 {
   std::uint32_t a;
   std::uint32_t b;
-  double squaredDistance;
+  float squaredDistance;
 };
 
 /// Calls visit(triangle of a, facet of a, triangle of b, facet of b) for pairs that may be nearer than the square root of
@@ -216,8 +216,8 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visi
     {
       const bool partA = !p.isLeaf() && (q.isLeaf() || p.box.longestSide() >= q.box.longestSide());
       const std::uint32_t child = partA ? p.first : q.first;
-      NodePair first = partA ? NodePair{ child, pair.b, 0.0 } : NodePair{ pair.a, child, 0.0 };
-      NodePair second = partA ? NodePair{ child + 1, pair.b, 0.0 } : NodePair{ pair.a, child + 1, 0.0 };
+      NodePair first = partA ? NodePair{ child, pair.b, 0.0F } : NodePair{ pair.a, child, 0.0F };
+      NodePair second = partA ? NodePair{ child + 1, pair.b, 0.0F } : NodePair{ pair.a, child + 1, 0.0F };
       first.squaredDistance = a.nodes()[first.a].box.squaredDistance(b.nodes()[first.b].box);
       second.squaredDistance = a.nodes()[second.a].box.squaredDistance(b.nodes()[second.b].box);
       const bool inOrder = first.squaredDistance <= second.squaredDistance;
@@ -225,24 +225,19 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visi
       stack[height++] = inOrder ? first : second;
       continue;
     }
-    std::array<FloatBox, TriangleTree::leafSize> boxesB;
-    for (std::uint32_t n = 0; n < q.count; ++n)
-    {
-      boxesB[n] = boxOf(b.mesh(), b.order()[q.first + n]);
-    }
     for (std::uint32_t m = p.first; m < p.first + p.count; ++m)
     {
       const std::uint32_t s = a.order()[m];
-      const FloatBox box = boxOf(a.mesh(), s);
+      const FloatBox& box = a.boxes()[m];
       if (box.squaredDistance(q.box) > bound())
       {
         continue;
       }
       const Facet facet(a, s);
-      for (std::uint32_t n = 0; n < q.count; ++n)
+      for (std::uint32_t n = q.first; n < q.first + q.count; ++n)
       {
-        const std::uint32_t t = b.order()[q.first + n];
-        if (box.squaredDistance(boxesB[n]) <= bound() && visit(s, facet, t, Facet(b, t)))
+        const std::uint32_t t = b.order()[n];
+        if (box.squaredDistance(b.boxes()[n]) <= bound() && visit(s, facet, t, Facet(b, t)))
         {
           return;
         }

@@ -25,17 +25,18 @@ struct FloatBox
   }
 
   /// No larger than the squared distance (µm²) of what the two boxes hold; 0 where they overlap.
-  double squaredDistance(const FloatBox& other) const
+  float squaredDistance(const FloatBox& other) const
   {
-    double sum = 0.0;
+    float sum = 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const double before = double(other.lower[axis]) - double(this->upper[axis]);
-      const double behind = double(this->lower[axis]) - double(other.upper[axis]);
-      const double apart = before > behind ? before : behind;
-      sum += apart > 0.0 ? apart * apart : 0.0;
+      const float before = other.lower[axis] - this->upper[axis];
+      const float behind = this->lower[axis] - other.upper[axis];
+      const float farther = before > behind ? before : behind;
+      const float apart = farther > 0.0F ? farther : 0.0F;
+      sum += apart * apart;
     }
-    return sum;
+    return 0.999999F * sum; // less what rounding may have added
   }
 
   float longestSide() const
@@ -47,13 +48,10 @@ struct FloatBox
   }
 };
 
-/// The box around triangle number `triangle`.
-FloatBox boxOf(const TriangleMesh& mesh, std::size_t triangle);
-
 /// A tree of boxes over a surface's triangles, for everything that asks which triangles are near something.
 ///
 /// Boxes are halved at the middle of their triangles' centres (at the median, where the middle leaves one side empty or the tree
-/// has become deep), down to leaves of up to leafSize triangles: O(n log n), and no deeper than maximumDepth. About 24 bytes a
+/// has become deep), down to leaves of up to leafSize triangles: O(n log n), and no deeper than maximumDepth. About 50 bytes a
 /// triangle. The tree is the same for the same mesh, and queries allocate nothing.
 class TriangleTree
 {
@@ -81,6 +79,8 @@ public:
   const std::vector<Node>& nodes() const { return this->Nodes; }
   /// Triangles by leaf.
   const std::vector<std::uint32_t>& order() const { return this->Order; }
+  /// The boxes of the triangles in order().
+  const std::vector<FloatBox>& boxes() const { return this->Boxes; }
   const Eigen::Vector3d& corner(std::uint32_t triangle, int i) const
   {
     return this->Mesh->points[std::size_t(this->Mesh->triangles[triangle][std::size_t(i)])];
@@ -92,6 +92,7 @@ private:
   const TriangleMesh* Mesh;
   std::vector<Node> Nodes;
   std::vector<std::uint32_t> Order;
+  std::vector<FloatBox> Boxes;
 };
 
 /// Calls visit(triangle) for the triangles of all leaves that `wanted(box)` leads to, until it returns true. Returns whether it
@@ -141,7 +142,6 @@ bool visitOverlaps(const TriangleTree& a, const TriangleTree& b, Visit&& visit)
   {
     stack[height++] = { 0, 0 };
   }
-  std::array<FloatBox, TriangleTree::leafSize> boxesB;
   while (height > 0)
   {
     const auto [i, j] = stack[--height];
@@ -171,16 +171,12 @@ bool visitOverlaps(const TriangleTree& a, const TriangleTree& b, Visit&& visit)
       stack[height++] = { i, q.first };
       continue;
     }
-    for (std::uint32_t n = 0; n < q.count; ++n)
+    for (std::uint32_t m = p.first; m < p.first + p.count; ++m)
     {
-      boxesB[n] = boxOf(b.mesh(), b.order()[q.first + n]);
-    }
-    for (std::uint32_t m = 0; m < p.count; ++m)
-    {
-      const FloatBox box = withItself ? boxesB[m] : boxOf(a.mesh(), a.order()[p.first + m]);
-      for (std::uint32_t n = withItself ? m + 1 : 0; n < q.count; ++n)
+      const FloatBox& box = a.boxes()[m];
+      for (std::uint32_t n = withItself ? m + 1 : q.first; n < q.first + q.count; ++n)
       {
-        if (box.overlaps(boxesB[n]) && visit(a.order()[p.first + m], b.order()[q.first + n]))
+        if (box.overlaps(b.boxes()[n]) && visit(a.order()[m], b.order()[n]))
         {
           return true;
         }
