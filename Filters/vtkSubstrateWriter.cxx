@@ -114,12 +114,18 @@ int vtkSubstrateWriter::RequestData(vtkInformation*, vtkInformationVector** inpu
       }
       contents.provenance = provenanceOf(outer);
       contents.allowOpenSurfaces = this->AllowOpenSurfaces;
-      const auto files = cactus::writeSubstrateFolder(
+      contents.certificate.minimumGap = this->MinimumGap;
+      const auto written = cactus::writeSubstrateFolder(
         contents, this->FolderName ? this->FolderName : "", cactus::contextFor(this, this->NumberOfThreads));
+      if (!written.certificate.certified())
+      {
+        vtkWarningMacro(<< "the substrate in " << this->FolderName << " is not certified: " << written.certificate.verdict());
+      }
       auto* table = vtkTable::GetData(outputs);
-      fill(table, files);
-      cactus::addProvenance(
-        outer, table, "SubstrateWriter", std::string("AllowOpenSurfaces=") + (this->AllowOpenSurfaces ? "1" : "0"));
+      fill(table, written.files);
+      cactus::addProvenance(outer, table, "SubstrateWriter",
+        std::string("AllowOpenSurfaces=") + (this->AllowOpenSurfaces ? "1" : "0") +
+          " MinimumGap=" + std::to_string(this->MinimumGap));
     });
 }
 
@@ -128,5 +134,6 @@ void vtkSubstrateWriter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FolderName: " << (this->FolderName ? this->FolderName : "(none)") << '\n';
   os << indent << "AllowOpenSurfaces: " << this->AllowOpenSurfaces << '\n';
+  os << indent << "MinimumGap: " << this->MinimumGap << '\n';
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
 }

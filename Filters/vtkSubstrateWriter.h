@@ -5,9 +5,11 @@
  *
  * Input 0 `Outer`, input 1 `Inner` (optional): closed, outward triangle surfaces with cell data `FibreId` and `BundleId`. Input 2
  * `Fibres` (optional): their centre lines. The folder is written when the filter executes: one ASCII PLY file (µm) per fibre and
- * surface, configurations for MC/DC, a manifest, a README.txt and, with `Fibres`, a strand file.
+ * surface, configurations for MC/DC, a certificate (see vtkSubstrateCertificate), a manifest, a README.txt and, with `Fibres`, a
+ * strand file.
  *
- * Output: a table of the files written, with fibre, bundle, triangles, volume and area.
+ * Output: a table of the files written, with fibre, bundle, triangles, volume and area. A warning says why the surfaces, as the
+ * files hold them, are not certified; those that are not closed are refused.
  *
  * The folder appears whole or not at all. One that is there is replaced if it is a substrate folder with nothing else in it, and
  * refused otherwise. On several ranks the first one writes.
@@ -40,6 +42,12 @@ public:
   ///@}
 
   ///@{
+  /** Distance (µm) that the certificate asks of the outer surfaces of any two fibres; 0 asks only that they do not meet. */
+  vtkSetMacro(MinimumGap, double);
+  vtkGetMacro(MinimumGap, double);
+  ///@}
+
+  ///@{
   /** Threads to use; 0 takes all. The files do not depend on it. */
   vtkSetMacro(NumberOfThreads, int);
   vtkGetMacro(NumberOfThreads, int);
@@ -58,6 +66,7 @@ private:
 
   char* FolderName = nullptr;
   bool AllowOpenSurfaces = false;
+  double MinimumGap = 0.02;
   int NumberOfThreads = 0;
 };
 

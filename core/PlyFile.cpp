@@ -4,10 +4,24 @@
 #include "Error.h"
 
 #include <charconv>
+#include <cstddef>
 #include <sstream>
 
 namespace cactus
 {
+
+namespace
+{
+
+constexpr std::size_t longestNumber = 32;
+
+/// Writes a coordinate to `text` and returns where it ends.
+char* writeCoordinate(char (&text)[longestNumber], double value)
+{
+  return std::to_chars(text, text + longestNumber, value, std::chars_format::general, 9).ptr;
+}
+
+} // namespace
 
 std::string plyText(const TriangleMesh& mesh, const std::string& comment)
 {
@@ -28,13 +42,12 @@ std::string plyText(const TriangleMesh& mesh, const std::string& comment)
                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   text.reserve(text.size() + 48 * mesh.points.size() + 26 * mesh.triangles.size());
-  char number[32];
+  char number[longestNumber];
   for (const Eigen::Vector3d& point : mesh.points)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      const auto end = std::to_chars(number, number + sizeof(number), point[axis], std::chars_format::general, 9).ptr;
-      text.append(number, end);
+      text.append(number, writeCoordinate(number, point[axis]));
       text += axis < 2 ? ' ' : '\n';
     }
   }
@@ -49,6 +62,19 @@ std::string plyText(const TriangleMesh& mesh, const std::string& comment)
     text += '\n';
   }
   return text;
+}
+
+TriangleMesh asWritten(TriangleMesh mesh)
+{
+  char number[longestNumber];
+  for (Eigen::Vector3d& point : mesh.points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::from_chars(number, writeCoordinate(number, point[axis]), point[axis]);
+    }
+  }
+  return mesh;
 }
 
 } // namespace cactus

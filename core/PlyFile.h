@@ -15,4 +15,7 @@ namespace cactus
 /// throws InvalidInput where it does, or has a line break.
 std::string plyText(const TriangleMesh& mesh, const std::string& comment);
 
+/// The surface that a reader of plyText() gets: with coordinates rounded to nine significant digits.
+TriangleMesh asWritten(TriangleMesh mesh);
+
 } // namespace cactus

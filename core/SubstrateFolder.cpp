@@ -7,6 +7,7 @@
 #include "StrandFile.h"
 #include "SurfaceCheck.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -30,7 +31,8 @@ namespace fs = std::filesystem;
 
 /// What the manifest says it is; by this a folder is known as one of ours.
 const std::string format = "CACTUS substrate folder";
-const std::set<std::string> ownEntries{ "outer", "inner", "mcdc", "fibres.strands", "manifest.json", "README.txt" };
+const std::set<std::string> ownEntries{ "outer", "inner", "mcdc", "fibres.strands", "certificate.csv", "certificate_fibres.csv",
+  "manifest.json", "README.txt" };
 
 void writeText(const fs::path& path, const std::string& text)
 {
@@ -82,6 +84,46 @@ std::string number(double value)
   }
   char text[32];
   return std::string(text, std::to_chars(text, text + sizeof(text), value).ptr);
+}
+
+/// A certificate's value: nothing where it is not a number.
+std::string cell(const CertificateColumn& column, std::size_t row)
+{
+  const double value = column.values[row];
+  if (!std::isfinite(value))
+  {
+    return "";
+  }
+  return column.whole ? std::to_string(static_cast<long long>(value)) : number(value);
+}
+
+/// One line for each quantity, which is how a person reads a single row.
+std::string certificateText(const SubstrateCertificate& certificate)
+{
+  std::string text = "quantity,value\n";
+  for (const CertificateColumn& column : substrateColumns(certificate))
+  {
+    text += column.name + "," + cell(column, 0) + "\n";
+  }
+  return text;
+}
+
+std::string fibresText(const SubstrateCertificate& certificate)
+{
+  const auto columns = fibreColumns(certificate);
+  std::string text;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+  {
+    text += (c > 0 ? "," : "") + columns[c].name;
+  }
+  for (std::size_t row = 0; row < certificate.fibres.size(); ++row)
+  {
+    for (std::size_t c = 0; c < columns.size(); ++c)
+    {
+      text += (c > 0 ? "," : "\n") + cell(columns[c], row);
+    }
+  }
+  return text + "\n";
 }
 
 /// A folder beside `place` that goes away unless it is moved there.
@@ -210,8 +252,24 @@ void requireSound(const SurfaceReport& report, const std::string& what)
   throw InvalidInput(what + why + ", and walkers would leak: mend it, or turn on AllowOpenSurfaces to write it all the same");
 }
 
-std::vector<SubstrateFile> writeSurfaces(const FibreSurfaces& surfaces, const std::string& kind, bool allowOpen,
-  const fs::path& folder, const Context& context, double from, double to)
+/// Throws for the first surface, in the order of fibres, that is not sound.
+void requireSound(const SubstrateCertificate& certificate)
+{
+  for (const FibreCertificate& fibre : certificate.fibres)
+  {
+    if (fibre.hasOuter)
+    {
+      requireSound(fibre.outer, "the outer surface of fibre " + std::to_string(fibre.fibreId));
+    }
+    if (fibre.hasInner)
+    {
+      requireSound(fibre.inner, "the inner surface of fibre " + std::to_string(fibre.fibreId));
+    }
+  }
+}
+
+std::vector<SubstrateFile> writeSurfaces(const FibreSurfaces& surfaces, const std::string& kind,
+  const SubstrateCertificate& certificate, const fs::path& folder, const Context& context, double from, double to)
 {
   std::vector<SubstrateFile> files(surfaces.size());
   fs::create_directory(folder / kind);
@@ -220,24 +278,12 @@ std::vector<SubstrateFile> writeSurfaces(const FibreSurfaces& surfaces, const st
     [&](std::size_t i)
     {
       const int id = surfaces.fibreIds[i];
-      const std::string what = "the " + kind + " surface of fibre " + std::to_string(id);
-      const TriangleMesh mesh = surfaces.mesh(i);
-      SurfaceReport report;
-      try
-      {
-        report = checkSurface(mesh);
-      }
-      catch (const InvalidInput& error)
-      {
-        throw InvalidInput(what + ": " + error.what());
-      }
-      if (!allowOpen)
-      {
-        requireSound(report, what);
-      }
+      const auto fibre = std::lower_bound(certificate.fibres.begin(), certificate.fibres.end(), id,
+        [](const FibreCertificate& f, int wanted) { return f.fibreId < wanted; });
+      const SurfaceReport& report = kind == "outer" ? fibre->outer : fibre->inner;
       const std::string path = kind + "/fibre_" + padded(id) + ".ply";
-      writeText(folder / path,
-        plyText(mesh, "CACTUS " CACTUS_VERSION ", " + kind + " surface of fibre " + std::to_string(id) + ", micrometres"));
+      writeText(folder / path, plyText(surfaces.mesh(i), "CACTUS " CACTUS_VERSION ", " + kind + " surface of fibre " +
+                                                           std::to_string(id) + ", micrometres"));
       files[i] = { path, kind, id, surfaces.bundleIds[i], report.triangles, report.volume, report.area,
         report.closedManifold() && report.outward() };
     },
@@ -245,8 +291,17 @@ std::vector<SubstrateFile> writeSurfaces(const FibreSurfaces& surfaces, const st
   return files;
 }
 
-std::string manifestText(const SubstrateFolderContents& contents, const std::vector<SubstrateFile>& files)
+/// The surfaces as a reader of the files gets them.
+FibreSurfaces asWritten(const FibreSurfaces& surfaces)
 {
+  FibreSurfaces written = surfaces;
+  written.mesh = [&surfaces](std::size_t i) { return asWritten(surfaces.mesh(i)); };
+  return written;
+}
+
+std::string manifestText(const SubstrateFolderContents& contents, const WrittenSubstrate& written)
+{
+  const std::vector<SubstrateFile>& files = written.files;
   const Domain& domain = contents.domain;
   double outerVolume = 0.0;
   double innerVolume = 0.0;
@@ -266,7 +321,13 @@ std::string manifestText(const SubstrateFolderContents& contents, const std::vec
           ",\n  \"outer_surfaces\": " + std::to_string(contents.outer.size()) +
           ",\n  \"inner_surfaces\": " + std::to_string(contents.inner.size()) +
           ",\n  \"triangles\": " + std::to_string(triangles) + ",\n  \"outer_volume_um3\": " + number(outerVolume) +
-          ",\n  \"inner_volume_um3\": " + number(innerVolume) + ",\n  \"provenance\": [";
+          ",\n  \"inner_volume_um3\": " + number(innerVolume) +
+          ",\n  \"certified\": " + (written.certificate.certified() ? "true" : "false") + ",\n  \"faults\": [";
+  for (std::size_t i = 0; i < written.certificate.faults.size(); ++i)
+  {
+    text += (i > 0 ? ",\n    " : "\n    ") + quoted(written.certificate.faults[i]);
+  }
+  text += "\n  ],\n  \"provenance\": [";
   for (std::size_t i = 0; i < contents.provenance.size(); ++i)
   {
     text += (i > 0 ? ",\n    " : "\n    ") + quoted(contents.provenance[i]);
@@ -284,12 +345,20 @@ std::string manifestText(const SubstrateFolderContents& contents, const std::vec
   return text + "\n  ]\n}\n";
 }
 
-std::string readmeText(const SubstrateFolderContents& contents)
+std::string readmeText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate)
 {
   const bool hasInner = contents.inner.size() > 0;
   const bool hasOuter = contents.outer.size() > 0;
   std::string text = "A substrate of " + std::to_string(std::max(contents.outer.size(), contents.inner.size())) +
                      " fibres, written by CACTUS " CACTUS_VERSION ".\n\n";
+  text += certificate.certified()
+            ? "CERTIFIED: every surface is closed, no two meet, and no walker can leak (certificate.csv).\n\n"
+            : "NOT CERTIFIED (certificate.csv):\n\n";
+  for (const std::string& fault : certificate.faults)
+  {
+    text += "  - " + fault + "\n";
+  }
+  text += certificate.certified() ? "" : "\n";
   text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
   if (hasOuter)
   {
@@ -303,6 +372,7 @@ std::string readmeText(const SubstrateFolderContents& contents)
   {
     text += "fibres.strands  centre lines and radii\n";
   }
+  text += "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
   text += "mcdc/           configurations for the MC/DC simulator (github.com/jonhrafe/MCDC_Simulator_public)\n\n";
   text += "To simulate, start MC/DC in this folder; it looks for all files from where it is started:\n\n";
   text += "    MC-DC_Simulator --conf mcdc/intra.conf\n";
@@ -358,9 +428,9 @@ void writeMcdc(const SubstrateFolderContents& contents, const std::vector<Substr
 
 } // namespace
 
-std::vector<SubstrateFile> writeSubstrateFolder(
-  const SubstrateFolderContents& contents, const std::string& folder, const Context& context)
+WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, const std::string& folder, const Context& context)
 {
+  contents.certificate.validate();
   if (folder.empty())
   {
     throw InvalidInput("FolderName is empty: name the folder to write");
@@ -372,27 +442,40 @@ std::vector<SubstrateFile> writeSubstrateFolder(
   StagedFolder staged(folder);
   try
   {
+    // Judging takes about as long as writing.
+    constexpr double judged = 0.5;
+    Context judging = context;
+    judging.progress = [&context](double fraction, const std::string& message) { context.report(judged * fraction, message); };
+    WrittenSubstrate written;
+    written.certificate = certify(
+      contents.domain, asWritten(contents.outer), asWritten(contents.inner), contents.fibres, contents.certificate, judging);
+    if (!contents.allowOpenSurfaces)
+    {
+      requireSound(written.certificate);
+    }
     const double share =
       static_cast<double>(contents.outer.size()) / static_cast<double>(contents.outer.size() + contents.inner.size());
-    std::vector<SubstrateFile> files;
+    const double between = judged + (1.0 - judged) * share;
     if (contents.outer.size() > 0)
     {
-      files = writeSurfaces(contents.outer, "outer", contents.allowOpenSurfaces, staged.path(), context, 0.0, share);
+      written.files = writeSurfaces(contents.outer, "outer", written.certificate, staged.path(), context, judged, between);
     }
     if (contents.inner.size() > 0)
     {
-      const auto more = writeSurfaces(contents.inner, "inner", contents.allowOpenSurfaces, staged.path(), context, share, 1.0);
-      files.insert(files.end(), more.begin(), more.end());
+      const auto more = writeSurfaces(contents.inner, "inner", written.certificate, staged.path(), context, between, 1.0);
+      written.files.insert(written.files.end(), more.begin(), more.end());
     }
     if (contents.fibres != nullptr)
     {
       writeStrandFile(*contents.fibres, (staged.path() / "fibres.strands").string());
     }
-    writeMcdc(contents, files, staged.path());
-    writeText(staged.path() / "README.txt", readmeText(contents));
-    writeText(staged.path() / "manifest.json", manifestText(contents, files));
+    writeMcdc(contents, written.files, staged.path());
+    writeText(staged.path() / "certificate.csv", certificateText(written.certificate));
+    writeText(staged.path() / "certificate_fibres.csv", fibresText(written.certificate));
+    writeText(staged.path() / "README.txt", readmeText(contents, written.certificate));
+    writeText(staged.path() / "manifest.json", manifestText(contents, written));
     staged.commit();
-    return files;
+    return written;
   }
   catch (const fs::filesystem_error& error)
   {

@@ -6,6 +6,7 @@
 #include "FibreSurfaces.h"
 #include "Fibres.h"
 #include "McdcConfiguration.h"
+#include "SubstrateCertificate.h"
 
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct SubstrateFolderContents
   const Fibres* fibres = nullptr;      ///< centre lines, if they are to be written too (`fibres.strands`)
   std::vector<std::string> provenance; ///< one line per stage so far
   bool allowOpenSurfaces = false;      ///< write surfaces that leak, too
+  SubstrateCertificateOptions certificate;
   McdcOptions mcdc;
 };
 
@@ -38,18 +40,27 @@ struct SubstrateFile
   bool closed = false; ///< a closed 2-manifold that points outward
 };
 
-/// Writes a folder for simulators and returns what its manifest lists:
+/// What has been written, and how good it is.
+struct WrittenSubstrate
+{
+  std::vector<SubstrateFile> files;
+  SubstrateCertificate certificate; ///< of the surfaces as the files hold them
+};
+
+/// Writes a folder for simulators:
 ///
 ///   outer/fibre_00001.ply, inner/…   ASCII PLY, µm, one file per fibre and surface
 ///   mcdc/intra.conf, mcdc/extra.conf MC/DC configurations that run as written, with lists of the surfaces and a PGSE scheme
 ///   fibres.strands                   the centre lines, where given
+///   certificate.csv, certificate_fibres.csv   what certify() found on the surfaces as written
 ///   manifest.json, README.txt
 ///
 /// The folder appears whole or not at all: it is written beside its place and renamed. One that is there is replaced if it is a
 /// substrate folder without anything else in it, and refused otherwise, so that neither other data nor results of simulations are
-/// lost. Throws InvalidInput (no surfaces, a surface that is not a closed outward 2-manifold, unless allowed; the message names
-/// the fibre), FileError, and Cancelled when stopped.
-std::vector<SubstrateFile> writeSubstrateFolder(
+/// lost. Surfaces that meet or come too near are written, and their certificate says so. Throws InvalidInput (no surfaces, a
+/// surface that is not a closed outward 2-manifold, unless allowed; the message names the fibre), FileError, and Cancelled when
+/// stopped.
+WrittenSubstrate writeSubstrateFolder(
   const SubstrateFolderContents& contents, const std::string& folder, const Context& context = {});
 
 } // namespace cactus

@@ -176,6 +176,7 @@ SurfaceReport checkSurface(const TriangleMesh& mesh)
   std::vector<char> pinched(pointCount, 0);
   std::vector<double> volumeOf(mesh.triangles.size(), 0.0);
   report.smallestAngle = 180.0;
+  report.smallestAltitude = std::numeric_limits<double>::infinity();
   for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
   {
     const auto& t = mesh.triangles[triangle];
@@ -190,6 +191,9 @@ SurfaceReport checkSurface(const TriangleMesh& mesh)
     report.degenerateTriangles += twiceArea <= degenerateRatio * longest ? 1 : 0;
     report.largestSquaredEdgeRatio =
       std::max(report.largestSquaredEdgeRatio, shortest > 0.0 ? longest / shortest : std::numeric_limits<double>::infinity());
+    report.smallestAltitude = std::min(report.smallestAltitude, longest > 0.0 ? twiceArea / std::sqrt(longest) : 0.0);
+    report.largestAspect =
+      std::max(report.largestAspect, twiceArea > 0.0 ? longest / twiceArea : std::numeric_limits<double>::infinity());
     report.smallestAngle = std::min({ report.smallestAngle, angleAt(a, b, c), angleAt(b, c, a), angleAt(c, a, b) });
 
     const std::size_t piece = pieces.find(triangle);
@@ -212,6 +216,7 @@ SurfaceReport checkSurface(const TriangleMesh& mesh)
     {
       report.volume += volumeOf[triangle];
       report.inwardComponents += volumeOf[triangle] > 0.0 ? 0 : 1;
+      report.pieces.push_back(mesh.triangles[triangle][0]);
     }
   }
   for (std::size_t point = 0; point < pointCount; ++point)

@@ -4,6 +4,8 @@
 #include "TriangleMesh.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace cactus
 {
@@ -25,6 +27,9 @@ struct SurfaceReport
   double area = 0.0;                    ///< µm²
   double smallestAngle = 0.0;           ///< degrees, over all triangles' corners
   double largestSquaredEdgeRatio = 0.0; ///< longest² / shortest² edge of a triangle; MCDC warns above 1000
+  double smallestAltitude = 0.0;        ///< µm, over all triangles; no edge of a triangle is shorter
+  double largestAspect = 0.0;           ///< longest edge over the altitude on it, over all triangles; 2 / √3 at best
+  std::vector<std::int32_t> pieces;     ///< one point of each component
 
   /// Every edge belongs to exactly two triangles, which run through it in opposite senses.
   bool closed() const { return components > 0 && openEdges == 0 && crowdedEdges == 0 && flippedEdges == 0; }

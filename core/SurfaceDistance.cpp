@@ -277,7 +277,7 @@ SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double belo
         gap.triangleA = s;
         gap.triangleB = t;
       }
-      return nearest.squared == 0.0;
+      return nearest.found && nearest.squared == 0.0;
     });
   if (nearest.found)
   {

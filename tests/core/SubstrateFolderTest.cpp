@@ -119,7 +119,7 @@ TEST(PlyFile, Text)
 
 TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
 {
-  const auto files = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s/").string());
+  const auto files = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s/").string()).files;
   ASSERT_EQ(files.size(), 3u);
   EXPECT_EQ(files[0].path, "outer/fibre_00002.ply");
   EXPECT_EQ(files[1].path, "outer/fibre_70000.ply");
@@ -136,6 +136,45 @@ TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
   EXPECT_EQ(textOf(this->Scratch / "s/mcdc/intra_ply_list.txt"), "1e-3\ninner/fibre_00002.ply\n");
   EXPECT_TRUE(fs::is_directory(this->Scratch / "s/mcdc/output"));
   EXPECT_FALSE(fs::exists(this->Scratch / "s/fibres.strands"));
+}
+
+// The folder says of itself how good it is, of the surfaces as its files hold them.
+TEST_F(SubstrateFolder, HoldsItsCertificate)
+{
+  auto inside = tetrahedron(0.5);
+  for (auto& point : inside.points)
+  {
+    point += Eigen::Vector3d(0.1, 0.1, 0.1);
+  }
+  this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(1.0) });
+  this->Contents.inner = surfacesOf({ 2 }, { inside });
+  auto written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
+  EXPECT_TRUE(written.certificate.certified());
+  EXPECT_EQ(textOf(this->Scratch / "s/certificate.csv").substr(0, 27), "quantity,value\nCertified,1\n");
+  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": true"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("\nCERTIFIED"), std::string::npos);
+  std::istringstream fibres(textOf(this->Scratch / "s/certificate_fibres.csv"));
+  std::string names;
+  std::string row;
+  std::getline(fibres, names);
+  std::getline(fibres, row);
+  EXPECT_EQ(names.substr(0, 8), "FibreId,");
+  EXPECT_EQ(row.substr(0, 6), "2,1,1,");
+  EXPECT_EQ(std::count(names.begin(), names.end(), ','), std::count(row.begin(), row.end(), ','));
+
+  // Apart by less than nine digits can say: in the files they touch.
+  auto beside = tetrahedron(1.0);
+  for (auto& point : beside.points)
+  {
+    point[0] += 1.0 + 1e-12;
+  }
+  this->Contents.outer = surfacesOf({ 2, 3 }, { tetrahedron(1.0), beside });
+  this->Contents.certificate.minimumGap = 0.0;
+  written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
+  EXPECT_EQ(written.certificate.meetingPairs, 1u);
+  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": false"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("NOT CERTIFIED"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("1 pairs of outer surfaces cut or touch"), std::string::npos);
 }
 
 // The simulator takes similar keys for each other and ignores the rest: only ones that it knows, spelt as it spells them.

@@ -43,9 +43,10 @@ NAMES = {
         "Seed": 1,
         "NumberOfThreads": 0,
     },
+    "SubstrateCertificate": {"MinimumGap": 0.02, "CutSpacing": 1.0},
     "SubstrateStatistics": {},
     "StrandReader": {"FileName": None},
-    "SubstrateWriter": {},
+    "SubstrateWriter": {"MinimumGap": 0.02},
 }
 CHOICES = {
     ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table"],
@@ -54,6 +55,7 @@ CHOICES = {
 }
 PORTS = {
     "CapsuleOptimizer": ["Fibres", "Convergence"],
+    "SubstrateCertificate": ["Certificate", "Fibres"],
 }
 
 

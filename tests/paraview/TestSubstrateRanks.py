@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-ranks: 2
-"""The statistics are the same, and one row, on any number of ranks."""
+"""The statistics and the certificate are the same, and one row, on any number of ranks."""
 
 import os
 
 from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import SubstrateStatistics, XMLPolyDataReader
+from paraview.simple import SubstrateCertificate, SubstrateStatistics, XMLPolyDataReader
 from surfaces import POLYGON, two_tubes
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -13,7 +13,7 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 class Ranks(CactusTestCase):
     def inputs(self):
         readers = {}
-        for name, data in zip(("Fibres", "Outer", "Inner"), two_tubes()):
+        for name, data in zip(("Fibres", "Outer", "Inner"), two_tubes(inset=0.1)):
             path = os.path.join(self.folder, name + ".vtp")
             writer = vtkXMLPolyDataWriter()
             writer.SetFileName(path)
@@ -28,6 +28,11 @@ class Ranks(CactusTestCase):
         self.assertEqual(table.GetNumberOfRows(), 1)
         self.assertEqual(table.GetValueByName(0, "Fibres").ToInt(), 2)
         self.assertAlmostEqual(table.GetValueByName(0, "FVF").ToDouble(), POLYGON * 3.25 * 10 / 1000, places=6)
+
+    def test_certificate(self):
+        table = fetch(SubstrateCertificate(**self.inputs()))
+        self.assertEqual(table.GetNumberOfRows(), 1)
+        self.assertEqual(table.GetValueByName(0, "Certified").ToInt(), 1)
 
 
 if __name__ == "__main__":

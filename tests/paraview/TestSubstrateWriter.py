@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The substrate folder, read again by a parser of its own: what is written is what went in, once, whole, or not at all."""
 
+import csv
 import json
 import os
 
 from cactus_testing import CactusTestCase, fetch, main, produce
 from paraview.simple import SubstrateWriter
-from surfaces import POLYGON, surfaces, tube, two_tubes
+from surfaces import EQUIVALENT, POLYGON, surfaces, tube, two_tubes
 
 
 def read_ply(path):
@@ -53,7 +54,7 @@ def is_closed(triangles):
 class Writer(CactusTestCase):
     def setUp(self):
         super().setUp()
-        self.fibres, self.outer, self.inner = two_tubes()
+        self.fibres, self.outer, self.inner = two_tubes(inset=0.1)
         self.target = os.path.join(self.folder, "substrate")
 
     def write(self, **properties):
@@ -67,7 +68,7 @@ class Writer(CactusTestCase):
         table = fetch(self.write(Fibres=produce(self.fibres)))
         self.assertEqual(os.listdir(self.folder), ["substrate"])
         self.assertEqual(
-            sorted(os.listdir(self.target)), ["README.txt", "fibres.strands", "inner", "manifest.json", "mcdc", "outer"]
+            sorted(os.listdir(self.target)), ["README.txt", "certificate.csv", "certificate_fibres.csv", "fibres.strands", "inner", "manifest.json", "mcdc", "outer"]
         )
         with open(os.path.join(self.target, "manifest.json")) as file:
             manifest = json.load(file)
@@ -76,8 +77,8 @@ class Writer(CactusTestCase):
         wanted = {
             "outer/fibre_00003.ply": (3, 10 * POLYGON),
             "outer/fibre_00005.ply": (5, 22.5 * POLYGON),
-            "inner/fibre_00003.ply": (3, 4.9 * POLYGON),
-            "inner/fibre_00005.ply": (5, 8.1 * POLYGON),
+            "inner/fibre_00003.ply": (3, 4.9 * 0.98 * POLYGON),
+            "inner/fibre_00005.ply": (5, 8.1 * 0.98 * POLYGON),
         }
         self.assertEqual({entry["path"] for entry in manifest["files"]}, set(wanted))
         self.assertEqual(table.GetNumberOfRows(), 4)
@@ -92,6 +93,29 @@ class Writer(CactusTestCase):
             self.assertTrue(is_closed(triangles))
             self.assertTrue(entry["closed"])
             self.assertEqual(len({i for t in triangles for i in t}), len(points), "no point is left over")
+
+    def test_holds_its_certificate(self):
+        self.write(Fibres=produce(self.fibres))
+        with open(os.path.join(self.target, "manifest.json")) as file:
+            manifest = json.load(file)
+        self.assertIs(manifest["certified"], True)
+        self.assertEqual(manifest["faults"], [])
+        with open(os.path.join(self.target, "certificate.csv"), newline="") as file:
+            values = dict(list(csv.reader(file))[1:])
+        self.assertEqual(values["Certified"], "1")
+        self.assertAlmostEqual(float(values["SmallestGap_um"]), 1.5, places=6)
+        with open(os.path.join(self.target, "certificate_fibres.csv"), newline="") as file:
+            fibres = list(csv.DictReader(file))
+        self.assertEqual([row["NearestFibre"] for row in fibres], ["5", "3"])
+        self.assertAlmostEqual(float(fibres[0]["OuterRadius_um"]), EQUIVALENT, places=5)
+
+    def test_says_what_is_not_certified(self):
+        with self.assertError(r"not certified: fibres 3 and 5 come as near as 1\.5"):
+            self.write(MinimumGap=2.0)
+        with open(os.path.join(self.target, "manifest.json")) as file:
+            manifest = json.load(file)
+        self.assertIs(manifest["certified"], False)
+        self.assertEqual(len(manifest["faults"]), 1)
 
     def test_points_keep_nine_digits(self):
         self.write()
@@ -118,7 +142,7 @@ class Writer(CactusTestCase):
         writer = SubstrateWriter(Outer=produce(self.outer), FolderName=self.target)
         writer.UpdatePipeline()
         self.assertEqual(fetch(writer).GetNumberOfRows(), 2)
-        self.assertEqual(sorted(os.listdir(self.target)), ["README.txt", "manifest.json", "mcdc", "outer"])
+        self.assertEqual(sorted(os.listdir(self.target)), ["README.txt", "certificate.csv", "certificate_fibres.csv", "manifest.json", "mcdc", "outer"])
 
     def test_bad_places(self):
         with self.assertError(r"FolderName is empty"):
@@ -149,7 +173,8 @@ class Writer(CactusTestCase):
         with self.assertError(r"Domain"):
             self.write()
         self.assertEqual(os.listdir(self.folder), [])
-        self.write(Outer=produce(leaking), AllowOpenSurfaces=1)
+        with self.assertError(r"not certified: 1 surfaces are not closed \(fibre 3 first\)"):
+            self.write(Outer=produce(leaking), AllowOpenSurfaces=1)
         self.assertEqual(os.listdir(self.folder), ["substrate"])
 
 

@@ -37,7 +37,8 @@ def tube(x, y, radius, length, rings=10):
         for side in range(SIDES):
             angle = 2 * math.pi * side / SIDES
             z = length * (ring / rings - 0.5)
-            points.InsertNextPoint(x + radius * math.cos(angle), y + radius * math.sin(angle), z)
+            sine = 0.0 if 2 * side % SIDES == 0 else math.sin(angle)  # two columns lie exactly at y
+            points.InsertNextPoint(x + radius * math.cos(angle), y + radius * sine, z)
     bottom = points.InsertNextPoint(x, y, -length / 2)
     top = points.InsertNextPoint(x, y, length / 2)
     for side in range(SIDES):
@@ -95,10 +96,13 @@ def fibres(lines, side):
     return result
 
 
-def two_tubes(side=10.0):
-    """Fibres, outer and inner surfaces of fibres 3 (radius 1, inner 0.7) and 5 (radius 1.5, inner 0.9), 4 µm apart along z."""
+def two_tubes(side=10.0, inset=0.0):
+    """Fibres, outer and inner surfaces of fibres 3 (radius 1, inner 0.7) and 5 (radius 1.5, inner 0.9), 4 µm apart along z.
+
+    The inner surfaces end `inset` below the outer ones' caps.
+    """
     along = [k * side / 10 for k in range(-6, 7)]
     lines = fibres({3: (1.0, [(-2, 0, z) for z in along]), 5: (1.5, [(2, 0, z) for z in along])}, side)
     outer = surfaces({3: tube(-2, 0, 1.0, side), 5: tube(2, 0, 1.5, side)}, 0, side)
-    inner = surfaces({3: tube(-2, 0, 0.7, side), 5: tube(2, 0, 0.9, side)}, 1, side)
+    inner = surfaces({3: tube(-2, 0, 0.7, side - 2 * inset), 5: tube(2, 0, 0.9, side - 2 * inset)}, 1, side)
     return lines, outer, inner

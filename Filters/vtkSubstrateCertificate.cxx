@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSubstrateCertificate.h"
+
+#include "FibreData.h"
+#include "FilterSupport.h"
+#include "SubstrateCertificate.h"
+#include "SurfaceData.h"
+#include "WholeData.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+#include <vtkTable.h>
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkSubstrateCertificate);
+
+namespace
+{
+
+template <typename Array>
+void addColumn(vtkTable* table, const cactus::CertificateColumn& column)
+{
+  vtkNew<Array> array;
+  array->SetName(column.name.c_str());
+  array->SetNumberOfValues(static_cast<vtkIdType>(column.values.size()));
+  for (std::size_t row = 0; row < column.values.size(); ++row)
+  {
+    array->SetValue(static_cast<vtkIdType>(row), static_cast<typename Array::ValueType>(column.values[row]));
+  }
+  table->AddColumn(array);
+}
+
+void fill(vtkTable* table, const std::vector<cactus::CertificateColumn>& columns)
+{
+  for (const auto& column : columns)
+  {
+    if (column.whole)
+    {
+      addColumn<vtkIdTypeArray>(table, column);
+    }
+    else
+    {
+      addColumn<vtkDoubleArray>(table, column);
+    }
+  }
+}
+
+} // namespace
+
+vtkSubstrateCertificate::vtkSubstrateCertificate()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(2);
+}
+
+int vtkSubstrateCertificate::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
+  return 1;
+}
+
+int vtkSubstrateCertificate::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  cactus::requestWholeInputs(inputs, 3);
+  return 1;
+}
+
+int vtkSubstrateCertificate::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return cactus::guarded(this,
+    [&]
+    {
+      if (!cactus::ownsWholeOutput(outputs))
+      {
+        return; // one rank measures; tables of all ranks would be joined into rows that repeat
+      }
+      vtkPolyData* outer = vtkPolyData::GetData(inputs[0]);
+      vtkPolyData* inner = vtkPolyData::GetData(inputs[1]);
+      vtkPolyData* lines = vtkPolyData::GetData(inputs[2]);
+      const cactus::Domain domain = cactus::domainFrom(outer);
+      cactus::requireSameDomain(domain, inner, "Inner");
+      cactus::requireSameDomain(domain, lines, "Fibres");
+      cactus::Fibres fibres;
+      if (lines != nullptr)
+      {
+        fibres = cactus::fibresFrom(lines);
+      }
+      cactus::SubstrateCertificateOptions options;
+      options.minimumGap = this->MinimumGap;
+      options.cutSpacing = this->CutSpacing;
+      const auto certificate =
+        cactus::certify(domain, cactus::surfacesFrom(outer, "Outer", 0), cactus::surfacesFrom(inner, "Inner", 1),
+          lines != nullptr ? &fibres : nullptr, options, cactus::contextFor(this, this->NumberOfThreads));
+      if (!certificate.certified())
+      {
+        vtkWarningMacro(<< "the substrate is not certified: " << certificate.verdict());
+      }
+      fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
+      fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
+      std::ostringstream parameters;
+      parameters << "MinimumGap=" << this->MinimumGap << " CutSpacing=" << this->CutSpacing;
+      for (int port = 0; port < 2; ++port)
+      {
+        cactus::addProvenance(outer, vtkTable::GetData(outputs, port), "SubstrateCertificate", parameters.str());
+      }
+    });
+}
+
+void vtkSubstrateCertificate::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "MinimumGap: " << this->MinimumGap << '\n';
+  os << indent << "CutSpacing: " << this->CutSpacing << '\n';
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkSubstrateCertificate
+ * @brief Checks whether a simulator can rely on a substrate's surfaces.
+ *
+ * Input 0 `Outer`, input 1 `Inner` (optional): triangle surfaces with cell data `FibreId`. Input 2 `Fibres` (optional): their
+ * centre lines, for radii along them.
+ *
+ * Output 0 `Certificate`: one row; the verdict `Certified` (0 or 1), how many surfaces or pairs have each fault, the smallest gap
+ * between two fibres, the thinnest myelin, the worst triangles, and volume fractions. Output 1 `Fibres`: one row per fibre. What
+ * cannot be measured is NaN. A warning says why a substrate is not certified.
+ *
+ * Certified is a substrate in which every surface is a closed, outward 2-manifold that does not meet itself, no two outer
+ * surfaces meet or lie inside one another, every inner surface lies strictly inside its outer one, and no two fibres are nearer
+ * than MinimumGap. All of this is decided by exact predicates (Shewchuk 1997); touching counts as meeting.
+ */
+#ifndef vtkSubstrateCertificate_h
+#define vtkSubstrateCertificate_h
+
+#include "CactusFiltersModule.h"
+
+#include <vtkTableAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkSubstrateCertificate : public vtkTableAlgorithm
+{
+public:
+  static vtkSubstrateCertificate* New();
+  vtkTypeMacro(vtkSubstrateCertificate, vtkTableAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Distance (µm) that the outer surfaces of any two fibres have to keep; 0 asks only that they do not meet. */
+  vtkSetMacro(MinimumGap, double);
+  vtkGetMacro(MinimumGap, double);
+  ///@}
+
+  ///@{
+  /** Distance (µm) between two cross-sections along a fibre. */
+  vtkSetMacro(CutSpacing, double);
+  vtkGetMacro(CutSpacing, double);
+  ///@}
+
+  ///@{
+  /** Threads to use; 0 takes all. The result does not depend on it. */
+  vtkSetMacro(NumberOfThreads, int);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+protected:
+  vtkSubstrateCertificate();
+  ~vtkSubstrateCertificate() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkSubstrateCertificate(const vtkSubstrateCertificate&) = delete;
+  void operator=(const vtkSubstrateCertificate&) = delete;
+
+  double MinimumGap = 0.02;
+  double CutSpacing = 1.0;
+  int NumberOfThreads = 0;
+};
+
+#endif
