@@ -302,15 +302,10 @@ private:
   {
     std::size_t likeliest = f;
     float least = std::numeric_limits<float>::infinity();
-    const auto centre = [](const FloatBox& box, std::size_t axis) { return 0.5F * (box.lower[axis] + box.upper[axis]); };
+    const auto centre = [](const FloatBox& box) -> Eigen::Array4f { return 0.5F * (box.lower + box.upper); };
     for (const std::size_t other : present)
     {
-      float apart = 0.0F;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        const float along = centre(this->boxOf(f), axis) - centre(this->boxOf(other), axis);
-        apart += along * along;
-      }
+      const float apart = (centre(this->boxOf(f)) - centre(this->boxOf(other))).square().sum();
       if (other != f && apart < least)
       {
         least = apart;

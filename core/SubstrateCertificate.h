@@ -88,7 +88,7 @@ struct SubstrateCertificate
 
 /// Looks at all surfaces of a substrate. `fibres` may be null, and then radii along the fibres are NaN.
 ///
-/// Outer surfaces are held in memory at once, with about 80 bytes a triangle; inner ones one per thread. Pairs of fibres are
+/// Outer surfaces are held in memory at once, with about 100 bytes a triangle; inner ones one per thread. Pairs of fibres are
 /// sorted out by their boxes, and triangles by trees of boxes. The result does not depend on the number of threads. Throws
 /// InvalidInput (a surface that is damaged, which is named) and Cancelled.
 SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres,

@@ -194,7 +194,10 @@ SurfaceReport checkSurface(const TriangleMesh& mesh)
     report.smallestAltitude = std::min(report.smallestAltitude, longest > 0.0 ? twiceArea / std::sqrt(longest) : 0.0);
     report.largestAspect =
       std::max(report.largestAspect, twiceArea > 0.0 ? longest / twiceArea : std::numeric_limits<double>::infinity());
-    report.smallestAngle = std::min({ report.smallestAngle, angleAt(a, b, c), angleAt(b, c, a), angleAt(c, a, b) });
+    // The smallest angle lies across from the shortest edge.
+    report.smallestAngle = std::min(report.smallestAngle, shortest == edges[0]   ? angleAt(c, a, b)
+                                                          : shortest == edges[1] ? angleAt(a, b, c)
+                                                                                 : angleAt(b, c, a));
 
     const std::size_t piece = pieces.find(triangle);
     report.components += piece == triangle && !repeatsCorner(t) ? 1 : 0;

@@ -45,19 +45,15 @@ struct Facet
     this->normal = this->edge[0].cross(this->edge[1]);
     this->normalSquared = this->normal.squaredNorm();
   }
-  Facet(const TriangleTree& tree, std::uint32_t triangle)
-    : Facet(std::array<Vector3d, 3>{ { tree.corner(triangle, 0), tree.corner(triangle, 1), tree.corner(triangle, 2) } })
-  {
-  }
 
   /// Another triangle's corners above the plane.
-  Heights heightsOf(const Facet& other) const
+  Heights heightsOf(const std::array<Vector3d, 3>& other) const
   {
     Heights heights;
     double reach = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const Vector3d r = other.p[i] - this->p[0];
+      const Vector3d r = other[i] - this->p[0];
       heights.of[i] = this->normal.dot(r);
       reach = std::max({ reach, std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2]) });
     }
@@ -69,6 +65,11 @@ struct Facet
     return heights;
   }
 };
+
+std::array<Vector3d, 3> cornersOf(const TriangleTree& tree, std::uint32_t triangle)
+{
+  return { { tree.corner(triangle, 0), tree.corner(triangle, 1), tree.corner(triangle, 2) } };
+}
 
 /// The nearest of what has been seen.
 struct Nearest
@@ -156,15 +157,30 @@ void edgesToEdges(const Facet& a, const Facet& b, Nearest& nearest)
   }
 }
 
-/// Lowers `nearest` where the two are nearer to each other.
-void compare(const Facet& a, const Facet& b, Nearest& nearest)
+/// Whether a plane square to what joins their middles keeps the two at least the square root of `squared` apart.
+bool heldApart(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b, double squared)
 {
-  const Heights aboveA = a.heightsOf(b);
+  const Vector3d across = (b[0] - a[0]) + (b[1] - a[1]) + (b[2] - a[2]);
+  const double lastA = std::max({ 0.0, across.dot(a[1] - a[0]), across.dot(a[2] - a[0]) });
+  const double firstB = std::min({ across.dot(b[0] - a[0]), across.dot(b[1] - a[0]), across.dot(b[2] - a[0]) });
+  const double between = firstB - lastA;
+  return between > 0.0 && between * between > 1.000001 * squared * across.squaredNorm();
+}
+
+/// Lowers `nearest` where the two are nearer to each other.
+void compare(const Facet& a, const std::array<Vector3d, 3>& cornersB, Nearest& nearest)
+{
+  const Heights aboveA = a.heightsOf(cornersB);
   if (aboveA.clearance > 0.0 && aboveA.clearance * aboveA.clearance >= nearest.squared * a.normalSquared)
   {
     return;
   }
-  const Heights aboveB = b.heightsOf(a);
+  if (heldApart(a.p, cornersB, nearest.squared))
+  {
+    return;
+  }
+  const Facet b(cornersB);
+  const Heights aboveB = b.heightsOf(a.p);
   if (aboveB.clearance > 0.0 && aboveB.clearance * aboveB.clearance >= nearest.squared * b.normalSquared)
   {
     return;
@@ -192,7 +208,7 @@ struct NodePair
   float squaredDistance;
 };
 
-/// Calls visit(triangle of a, facet of a, triangle of b, facet of b) for pairs that may be nearer than the square root of
+/// Calls visit(triangle of a, its facet, triangle of b, its corners) for pairs that may be nearer than the square root of
 /// bound(), the likely nearest first, until it returns true.
 template <typename Bound, typename Visit>
 void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visit&& visit)
@@ -233,11 +249,11 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visi
       {
         continue;
       }
-      const Facet facet(a, s);
+      const Facet facet(cornersOf(a, s));
       for (std::uint32_t n = q.first; n < q.first + q.count; ++n)
       {
         const std::uint32_t t = b.order()[n];
-        if (box.squaredDistance(b.boxes()[n]) <= bound() && visit(s, facet, t, Facet(b, t)))
+        if (box.squaredDistance(b.boxes()[n]) <= bound() && visit(s, facet, t, cornersOf(b, t)))
         {
           return;
         }
@@ -251,7 +267,7 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visi
 SurfaceGap triangleGap(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b, double below)
 {
   Nearest nearest{ below * below };
-  compare(Facet(a), Facet(b), nearest);
+  compare(Facet(a), b, nearest);
   SurfaceGap gap;
   if (nearest.found)
   {
@@ -268,10 +284,10 @@ SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double belo
   SurfaceGap gap;
   visitNear(
     a, b, [&nearest] { return nearest.squared; },
-    [&](std::uint32_t s, const Facet& facetA, std::uint32_t t, const Facet& facetB)
+    [&](std::uint32_t s, const Facet& facetA, std::uint32_t t, const std::array<Vector3d, 3>& cornersB)
     {
       const double before = nearest.squared;
-      compare(facetA, facetB, nearest);
+      compare(facetA, cornersB, nearest);
       if (nearest.squared < before)
       {
         gap.triangleA = s;
@@ -294,12 +310,12 @@ std::vector<std::uint32_t> trianglesNear(const TriangleTree& a, const TriangleTr
   const double squared = distance * distance;
   visitNear(
     a, b, [squared] { return squared; },
-    [&](std::uint32_t s, const Facet& facetA, std::uint32_t, const Facet& facetB)
+    [&](std::uint32_t s, const Facet& facetA, std::uint32_t, const std::array<Vector3d, 3>& cornersB)
     {
       if (!isNear[s])
       {
         Nearest nearest{ squared };
-        compare(facetA, facetB, nearest);
+        compare(facetA, cornersB, nearest);
         isNear[s] = nearest.found ? 1 : 0;
       }
       return false;

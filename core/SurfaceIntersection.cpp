@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace cactus
 {
@@ -144,9 +145,39 @@ bool allOnOneSide(const std::array<int, 3>& sides)
   return sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2];
 }
 
+/// Whether, seen from `origin`, all of `b` lies further in direction `across` than all of `a`, for sure: by far more than
+/// rounding can change. Most of what is asked about is told apart by this, without exact predicates.
+template <std::size_t Count>
+bool clearlyBehind(const Vector3d& origin, const Vector3d& across, const std::array<const Vector3d*, Count>& a,
+  const std::array<const Vector3d*, Count>& b)
+{
+  double last = -std::numeric_limits<double>::infinity();
+  double first = std::numeric_limits<double>::infinity();
+  double reach = 0.0;
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    const Vector3d toA = *a[i] - origin;
+    const Vector3d toB = *b[i] - origin;
+    last = std::max(last, across.dot(toA));
+    first = std::min(first, across.dot(toB));
+    reach = std::max({ reach, std::fabs(toA[0]), std::fabs(toA[1]), std::fabs(toA[2]), std::fabs(toB[0]), std::fabs(toB[1]),
+      std::fabs(toB[2]) });
+  }
+  const double rounding = 1e-14 * reach * (std::fabs(across[0]) + std::fabs(across[1]) + std::fabs(across[2]));
+  if constexpr (Count == 2)
+  {
+    return last < -rounding && first > rounding; // with the origin between them
+  }
+  return first - last > rounding;
+}
+
 /// Of two triangles that meet, an edge of one meets the other one.
 bool meet(const Corners& a, const Corners& b)
 {
+  if (clearlyBehind(*a[0], (*b[0] - *a[0]) + (*b[1] - *a[1]) + (*b[2] - *a[2]), a, b))
+  {
+    return false;
+  }
   const std::array<int, 3> sidesA = sidesOf(a, b);
   if (allOnOneSide(sidesA))
   {
@@ -206,12 +237,18 @@ bool meetElsewhere(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t 
     // What else they have in common reaches from the shared corner to the opposite edge of one of them.
     const std::size_t i = inFirst[0];
     const std::size_t j = inSecond[0];
-    const std::array<int, 2> sidesA{ { orientation(*b[0], *b[1], *b[2], *a[(i + 1) % 3]),
-      orientation(*b[0], *b[1], *b[2], *a[(i + 2) % 3]) } };
-    const std::array<int, 2> sidesB{ { orientation(*a[0], *a[1], *a[2], *b[(j + 1) % 3]),
-      orientation(*a[0], *a[1], *a[2], *b[(j + 2) % 3]) } };
-    return segmentMeets(*a[(i + 1) % 3], sidesA[0], *a[(i + 2) % 3], sidesA[1], b) ||
-           segmentMeets(*b[(j + 1) % 3], sidesB[0], *b[(j + 2) % 3], sidesB[1], a);
+    const std::array<const Vector3d*, 2> edgeA{ { a[(i + 1) % 3], a[(i + 2) % 3] } };
+    const std::array<const Vector3d*, 2> edgeB{ { b[(j + 1) % 3], b[(j + 2) % 3] } };
+    if (clearlyBehind(*a[i], (*edgeB[0] - *edgeA[0]) + (*edgeB[1] - *edgeA[1]), edgeA, edgeB))
+    {
+      return false;
+    }
+    const auto meets = [](const std::array<const Vector3d*, 2>& edge, const Corners& t)
+    {
+      return segmentMeets(
+        *edge[0], orientation(*t[0], *t[1], *t[2], *edge[0]), *edge[1], orientation(*t[0], *t[1], *t[2], *edge[1]), t);
+    };
+    return meets(edgeA, b) || meets(edgeB, a);
   }
   if (shared == 2)
   {
@@ -370,10 +407,10 @@ Side sideOf(const TriangleTree& surface, const Vector3d& point)
     const Vector3d far(lower[0] - 0.1 * size - 1.0, point[1] + 0.2 * size * (turn - std::floor(turn) - 0.5),
       point[2] + 0.2 * size * (lift - std::floor(lift) - 0.5));
     FloatBox reach;
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis)
     {
-      reach.lower[axis] = std::nextafter(static_cast<float>(std::min(point[int(axis)], far[int(axis)])), -3e38F);
-      reach.upper[axis] = std::nextafter(static_cast<float>(std::max(point[int(axis)], far[int(axis)])), 3e38F);
+      reach.lower[axis] = std::nextafter(static_cast<float>(std::min(point[axis], far[axis])), -3e38F);
+      reach.upper[axis] = std::nextafter(static_cast<float>(std::max(point[axis], far[axis])), 3e38F);
     }
     Crossings crossings;
     visitTriangles(

@@ -36,7 +36,7 @@ FloatBox boxOf(const TriangleMesh& mesh, std::size_t triangle)
   const double* b = mesh.points[std::size_t(t[1])].data();
   const double* c = mesh.points[std::size_t(t[2])].data();
   FloatBox box;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis)
   {
     box.lower[axis] = roundedDown(std::min({ a[axis], b[axis], c[axis] }));
     box.upper[axis] = roundedUp(std::max({ a[axis], b[axis], c[axis] }));
@@ -50,7 +50,7 @@ struct Item
   std::uint32_t triangle;
 
   /// Twice its centre.
-  float centre(std::size_t axis) const { return this->box.lower[axis] + this->box.upper[axis]; }
+  float centre(int axis) const { return this->box.lower[axis] + this->box.upper[axis]; }
 };
 
 struct Range
@@ -63,31 +63,23 @@ struct Range
 
 void include(FloatBox& box, const FloatBox& other)
 {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.lower[axis] = std::min(box.lower[axis], other.lower[axis]);
-    box.upper[axis] = std::max(box.upper[axis], other.upper[axis]);
-  }
+  box.lower = box.lower.min(other.lower);
+  box.upper = box.upper.max(other.upper);
 }
 
 /// Where to part the items of a range, which are put into that order; neither part is empty.
 std::uint32_t part(std::vector<Item>& items, const Range& range)
 {
-  std::array<float, 3> lower{ { infinite, infinite, infinite } };
-  std::array<float, 3> upper{ { -infinite, -infinite, -infinite } };
+  Eigen::Array4f lower = Eigen::Array4f::Constant(infinite);
+  Eigen::Array4f upper = -lower;
   for (std::uint32_t i = range.first; i < range.last; ++i)
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      lower[axis] = std::min(lower[axis], items[i].centre(axis));
-      upper[axis] = std::max(upper[axis], items[i].centre(axis));
-    }
+    const Eigen::Array4f centre = items[i].box.lower + items[i].box.upper;
+    lower = lower.min(centre);
+    upper = upper.max(centre);
   }
-  std::size_t longest = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis)
-  {
-    longest = upper[axis] - lower[axis] > upper[longest] - lower[longest] ? axis : longest;
-  }
+  int longest = 0;
+  (upper - lower).head<3>().maxCoeff(&longest);
   const auto first = items.begin() + range.first;
   const auto last = items.begin() + range.last;
   if (range.depth < depthOfMedians)
