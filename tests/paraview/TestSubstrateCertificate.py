@@ -7,7 +7,7 @@ import random
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
 from paraview.simple import SubstrateCertificate
-from surfaces import EQUIVALENT, SIDES, surfaces, tube, two_tubes
+from surfaces import EQUIVALENT, SIDES, surfaces, tube, two_tubes, without
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
@@ -27,14 +27,6 @@ def move(part, point, by):
     result = copy(part)
     moved = [a + b for a, b in zip(part.GetPoint(point), by)]
     result.GetPoints().SetPoint(point, moved)
-    return result
-
-
-def without(part, triangle):
-    result = copy(part)
-    result.BuildCells()
-    result.DeleteCell(triangle)
-    result.RemoveDeletedCells()
     return result
 
 
@@ -129,7 +121,7 @@ class Certificate(CactusTestCase):
         one, other = tube(-2, 0, 1, 9), tube(1, 0, 1.5, 9)
         self.assertEqual(self.compare({1: one, 2: other})["Certified"], 1)
         broken = {
-            "hole": {1: without(one, 50), 2: other},
+            "hole": {1: without(one, [50]), 2: other},
             "flipped triangle": {1: one, 2: flipped(other, 77)},
             "moved point": {1: move(one, 5 * SIDES, (-2.2, 0.1, 0.03)), 2: other},
             "overlapping by 1e-6": {1: one, 2: tube(0.5 - 1e-6, 0, 1.5, 9)},

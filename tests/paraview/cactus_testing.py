@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests in this folder share: VTK's errors as failures, a folder of one's own, and the mesh oracle.
+"""What the tests in this folder share: VTK's errors as failures, a folder of one's own, and the judges in tests/tools.
 
 VTK reports an error and goes on; neither pvpython nor an exception tells of it. CactusTestCase watches VTK's output, so that a test
 fails by every error and warning that it did not ask for with assertError.
@@ -110,9 +110,20 @@ def make(element, data):
     return getattr(simple, element.get("name"))(**inputs)
 
 
+def judged(variable, what, *arguments):
+    """The JSON that one of the programs in tests/tools prints."""
+    done = subprocess.run([os.environ[variable], *arguments], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise AssertionError(f"the {what} failed on {arguments[-1]}: {done.stderr}")
+    return json.loads(done.stdout)
+
+
 def mesh_oracle(folder, *arguments):
     """What the independent checker finds in a folder of PLY or OFF files; see tests/tools/mesh_oracle.cpp."""
-    done = subprocess.run([os.environ["CACTUS_MESH_ORACLE"], *arguments, folder], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise AssertionError(f"the mesh oracle failed on {folder}: {done.stderr}")
-    return json.loads(done.stdout)
+    return judged("CACTUS_MESH_ORACLE", "mesh oracle", *arguments, folder)
+
+
+def random_walk(folder, **options):
+    """What becomes of walkers in a substrate folder; see tests/tools/random_walk.cpp."""
+    arguments = [word for name, value in options.items() for word in (f"--{name}", repr(value))]
+    return judged("CACTUS_RANDOM_WALK", "random walk", *arguments, folder)

@@ -54,6 +54,17 @@ def tube(x, y, radius, length, rings=10):
     return surface
 
 
+def without(part, triangles):
+    """A copy with some triangles taken out."""
+    result = vtkPolyData()
+    result.DeepCopy(part)
+    result.BuildCells()
+    for triangle in triangles:
+        result.DeleteCell(triangle)
+    result.RemoveDeletedCells()
+    return result
+
+
 def surfaces(parts, kind, side):
     """One vtkPolyData of the surfaces {fibre id: vtkPolyData}, in the product's data model."""
     append = vtkAppendPolyData()
