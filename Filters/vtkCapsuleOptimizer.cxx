@@ -107,6 +107,8 @@ const char* reasonText(cactus::StopReason reason)
   {
   case cactus::StopReason::MaximumIterations:
     return "MaximumIterations were used up";
+  case cactus::StopReason::Stagnated:
+    return "nothing more was gained";
   case cactus::StopReason::TimeBudget:
     return "TimeBudget ran out";
   case cactus::StopReason::Stopped:

@@ -97,7 +97,7 @@ public:
   ///@}
 
   ///@{
-  /** Share of its cuboid above which a bundle is allowed to widen. */
+  /** Share of its cuboid above which a bundle is widened. */
   vtkSetMacro(PackingLimit, double);
   vtkGetMacro(PackingLimit, double);
   ///@}
@@ -143,10 +143,10 @@ private:
   double OverlapTolerance = 1e-3;
   int Method = MOMENTUM;
   double OverlapWeight = 1.0;
-  double CurvatureWeight = 2.0;
-  double LengthWeight = 0.5;
+  double CurvatureWeight = 10.0;
+  double LengthWeight = 10.0;
   double RadiusWeight = 1.0;
-  double CompactnessWeight = 1.0;
+  double CompactnessWeight = 2.0;
   double StepSize = 1.0;
   double Relaxation = 0.97;
   double PackingLimit = 0.7;

@@ -2,7 +2,7 @@
 // What the optimiser makes of initial states of all kinds: one row of a Markdown table per state.
 //
 //   cactus_optimiser_quality [--threads N] [--iterations N] [--seconds N] [--seed N] [--method momentum|adagrad]
-//     [--convergence FILE.csv] [--OPTION VALUE]... STATE...
+//     [--convergence FILE.csv] [--progress on] [--OPTION VALUE]... STATE...
 //
 // where STATE is a name below, a pattern of them ("single-*"), or the path of a strand file, and OPTION is a parameter of the
 // optimiser in lower case (relaxation, momentum, smoothing, step, curvature, length, compactness, packing, margin, radius).
@@ -202,6 +202,11 @@ int run(int count, char** arguments)
     else if (argument == "--convergence")
     {
       convergencePath = arguments[++i];
+    }
+    else if (argument == "--progress" && arguments[i + 1] == std::string("on"))
+    {
+      ++i;
+      context.progress = [](double, const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); };
     }
     else if (argument == "--seed")
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CapsuleOptimizer.h"
 
+#include "BundleBox.h"
 #include "Capsules.h"
 #include "Error.h"
 #include "NeighbourSearch.h"
@@ -28,7 +29,12 @@ double secondsSince(Clock::time_point start)
 
 /// Largest step of a control point with momentum, as a multiple of its radius: fibres that push each other away at full speed
 /// land in others, and every neighbour list is worthless at once.
-constexpr double fastest = 0.1;
+constexpr double fastest = 0.05;
+
+/// Without progress for so many iterations a descent has got stuck: progress is a cost, or a largest penetration, smaller by
+/// this share than any before.
+constexpr int patience = 200;
+constexpr double progressShare = 0.01;
 
 /// The state of one descent: positions, radii, velocities and the neighbour lists that go with them.
 class Descent
@@ -46,6 +52,8 @@ public:
     , Stiffness(fibres.points.size())
     , Velocity(fibres.points.size(), Eigen::Vector3d::Zero())
     , RadiusVelocity(options.radiusTolerance > 0.0 ? fibres.points.size() : 0, 0.0)
+    , Speed(fibres.points.size(), 0.0f)
+    , Push(fibres.points.size(), 0.0f)
     , Displacement(fibres.points.size())
     , Allowance(fibres.points.size())
   {
@@ -96,7 +104,7 @@ public:
     this->Exceeded = std::find(exceeded.begin(), exceeded.end(), true) != exceeded.end();
     if (this->Options.method == DescentMethod::Momentum)
     {
-      this->Relaxation = std::max(1e-4, this->Relaxation * this->Options.relaxation);
+      this->Relaxation = std::max(1e-8, this->Relaxation * this->Options.relaxation);
     }
   }
 
@@ -117,14 +125,15 @@ private:
     {
       return;
     }
-    // Each capsule reaches as far as it would come at its present speed in a few steps, but for those that will be pushed
-    // suddenly at least by some share of its radius. A search costs about as much as one evaluation, a wide list costs time in
-    // every step: that share follows from letting a list hold for some eight steps.
-    constexpr double foresight = 6.0;
+    // Each capsule reaches as far as it would come in so many steps at its present speed and with its present push, but for those
+    // that will be hit suddenly at least by some share of its radius. A search costs about as much as four evaluations, a wide
+    // list costs time in every step: that share follows from letting a list hold for some twelve steps.
+    constexpr double foresight = 12.0;
+    constexpr double pushes = 5.0;
     if (this->StepsSinceSearch > 0)
     {
-      const double change = this->StepsSinceSearch < 7 ? 1.4 : this->StepsSinceSearch > 10 ? 0.75 : 1.0;
-      this->Slack = std::min(std::max(change * this->Slack, 0.02), 0.4);
+      const double change = this->StepsSinceSearch < 11 ? 1.4 : this->StepsSinceSearch > 15 ? 0.75 : 1.0;
+      this->Slack = std::min(std::max(change * this->Slack, 0.02), 0.5);
     }
     const double margin = this->Options.safetyMargin - 1.0;
     std::vector<float> reach(this->Bodies.size());
@@ -132,7 +141,7 @@ private:
     for (std::size_t i = 0; i < this->Allowance.size(); ++i)
     {
       const double radius = this->State.radii[i];
-      const double foreseen = foresight * std::min(this->Velocity[i].norm(), fastest * radius);
+      const double foreseen = foresight * std::min(double(this->Speed[i]) + pushes * double(this->Push[i]), fastest * radius);
       this->Allowance[i] = static_cast<float>(std::max(foreseen, this->Slack * radius));
       this->Displacement[i].setZero();
     }
@@ -187,6 +196,7 @@ private:
   bool move(std::size_t i, const Eigen::Vector3d& by, double growth)
   {
     this->State.points[i] += by;
+    this->Speed[i] = static_cast<float>(by.norm());
     Eigen::Vector4f& total = this->Displacement[i];
     total.head<3>() += by.cast<float>();
     total[3] += static_cast<float>(std::abs(growth));
@@ -214,6 +224,7 @@ private:
     bool exceeded = false;
     for (std::size_t i = begin; i < end; ++i)
     {
+      this->Push[i] = static_cast<float>(this->Options.stepSize * this->Gradient[i].norm());
       double growth = 0.0;
       if (this->Options.radiusTolerance > 0.0)
       {
@@ -335,6 +346,8 @@ private:
   std::vector<Eigen::Vector3d> Velocity; ///< for Adagrad the sums of squared gradients
   std::vector<double> RadiusVelocity;
   double Relaxation = 1.0;
+  std::vector<float> Speed;                  ///< length of the last step (µm)
+  std::vector<float> Push;                   ///< what the gradient added to it
   std::vector<Eigen::Vector4f> Displacement; ///< of each control point since the last search, and the sum of its radius's changes
   std::vector<float> Allowance;              ///< how far that may go before the next search
   bool Exceeded = false;                     ///< whether it has gone further anywhere
@@ -394,11 +407,18 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
   const Clock::time_point start = Clock::now();
   const int threads = context.threadCount();
   OptimisationResult result;
+  // A state without overlap is left alone.
+  const bool apart = measureOverlap(fibres, options.overlapTolerance, threads).overlappingPairs == 0;
+  if (!apart && options.weights.compactness > 0.0)
+  {
+    spreadBundles(fibres, options.packingLimit);
+  }
   {
     Descent descent(fibres, options, threads);
     std::vector<Eigen::Vector3d> bestPoints = fibres.points;
     std::vector<double> bestRadii = fibres.radii;
     double bestCost = std::numeric_limits<double>::infinity();
+    ConvergenceRow milestone; // the last state that was a step forward
     for (int iteration = 0;; ++iteration)
     {
       ConvergenceRow row = descent.evaluate();
@@ -423,6 +443,19 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
       if (iteration >= options.maximumIterations)
       {
         result.reason = StopReason::MaximumIterations;
+        break;
+      }
+      if (iteration == 0 || row.overlapCost < (1.0 - progressShare) * milestone.overlapCost ||
+          row.maximumPenetration < (1.0 - progressShare) * milestone.maximumPenetration)
+      {
+        milestone.iteration = iteration;
+        milestone.overlapCost = iteration == 0 ? row.overlapCost : std::min(milestone.overlapCost, row.overlapCost);
+        milestone.maximumPenetration =
+          iteration == 0 ? row.maximumPenetration : std::min(milestone.maximumPenetration, row.maximumPenetration);
+      }
+      if (iteration - milestone.iteration >= patience)
+      {
+        result.reason = StopReason::Stagnated;
         break;
       }
       if (context.stopRequested())

@@ -31,14 +31,15 @@ struct CapsuleOptimizerOptions
   /// Momentum: fraction of the Newton step along each coordinate. Adagrad: first step in µm.
   double stepSize = 1.0;
   /// Part of the last step that the next one carries on (Momentum only), in [0, 1).
-  double momentum = 0.95;
+  double momentum = 0.97;
   /// Stiffness, relative to that of a contact, of the thread that spreads a step along its fibre (Momentum only): fibres then
   /// move as a whole instead of kinking control point by control point. 0 for none.
   double smoothing = 5.0;
   /// Curvature, length and compactness fade by this factor in every iteration (Momentum only), so that at first they shape the
   /// fibres and at last cannot hold an overlap open; 1 keeps them.
   double relaxation = 0.97;
-  /// Compactness lets a bundle widen where its fibres would fill more than this of its cuboid.
+  /// A bundle whose overlapping fibres would fill more than this of its cuboid is widened so far (where compactness has a
+  /// weight).
   double packingLimit = 0.70;
   /// The overlap cost acts as if capsules were thicker by this factor, so that the descent ends strictly apart.
   double safetyMargin = 1.01;
@@ -70,6 +71,7 @@ enum class StopReason
 {
   Converged,
   MaximumIterations,
+  Stagnated, ///< neither cost nor largest penetration fell any more
   TimeBudget,
   Stopped
 };

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 
 namespace cactus
 {
@@ -20,80 +18,7 @@ constexpr double shortest = 0.75;
 /// Smallest radius of curvature, relative to the fibre's radius, that a bend is free to take.
 constexpr double sharpest = 1.2;
 
-/// Widens the box laterally until the bundle's capsules fill no more of it than `packingLimit`.
-void expandToDensity(const Fibres& fibres, int bundle, double packingLimit, BundleBox& box)
-{
-  double volume = 0.0;
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    if (fibres.bundleIds[f] != bundle)
-    {
-      continue;
-    }
-    volume += chainVolume(fibres, f);
-    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
-    {
-      const double height = fibres.points[i].dot(box.axis);
-      lowest = std::min(lowest, height);
-      highest = std::max(highest, height);
-    }
-  }
-  const double width = box.upperU - box.lowerU;
-  const double depth = box.upperV - box.lowerV;
-  const double density = volume / (width * depth * (highest - lowest));
-  const double growth = 0.5 * (std::sqrt(std::max(1.0, density / packingLimit)) - 1.0);
-  box.lowerU -= growth * width;
-  box.upperU += growth * width;
-  box.lowerV -= growth * depth;
-  box.upperV += growth * depth;
-}
-
 } // namespace
-
-std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
-{
-  std::map<int, BundleBox> boxes;
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    auto found = boxes.find(fibres.bundleIds[f]);
-    if (found == boxes.end())
-    {
-      BundleBox box;
-      box.axis = bundleAxis(fibres, fibres.bundleIds[f]);
-      int lateral = 0;
-      box.axis.cwiseAbs().minCoeff(&lateral);
-      box.v = Eigen::Vector3d::Unit(lateral);
-      box.v = (box.v - box.v.dot(box.axis) * box.axis).normalized();
-      box.u = box.v.cross(box.axis);
-      box.lowerU = box.lowerV = std::numeric_limits<double>::infinity();
-      box.upperU = box.upperV = -std::numeric_limits<double>::infinity();
-      found = boxes.emplace(fibres.bundleIds[f], box).first;
-    }
-    BundleBox& box = found->second;
-    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
-    {
-      const double u = fibres.points[i].dot(box.u);
-      const double v = fibres.points[i].dot(box.v);
-      const double r = fibres.radii[i];
-      box.lowerU = std::min(box.lowerU, u - r);
-      box.upperU = std::max(box.upperU, u + r);
-      box.lowerV = std::min(box.lowerV, v - r);
-      box.upperV = std::max(box.upperV, v + r);
-    }
-  }
-  for (auto& entry : boxes)
-  {
-    expandToDensity(fibres, entry.first, packingLimit, entry.second);
-  }
-  std::vector<BundleBox> perFibre;
-  for (const int bundle : fibres.bundleIds)
-  {
-    perFibre.push_back(boxes.at(bundle));
-  }
-  return perFibre;
-}
 
 FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit)
   : Weights(weights)
@@ -192,7 +117,7 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
   {
     const Eigen::Vector3d turned = x[end - 1] - x[begin] - this->ReferenceChord[f];
     const double length = this->ReferenceLength[begin];
-    const double k = relaxation * this->Weights.compactness * length * length;
+    const double k = 100.0 * relaxation * this->Weights.compactness * length * length;
     totals.compactness += 0.5 * k * turned.squaredNorm();
     gradient[begin] -= k * turned;
     gradient[end - 1] += k * turned;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Domain.h"
+#include "BundleBox.h"
 #include "Fibres.h"
 
 #include <Eigen/Core>
@@ -15,25 +15,11 @@ namespace cactus
 /// Weights of the terms that keep a fibre in shape, relative to the overlap cost.
 struct FibreCostWeights
 {
-  double curvature = 2.0;
-  double length = 0.5;
+  double curvature = 10.0;
+  double length = 10.0;
   double radius = 1.0;
-  double compactness = 1.0;
+  double compactness = 2.0;
 };
-
-/// A bundle's own cuboid: the box, aligned with the bundle's axis, that its fibres fill. Compactness keeps them in it.
-struct BundleBox
-{
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(); ///< direction of the bundle
-  Eigen::Vector3d u = Eigen::Vector3d::UnitX();    ///< first lateral direction
-  Eigen::Vector3d v = Eigen::Vector3d::UnitY();    ///< second lateral direction
-  double lowerU = 0.0, upperU = 0.0;               ///< µm, where surfaces of fibres may reach along u
-  double lowerV = 0.0, upperV = 0.0;
-};
-
-/// The cuboids of all bundles, indexed by fibre: laterally the extent of the fibres as they come in, widened where they would
-/// fill more than `packingLimit` of it. One lateral direction is the domain axis that is most perpendicular to the bundle.
-std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit);
 
 /// Sums of the cost terms over fibres.
 struct FibreCostTotals
@@ -49,9 +35,9 @@ struct FibreCostTotals
 ///  - length, per segment: k/2 · max(0, ℓ − L)², k = 20 / (1/r1 + 1/r2), L the segment's length before optimisation;
 ///  - radius, per control point: (r − r_target)²;
 ///  - compactness, per control point: ½ ℓ² e², e how far the fibre's surface leaves its bundle's cuboid sideways, ℓ the mean
-///  length of the
-///    segments at the point. It replaces an attraction to the axis, which would compress the core of a bundle that is already
-///    dense.
+///  length of the segments at the point (it replaces an attraction to the axis, which would compress the core of a bundle that is
+///  already dense); and per fibre 50 L1² |c − C|², c its chord from end to end, C that before optimisation, L1 its first segment's
+///  length.
 /// Two limits do not fade, since a fibre that folds up finds no way out: they belong to curvature and length, and share their
 /// weights.
 ///  - bends, per triple: ¼ (L1 L2)² · max(0, cos θ_max − cos θ)², θ_max the angle at which the radius of curvature is 1.2 fibre

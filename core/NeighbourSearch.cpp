@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NeighbourSearch.h"
 
-#include "SegmentDistance.h"
-#include "Vectors.h"
+#include "VectorKernels.h"
 
 #include <algorithm>
 #include <array>
@@ -17,9 +16,6 @@ namespace
 
 constexpr std::size_t runLength = 6;
 constexpr std::size_t width = 16;
-
-typedef float Vector __attribute__((vector_size(4 * width)));
-typedef std::int32_t Mask __attribute__((vector_size(4 * width)));
 
 typedef float Four __attribute__((vector_size(16)));
 typedef std::int32_t FourInts __attribute__((vector_size(16)));
@@ -125,7 +121,7 @@ std::vector<Run> runsOf(const Capsules& capsules, const std::vector<float>& reac
 class CellGrid
 {
 public:
-  /// Cells about as large as the mean run along each axis, but not more of them than runs.
+  /// Cells half as large again as the mean run along each axis, and fewer of them than runs.
   explicit CellGrid(const std::vector<Run>& runs)
   {
     Box all = runs.front().box;
@@ -145,7 +141,7 @@ public:
     {
       cells *= (static_cast<double>(all.upper[axis]) - all.lower[axis]) / (extent[axis] / count);
     }
-    const double coarser = std::cbrt(std::max(1.0, cells / count));
+    const double coarser = 1.5 * std::cbrt(std::max(1.0, cells / count));
     for (int axis = 0; axis < 3; ++axis)
     {
       const double inverse = count / (coarser * extent[axis]);
@@ -286,56 +282,7 @@ private:
   std::vector<std::uint32_t> Indices;
 };
 
-/// Appends those candidates to `found` that are within reach of p.
-CACTUS_VECTOR_CLONES void selectNeighbours(const Candidates& candidates, const float (&p)[7], std::vector<std::uint32_t>& found)
-{
-  const std::size_t count = candidates.size();
-  const std::size_t before = found.size();
-  found.resize(before + count + width);
-  std::uint32_t* next = found.data() + before;
-  const Vector zero = {};
-  for (std::size_t n = 0; n < count; n += width)
-  {
-    Vector q[7];
-    for (int number = 0; number < 7; ++number)
-    {
-      std::memcpy(&q[number], candidates.column(number) + n, sizeof(Vector));
-    }
-    Vector a = zero, b = zero, c = zero, e = zero, f = zero;
-    Vector u[3], v[3], r[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      u[axis] = zero + (p[3 + axis] - p[axis]);
-      v[axis] = q[3 + axis] - q[axis];
-      r[axis] = p[axis] - q[axis];
-      a += u[axis] * u[axis];
-      b += u[axis] * v[axis];
-      c += u[axis] * r[axis];
-      e += v[axis] * v[axis];
-      f += v[axis] * r[axis];
-    }
-    Vector s, t;
-    closestParameters<Vector, float>(a, e, b, c, f, s, t);
-    Vector squared = zero;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const Vector w = r[axis] + s * u[axis] - t * v[axis];
-      squared += w * w;
-    }
-    const Vector limit = p[6] + q[6];
-    // The errors of single precision in squared are below 10⁻⁶ of these squares, also where segments are nearly parallel: s may
-    // then be off, but the distance hardly depends on it.
-    const Mask near = squared < limit * limit + 1e-5f * (limit * limit + a + e);
-    for (std::size_t l = 0; l < width; ++l)
-    {
-      *next = candidates.indices()[n + l];
-      next -= near[l];
-    }
-  }
-  found.resize(static_cast<std::size_t>(next - found.data()));
-}
-
-/// Finds the neighbours of the capsules of one run, in increasing order.
+/// Finds the neighbours of the capsules of one run.
 class RunSearch
 {
 public:
@@ -368,6 +315,12 @@ public:
         this->Near.add(k, this->Bodies.bodies[k], origin, this->Reach[k]);
       }
     }
+    this->Found.resize(std::max(this->Found.size(), count + width));
+    const float* columns[7];
+    for (int number = 0; number < 7; ++number)
+    {
+      columns[number] = this->Near.column(number);
+    }
     for (std::uint32_t k = run.first(); k < run.last(); ++k)
     {
       const Capsule& body = this->Bodies.bodies[k];
@@ -378,9 +331,10 @@ public:
         numbers[3 + axis] = static_cast<float>(body.p1[axis] - origin[axis]);
       }
       numbers[6] = static_cast<float>(std::max(body.r0, body.r1)) + this->Reach[k];
-      const std::size_t before = indices.size();
-      selectNeighbours(this->Near, numbers, indices);
-      counts[k] = indices.size() - before;
+      const std::uint32_t* end =
+        this->Kernels.selectNeighbours(columns, this->Near.indices(), count, numbers, this->Found.data());
+      indices.insert(indices.end(), static_cast<const std::uint32_t*>(this->Found.data()), end);
+      counts[k] = static_cast<std::size_t>(end - this->Found.data());
     }
   }
 
@@ -418,8 +372,10 @@ private:
   const CellGrid& Grid;
   const std::vector<std::size_t>& Start;
   const std::vector<Run>& Entries;
+  const VectorKernels& Kernels = vectorKernels();
   std::vector<std::array<std::uint32_t, 2>> Others;
   Candidates Near;
+  std::vector<std::uint32_t> Found;
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CapsuleOptimizer.h"
 
+#include "BundleBox.h"
 #include "Error.h"
 #include "RandomBundle.h"
 #include "SegmentDistance.h"
@@ -185,6 +186,55 @@ TEST(CapsuleOptimizer, LeavesAGoodStateAlone)
   const auto result = cactus::optimise(fibres, {}, {});
   EXPECT_EQ(result.convergence.size(), 1u);
   EXPECT_EQ(fibres.points[5], before.points[5]);
+}
+
+// Guarantee: what cannot be parted does not run on for nothing, and says so: two fibres in the very same place push in no
+// direction.
+TEST(CapsuleOptimizer, StopsWhereNothingMoreIsGained)
+{
+  Fibres fibres = crossingPair();
+  for (std::size_t i = 0; i < 11; ++i)
+  {
+    fibres.points[11 + i] = fibres.points[i];
+  }
+  const auto result = cactus::optimise(fibres, {}, {});
+  EXPECT_EQ(result.reason, cactus::StopReason::Stagnated);
+  EXPECT_LT(result.convergence.size(), 500u);
+  EXPECT_EQ(result.maximumPenetration, 1.0);
+}
+
+// Guarantee: a bundle denser than PackingLimit is widened to it at once, each fibre as a whole, and others are left alone.
+TEST(BundleBox, SpreadsWhatIsTooDense)
+{
+  const Fibres before = randomBundle(17, 50, 12, 6.0, 0.0);
+  const auto density = [](const Fibres& bundle)
+  {
+    const cactus::BundleBox box = cactus::bundleBoxes(bundle, 1.0).front();
+    double volume = 0.0;
+    for (std::size_t f = 0; f < bundle.size(); ++f)
+    {
+      volume += cactus::chainVolume(bundle, f);
+    }
+    return volume / ((box.upperU - box.lowerU) * (box.upperV - box.lowerV) * 6.0);
+  };
+  const double limit = 0.8 * density(before);
+  ASSERT_LT(limit, 1.0);
+  Fibres fibres = before;
+  cactus::spreadBundles(fibres, limit);
+  EXPECT_LT(density(fibres), 0.9 * density(before)); // fibres keep thickness and slant, so the cuboid grows a little less
+  EXPECT_GT(density(fibres), 0.99 * limit);
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const Eigen::Vector3d shift = fibres.points[fibres.offsets[f]] - before.points[before.offsets[f]];
+    EXPECT_NEAR(shift[2], 0.0, 0.2);
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      EXPECT_NEAR((fibres.points[i] - before.points[i] - shift).norm(), 0.0, 1e-12);
+    }
+  }
+  Fibres loose = before;
+  cactus::spreadBundles(loose, std::min(1.0, 1.01 * density(before)));
+  EXPECT_EQ(loose.points, before.points);
 }
 
 // Guarantee: radii change only within RadiusTolerance.

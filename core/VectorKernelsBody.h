@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pair loops of VectorKernels.h for one vector unit. Included once by each source file that is compiled for one, with
+// CACTUS_DOUBLES the doubles in a vector and CACTUS_KERNELS the name to define. Such a file must not leave behind an inline
+// function that others share, since the linker might take the version for a machine that is not there: nothing here calls one
+// that is not forced inline.
+#include "SegmentDistance.h"
+#include "VectorKernels.h"
+
+namespace cactus
+{
+
+namespace
+{
+
+/// As many doubles and floats as fit into a vector.
+constexpr int width = CACTUS_DOUBLES;
+constexpr int floats = 2 * CACTUS_DOUBLES;
+typedef double Vector __attribute__((vector_size(8 * width)));
+typedef long long Mask __attribute__((vector_size(8 * width)));
+typedef float Floats __attribute__((vector_size(4 * floats)));
+typedef std::int32_t FloatMask __attribute__((vector_size(4 * floats)));
+
+/// Neighbours are summed in this many lanes, in one vector or in several.
+constexpr int lanes = 8;
+constexpr int vectors = lanes / width;
+
+inline __attribute__((always_inline)) Vector select(const Mask& mask, const Vector& x, const Vector& y)
+{
+  return mask ? x : y;
+}
+
+inline __attribute__((always_inline)) Vector squareRoot(const Vector& x)
+{
+  Vector root;
+  for (int l = 0; l < width; ++l)
+  {
+    root[l] = __builtin_sqrt(x[l]);
+  }
+  return root;
+}
+
+inline __attribute__((always_inline)) bool any(const Mask& mask)
+{
+  long long bits = 0;
+  for (int l = 0; l < width; ++l)
+  {
+    bits |= mask[l];
+  }
+  return bits != 0;
+}
+
+/// What the neighbours contribute to one capsule, lane by lane.
+struct LaneSums
+{
+  Vector gradient0[3];
+  Vector gradient1[3];
+  Vector radius0;
+  Vector radius1;
+  Vector stiffness0;
+  Vector stiffness1;
+  Vector cost;
+  Vector penetration;
+  Mask overlapping;
+};
+
+/// Adds the contributions of as many neighbours q as a vector holds (their eight numbers, transposed) to the sums of p.
+inline __attribute__((always_inline)) void addLanes(
+  const Capsule& p, const Vector (&q)[8], double margin, double tolerance, bool tapered, LaneSums& sums)
+{
+  const Vector zero = q[0] - q[0];
+  const Vector one = zero + 1.0;
+  Vector u[3], v[3], r[3], w[3];
+  Vector a = zero, b = zero, c = zero, e = zero, f = zero;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    u[axis] = zero + (p.p1[axis] - p.p0[axis]);
+    v[axis] = q[4 + axis] - q[axis];
+    r[axis] = p.p0[axis] - q[axis];
+    a += u[axis] * u[axis];
+    b += u[axis] * v[axis];
+    c += u[axis] * r[axis];
+    e += v[axis] * v[axis];
+    f += v[axis] * r[axis];
+  }
+  Vector s, t;
+  closestParameters<Vector>(a, e, b, c, f, s, t);
+  Vector squared = zero;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    w[axis] = r[axis] + s * u[axis] - t * v[axis];
+    squared += w[axis] * w[axis];
+  }
+  const Vector taperP = zero + (p.r1 - p.r0);
+  const Vector taperQ = q[7] - q[3];
+  const Vector rp = p.r0 + s * taperP;
+  const Vector rq = q[3] + t * taperQ;
+  // Lists reach further than contact: many have no pair to add here.
+  const Vector farthest = margin * (rp + rq);
+  if (!any(squared < farthest * farthest))
+  {
+    return;
+  }
+  const Vector distance = squareRoot(squared);
+  const Vector lengthP = zero + __builtin_sqrt(a[0]);
+  const Vector lengthQ = squareRoot(e);
+  const Vector inverseSum = one / (rp + rq);
+  const Vector ratio = distance * inverseSum;
+  const Vector depth = margin - ratio;
+  const Vector D = select(depth > zero, depth, zero);
+  const Vector lengths = lengthP * lengthQ;
+  const Vector scale = lengths * rp * rq;
+  const Vector byLength = D * D * lengthQ * rp * rq / lengthP; // ∂F/∂|p0−p1| / |p0−p1|
+  // Concentric capsules have no direction to part in: no push, the next step of their neighbours breaks the tie.
+  const Vector push = -2.0 * D * scale * inverseSum / select(distance > 1e-12, distance, one);
+  const Vector byRp = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rq;
+  const Vector byRq = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rp;
+  // Where a radius varies along its capsule, the cost also changes as the closest points slide. They satisfy
+  // a·s − b·t + c = 0 and −b·s + e·t − f = 0 (whichever is not clamped); the adjoint of that system gives the slide's share.
+  Vector adjointS = zero;
+  Vector adjointT = zero;
+  if (tapered)
+  {
+    const Vector alongP = byRp * taperP;
+    const Vector alongQ = byRq * taperQ;
+    const Vector determinant = a * e - b * b;
+    const Mask skew = determinant > 1e-12 * a * e;
+    const Mask sFree = (s > zero) & (s < one) & skew;
+    const Mask tFree = (t > zero) & (t < one) & skew;
+    const Vector inverseDeterminant = select(sFree & tFree, one, zero) / select(skew, determinant, one);
+    adjointS = (e * alongP + b * alongQ) * inverseDeterminant + select(sFree & ~tFree, alongP / a, zero);
+    adjointT = (b * alongP + a * alongQ) * inverseDeterminant + select(tFree & ~sFree, alongQ / e, zero);
+  }
+  const Vector near0 = one - s;
+  const Vector alongW0 = push * near0 + adjointS;
+  const Vector alongW1 = push * s - adjointS;
+  const Vector alongU0 = -adjointS * near0 - byLength;
+  const Vector alongU1 = -adjointS * s + byLength;
+  const Vector alongV0 = adjointT * near0;
+  const Vector alongV1 = adjointT * s;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    sums.gradient0[axis] += alongW0 * w[axis] + alongU0 * u[axis] + alongV0 * v[axis];
+    sums.gradient1[axis] += alongW1 * w[axis] + alongU1 * u[axis] + alongV1 * v[axis];
+  }
+  sums.radius0 += byRp * near0;
+  sums.radius1 += byRp * s;
+  const Vector stiffness = select(depth > zero, 2.0 * scale * inverseSum * inverseSum, zero);
+  sums.stiffness0 += stiffness * near0;
+  sums.stiffness1 += stiffness * s;
+  sums.cost += 0.5 * D * D * scale;
+  const Vector penetration = one - ratio;
+  sums.penetration = penetration > sums.penetration ? penetration : sums.penetration;
+  sums.overlapping -= penetration > tolerance;
+}
+
+void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std::size_t count, const Capsule& p, double margin,
+  double tolerance, bool tapered, CapsuleOverlap& result)
+{
+  // A capsule too far away to contribute anything fills the lanes that are left over.
+  Capsule nothing = p;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    nothing.p0[axis] += 1e6;
+    nothing.p1[axis] = nothing.p0[axis] + 1.0;
+  }
+  LaneSums all[vectors];
+  for (int v = 0; v < vectors; ++v)
+  {
+    LaneSums sums = {};
+    sums.penetration -= 1.0;
+    for (std::size_t n = std::size_t(v) * width; n < count; n += lanes)
+    {
+      double numbers[8][width];
+      for (std::size_t l = 0; l < width; ++l)
+      {
+        const Capsule& other = n + l < count ? bodies[neighbours[n + l]] : nothing;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          numbers[axis][l] = other.p0[axis];
+          numbers[4 + axis][l] = other.p1[axis];
+        }
+        numbers[3][l] = other.r0;
+        numbers[7][l] = other.r1;
+      }
+      Vector q[8];
+      __builtin_memcpy(&q, &numbers, sizeof(q));
+      addLanes(p, q, margin, tolerance, tapered, sums);
+    }
+    all[v] = sums;
+  }
+  const auto sumOf = [&](auto&& member) __attribute__((always_inline))
+  {
+    double x[lanes];
+    for (int l = 0; l < lanes; ++l)
+    {
+      x[l] = member(all[l / width])[l % width];
+    }
+    return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.gradient0[axis] = sumOf([axis](const LaneSums& sums) -> const Vector& { return sums.gradient0[axis]; });
+    result.gradient1[axis] = sumOf([axis](const LaneSums& sums) -> const Vector& { return sums.gradient1[axis]; });
+  }
+  result.radius0 = sumOf([](const LaneSums& sums) -> const Vector& { return sums.radius0; });
+  result.radius1 = sumOf([](const LaneSums& sums) -> const Vector& { return sums.radius1; });
+  result.stiffness0 = sumOf([](const LaneSums& sums) -> const Vector& { return sums.stiffness0; });
+  result.stiffness1 = sumOf([](const LaneSums& sums) -> const Vector& { return sums.stiffness1; });
+  result.cost = sumOf([](const LaneSums& sums) -> const Vector& { return sums.cost; });
+  result.penetration = -1.0;
+  result.overlapping = 0;
+  for (int l = 0; l < lanes; ++l)
+  {
+    const double penetration = all[l / width].penetration[l % width];
+    result.penetration = penetration > result.penetration ? penetration : result.penetration;
+    result.overlapping += static_cast<std::size_t>(all[l / width].overlapping[l % width]);
+  }
+}
+
+std::uint32_t* selectNeighbours(
+  const float* const (&columns)[7], const std::uint32_t* indices, std::size_t count, const float (&p)[7], std::uint32_t* found)
+{
+  const Floats zero = {};
+  for (std::size_t n = 0; n < count; n += floats)
+  {
+    Floats q[7];
+    for (int number = 0; number < 7; ++number)
+    {
+      __builtin_memcpy(&q[number], columns[number] + n, sizeof(Floats));
+    }
+    Floats a = zero, b = zero, c = zero, e = zero, f = zero;
+    Floats u[3], v[3], r[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      u[axis] = zero + (p[3 + axis] - p[axis]);
+      v[axis] = q[3 + axis] - q[axis];
+      r[axis] = p[axis] - q[axis];
+      a += u[axis] * u[axis];
+      b += u[axis] * v[axis];
+      c += u[axis] * r[axis];
+      e += v[axis] * v[axis];
+      f += v[axis] * r[axis];
+    }
+    Floats s, t;
+    closestParameters<Floats, float>(a, e, b, c, f, s, t);
+    Floats squared = zero;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Floats w = r[axis] + s * u[axis] - t * v[axis];
+      squared += w * w;
+    }
+    const Floats limit = p[6] + q[6];
+    // The errors of single precision in squared are below 10⁻⁶ of these squares, also where segments are nearly parallel: s may
+    // then be off, but the distance hardly depends on it.
+    const FloatMask near = squared < limit * limit + 1e-5f * (limit * limit + a + e);
+    for (std::size_t l = 0; l < floats; ++l)
+    {
+      *found = indices[n + l];
+      found -= near[l];
+    }
+  }
+  return found;
+}
+
+} // namespace
+
+const VectorKernels CACTUS_KERNELS = { evaluateCapsule, selectNeighbours };
+
+} // namespace cactus
