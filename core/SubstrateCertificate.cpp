@@ -130,15 +130,15 @@ private:
     if (outerEntry != this->OuterIndex.end())
     {
       fibre.hasOuter = true;
-      this->Trees[f] =
-        this->measure(this->Outer, outerEntry->second, f, fibre.outer, fibre.outerSelfIntersections, fibre.outerRadius, "outer");
+      this->Trees[f] = this->measure(this->Outer, outerEntry->second, f, fibre.outer, fibre.outerSelfIntersections,
+        fibre.outerSelfNested, fibre.outerRadius, "outer");
     }
     const auto innerEntry = this->InnerIndex.find(fibre.fibreId);
     if (innerEntry != this->InnerIndex.end())
     {
       fibre.hasInner = true;
-      const auto innerTree =
-        this->measure(this->Inner, innerEntry->second, f, fibre.inner, fibre.innerSelfIntersections, fibre.innerRadius, "inner");
+      const auto innerTree = this->measure(this->Inner, innerEntry->second, f, fibre.inner, fibre.innerSelfIntersections,
+        fibre.innerSelfNested, fibre.innerRadius, "inner");
       fibre.innerLeaves = !fibre.hasOuter || this->leaves(*innerTree, fibre.inner, *this->Trees[f], fibre.outer);
       if (fibre.hasOuter)
       {
@@ -151,7 +151,7 @@ private:
   }
 
   std::unique_ptr<TreedSurface> measure(const FibreSurfaces& surfaces, std::size_t index, std::size_t f, SurfaceReport& report,
-    std::size_t& intersections, RadiusAlongFibre& radius, const std::string& name)
+    std::size_t& intersections, bool& nested, RadiusAlongFibre& radius, const std::string& name)
   {
     TriangleMesh mesh = surfaces.mesh(index);
     const int id = this->Result.fibres[f].fibreId;
@@ -169,12 +169,40 @@ private:
     }
     auto surface = std::make_unique<TreedSurface>(std::move(mesh));
     intersections = selfIntersections(surface->tree).size();
+    nested = report.pieces.size() > 1 && report.closed() && intersections == 0 && holdsItself(surface->mesh);
     const auto line = this->LineIndex.find(id);
     if (line != this->LineIndex.end())
     {
       radius = radiusAlongFibre(*this->Lines, line->second, surface->mesh, this->Options.cutSpacing);
     }
     return surface;
+  }
+
+  /// Whether a piece of a surface, which does not meet itself, lies inside another one of its pieces.
+  static bool holdsItself(const TriangleMesh& mesh)
+  {
+    std::vector<std::uint32_t> componentOf;
+    const std::vector<std::int32_t> pieces = checkSurface(mesh, &componentOf).pieces;
+    for (std::uint32_t around = 0; around < pieces.size(); ++around)
+    {
+      std::vector<std::uint32_t> triangles;
+      for (std::size_t t = 0; t < componentOf.size(); ++t)
+      {
+        if (componentOf[t] == around)
+        {
+          triangles.push_back(static_cast<std::uint32_t>(t));
+        }
+      }
+      const TriangleTree tree(mesh, std::move(triangles));
+      for (std::uint32_t inside = 0; inside < pieces.size(); ++inside)
+      {
+        if (inside != around && sideOf(tree, mesh.points[std::size_t(pieces[inside])]) == Side::Inside)
+        {
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// The triangles that are no caps on the faces of the domain.
@@ -331,6 +359,7 @@ private:
       const FibreCertificate& fibre = all.fibres[f];
       this->add(fibre.hasOuter, fibre.outer, fibre.outerSelfIntersections);
       this->add(fibre.hasInner, fibre.inner, fibre.innerSelfIntersections);
+      all.selfNested += (fibre.outerSelfNested ? 1 : 0) + (fibre.innerSelfNested ? 1 : 0);
       all.leavingInner += fibre.innerLeaves ? 1 : 0;
       all.reach = std::max(all.reach, this->Reach[f]);
       outerVolume += fibre.outer.volume;
@@ -405,6 +434,8 @@ private:
     fault(all.selfIntersecting,
       "surfaces cut or touch themselves" +
         this->first([](const Fibre& f) { return f.outerSelfIntersections + f.innerSelfIntersections > 0; }));
+    fault(all.selfNested, "surfaces have a piece inside another of their pieces" +
+                            this->first([](const Fibre& f) { return f.outerSelfNested || f.innerSelfNested; }));
     fault(all.meetingPairs,
       "pairs of outer surfaces cut or touch each other" + this->first([](const Fibre& f) { return f.gap == 0.0; }));
     fault(all.nestedPairs,
@@ -521,6 +552,7 @@ std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& cert
   columns.count("NotManifold", [](const All* c) { return c->notManifold; });
   columns.count("NotOutward", [](const All* c) { return c->notOutward; });
   columns.count("SelfIntersecting", [](const All* c) { return c->selfIntersecting; });
+  columns.count("SelfNested", [](const All* c) { return c->selfNested; });
   columns.count("OuterPairsMeeting", [](const All* c) { return c->meetingPairs; });
   columns.count("OuterPairsNested", [](const All* c) { return c->nestedPairs; });
   columns.count("InnerLeaving", [](const All* c) { return c->leavingInner; });
@@ -553,6 +585,7 @@ std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certific
   columns.count("InnerSound", [&](const Fibre& f) { return sound(f.inner); });
   columns.count("OuterSelfIntersections", [](const Fibre& f) { return f.outerSelfIntersections; });
   columns.count("InnerSelfIntersections", [](const Fibre& f) { return f.innerSelfIntersections; });
+  columns.count("SelfNested", [](const Fibre& f) { return f.outerSelfNested || f.innerSelfNested ? 1 : 0; });
   columns.count("MeetingFibres", [](const Fibre& f) { return f.meetingFibres; });
   columns.count("InnerLeaves", [](const Fibre& f) { return f.innerLeaves ? 1 : 0; });
   columns.number("SmallestGap_um", [](const Fibre& f) { return f.gap; });

@@ -38,6 +38,8 @@ struct FibreCertificate
   SurfaceReport inner;
   std::size_t outerSelfIntersections = 0; ///< pairs of triangles, see selfIntersections()
   std::size_t innerSelfIntersections = 0;
+  bool outerSelfNested = false; ///< a piece of the surface lies inside another one of its pieces
+  bool innerSelfNested = false;
   std::size_t meetingFibres = 0; ///< whose outer surfaces cut, touch, hold this one's, or lie inside it
   bool innerLeaves = false;      ///< the inner surface cuts or touches its outer one, or has a piece that does not lie inside it
   double gap = 0.0;              ///< µm, smallest distance to the outer surface of another fibre
@@ -57,6 +59,7 @@ struct SubstrateCertificate
   std::size_t notManifold = 0;      ///< surfaces that are closed but pinched in a point, or use a corner twice
   std::size_t notOutward = 0;       ///< surfaces with a component that encloses no positive volume
   std::size_t selfIntersecting = 0; ///< surfaces that cut, touch or fold onto themselves
+  std::size_t selfNested = 0;       ///< surfaces of which one piece lies inside another
   std::size_t meetingPairs = 0;     ///< pairs of fibres whose outer surfaces cut or touch each other
   std::size_t nestedPairs = 0;      ///< pairs of fibres of which one has a piece inside the other
   std::size_t leavingInner = 0;     ///< inner surfaces that do not lie strictly inside their outer ones
@@ -79,8 +82,8 @@ struct SubstrateCertificate
   std::vector<std::string> faults;      ///< what keeps it from being certified, a sentence each
   std::vector<FibreCertificate> fibres; ///< of every fibre with a surface, by increasing id
 
-  /// Every surface is a closed, outward 2-manifold that does not meet itself, no two outer surfaces meet or lie inside one
-  /// another, every inner surface lies strictly inside its outer one, and fibres keep the required gap.
+  /// Every surface is a closed, outward 2-manifold that neither meets nor holds a part of itself, no two outer surfaces meet or
+  /// lie inside one another, every inner surface lies strictly inside its outer one, and fibres keep the required gap.
   bool certified() const { return this->faults.empty(); }
   /// The faults in one sentence; "certified" without any.
   std::string verdict() const;

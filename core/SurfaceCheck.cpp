@@ -103,7 +103,7 @@ double angleAt(const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Ei
 
 } // namespace
 
-SurfaceReport checkSurface(const TriangleMesh& mesh)
+SurfaceReport checkSurface(const TriangleMesh& mesh, std::vector<std::uint32_t>* componentOf)
 {
   checkIndices(mesh);
   SurfaceReport report;
@@ -213,8 +213,18 @@ SurfaceReport checkSurface(const TriangleMesh& mesh)
       fanOf[point] = fan;
     }
   }
+  if (componentOf != nullptr)
+  {
+    componentOf->assign(mesh.triangles.size(), 0);
+  }
   for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
   {
+    if (componentOf != nullptr)
+    {
+      // A component's root is its first triangle.
+      const std::size_t root = pieces.find(triangle);
+      (*componentOf)[triangle] = root == triangle ? static_cast<std::uint32_t>(report.pieces.size()) : (*componentOf)[root];
+    }
     if (pieces.find(triangle) == triangle && !repeatsCorner(mesh.triangles[triangle]))
     {
       report.volume += volumeOf[triangle];

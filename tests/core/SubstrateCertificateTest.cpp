@@ -185,6 +185,12 @@ TEST(SubstrateCertificate, NamesEachFault)
   nested.outer[6] = tube(0.54, 0.0, 0.1, -1.0, 1.0);
   expectFault(nested.certificate(), "1 pairs of fibres lie inside one another");
 
+  Substrate doubled; // an axon in two pieces, one in the other
+  doubled.inner[3] = both(doubled.inner[3], tube(0.54, 0.0, 0.1, -1.0, 1.0));
+  expectFault(doubled.certificate(), "1 surfaces have a piece inside another of their pieces (fibre 3 first)");
+  doubled.inner[3] = both(tube(0.54, 0.0, 0.1, -1.5, -0.5), tube(0.54, 0.0, 0.1, 0.5, 1.5));
+  EXPECT_TRUE(doubled.certificate().certified()) << "side by side";
+
   Substrate poking;
   poking.inner[2].points[10 * 24][0] += 0.16;
   expectFault(poking.certificate(), "1 inner surfaces leave their outer ones (fibre 2 first)");
