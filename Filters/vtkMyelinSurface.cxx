@@ -137,6 +137,7 @@ void fillTable(vtkTable* table, const std::vector<cactus::FibreSurfacePair>& fib
   integer("InnerClosed", [](const Fibre& f) { return long(f.innerReport.closedManifold() && f.innerReport.outward()); });
   number("OuterSquaredEdgeRatio", [](const Fibre& f) { return f.outerReport.largestSquaredEdgeRatio; });
   number("InnerSquaredEdgeRatio", [](const Fibre& f) { return f.innerReport.largestSquaredEdgeRatio; });
+  integer("Flawed", [](const Fibre& f) { return long(f.isFlawed); });
   number("LargestMove_um", [](const Fibre& f) { return f.largestMove; });
   number("DroppedVolume_um3", [](const Fibre& f) { return f.droppedVolume; });
 }
@@ -212,10 +213,12 @@ int vtkMyelinSurface::RequestData(vtkInformation*, vtkInformationVector** inputs
       std::vector<cactus::NamedSurface> outer;
       std::vector<cactus::NamedSurface> inner;
       std::size_t incomplete = 0;
+      std::size_t flawed = 0;
       for (auto& fibre : fibres)
       {
         outer.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.outer) });
         inner.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.inner) });
+        flawed += fibre.isFlawed ? 1 : 0;
         incomplete += fibre.state == cactus::MyelinState::NoAxon ? 1 : 0; // NoFibre: it only passes by outside
       }
       cactus::toPolyData(std::move(outer), 0, vtkPolyData::GetData(outputs, 0));
@@ -224,6 +227,13 @@ int vtkMyelinSurface::RequestData(vtkInformation*, vtkInformationVector** inputs
       {
         vtkWarningMacro(<< incomplete << " of " << fibres.size()
                         << " fibres are too thin in the image to hold an axon: see column Myelin of Fibre statistics");
+      }
+      if (flawed > 0)
+      {
+        vtkWarningMacro(<< flawed << " of " << fibres.size()
+                        << " fibres have a surface that meets itself or is nearer than MinimumGap to another fibre, see "
+                           "column Flawed of Fibre statistics: choose a smaller VoxelSize or raise SurfaceTolerance in "
+                           "FibreRadialGrowth, or choose a smaller DecimationError here");
       }
 
       std::ostringstream parameters;

@@ -18,6 +18,8 @@ namespace
 /// A sample nearer to a face than this part of a voxel is left out: the cells between them would be too flat.
 constexpr double thinnestCell = 0.3;
 
+typedef float Four __attribute__((vector_size(16)));
+
 } // namespace
 
 FibreField::FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain)
@@ -258,14 +260,30 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
   , Lattice(field.lattice())
   , Blocks(std::move(blocks))
 {
+  std::vector<Index> at;
+  Index last{ { 0, 0, 0 } };
   std::size_t size = 0;
   for (const std::uint32_t block : Blocks)
   {
-    Offsets.push_back(size);
     const NodeRange range = nodesOfBlock(Lattice, block);
     size += std::size_t(range.count[0] + 2) * std::size_t(range.count[1] + 2) * std::size_t(range.count[2] + 2);
+    Index index;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      index[axis] = range.first[axis] / NodeLattice::blockCells;
+      First[axis] = at.empty() ? index[axis] : std::min(First[axis], index[axis]);
+      last[axis] = at.empty() ? index[axis] : std::max(last[axis], index[axis]);
+    }
+    at.push_back(index);
   }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    Count[axis] = at.empty() ? 0 : last[axis] - First[axis] + 1;
+    Cells[axis] = Lattice.cells(int(axis));
+  }
+  Places.assign(std::size_t(Count[0]) * std::size_t(Count[1]) * std::size_t(Count[2]), -1);
   Values.resize(size);
+  std::size_t place = 0;
   std::vector<float> buffer;
   std::vector<float> before;
   for (std::size_t b = 0; b < Blocks.size(); ++b)
@@ -294,7 +312,10 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
         }
       }
     }
-    float* out = Values.data() + Offsets[b];
+    Places[std::size_t(placeOf(at[b]))] = std::ptrdiff_t(place);
+    place += std::size_t(range.count[0] - 2 * passes) * std::size_t(range.count[1] - 2 * passes) *
+             std::size_t(range.count[2] - 2 * passes);
+    float* out = Values.data() + Places[std::size_t(placeOf(at[b]))];
     for (int k = passes; k + passes < range.count[2]; ++k)
     {
       for (int j = passes; j + passes < range.count[1]; ++j)
@@ -306,23 +327,29 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
   }
 }
 
-const float* SmoothedField::find(std::uint32_t block) const
+std::ptrdiff_t SmoothedField::placeOf(const Index& block) const
 {
-  const auto place = std::lower_bound(this->Blocks.begin(), this->Blocks.end(), block);
-  return place == this->Blocks.end() || *place != block
-           ? nullptr
-           : this->Values.data() + this->Offsets[std::size_t(place - this->Blocks.begin())];
+  std::ptrdiff_t place = 0;
+  for (std::size_t axis = 3; axis-- > 0;)
+  {
+    const int along = block[axis] - this->First[axis];
+    if (along < 0 || along >= this->Count[axis])
+    {
+      return -1;
+    }
+    place = place * this->Count[axis] + along;
+  }
+  return place;
 }
 
 void SmoothedField::values(double level, double smallest, const NodeRange& around, float* out) const
 {
-  std::size_t block = 0;
-  for (int axis = 2; axis >= 0; --axis)
+  Index block;
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const int at = (around.first[std::size_t(axis)] + 1) / NodeLattice::blockCells;
-    block = block * std::size_t(this->Lattice.blocks(axis)) + std::size_t(at);
+    block[axis] = (around.first[axis] + 1) / NodeLattice::blockCells;
   }
-  const float* in = this->find(static_cast<std::uint32_t>(block));
+  const float* in = this->Values.data() + this->Places[std::size_t(this->placeOf(block))];
   const auto t = static_cast<float>(level);
   const auto least = static_cast<float>(smallest);
   for (std::size_t n = 0; n < around.size(); ++n)
@@ -335,61 +362,73 @@ void SmoothedField::values(double level, double smallest, const NodeRange& aroun
 double SmoothedField::value(const Eigen::Vector3d& at) const
 {
   // The cell between samples that holds the point, or the nearest one, and how far into it the point lies.
-  const Eigen::Vector3d place = this->Field.nodesAt(at);
-  std::array<int, 3> cell;
+  const Eigen::Vector3d nodes = this->Field.nodesAt(at);
+  Index cell;
+  Index block;
   std::array<double, 3> t;
-  std::size_t block = 0;
-  for (std::size_t axis = 3; axis-- > 0;)
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const int last = this->Lattice.cells(int(axis)) - 1; // the last node that is a sample
-    const double inside = std::clamp(place[Eigen::Index(axis)], 1.0, double(last));
+    const int last = this->Cells[axis] - 1; // the last node that is a sample
+    const double inside = std::clamp(nodes[Eigen::Index(axis)], 1.0, double(last));
     cell[axis] = std::min(static_cast<int>(inside), std::max(1, last - 1));
     t[axis] = inside - cell[axis];
-    block = block * std::size_t(this->Lattice.blocks(int(axis))) + std::size_t(cell[axis] / NodeLattice::blockCells);
+    block[axis] = cell[axis] / NodeLattice::blockCells;
   }
-  const float* values = this->find(static_cast<std::uint32_t>(block));
-  if (values == nullptr)
+  const std::ptrdiff_t place = this->placeOf(block);
+  if (place < 0 || this->Places[std::size_t(place)] < 0)
   {
     return -std::numeric_limits<double>::infinity();
   }
-  const NodeRange range = nodesOfBlock(this->Lattice, block);
-  const std::array<std::ptrdiff_t, 3> stride{ { 1, range.count[0] + 2,
-    std::ptrdiff_t(range.count[0] + 2) * (range.count[1] + 2) } };
-  const float* corner = values;
+  std::array<std::ptrdiff_t, 3> stride;
+  std::ptrdiff_t step = 1;
+  const float* corner = this->Values.data() + this->Places[std::size_t(place)];
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    corner += stride[axis] * (cell[axis] - range.first[axis] + 1);
+    const int first = block[axis] * NodeLattice::blockCells;
+    stride[axis] = step;
+    corner += step * (cell[axis] - first + 1);
+    step *= std::min(NodeLattice::blockCells, this->Cells[axis] - first) + 3;
   }
-  double result = 0.0;
-  for (int n = 0; n < 8; ++n)
-  {
-    const double weight = (n & 1 ? t[0] : 1.0 - t[0]) * (n & 2 ? t[1] : 1.0 - t[1]) * (n & 4 ? t[2] : 1.0 - t[2]);
-    result += weight * double(corner[(n & 1 ? stride[0] : 0) + (n & 2 ? stride[1] : 0) + (n & 4 ? stride[2] : 0)]);
-  }
+  const float weights[3][2] = { { float(1.0 - t[0]), float(t[0]) }, { float(1.0 - t[1]), float(t[1]) },
+    { float(1.0 - t[2]), float(t[2]) } };
+  Four sum{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double bend = 0.5 * t[axis] * (1.0 - t[axis]);
+    // The four edges of the cell along this axis, with a node before and behind, and their weights.
+    const std::size_t one = (axis + 1) % 3;
+    const std::size_t other = (axis + 2) % 3;
+    const float* line = corner;
+    const std::ptrdiff_t along = stride[axis];
+    const std::ptrdiff_t lines[4] = { 0, stride[one], stride[other], stride[one] + stride[other] };
+    const auto nodes4 = [&](std::ptrdiff_t at)
+    {
+      const Four v = { line[at + lines[0]], line[at + lines[1]], line[at + lines[2]], line[at + lines[3]] };
+      return v;
+    };
+    const float* a = weights[one];
+    const float* b = weights[other];
+    const Four weight = { a[0] * b[0], a[1] * b[0], a[0] * b[1], a[1] * b[1] };
+    const Four v1 = nodes4(0);
+    const Four v2 = nodes4(along);
+    if (axis == 0)
+    {
+      sum += weight * (weights[0][0] * v1 + weights[0][1] * v2);
+    }
     const bool before = cell[axis] > 1;
-    const bool behind = cell[axis] + 3 <= this->Lattice.cells(int(axis));
-    if (bend < 1e-6 || (!before && !behind))
+    const bool behind = cell[axis] + 3 <= this->Cells[axis];
+    if (!before && !behind)
     {
       continue;
     }
-    const std::size_t one = (axis + 1) % 3;
-    const std::size_t other = (axis + 2) % 3;
-    const std::ptrdiff_t step = stride[axis];
-    for (int n = 0; n < 4; ++n)
-    {
-      const double weight = (n & 1 ? t[one] : 1.0 - t[one]) * (n & 2 ? t[other] : 1.0 - t[other]);
-      const float* line = corner + (n & 1 ? stride[one] : 0) + (n & 2 ? stride[other] : 0);
-      const double f1 = line[0];
-      const double f2 = line[step];
-      const double bendBefore = before ? double(line[-step]) - 2.0 * f1 + f2 : 0.0;
-      const double bendBehind = behind ? f1 - 2.0 * f2 + double(line[2 * step]) : 0.0;
-      result -= weight * bend * (!behind ? bendBefore : !before ? bendBehind : agreedBend(bendBefore, bendBehind));
-    }
+    const Four first = before ? nodes4(-along) - 2.0f * v1 + v2 : v1 - 2.0f * v2 + nodes4(2 * along);
+    const Four second = behind && before ? v1 - 2.0f * v2 + nodes4(2 * along) : first;
+    const Four zero{};
+    const Four lower = first < second ? first : second;
+    const Four upper = first < second ? second : first;
+    const Four bend = lower > zero ? lower : upper < zero ? upper : zero; // agreedBend()
+    sum -= (0.5f * weights[axis][0] * weights[axis][1]) * (weight * bend);
   }
-  return result;
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 } // namespace cactus

@@ -88,14 +88,19 @@ public:
   double value(const Eigen::Vector3d& at) const;
 
 private:
-  /// Values of a block and one node beyond on every side; null where the block is not held.
-  const float* find(std::uint32_t block) const;
+  using Index = std::array<int, 3>; ///< a block by its place along each axis, or a cell
+
+  /// Number of a block in Places; none where it lies outside the box of the blocks held.
+  std::ptrdiff_t placeOf(const Index& block) const;
 
   const FibreField& Field;
   NodeLattice Lattice;
   std::vector<std::uint32_t> Blocks;
-  std::vector<std::size_t> Offsets; ///< of the blocks' values
-  std::vector<float> Values;
+  std::vector<float> Values;          ///< of each block held, and one node beyond on every side
+  Index First{ { 0, 0, 0 } };         ///< the box of the blocks held: first one
+  Index Count{ { 0, 0, 0 } };         ///< and how many
+  Index Cells{ { 0, 0, 0 } };         ///< of the lattice
+  std::vector<std::ptrdiff_t> Places; ///< per block of the box, where its values begin; -1: not held
 };
 
 } // namespace cactus

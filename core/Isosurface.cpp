@@ -369,11 +369,6 @@ private:
 
 } // namespace
 
-double agreedBend(double a, double b)
-{
-  return a * b <= 0.0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b;
-}
-
 NodeRange nodesOfBlock(const NodeLattice& lattice, std::size_t block)
 {
   NodeRange range;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "TriangleMesh.h"
+#include "CappedSurface.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -42,15 +43,10 @@ NodeRange nodesOfBlock(const NodeLattice& lattice, std::size_t block);
 
 /// Of the second differences on either side of an edge, the smaller one, or 0 where they have different signs: across a crease
 /// one side tells nothing about the other.
-double agreedBend(double a, double b);
-
-/// A closed surface and, for each of its points, on which faces of the lattice's box it lies: bit 2·axis for the lower face, bit
-/// 2·axis + 1 for the upper one.
-struct CappedSurface
+inline double agreedBend(double a, double b)
 {
-  TriangleMesh mesh;
-  std::vector<std::uint8_t> faces;
-};
+  return a * b <= 0.0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b;
+}
 
 /// The boundary of the region of the lattice's box in which a field is positive: its zero surface, closed by flat caps on the
 /// faces of the box.

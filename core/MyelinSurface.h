@@ -69,27 +69,31 @@ struct FibreSurfacePair
   SurfaceReport outerReport;
   SurfaceReport innerReport;
   MyelinState state = MyelinState::NoFibre;
-  double thickness = 0.0; ///< µm, depth of the inner surface below the outer one
+  double outerLevel = 0.0; ///< µm, the field's value on the outer surface, 0 or a little less
+  double thickness = 0.0;  ///< µm, depth of the inner surface below the outer one: the difference of the field
   double targetGRatio = 0.0;
   double gRatio = 0.0;        ///< reached: sqrt(inner volume / outer volume); 0 without an axon
   double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
-  double largestMove = 0.0;   ///< µm, the largest |field - level| found on the final surfaces away from caps
+  /// A surface has a fault that could not be mended: it meets itself or the other one, or is nearer than MinimumGap
+  /// to another fibre.
+  bool isFlawed = false;
+  double largestMove = 0.0; ///< µm, the largest |field - level| found on the final surfaces away from caps
 };
 
 /// Outer and inner surfaces of all fibres of a label image, in increasing order of fibres.
 ///
-/// The outer surface of a fibre is where its field (see FibreField) is 0, contoured by contour(), with flat caps on the faces of
-/// the box. The inner surface is where the field is `thickness`, its caps moved into the box by MinimumGap (by a quarter of a
-/// voxel where that is less) so that they do not meet the outer ones. The thickness is solved for so that inner volume over outer
-/// volume is the square of the fibre's g-ratio, measured on the final surfaces.
+/// The outer surface of a fibre is where its smoothed field (see SmoothedField) equals a level at or just below 0, contoured by
+/// contour(), with flat caps on the faces of the box. The level makes up for the volume that smoothing takes off the fibre, as
+/// far as it takes no more than the tolerance. The inner surface is where the field is `thickness`, its caps moved into the box
+/// by MinimumGap (by a quarter of a voxel where that is less) so that they do not meet the outer ones. The thickness is solved
+/// for so that inner volume over outer volume is the square of the fibre's g-ratio, measured on the final surfaces.
 ///
-/// Each surface is checked for being a closed, outward 2-manifold in one piece. Coarsening aims at decimationError; the field at
-/// points spread over a coarsened surface may be off its level by about 1.5 times that outwards and 3 times that inwards, and by
-/// somewhat more than on the surface as contoured where that is off already (creases that samples do not resolve). A coarsened
-/// surface that fails a check is made anew with less coarsening, at last with none, and then may hold needles.
-///
-/// Limits: two coarsened surfaces can come nearer than MinimumGap by a few nm, and whether a coarsened surface intersects itself
-/// is not checked. With decimationError 0 none intersects itself. See largestMove and the reports for what was reached.
+/// Each surface is coarsened so far that the field at points spread over it stays within decimationError of its level, or within
+/// what the surface as contoured is off by, and moved along its normals to the volume that it is to have. It has to be a closed,
+/// outward 2-manifold in one piece that does not meet itself (exact predicates), nor its outer surface; where it fails it is made
+/// again with less coarsening around that place, at last with none. Triangles whose squared edges have a ratio above 800 are
+/// split. Then outer surfaces are moved inwards, by nanometres, where two of them are nearer than MinimumGap (see keepApart()).
+/// What still is not as it should be is marked (isFlawed).
 ///
 /// Of a fibre's pieces the largest is kept. Throws InvalidInput (options; an image that is not valid; a fibre in the image that
 /// is not in the table; decimationError above the tolerance), Infeasible (a target fraction that cannot be met), Cancelled.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceDecimation.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -57,17 +56,31 @@ struct Quadric
     return { xx * p[0] + xy * p[1] + xz * p[2], xy * p[0] + yy * p[1] + yz * p[2], xz * p[0] + yz * p[1] + zz * p[2] };
   }
 
-  /// Mean squared distance.
-  double error(const Vector3d& p) const { return std::max(0.0, (p.dot(this->times(p)) + 2.0 * b.dot(p) + c) / weight); }
+  /// Mean squared distance; 0 without planes.
+  double error(const Vector3d& p) const
+  {
+    return weight > 0.0 ? std::max(0.0, (p.dot(this->times(p)) + 2.0 * b.dot(p) + c) / weight) : 0.0;
+  }
 
-  /// The place of least error, drawn towards `middle` in directions that the planes leave open.
-  Vector3d best(const Vector3d& middle) const
+  /// The place of least error, drawn towards `middle` in directions that the planes leave open; `middle` where that is farther
+  /// than `reach` away.
+  Vector3d best(const Vector3d& middle, double reach) const
   {
     const double damping = 1e-3 * (xx + yy + zz);
-    Eigen::Matrix3d m;
-    m << xx + damping, xy, xz, xy, yy + damping, yz, xz, yz, zz + damping;
-    const Vector3d gradient = this->times(middle) + b;
-    return middle - m.llt().solve(gradient);
+    const double a = xx + damping;
+    const double d = yy + damping;
+    const double f = zz + damping;
+    // Cramer's rule, with the cofactors of the symmetric matrix.
+    const Vector3d g = this->times(middle) + b;
+    const double ca = d * f - yz * yz;
+    const double cb = xz * yz - xy * f;
+    const double cc = xy * yz - d * xz;
+    const double cd = a * f - xz * xz;
+    const double ce = xy * xz - a * yz;
+    const double cf = a * d - xy * xy;
+    const double determinant = a * ca + xy * cb + xz * cc;
+    const Vector3d step(ca * g[0] + cb * g[1] + cc * g[2], cb * g[0] + cd * g[1] + ce * g[2], cc * g[0] + ce * g[1] + cf * g[2]);
+    return step.squaredNorm() <= reach * reach * determinant * determinant ? middle - step / determinant : middle;
   }
 };
 
@@ -88,13 +101,13 @@ Shape shapeOf(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 }
 
 /// Heights below this part of the longest edge are not made.
-constexpr double flattestTriangle = 0.03;
+constexpr double flattestTriangle = 0.015;
 /// Least cosine between a triangle's normals before and after a collapse.
 constexpr double leastTurn = 0.3;
 /// Errors of the sweeps, as parts of the largest one.
-constexpr double sweepErrors[] = { 0.1, 0.4, 1.0 };
+constexpr double sweepErrors[] = { 0.05, 0.15, 0.4, 1.0 };
 /// Collapses of less than this part of the largest error are made without a look at the field.
-constexpr double unnoticed = 0.05;
+constexpr double unnoticed = 0.12;
 constexpr int sweepsPerError = 10;
 
 class Decimation
@@ -206,6 +219,17 @@ private:
     this->Locked.assign(this->Points.size(), 0);
     this->Changed.assign(this->Points.size(), 0);
     this->Mark.assign(this->Points.size(), 0);
+    this->Part.assign(this->Points.size(), 1.0f);
+    for (const CalmPlace& place : this->Options.calm)
+    {
+      for (std::size_t p = 0; p < this->Points.size(); ++p)
+      {
+        if ((this->Points[p] - place.centre).squaredNorm() < place.radius * place.radius)
+        {
+          this->Part[p] *= static_cast<float>(place.part);
+        }
+      }
+    }
     this->Alive = this->Triangles.size();
     for (std::size_t t = this->Triangles.size(); t-- > 0;)
     {
@@ -218,7 +242,8 @@ private:
       }
       const Vector3d& a = this->at(corners[0]);
       const Vector3d normal = (this->at(corners[1]) - a).cross(this->at(corners[2]) - a);
-      const double twiceArea = normal.norm();
+      // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
+      const double twiceArea = this->isCap(corners) ? 0.0 : normal.norm();
       if (twiceArea > 0.0)
       {
         const Vector3d unit = normal / twiceArea;
@@ -254,7 +279,8 @@ private:
         const bool isNew = all || std::max(this->Changed[std::size_t(u)], this->Changed[std::size_t(v)]) + 1 >= this->Sweep;
         if (u < v && isNew && this->Locked[std::size_t(u)] != this->Sweep && this->Locked[std::size_t(v)] != this->Sweep)
         {
-          this->tryCollapse(u, v, limit);
+          const double part = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
+          this->tryCollapse(u, v, part * part * limit);
         }
       }
     }
@@ -265,10 +291,6 @@ private:
   {
     Quadric sum = this->Quadrics[std::size_t(u)];
     sum.add(this->Quadrics[std::size_t(v)]);
-    if (!(sum.weight > 0.0))
-    {
-      return;
-    }
     const std::uint8_t facesU = this->Faces[std::size_t(u)];
     const std::uint8_t facesV = this->Faces[std::size_t(v)];
     const std::uint8_t both = facesU & facesV;
@@ -279,7 +301,7 @@ private:
       const Vector3d middle = 0.5 * (this->at(u) + this->at(v));
       if (facesU == 0)
       {
-        places[count++] = sum.best(middle - this->Origin) + this->Origin;
+        places[count++] = sum.best(middle - this->Origin, (this->at(u) - this->at(v)).norm()) + this->Origin;
       }
       else
       {
@@ -363,10 +385,10 @@ private:
     return common == 2 && around + aroundV > 6;
   }
 
-  /// No triangle around the edge is turned over or made a needle where u and v move to `place`.
-  bool keepsShape(std::int32_t u, std::int32_t v, const Vector3d& place, bool thorough) const
+  /// Sum of the normals of the triangles at u and v, but for caps.
+  Vector3d normalAround(std::int32_t u, std::int32_t v) const
   {
-    Vector3d around = Vector3d::Zero(); // sum of the old triangles' normals, but for caps
+    Vector3d sum = Vector3d::Zero();
     for (const std::int32_t self : { u, v })
     {
       for (std::int32_t c = this->First[std::size_t(self)]; c >= 0; c = this->Next[std::size_t(c)])
@@ -375,53 +397,89 @@ private:
         if (!this->isCap(corners))
         {
           const Vector3d& a = this->at(corners[0]);
-          around += (this->at(corners[1]) - a).cross(this->at(corners[2]) - a);
+          sum += (this->at(corners[1]) - a).cross(this->at(corners[2]) - a);
         }
       }
     }
-    double oldRatio = this->Options.largestSquaredEdgeRatio;
-    double oldFlatness = flattestTriangle;
-    double newRatio = 0.0;
-    double newFlatness = 1.0;
+    return sum;
+  }
+
+  /// The worst shapes among the triangles at u and v, but no better than what is allowed anyway.
+  Shape worstShape(std::int32_t u, std::int32_t v) const
+  {
+    Shape worst{ this->Options.largestSquaredEdgeRatio, flattestTriangle };
+    for (const std::int32_t self : { u, v })
+    {
+      for (std::int32_t c = this->First[std::size_t(self)]; c >= 0; c = this->Next[std::size_t(c)])
+      {
+        const auto& corners = this->Triangles[std::size_t(c) / 3];
+        const Shape shape = shapeOf(this->at(corners[0]), this->at(corners[1]), this->at(corners[2]));
+        worst.edgeRatio = std::max(worst.edgeRatio, shape.edgeRatio);
+        worst.flatness = std::min(worst.flatness, shape.flatness);
+      }
+    }
+    return worst;
+  }
+
+  /// No triangle around the edge is turned over or made a needle where u and v move to `place`.
+  bool keepsShape(std::int32_t u, std::int32_t v, const Vector3d& place, bool thorough) const
+  {
+    Vector3d around = Vector3d::Zero();
+    bool isAroundKnown = false;
+    Shape worst{ 0.0, 1.0 };
     for (int side = 0; side < 2; ++side)
     {
+      const std::int32_t other = side == 0 ? v : u;
       for (std::int32_t c = this->First[std::size_t(side == 0 ? u : v)]; c >= 0; c = this->Next[std::size_t(c)])
       {
         const auto& corners = this->Triangles[std::size_t(c) / 3];
         const auto i = std::size_t(c) % 3;
-        const std::int32_t other = side == 0 ? v : u;
-        const Vector3d& a = this->at(corners[i]);
-        const Vector3d& b = this->at(corners[(i + 1) % 3]);
-        const Vector3d& d = this->at(corners[(i + 2) % 3]);
-        const Shape before = shapeOf(a, b, d);
-        oldRatio = std::max(oldRatio, before.edgeRatio);
-        oldFlatness = std::min(oldFlatness, before.flatness);
-        if (corners[(i + 1) % 3] == other || corners[(i + 2) % 3] == other)
+        const std::int32_t second = corners[(i + 1) % 3];
+        const std::int32_t third = corners[(i + 2) % 3];
+        if (second == other || third == other)
         {
           continue;
         }
-        const Shape after = shapeOf(place, b, d);
-        newRatio = std::max(newRatio, after.edgeRatio);
-        newFlatness = std::min(newFlatness, after.flatness);
+        const Vector3d& b = this->at(second);
+        const Vector3d& d = this->at(third);
         const Vector3d edge = d - b;
-        const Vector3d normalBefore = edge.cross(a - b);
-        const Vector3d normalAfter = edge.cross(place - b);
+        const Vector3d before = this->at(corners[i]) - b;
+        const Vector3d after = place - b;
+        const Vector3d normalBefore = edge.cross(before);
+        const Vector3d normalAfter = edge.cross(after);
+        const double edgeSquared = edge.squaredNorm();
+        const double normalSquared = normalAfter.squaredNorm();
         // The normal of a triangle lower than the error says little: the surroundings' is taken in its place.
-        const double longest = std::sqrt(std::max({ edge.squaredNorm(), (a - b).squaredNorm(), (d - a).squaredNorm() }));
-        const bool isNoise = !this->isCap(corners) && normalBefore.norm() < this->Options.maximumError * longest;
+        const double longestBefore = std::max({ edgeSquared, before.squaredNorm(), (before - edge).squaredNorm() });
+        const bool isNoise =
+          normalBefore.squaredNorm() < this->Options.maximumError * this->Options.maximumError * longestBefore &&
+          !this->isCap(corners);
+        if (isNoise && !isAroundKnown)
+        {
+          around = this->normalAround(u, v);
+          isAroundKnown = true;
+        }
         const Vector3d& reference = isNoise ? around : normalBefore;
-        if (!(normalAfter.dot(reference) >= leastTurn * normalAfter.norm() * reference.norm()) ||
-            !(normalAfter.squaredNorm() > 0.0))
+        const double turn = normalAfter.dot(reference);
+        if (!(normalSquared > 0.0) || !(turn > 0.0) ||
+            turn * turn < leastTurn * leastTurn * normalSquared * reference.squaredNorm())
         {
           return false;
         }
+        const double edges[2] = { after.squaredNorm(), (after - edge).squaredNorm() };
+        const double longest = std::max({ edgeSquared, edges[0], edges[1] });
+        const double shortest = std::min({ edgeSquared, edges[0], edges[1] });
+        worst.edgeRatio = std::max(worst.edgeRatio, longest / shortest);
+        worst.flatness = std::min(worst.flatness, normalSquared / (longest * longest));
       }
     }
-    if (newRatio > oldRatio || (!thorough && newFlatness < oldFlatness))
+    worst.flatness = std::sqrt(worst.flatness);
+    if (worst.edgeRatio <= this->Options.largestSquaredEdgeRatio && (thorough || worst.flatness >= flattestTriangle))
     {
-      return false;
+      return true;
     }
-    return true;
+    const Shape old = this->worstShape(u, v);
+    return worst.edgeRatio <= old.edgeRatio && (thorough || worst.flatness >= old.flatness);
   }
 
   /// By how much the field is out of its range at a point of the surface; on faces of the box it may be larger.
@@ -477,6 +535,7 @@ private:
   void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, const Quadric& sum, std::uint8_t faces)
   {
     this->Points[std::size_t(u)] = place;
+    this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
     this->Quadrics[std::size_t(u)] = sum;
     this->Faces[std::size_t(u)] = faces;
     this->Locked[std::size_t(u)] = this->Sweep;
@@ -569,6 +628,7 @@ private:
   std::vector<std::int32_t> Next;  ///< per corner, the next one that is the same point, or -1
   std::vector<int> Locked;         ///< per point, the sweep in which it was moved
   std::vector<int> Changed;        ///< per point, the sweep in which a triangle at it changed
+  std::vector<float> Part;         ///< per point, of the largest error
   std::vector<int> Mark;
   int MarkValue = 0;
   int Sweep = 0;

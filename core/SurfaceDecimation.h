@@ -4,9 +4,18 @@
 #include "Isosurface.h"
 
 #include <functional>
+#include <vector>
 
 namespace cactus
 {
+
+/// A ball in which less coarsening is wanted; lengths in µm.
+struct CalmPlace
+{
+  Eigen::Vector3d centre;
+  double radius;
+  double part; ///< of the largest error that is allowed here; where balls overlap the parts multiply
+};
 
 /// Parameters of decimation; lengths in µm.
 struct SurfaceDecimationOptions
@@ -21,6 +30,7 @@ struct SurfaceDecimationOptions
   std::function<double(const Eigen::Vector3d&)> field;
   double smallestField = 0.0;
   double largestField = 0.0;
+  std::vector<CalmPlace> calm;
 };
 
 /// Coarsens a closed surface by edge collapses (Garland and Heckbert 1997, quadric error with optimal placement), in sweeps of

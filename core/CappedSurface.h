@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "TriangleMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// A closed surface in a box and, for each of its points, on which faces of the box it lies: bit 2·axis for the lower face, bit
+/// 2·axis + 1 for the upper one. Triangles whose corners share a face are the flat caps that close the surface there.
+struct CappedSurface
+{
+  TriangleMesh mesh;
+  std::vector<std::uint8_t> faces;
+
+  bool isCap(const std::array<std::int32_t, 3>& t) const
+  {
+    return (faces[std::size_t(t[0])] & faces[std::size_t(t[1])] & faces[std::size_t(t[2])]) != 0;
+  }
+};
+
+/// How much a surface holds.
+struct SurfaceMeasure
+{
+  double volume = 0.0;   ///< µm³, signed: positive where normals point outward
+  double freeArea = 0.0; ///< µm², without caps
+};
+
+SurfaceMeasure measure(const CappedSurface& surface);
+
+/// Leaves the piece of the largest volume and says what went: the sum of the other pieces' volumes (µm³), each taken as positive.
+double keepLargestPiece(CappedSurface& surface);
+
+/// Moves a surface along its normals, all of it by the same distance, until it holds `volume` (µm³), or by `furthest` (µm) where
+/// it would have to move more. Caps stay in their faces. Returns the distance (µm), positive outwards. Nothing is checked of
+/// what the surface may run into.
+double moveToVolume(CappedSurface& surface, double volume, double furthest);
+
+/// Halves the longest edges of triangles whose longest and shortest squared edges have a ratio above `largest` (more than 16),
+/// and of what that leaves, until none has. The shape of the surface does not change. Precondition: closed, no edge without a
+/// length.
+void splitNeedles(CappedSurface& surface, double largest);
+
+} // namespace cactus

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FibreMesher.h"
+
+#include "Error.h"
+#include "SurfaceDecimation.h"
+#include "SurfaceIntersection.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Volume of pieces beside the axon's main one that may be left out, as a part of it.
+constexpr double negligiblePart = 1e-3;
+/// Relative error of an inner volume that is good enough.
+constexpr double volumeTolerance = 1e-3;
+/// Distance from where an inner surface has the wanted volume that is good enough before coarsening, as a part of a voxel.
+constexpr double nearEnough = 0.01;
+/// The most that an outer surface is moved to make up for what smoothing takes off it, as a part of the tolerance.
+constexpr double makeUpPart = 1.0;
+/// Quadrics tell a mean and may say more than the error allowed: the field decides.
+constexpr double quadricPart = 2.0;
+/// MC/DC warns of triangles above 1000.
+constexpr double largestSquaredEdgeRatio = 800.0;
+/// How often a surface is made again with less coarsening where something was wrong with it.
+constexpr int repairs = 4;
+
+bool sound(const SurfaceReport& report)
+{
+  return report.closedManifold() && report.outward() && report.components == 1;
+}
+
+void requireSound(const SurfaceReport& report, int fibreId)
+{
+  if (!sound(report))
+  {
+    std::ostringstream message;
+    message << "a surface of fibre " << fibreId << " is not a closed 2-manifold in one piece (" << report.openEdges << " open, "
+            << report.crowdedEdges << " crowded edges, " << report.pinchedPoints << " pinched points, " << report.components
+            << " pieces): choose another VoxelSize in FibreRadialGrowth, and report this as a fault";
+    throw Error(message.str());
+  }
+}
+
+Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
+{
+  const auto& t = mesh.triangles[triangle];
+  return (mesh.points[std::size_t(t[0])] + mesh.points[std::size_t(t[1])] + mesh.points[std::size_t(t[2])]) / 3.0;
+}
+
+/// Where a coarsened surface must not stay as it is: it cuts itself or its container.
+std::vector<Eigen::Vector3d> faults(const TriangleMesh& mesh, const TriangleTree* container)
+{
+  std::vector<Eigen::Vector3d> places;
+  const TriangleTree tree(mesh);
+  for (const auto& pair : selfIntersections(tree))
+  {
+    places.push_back(centreOf(mesh, pair.first));
+    places.push_back(centreOf(mesh, pair.second));
+  }
+  if (container != nullptr)
+  {
+    for (const auto& pair : meetingTriangles(tree, *container))
+    {
+      places.push_back(centreOf(mesh, pair.first));
+    }
+  }
+  return places;
+}
+
+} // namespace
+
+FibreMesher::FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
+  : Facts(facts)
+  , Options(options)
+  , Field(image, facts.domain, options.clipToDomain)
+  , Spacing(image.grid.spacing)
+  , Inset(std::min(facts.minimumGap, 0.25 * Spacing))
+  , OuterLattice(Field.lattice())
+  , InnerLattice(Field.lattice(Inset))
+  , Nudge(std::min(0.02 * Spacing, 0.2 * std::max(facts.surfaceTolerance, 1e-3 * Spacing)))
+  , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing }))
+{
+}
+
+SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const
+{
+  return SmoothedField(this->Field, fibreId, blocks, this->Options.smoothingIterations);
+}
+
+void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) const
+{
+  CappedSurface surface = this->contourAt(this->OuterLattice, field, 0.0);
+  pair.droppedVolume = keepLargestPiece(surface);
+  if (surface.mesh.triangles.empty())
+  {
+    return;
+  }
+  // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre held before.
+  double level = 0.0;
+  SurfaceMeasure now = measure(surface);
+  double volume = now.volume;
+  const double furthest = makeUpPart * this->Facts.surfaceTolerance;
+  if (this->Options.smoothingIterations > 0 && furthest > 0.0)
+  {
+    CappedSurface before = this->contourAt(this->OuterLattice, SmoothedField(this->Field, pair.fibreId, field.blocks(), 0), 0.0);
+    keepLargestPiece(before);
+    volume = measure(before).volume;
+    level = -std::clamp((volume - now.volume) / now.freeArea, 0.0, furthest);
+    surface = this->contourAt(this->OuterLattice, field, level);
+    pair.droppedVolume = keepLargestPiece(surface);
+    now = measure(surface);
+    // No more is made up for than that.
+    volume = std::min(std::max(volume, now.volume), now.volume + 0.1 * furthest * now.freeArea);
+  }
+  this->finish(field, surface, level, volume, nullptr, pair.outerReport, pair);
+  pair.outer = std::move(surface.mesh);
+  pair.outerLevel = level;
+  pair.state = MyelinState::NoAxon;
+}
+
+void FibreMesher::checkOuter(FibreSurfacePair& pair) const
+{
+  pair.outerReport = checkSurface(pair.outer);
+  requireSound(pair.outerReport, pair.fibreId);
+  pair.isFlawed = pair.isFlawed || !faults(pair.outer, nullptr).empty();
+}
+
+double FibreMesher::equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const
+{
+  return 2.0 * std::sqrt(pair.outerReport.volume / (3.14159265358979323846 * this->length(field)));
+}
+
+/// An inner surface before coarsening.
+struct FibreMesher::Inner
+{
+  CappedSurface surface;
+  double level = 0.0;
+  double volume = 0.0;
+  double area = 0.0;
+  bool onePiece = false;
+};
+
+void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) const
+{
+  pair.inner = TriangleMesh();
+  pair.innerReport = SurfaceReport();
+  pair.gRatio = 0.0;
+  pair.thickness = 0.0;
+  pair.state = MyelinState::NoAxon;
+  const double wanted = pair.targetGRatio * pair.targetGRatio * pair.outerReport.volume;
+
+  std::vector<float> depths = this->depths(field);
+  const auto deepest = std::max_element(depths.begin(), depths.end());
+  if (deepest == depths.end() || *deepest <= this->ThinnestMyelin)
+  {
+    return;
+  }
+  const double upper = *deepest;
+  // As many samples as the axon shall have of the volume lie deeper than a first guess.
+  const auto rank = static_cast<std::size_t>((1.0 - pair.targetGRatio * pair.targetGRatio) * double(depths.size() - 1));
+  std::nth_element(depths.begin(), depths.begin() + std::ptrdiff_t(rank), depths.end());
+  const double guess = std::max(double(depths[rank]), this->ThinnestMyelin);
+  depths = {};
+
+  Inner best;
+  const MyelinState state = this->solve(field, wanted, upper, guess, best);
+  if (state == MyelinState::NoAxon)
+  {
+    return;
+  }
+  this->finish(
+    field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer, pair.innerReport, pair);
+  pair.inner = std::move(best.surface.mesh);
+  pair.thickness = best.level - pair.outerLevel;
+  pair.state = state;
+  pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
+}
+
+CappedSurface FibreMesher::contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const
+{
+  return contour(
+    lattice, field.blocks(), [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
+}
+
+FibreMesher::Inner FibreMesher::innerAt(const SmoothedField& field, double level) const
+{
+  Inner inner;
+  inner.level = level;
+  inner.surface = this->contourAt(this->InnerLattice, field, level);
+  const double dropped = keepLargestPiece(inner.surface);
+  const SurfaceMeasure measured = measure(inner.surface);
+  inner.volume = measured.volume;
+  inner.area = measured.freeArea;
+  inner.onePiece = inner.volume > 0.0 && dropped <= negligiblePart * inner.volume;
+  return inner;
+}
+
+/// Looks for the level at which the axon has the wanted volume, from a first guess.
+MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const
+{
+  double lower = this->ThinnestMyelin; // here the axon is too large, or as large as may be
+  double upper = deepest;              // here it is too small, or in pieces
+  double level = std::clamp(guess, lower, upper);
+  bool broken = false;
+  bool found = false;
+  MyelinState state = MyelinState::AsAsked;
+  // Newton's method: the volume falls by the area of the surface as the level rises; else bisection.
+  for (int step = 0; step < 40; ++step)
+  {
+    Inner inner = this->innerAt(field, level);
+    const double error = inner.volume - wanted;
+    // What is off by little, moveToVolume() makes up for; without coarsening it is not called.
+    const double slack = this->Options.decimationError > 0.0 ? nearEnough * this->Spacing * inner.area : 0.0;
+    const bool good = std::abs(error) <= std::max(volumeTolerance * wanted, slack);
+    if (!inner.onePiece)
+    {
+      broken = true;
+      upper = level;
+    }
+    else
+    {
+      // The thickest myelin with an axon in one piece, as long as nothing better is known.
+      (error > 0.0 ? lower : upper) = level;
+      best = inner;
+      found = true;
+      if (good)
+      {
+        return MyelinState::AsAsked;
+      }
+      if (error < 0.0 && level <= this->ThinnestMyelin)
+      {
+        return MyelinState::Thicker;
+      }
+    }
+    if (upper - lower < 1e-3 * this->Spacing)
+    {
+      // Squeezed in between a level that is too thin and one at which the axon breaks.
+      if (!found && lower <= this->ThinnestMyelin)
+      {
+        best = this->innerAt(field, lower);
+        found = best.onePiece;
+      }
+      state = broken ? MyelinState::Thinner : MyelinState::AsAsked;
+      break;
+    }
+    const double newton = inner.onePiece && inner.area > 0.0 ? level + error / inner.area : level;
+    level = newton > lower && newton < upper ? newton : 0.5 * (lower + upper);
+    if (newton <= lower && inner.onePiece && error < 0.0)
+    {
+      level = lower;
+    }
+  }
+  return found ? state : MyelinState::NoAxon;
+}
+
+/// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong with it, it is made again with
+/// less coarsening around there; what cannot be mended like that stays as contoured.
+void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
+  const TriangleMesh* container, SurfaceReport& report, FibreSurfacePair& pair) const
+{
+  const double error = this->Options.decimationError;
+  std::unique_ptr<TriangleTree> containerTree;
+  if (container != nullptr)
+  {
+    containerTree = std::make_unique<TriangleTree>(*container);
+  }
+  SurfaceDecimationOptions decimation;
+  decimation.maximumError = quadricPart * error;
+  decimation.smallestField = level - error;
+  decimation.largestField = level + error;
+  decimation.field = [&field](const Eigen::Vector3d& p) { return field.value(p); };
+  for (int attempt = 0; error > 0.0 && attempt <= repairs; ++attempt)
+  {
+    CappedSurface trial = surface;
+    decimate(trial, decimation);
+    moveToVolume(trial, volume, error);
+    splitNeedles(trial, largestSquaredEdgeRatio);
+    report = checkSurface(trial.mesh);
+    const std::vector<Eigen::Vector3d> places = faults(trial.mesh, containerTree.get());
+    if (places.empty() && report.degenerateTriangles == 0 && sound(report))
+    {
+      pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, level));
+      surface = std::move(trial);
+      return;
+    }
+    if (places.empty())
+    {
+      break; // no place to mend
+    }
+    for (const Eigen::Vector3d& place : places)
+    {
+      decimation.calm.push_back({ place, 2.0 * this->Spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });
+    }
+  }
+  if (error > 0.0)
+  {
+    splitNeedles(surface, largestSquaredEdgeRatio);
+  }
+  report = checkSurface(surface.mesh);
+  requireSound(report, pair.fibreId);
+  pair.isFlawed = pair.isFlawed || (error > 0.0 && !faults(surface.mesh, containerTree.get()).empty());
+}
+
+/// The largest difference between the field and `level` at points spread over the surface, at most half a voxel apart; on caps
+/// only where the field is smaller.
+double FibreMesher::largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const
+{
+  const auto& points = surface.mesh.points;
+  double largest = 0.0;
+  for (const auto& t : surface.mesh.triangles)
+  {
+    const Eigen::Vector3d& a = points[std::size_t(t[0])];
+    const Eigen::Vector3d ab = points[std::size_t(t[1])] - a;
+    const Eigen::Vector3d ac = points[std::size_t(t[2])] - a;
+    const bool isCap = surface.isCap(t);
+    const double longest = std::sqrt(std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() }));
+    const int n = std::max(1, static_cast<int>(std::ceil(2.0 * longest / this->Spacing)));
+    for (int i = 0; i <= n; ++i)
+    {
+      for (int j = 0; i + j <= n; ++j)
+      {
+        const double excess = field.value(a + (double(i) / n) * ab + (double(j) / n) * ac) - level;
+        largest = std::max(largest, isCap ? -excess : std::abs(excess));
+      }
+    }
+  }
+  return largest;
+}
+
+/// Calls visit(i, j, k, depth) for each sample of a fibre in the box, i, j, k counted in nodes of the lattice.
+template <typename Visit>
+void FibreMesher::forEachSample(const SmoothedField& field, Visit&& visit) const
+{
+  std::vector<float> values;
+  for (const std::uint32_t block : field.blocks())
+  {
+    NodeRange range = nodesOfBlock(this->OuterLattice, block);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      range.first[axis] -= 1;
+      range.count[axis] += 2;
+    }
+    values.resize(range.size());
+    field.values(0.0, 0.0, range, values.data());
+    std::size_t index = 0;
+    for (int k = 0; k < range.count[2]; ++k)
+    {
+      for (int j = 0; j < range.count[1]; ++j)
+      {
+        for (int i = 0; i < range.count[0]; ++i, ++index)
+        {
+          // Each node belongs to one block, and one on a face is none of the image's samples.
+          const std::array<int, 3> at{ { range.first[0] + i, range.first[1] + j, range.first[2] + k } };
+          constexpr int size = NodeLattice::blockCells;
+          const bool mine = i > 0 && j > 0 && k > 0 && i <= size && j <= size && k <= size;
+          if (mine && values[index] > 0.0f && this->isSample(at))
+          {
+            visit(at, values[index]);
+          }
+        }
+      }
+    }
+  }
+}
+
+bool FibreMesher::isSample(const std::array<int, 3>& node) const
+{
+  return node[0] > 0 && node[1] > 0 && node[2] > 0 && node[0] < this->OuterLattice.cells(0) &&
+         node[1] < this->OuterLattice.cells(1) && node[2] < this->OuterLattice.cells(2);
+}
+
+std::vector<float> FibreMesher::depths(const SmoothedField& field) const
+{
+  std::vector<float> result;
+  this->forEachSample(field, [&](const std::array<int, 3>&, float depth) { result.push_back(depth); });
+  return result;
+}
+
+/// Length (µm) of the line through the centroids of the fibre's slices across its principal axis.
+double FibreMesher::length(const SmoothedField& field) const
+{
+  double count = 0.0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  this->forEachSample(field,
+    [&](const std::array<int, 3>& at, float)
+    {
+      const Eigen::Vector3d p(at[0], at[1], at[2]);
+      count += 1.0;
+      mean += p;
+      square += p * p.transpose();
+    });
+  mean /= count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(square / count - mean * mean.transpose());
+  const Eigen::Vector3d axis = solver.eigenvectors().col(2);
+  // Slices as thick as the fibre is wide, so that centroids follow the fibre and not the voxels.
+  const double thickness = std::max(4.0, 4.0 * std::sqrt(std::max(0.0, solver.eigenvalues()[1])));
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  std::map<int, std::pair<double, Eigen::Vector3d>> slices;
+  this->forEachSample(field,
+    [&](const std::array<int, 3>& at, float)
+    {
+      const Eigen::Vector3d p = Eigen::Vector3d(at[0], at[1], at[2]) - mean;
+      const double along = axis.dot(p);
+      lowest = std::min(lowest, along);
+      highest = std::max(highest, along);
+      auto& slice = slices.emplace(static_cast<int>(std::floor(along / thickness)), std::make_pair(0.0, Eigen::Vector3d::Zero()))
+                      .first->second;
+      slice.first += 1.0;
+      slice.second += p;
+    });
+  // The ends beyond the first and the last centroid go on along the axis.
+  double length = 1.0 + highest - lowest;
+  const Eigen::Vector3d* before = nullptr;
+  Eigen::Vector3d centroid[2];
+  int which = 0;
+  for (const auto& slice : slices)
+  {
+    centroid[which] = slice.second.second / slice.second.first;
+    if (before != nullptr)
+    {
+      const Eigen::Vector3d step = centroid[which] - *before;
+      length += step.norm() - std::abs(axis.dot(step));
+    }
+    before = &centroid[which];
+    which = 1 - which;
+  }
+  return length * this->Spacing;
+}
+
+} // namespace cactus

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "FibreField.h"
+#include "MyelinSurface.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// Makes the surfaces of one fibre after the other (see myelinSurfaces() for what they are). May be used from several threads.
+class FibreMesher
+{
+public:
+  /// What is given has to outlive the mesher. Throws InvalidInput where the image is not a proper one.
+  FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options);
+
+  const FibreField& field() const { return this->Field; }
+
+  /// The field of a fibre, from the blocks that findFibres() found for it.
+  SmoothedField smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const;
+
+  /// Makes the outer surface; leaves the pair's state at NoFibre where there is none, else at NoAxon.
+  void makeOuter(const SmoothedField& field, FibreSurfacePair& pair) const;
+
+  /// Measures the outer surface again after it has been changed. Throws Error where it is none any more.
+  void checkOuter(FibreSurfacePair& pair) const;
+
+  /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
+  double equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const;
+
+  /// Makes the inner surface for the pair's targetGRatio, inside its outer one.
+  void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
+
+private:
+  struct Inner;
+
+  CappedSurface contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const;
+  Inner innerAt(const SmoothedField& field, double level) const;
+  MyelinState solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const;
+  void finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleMesh* container,
+    SurfaceReport& report, FibreSurfacePair& pair) const;
+  double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
+
+  template <typename Visit>
+  void forEachSample(const SmoothedField& field, Visit&& visit) const;
+  bool isSample(const std::array<int, 3>& node) const;
+  std::vector<float> depths(const SmoothedField& field) const;
+  double length(const SmoothedField& field) const;
+
+  const LabelImageFacts& Facts;
+  const MyelinSurfaceOptions& Options;
+  FibreField Field;
+  double Spacing;
+  double Inset; ///< of the inner surfaces' caps
+  NodeLattice OuterLattice;
+  NodeLattice InnerLattice;
+  double Nudge;          ///< least distance of the field from its level at a sample
+  double ThinnestMyelin; ///< µm; inner and outer surfaces keep apart even where both move
+};
+
+} // namespace cactus

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceSpacing.h"
+
+#include "Parallel.h"
+#include "SurfaceDistance.h"
+#include "TriangleTree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+/// A pair is moved a little farther apart than it has to be, µm: rounding, and corners that move askew, take some of it back.
+constexpr double extra = 0.0002;
+constexpr int rounds = 12;
+
+/// Two surfaces, and by which triangles they are too near.
+struct Pair
+{
+  std::size_t one;
+  std::size_t other;
+  double missing = 0.0; ///< µm, of the gap
+  std::vector<std::uint32_t> trianglesOfOne;
+  std::vector<std::uint32_t> trianglesOfOther;
+};
+
+/// All pairs of surfaces whose boxes come nearer than the gap.
+std::vector<Pair> neighbours(const std::vector<std::unique_ptr<TriangleTree>>& trees, double gap)
+{
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < trees.size(); ++s)
+  {
+    if (trees[s] && !trees[s]->empty())
+    {
+      order.push_back(s);
+    }
+  }
+  const auto box = [&](std::size_t s) -> const FloatBox& { return trees[s]->nodes().front().box; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return box(a).lower[0] < box(b).lower[0]; });
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    const FloatBox& a = box(order[i]);
+    for (std::size_t j = i + 1; j < order.size() && double(box(order[j]).lower[0]) <= double(a.upper[0]) + gap; ++j)
+    {
+      if (a.squaredDistance(box(order[j])) < gap * gap)
+      {
+        pairs.push_back({ std::min(order[i], order[j]), std::max(order[i], order[j]), 0.0, {}, {} });
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(),
+    [](const Pair& a, const Pair& b) { return std::make_pair(a.one, a.other) < std::make_pair(b.one, b.other); });
+  return pairs;
+}
+
+/// How far to move each of the points that have to move.
+using Moves = std::map<std::int32_t, double>;
+
+void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox3d& box)
+{
+  const auto onFace = [&](std::int32_t p, Eigen::Index axis, int side)
+  { return mesh.points[std::size_t(p)][axis] == (side == 0 ? box.min()[axis] : box.max()[axis]); };
+  std::map<std::int32_t, Vector3d> normals;
+  for (const auto& t : mesh.triangles)
+  {
+    if (moves.count(t[0]) == 0 && moves.count(t[1]) == 0 && moves.count(t[2]) == 0)
+    {
+      continue;
+    }
+    bool isCap = false;
+    for (int face = 0; face < 6; ++face)
+    {
+      const Eigen::Index axis = face / 2;
+      isCap = isCap || (onFace(t[0], axis, face % 2) && onFace(t[1], axis, face % 2) && onFace(t[2], axis, face % 2));
+    }
+    if (isCap)
+    {
+      continue;
+    }
+    const Vector3d& a = mesh.points[std::size_t(t[0])];
+    const Vector3d normal = (mesh.points[std::size_t(t[1])] - a).cross(mesh.points[std::size_t(t[2])] - a);
+    for (const std::int32_t corner : t)
+    {
+      normals.emplace(corner, Vector3d::Zero()).first->second += normal;
+    }
+  }
+  for (const auto& [point, distance] : moves)
+  {
+    const auto found = normals.find(point);
+    if (found == normals.end())
+    {
+      continue; // amid a cap
+    }
+    Vector3d normal = found->second;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      if (onFace(point, axis, 0) || onFace(point, axis, 1))
+      {
+        normal[axis] = 0.0;
+      }
+    }
+    const double length = normal.norm();
+    if (length > 0.0)
+    {
+      mesh.points[std::size_t(point)] -= (distance / length) * normal;
+    }
+  }
+}
+
+void addMoves(Moves& moves, const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, double distance)
+{
+  for (const std::uint32_t t : triangles)
+  {
+    for (const std::int32_t corner : mesh.triangles[t])
+    {
+      double& move = moves.emplace(corner, 0.0).first->second;
+      move = std::max(move, distance);
+    }
+  }
+}
+
+} // namespace
+
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
+  const Context& context, double from, double to)
+{
+  SpacingReport report;
+  if (!(gap > 0.0))
+  {
+    return report;
+  }
+  std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
+  std::vector<std::size_t> changed(surfaces.size());
+  std::iota(changed.begin(), changed.end(), std::size_t(0));
+  std::vector<char> isChanged(surfaces.size(), 1);
+  std::vector<char> isMoved(surfaces.size(), 0);
+  std::vector<Pair> pairs;
+  // Most of the work is the first look at all pairs.
+  const double half = 0.5 * (from + to);
+  for (int round = 0;; ++round)
+  {
+    parallelFor(
+      changed.size(), context, [&](std::size_t c) { trees[changed[c]] = std::make_unique<TriangleTree>(*surfaces[changed[c]]); });
+    if (round == 0)
+    {
+      pairs = neighbours(trees, gap);
+    }
+    parallelFor(
+      pairs.size(), context,
+      [&](std::size_t p)
+      {
+        Pair& pair = pairs[p];
+        if (!isChanged[pair.one] && !isChanged[pair.other])
+        {
+          return;
+        }
+        const TriangleTree& one = *trees[pair.one];
+        const TriangleTree& other = *trees[pair.other];
+        const SurfaceGap nearest = smallestGap(one, other, gap);
+        pair.missing = nearest.found() ? gap - nearest.distance : 0.0;
+        pair.trianglesOfOne = nearest.found() ? trianglesNear(one, other, gap) : std::vector<std::uint32_t>();
+        pair.trianglesOfOther = nearest.found() ? trianglesNear(other, one, gap) : std::vector<std::uint32_t>();
+      },
+      "keeping fibres apart", round == 0 ? from : half, round == 0 ? half : to);
+
+    std::map<std::size_t, Moves> moves;
+    for (const Pair& pair : pairs)
+    {
+      if (pair.missing > 0.0)
+      {
+        addMoves(moves[pair.one], *surfaces[pair.one], pair.trianglesOfOne, 0.5 * pair.missing + extra);
+        addMoves(moves[pair.other], *surfaces[pair.other], pair.trianglesOfOther, 0.5 * pair.missing + extra);
+      }
+    }
+    if (moves.empty() || round == rounds)
+    {
+      for (const auto& entry : moves)
+      {
+        report.tooNear.push_back(entry.first);
+      }
+      break;
+    }
+    changed.clear();
+    std::fill(isChanged.begin(), isChanged.end(), 0);
+    for (const auto& entry : moves)
+    {
+      changed.push_back(entry.first);
+      isChanged[entry.first] = isMoved[entry.first] = 1;
+    }
+    parallelFor(changed.size(), context, [&](std::size_t c) { moveInwards(*surfaces[changed[c]], moves.at(changed[c]), box); });
+  }
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+  {
+    if (isMoved[s])
+    {
+      report.moved.push_back(s);
+    }
+  }
+  return report;
+}
+
+} // namespace cactus

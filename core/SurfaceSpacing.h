@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Context.h"
+#include "TriangleMesh.h"
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// What keepApart() did.
+struct SpacingReport
+{
+  std::vector<std::size_t> moved;   ///< surfaces that were changed, increasing
+  std::vector<std::size_t> tooNear; ///< those that are still nearer than the gap to another, increasing
+};
+
+/// Moves points of closed, outward surfaces inwards, a nanometre or so at a time, until any two surfaces are at least `gap` (µm)
+/// apart: those of the triangles that come nearer. Meant for surfaces that keep the gap but for what coarsening has cost; it
+/// gives up on pairs that a few rounds do not part. Distances are those of the triangles (see smallestGap()), no samples.
+///
+/// Points on a face of `box` stay on it, so that flat caps stay flat. Empty surfaces are left out. Same result on any number of
+/// threads. Progress runs from `from` to `to`. Throws Cancelled.
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
+  const Context& context = {}, double from = 0.0, double to = 1.0);
+
+} // namespace cactus

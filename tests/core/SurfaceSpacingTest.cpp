@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: surfaces that are too near are moved to the gap, by no more than that takes; others keep every bit.
+#include "SurfaceSpacing.h"
+
+#include "Error.h"
+#include "SurfaceCheck.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace cactus;
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A closed tube along z from face to face of the box [-1, 1]³, with a bulge of height `bulge` towards +x in its middle.
+TriangleMesh tube(double x, double radius, double bulge = 0.0)
+{
+  constexpr int around = 48;
+  constexpr int along = 40;
+  TriangleMesh mesh;
+  for (int k = 0; k <= along; ++k)
+  {
+    const double z = -1.0 + 2.0 * k / along;
+    for (int i = 0; i < around; ++i)
+    {
+      const double angle = 2.0 * pi * i / around;
+      const double r = radius + bulge * std::exp(-20.0 * (z * z + angle * angle));
+      mesh.points.push_back({ x + r * std::cos(angle), r * std::sin(angle), z });
+    }
+  }
+  const auto at = [](int k, int i) { return std::int32_t(around * k + i % around); };
+  for (int k = 0; k < along; ++k)
+  {
+    for (int i = 0; i < around; ++i)
+    {
+      mesh.triangles.push_back({ { at(k, i), at(k, i + 1), at(k + 1, i + 1) } });
+      mesh.triangles.push_back({ { at(k, i), at(k + 1, i + 1), at(k + 1, i) } });
+    }
+  }
+  for (const int k : { 0, along })
+  {
+    const auto centre = std::int32_t(mesh.points.size());
+    mesh.points.push_back({ x, 0.0, k == 0 ? -1.0 : 1.0 });
+    for (int i = 0; i < around; ++i)
+    {
+      mesh.triangles.push_back({ { centre, at(k, i + (k == 0 ? 1 : 0)), at(k, i + (k == 0 ? 0 : 1)) } });
+    }
+  }
+  return mesh;
+}
+
+/// The shortest distance of the points of one mesh to densely spread points of the other's triangles: never less than the truth.
+double sampledDistance(const TriangleMesh& a, const TriangleMesh& b)
+{
+  double least = 1e300;
+  for (const auto& t : b.triangles)
+  {
+    for (int i = 0; i <= 8; ++i)
+    {
+      for (int j = 0; i + j <= 8; ++j)
+      {
+        const Eigen::Vector3d p = b.points[std::size_t(t[0])] +
+                                  (i / 8.0) * (b.points[std::size_t(t[1])] - b.points[std::size_t(t[0])]) +
+                                  (j / 8.0) * (b.points[std::size_t(t[2])] - b.points[std::size_t(t[0])]);
+        if (p[0] > -0.2 && p[0] < 0.3)
+        {
+          for (const auto& q : a.points)
+          {
+            least = std::min(least, (p - q).norm());
+          }
+        }
+      }
+    }
+  }
+  return least;
+}
+
+const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
+
+TEST(SurfaceSpacing, MovesWhatIsTooNearToTheGap)
+{
+  // 0.03 apart, but for the bulge, which leaves 0.015.
+  TriangleMesh left = tube(-0.5, 0.5, 0.015);
+  TriangleMesh right = tube(0.53, 0.5);
+  TriangleMesh far = tube(-0.5, 0.2);
+  for (auto& p : far.points)
+  {
+    p[1] += 5.0;
+  }
+  const TriangleMesh oldLeft = left;
+  const TriangleMesh oldFar = far;
+  TriangleMesh empty;
+  ASSERT_LT(sampledDistance(left, right), 0.0151);
+  const SpacingReport report = keepApart({ &left, &empty, &far, &right }, 0.02, box);
+  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 0, 3 }));
+  EXPECT_TRUE(report.tooNear.empty());
+  const double distance = sampledDistance(left, right);
+  EXPECT_GE(distance, 0.02);
+  EXPECT_LT(distance, 0.0215);
+  double largest = 0.0;
+  for (std::size_t p = 0; p < left.points.size(); ++p)
+  {
+    largest = std::max(largest, (left.points[p] - oldLeft.points[p]).norm());
+  }
+  EXPECT_LT(largest, 0.005);
+  EXPECT_EQ(far.points, oldFar.points);
+  for (const TriangleMesh* mesh : { &left, &right })
+  {
+    const SurfaceReport check = checkSurface(*mesh);
+    EXPECT_TRUE(check.closedManifold());
+    EXPECT_TRUE(check.outward());
+  }
+}
+
+TEST(SurfaceSpacing, PointsOnTheBoxStayOnIt)
+{
+  TriangleMesh left = tube(-0.5, 0.5);
+  TriangleMesh right = tube(0.515, 0.5);
+  const TriangleMesh before = left;
+  const SpacingReport report = keepApart({ &left, &right }, 0.02, box);
+  EXPECT_EQ(report.moved.size(), 2u);
+  EXPECT_TRUE(report.tooNear.empty());
+  EXPECT_GE(sampledDistance(left, right), 0.02);
+  for (std::size_t p = 0; p < left.points.size(); ++p)
+  {
+    EXPECT_EQ(left.points[p][2] == 1.0, before.points[p][2] == 1.0);
+    EXPECT_EQ(left.points[p][2] == -1.0, before.points[p][2] == -1.0);
+  }
+}
+
+TEST(SurfaceSpacing, NamesWhatItCannotPart)
+{
+  // One through the other: to move each inwards does not help.
+  TriangleMesh left = tube(-0.1, 0.5);
+  TriangleMesh right = tube(0.1, 0.5);
+  EXPECT_EQ(keepApart({ &left, &right }, 0.02, box).tooNear, (std::vector<std::size_t>{ 0, 1 }));
+}
+
+TEST(SurfaceSpacing, SameBitsOnAnyNumberOfThreadsAndStops)
+{
+  std::vector<TriangleMesh> results;
+  for (const int threads : { 1, 2, 4 })
+  {
+    TriangleMesh left = tube(-0.5, 0.5, 0.015);
+    TriangleMesh right = tube(0.53, 0.5);
+    TriangleMesh beyond = tube(1.545, 0.5);
+    Context context;
+    context.threads = threads;
+    keepApart({ &left, &right, &beyond }, 0.02, box, context);
+    results.push_back(right);
+  }
+  EXPECT_EQ(results[0].points, results[1].points);
+  EXPECT_EQ(results[0].points, results[2].points);
+  TriangleMesh left = tube(-0.5, 0.5, 0.015);
+  TriangleMesh right = tube(0.53, 0.5);
+  Context context;
+  context.cancelled = [] { return true; };
+  EXPECT_THROW(keepApart({ &left, &right }, 0.02, box, context), Cancelled);
+}
+
+} // namespace
