@@ -2,6 +2,7 @@
 #include "vtkCapsuleOptimizer.h"
 
 #include "CapsuleOptimizer.h"
+#include "Capsules.h"
 #include "FibreData.h"
 #include "FibreShape.h"
 #include "FilterSupport.h"
@@ -16,9 +17,12 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -101,6 +105,25 @@ void setNumber(vtkDataObject* data, const char* name, double value)
   data->GetFieldData()->AddArray(array);
 }
 
+void setCount(vtkDataObject* data, const char* name, int value)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  data->GetFieldData()->AddArray(array);
+}
+
+/// Newest change of any input.
+vtkMTimeType inputTime(vtkInformationVector* inputs)
+{
+  vtkMTimeType newest = 0;
+  for (int connection = 0; connection < inputs->GetNumberOfInformationObjects(); ++connection)
+  {
+    newest = std::max(newest, vtkPolyData::GetData(inputs, connection)->GetMTime());
+  }
+  return newest;
+}
+
 const char* reasonText(cactus::StopReason reason)
 {
   switch (reason)
@@ -120,9 +143,48 @@ const char* reasonText(cactus::StopReason reason)
 
 } // namespace
 
+/// What a run has left behind.
+struct vtkCapsuleOptimizer::Run
+{
+  vtkMTimeType ParameterTime = 0;
+  vtkMTimeType InputTime = 0;
+  cactus::Fibres Fibres;                   ///< the result
+  cactus::OptimisationResult Optimisation; ///< what is to be said of it
+  cactus::FibreShape Before;
+  double RadiusDistance = 0.0;
+
+  /// A state on the way, in single precision.
+  struct State
+  {
+    int Iteration = 0;
+    std::vector<Eigen::Vector3f> Points;
+    std::vector<float> Radii; ///< empty where they do not change
+  };
+  std::vector<State> States;
+  std::vector<double> InitialRadii;
+
+  int lastIteration() const { return this->Optimisation.convergence.back().iteration; }
+
+  std::vector<double> times() const
+  {
+    std::vector<double> times;
+    for (const State& state : this->States)
+    {
+      times.push_back(state.Iteration);
+    }
+    times.push_back(this->lastIteration());
+    return times;
+  }
+};
+
 vtkCapsuleOptimizer::vtkCapsuleOptimizer()
 {
   this->SetNumberOfOutputPorts(2);
+}
+
+vtkCapsuleOptimizer::~vtkCapsuleOptimizer()
+{
+  this->SetCheckpointFile(nullptr);
 }
 
 int vtkCapsuleOptimizer::FillInputPortInformation(int, vtkInformation* info)
@@ -144,6 +206,174 @@ int vtkCapsuleOptimizer::RequestUpdateExtent(vtkInformation*, vtkInformationVect
   return 1;
 }
 
+void vtkCapsuleOptimizer::OfferTimes(vtkInformationVector* outputs) const
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkInformation* info = outputs->GetInformationObject(port);
+    if (!this->KeepHistory || !this->LastRun)
+    {
+      info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+      info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+      continue;
+    }
+    const std::vector<double> times = this->LastRun->times();
+    const double range[2] = { times.front(), times.back() };
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+  }
+}
+
+int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  this->OfferTimes(outputs);
+  return 1;
+}
+
+std::unique_ptr<vtkCapsuleOptimizer::Run> vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs)
+{
+  if (this->Method != MOMENTUM && this->Method != ADAGRAD)
+  {
+    throw cactus::InvalidInput("Method must be Momentum (0) or Adagrad (1)");
+  }
+  if (this->NumberOfThreads < 0)
+  {
+    throw cactus::InvalidInput("NumberOfThreads must be 0 (all) or more");
+  }
+  if (this->HistoryInterval < 1)
+  {
+    throw cactus::InvalidInput("HistoryInterval is " + std::to_string(this->HistoryInterval) + ": it must be 1 or more");
+  }
+  cactus::CapsuleOptimizerOptions options;
+  options.maximumIterations = this->MaximumIterations;
+  options.overlapTolerance = this->OverlapTolerance;
+  options.method = static_cast<cactus::DescentMethod>(this->Method);
+  options.overlapWeight = this->OverlapWeight;
+  options.weights.curvature = this->CurvatureWeight;
+  options.weights.length = this->LengthWeight;
+  options.weights.radius = this->RadiusWeight;
+  options.weights.compactness = this->CompactnessWeight;
+  options.stepSize = this->StepSize;
+  options.relaxation = this->Relaxation;
+  options.packingLimit = this->PackingLimit;
+  options.radiusTolerance = this->RadiusTolerance;
+  options.timeBudget = this->TimeBudget;
+  options.checkpointFile = this->CheckpointFile != nullptr ? this->CheckpointFile : "";
+  options.checkpointInterval = this->CheckpointInterval;
+  options.resume = this->Resume;
+  cactus::validate(options);
+
+  auto run = std::make_unique<Run>();
+  run->ParameterTime = this->GetMTime();
+  run->InputTime = inputTime(inputs);
+  run->Fibres = joined(inputs);
+  run->Before = cactus::measureShape(run->Fibres);
+  const cactus::Fibres before = run->Fibres;
+  const auto keep = [&](int iteration, const cactus::Fibres& fibres)
+  {
+    if (iteration % this->HistoryInterval != 0)
+    {
+      return;
+    }
+    Run::State state;
+    state.Iteration = iteration;
+    state.Points.reserve(fibres.points.size());
+    for (const Eigen::Vector3d& point : fibres.points)
+    {
+      state.Points.push_back(point.cast<float>());
+    }
+    if (this->RadiusTolerance > 0.0)
+    {
+      state.Radii.assign(fibres.radii.begin(), fibres.radii.end());
+    }
+    run->States.push_back(std::move(state));
+  };
+  std::function<void(int, const cactus::Fibres&)> observe;
+  if (this->KeepHistory)
+  {
+    observe = keep;
+  }
+  run->Optimisation = cactus::optimise(run->Fibres, options, cactus::contextFor(this, this->NumberOfThreads), observe);
+  run->RadiusDistance = cactus::radiusDistance(before, run->Fibres);
+  // The result takes the place of the last state.
+  while (!run->States.empty() && run->States.back().Iteration >= run->lastIteration())
+  {
+    run->States.pop_back();
+  }
+  return run;
+}
+
+void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const bool isResult = state >= run.States.size();
+  cactus::Fibres fibres = run.Fibres;
+  std::vector<double> overlaps = run.Optimisation.overlap;
+  double penetration = run.Optimisation.maximumPenetration;
+  if (!isResult)
+  {
+    const Run::State& then = run.States[state];
+    for (std::size_t i = 0; i < fibres.points.size(); ++i)
+    {
+      fibres.points[i] = then.Points[i].cast<double>();
+    }
+    if (!then.Radii.empty())
+    {
+      fibres.radii.assign(then.Radii.begin(), then.Radii.end());
+    }
+    const cactus::OverlapReport report = cactus::measureOverlap(fibres, this->OverlapTolerance, this->NumberOfThreads);
+    overlaps = report.perPoint;
+    penetration = std::max(0.0, report.largestPenetration);
+  }
+  const cactus::FibreShape after = cactus::measureShape(fibres);
+
+  auto* output = vtkPolyData::GetData(outputs, 0);
+  std::vector<std::size_t> kept(fibres.points.size());
+  std::iota(kept.begin(), kept.end(), std::size_t(0));
+  if (this->TrimToDomain)
+  {
+    fibres = cactus::trimToDomain(fibres, &kept);
+  }
+  if (fibres.size() == 0)
+  {
+    throw cactus::InvalidInput("no fibre comes near the Domain: check its position, or switch TrimToDomain off");
+  }
+  cactus::toPolyData(fibres, output);
+  vtkNew<vtkDoubleArray> overlap;
+  overlap->SetName("Overlap");
+  overlap->SetNumberOfValues(static_cast<vtkIdType>(kept.size()));
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    overlap->SetValue(static_cast<vtkIdType>(i), overlaps[kept[i]]);
+  }
+  output->GetPointData()->AddArray(overlap);
+
+  setCount(output, "Converged", penetration <= this->OverlapTolerance ? 1 : 0);
+  setNumber(output, "MaximumPenetration", penetration);
+  setNumber(output, "InitialMeanDispersion", run.Before.meanDispersion);
+  setNumber(output, "MeanDispersion", after.meanDispersion);
+  setNumber(output, "InitialTangentDispersion", run.Before.tangentDispersion);
+  setNumber(output, "TangentDispersion", after.tangentDispersion);
+  setNumber(output, "InitialCrossingAngle", run.Before.crossingAngle);
+  setNumber(output, "CrossingAngle", after.crossingAngle);
+  setNumber(output, "SmallestBendRadius", after.smallestBendRadius);
+  setNumber(output, "SmallestCurvatureRadius", after.smallestCurvatureRadius);
+  setNumber(output, "LengthIncrease", after.totalLength / run.Before.totalLength - 1.0);
+  setNumber(output, "RadiusDistance", run.RadiusDistance);
+
+  std::ostringstream parameters;
+  parameters.precision(15);
+  parameters << "MaximumIterations=" << this->MaximumIterations << " OverlapTolerance=" << this->OverlapTolerance
+             << " Method=" << (this->Method == MOMENTUM ? "Momentum" : "Adagrad") << " OverlapWeight=" << this->OverlapWeight
+             << " CurvatureWeight=" << this->CurvatureWeight << " LengthWeight=" << this->LengthWeight
+             << " RadiusWeight=" << this->RadiusWeight << " CompactnessWeight=" << this->CompactnessWeight
+             << " StepSize=" << this->StepSize << " Relaxation=" << this->Relaxation << " PackingLimit=" << this->PackingLimit
+             << " RadiusTolerance=" << this->RadiusTolerance << " TrimToDomain=" << this->TrimToDomain
+             << " TimeBudget=" << this->TimeBudget << " (" << (isResult ? run.lastIteration() : run.States[state].Iteration)
+             << " iterations, largest penetration " << penetration << ")";
+  cactus::addProvenance(vtkPolyData::GetData(inputs[0]), output, "CapsuleOptimizer", parameters.str());
+  fillTable(run.Optimisation.convergence, vtkTable::GetData(outputs, 1));
+}
+
 int vtkCapsuleOptimizer::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   if (!cactus::ownsWholeOutput(outputs))
@@ -153,94 +383,54 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation*, vtkInformationVector** inp
   return cactus::guarded(this,
     [&]
     {
-      if (this->Method != MOMENTUM && this->Method != ADAGRAD)
+      const bool known = this->KeepHistory && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
+                         this->LastRun->InputTime == inputTime(inputs[0]);
+      if (!known)
       {
-        throw cactus::InvalidInput("Method must be Momentum (0) or Adagrad (1)");
+        this->LastRun.reset();
+        this->LastRun = this->Optimise(inputs[0]);
       }
-      if (this->NumberOfThreads < 0)
+      const Run& run = *this->LastRun;
+      std::size_t state = run.States.size();
+      double time = run.lastIteration();
+      if (this->KeepHistory)
       {
-        throw cactus::InvalidInput("NumberOfThreads must be 0 (all) or more");
+        this->OfferTimes(outputs);
+        const std::vector<double> times = run.times();
+        for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+        {
+          vtkInformation* info = outputs->GetInformationObject(port);
+          if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+          {
+            time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+          }
+        }
+        const auto after = std::upper_bound(times.begin(), times.end(), time);
+        state = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
       }
-      cactus::CapsuleOptimizerOptions options;
-      options.maximumIterations = this->MaximumIterations;
-      options.overlapTolerance = this->OverlapTolerance;
-      options.method = static_cast<cactus::DescentMethod>(this->Method);
-      options.overlapWeight = this->OverlapWeight;
-      options.weights.curvature = this->CurvatureWeight;
-      options.weights.length = this->LengthWeight;
-      options.weights.radius = this->RadiusWeight;
-      options.weights.compactness = this->CompactnessWeight;
-      options.stepSize = this->StepSize;
-      options.relaxation = this->Relaxation;
-      options.packingLimit = this->PackingLimit;
-      options.radiusTolerance = this->RadiusTolerance;
-      options.timeBudget = this->TimeBudget;
-      cactus::validate(options);
-
-      cactus::Fibres fibres = joined(inputs[0]);
-      const cactus::FibreShape before = cactus::measureShape(fibres);
-      const cactus::OptimisationResult result =
-        cactus::optimise(fibres, options, cactus::contextFor(this, this->NumberOfThreads));
-      const cactus::FibreShape after = cactus::measureShape(fibres);
-
-      auto* output = vtkPolyData::GetData(outputs, 0);
-      std::vector<std::size_t> kept(fibres.points.size());
-      for (std::size_t i = 0; i < kept.size(); ++i)
+      this->Show(run, state, inputs, outputs);
+      if (this->KeepHistory)
       {
-        kept[i] = i;
+        for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+        {
+          vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+        }
       }
-      if (this->TrimToDomain)
+      const cactus::OptimisationResult& result = run.Optimisation;
+      if (!known && !result.checkpointFailure.empty())
       {
-        fibres = cactus::trimToDomain(fibres, &kept);
+        vtkWarningMacro(<< "the run could not be written down to go on from: " << result.checkpointFailure);
       }
-      if (fibres.size() == 0)
+      if (!known && result.maximumPenetration > this->OverlapTolerance)
       {
-        throw cactus::InvalidInput("no fibre comes near the Domain: check its position, or switch TrimToDomain off");
-      }
-      cactus::toPolyData(fibres, output);
-      vtkNew<vtkDoubleArray> overlap;
-      overlap->SetName("Overlap");
-      overlap->SetNumberOfValues(static_cast<vtkIdType>(kept.size()));
-      for (std::size_t i = 0; i < kept.size(); ++i)
-      {
-        overlap->SetValue(static_cast<vtkIdType>(i), result.overlap[kept[i]]);
-      }
-      output->GetPointData()->AddArray(overlap);
-
-      const bool converged = result.maximumPenetration <= options.overlapTolerance;
-      vtkNew<vtkIntArray> flag;
-      flag->SetName("Converged");
-      flag->InsertNextValue(converged ? 1 : 0);
-      output->GetFieldData()->AddArray(flag);
-      setNumber(output, "MaximumPenetration", result.maximumPenetration);
-      setNumber(output, "InitialMeanDispersion", before.meanDispersion);
-      setNumber(output, "MeanDispersion", after.meanDispersion);
-      setNumber(output, "InitialTangentDispersion", before.tangentDispersion);
-      setNumber(output, "TangentDispersion", after.tangentDispersion);
-      setNumber(output, "InitialCrossingAngle", before.crossingAngle);
-      setNumber(output, "CrossingAngle", after.crossingAngle);
-      setNumber(output, "SmallestBendRadius", after.smallestBendRadius);
-      setNumber(output, "LengthIncrease", after.totalLength / before.totalLength - 1.0);
-
-      std::ostringstream parameters;
-      parameters.precision(15);
-      parameters << "MaximumIterations=" << this->MaximumIterations << " OverlapTolerance=" << this->OverlapTolerance
-                 << " Method=" << (this->Method == MOMENTUM ? "Momentum" : "Adagrad") << " OverlapWeight=" << this->OverlapWeight
-                 << " CurvatureWeight=" << this->CurvatureWeight << " LengthWeight=" << this->LengthWeight
-                 << " RadiusWeight=" << this->RadiusWeight << " CompactnessWeight=" << this->CompactnessWeight
-                 << " StepSize=" << this->StepSize << " Relaxation=" << this->Relaxation << " PackingLimit=" << this->PackingLimit
-                 << " RadiusTolerance=" << this->RadiusTolerance << " TrimToDomain=" << this->TrimToDomain
-                 << " TimeBudget=" << this->TimeBudget << " (" << result.convergence.back().iteration
-                 << " iterations, largest penetration " << result.maximumPenetration << ")";
-      cactus::addProvenance(vtkPolyData::GetData(inputs[0]), output, "CapsuleOptimizer", parameters.str());
-      fillTable(result.convergence, vtkTable::GetData(outputs, 1));
-
-      if (!converged)
-      {
-        vtkWarningMacro(<< "overlaps remain: " << reasonText(result.reason) << " after " << result.convergence.back().iteration
+        vtkWarningMacro(<< "overlaps remain: " << reasonText(result.reason) << " after " << run.lastIteration()
                         << " iterations with " << result.overlappingPairs << " capsule pairs above OverlapTolerance "
-                        << options.overlapTolerance << ", the largest penetration being " << result.maximumPenetration
+                        << this->OverlapTolerance << ", the largest penetration being " << result.maximumPenetration
                         << ". The best state is kept. Allow more iterations or time, or ask for a lower density.");
+      }
+      if (!this->KeepHistory)
+      {
+        this->LastRun.reset();
       }
     });
 }
@@ -263,4 +453,9 @@ void vtkCapsuleOptimizer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TrimToDomain: " << this->TrimToDomain << '\n';
   os << indent << "TimeBudget: " << this->TimeBudget << '\n';
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+  os << indent << "CheckpointFile: " << (this->CheckpointFile != nullptr ? this->CheckpointFile : "(none)") << '\n';
+  os << indent << "CheckpointInterval: " << this->CheckpointInterval << '\n';
+  os << indent << "Resume: " << this->Resume << '\n';
+  os << indent << "KeepHistory: " << this->KeepHistory << '\n';
+  os << indent << "HistoryInterval: " << this->HistoryInterval << '\n';
 }

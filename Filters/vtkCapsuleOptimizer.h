@@ -9,8 +9,12 @@
  * Output 0 `Fibres`: the fibres, with point data `Overlap` (largest relative penetration D = 1 - d / (rp + rq) of the capsules at
  * a control point; 0 where nothing is touched) and field data `Converged` (1 or 0) and `MaximumPenetration`; and, of the whole
  * fibres before they are trimmed, `MeanDispersion` (degrees, end to end), `TangentDispersion` (degrees, by segment),
- * `CrossingAngle` (degrees; 0 for one bundle), each also with `Initial` in front, `SmallestBendRadius` (as a multiple of the
- * fibre's radius there) and `LengthIncrease` (a fraction). Output 1 `Convergence`: one row per iteration.
+ * `CrossingAngle` (degrees; 0 for one bundle), each also with `Initial` in front, `SmallestCurvatureRadius` (µm),
+ * `SmallestBendRadius` (the same as a multiple of the fibre's radius there), `LengthIncrease` (a fraction) and `RadiusDistance`
+ * (Kolmogorov–Smirnov distance of the radii to those that came in). Output 1 `Convergence`: one row per iteration.
+ *
+ * With KeepHistory on, every HistoryInterval-th state is kept, and the iterations are offered as time steps once the filter has
+ * run: a request for a time gets the last state that is not after it, the last one being the result.
  *
  * Where overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how
  * many and how large, and the output is the best state that was seen.
@@ -21,6 +25,8 @@
 #include "CactusFiltersModule.h"
 
 #include <vtkPolyDataAlgorithm.h>
+
+#include <memory>
 
 class CACTUSFILTERS_EXPORT vtkCapsuleOptimizer : public vtkPolyDataAlgorithm
 {
@@ -127,17 +133,61 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  ///@{
+  /** File to which the state of the run is written every CheckpointInterval seconds and when it ends; empty for none. */
+  vtkSetFilePathMacro(CheckpointFile);
+  vtkGetFilePathMacro(CheckpointFile);
+  ///@}
+
+  ///@{
+  /** Least seconds between two checkpoints. */
+  vtkSetMacro(CheckpointInterval, double);
+  vtkGetMacro(CheckpointInterval, double);
+  ///@}
+
+  ///@{
+  /** Go on from CheckpointFile where it exists; an error where it belongs to other fibres or other parameters. */
+  vtkSetMacro(Resume, bool);
+  vtkGetMacro(Resume, bool);
+  vtkBooleanMacro(Resume, bool);
+  ///@}
+
+  ///@{
+  /** Keep states of the run and offer them as time steps; 12 bytes per control point and state, 16 where radii may change. */
+  vtkSetMacro(KeepHistory, bool);
+  vtkGetMacro(KeepHistory, bool);
+  vtkBooleanMacro(KeepHistory, bool);
+  ///@}
+
+  ///@{
+  /** Iterations from one state that is kept to the next. */
+  vtkSetMacro(HistoryInterval, int);
+  vtkGetMacro(HistoryInterval, int);
+  ///@}
+
 protected:
   vtkCapsuleOptimizer();
-  ~vtkCapsuleOptimizer() override = default;
+  ~vtkCapsuleOptimizer() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
+  struct Run;
+
   vtkCapsuleOptimizer(const vtkCapsuleOptimizer&) = delete;
   void operator=(const vtkCapsuleOptimizer&) = delete;
+
+  /** Runs the optimisation. */
+  std::unique_ptr<Run> Optimise(vtkInformationVector* inputs);
+  /** Fills the outputs with a state of the run. */
+  void Show(const Run& run, std::size_t state, vtkInformationVector** inputs, vtkInformationVector* outputs);
+  /** Says which times there are. */
+  void OfferTimes(vtkInformationVector* outputs) const;
+
+  std::unique_ptr<Run> LastRun; ///< kept where KeepHistory is on
 
   int MaximumIterations = 3000;
   double OverlapTolerance = 1e-3;
@@ -154,6 +204,11 @@ private:
   bool TrimToDomain = true;
   double TimeBudget = 0.0;
   int NumberOfThreads = 0;
+  char* CheckpointFile = nullptr;
+  double CheckpointInterval = 600.0;
+  bool Resume = false;
+  bool KeepHistory = false;
+  int HistoryInterval = 10;
 };
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "BundleBox.h"
 #include "Capsules.h"
+#include "Checkpoint.h"
 #include "Error.h"
 #include "NeighbourSearch.h"
 #include "OverlapCost.h"
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -117,11 +120,74 @@ public:
     result.searchSeconds = this->SearchSeconds;
   }
 
+  /// Whether the next evaluation searches for neighbours, so that the lists of now need not be kept.
+  bool searchDue() const
+  {
+    return this->Neighbours.offsets.empty() || this->Exceeded;
+  }
+
+  /// Everything that what follows depends on.
+  void save(CheckpointWriter& file) const
+  {
+    file.putAll(this->State.points);
+    file.putAll(this->State.radii);
+    file.putAll(this->Velocity);
+    file.putAll(this->RadiusVelocity);
+    file.putAll(this->Speed);
+    file.putAll(this->Push);
+    file.put(this->Relaxation);
+    file.put(this->Slack);
+    file.put(this->StepsSinceSearch);
+    file.put(this->PairEvaluations);
+    file.put(this->Searches);
+    file.put(this->EvaluationSeconds);
+    file.put(this->SearchSeconds);
+    // The order of a list decides how its sums are rounded.
+    file.put(this->searchDue());
+    if (!this->searchDue())
+    {
+      file.putAll(this->Neighbours.offsets);
+      file.putAll(this->Neighbours.indices);
+      file.putAll(this->Displacement);
+      file.putAll(this->Allowance);
+    }
+  }
+
+  void load(CheckpointReader& file)
+  {
+    const auto count = static_cast<std::int64_t>(this->State.points.size());
+    file.getAll(this->State.points, count);
+    file.getAll(this->State.radii, count);
+    file.getAll(this->Velocity, count);
+    file.getAll(this->RadiusVelocity, static_cast<std::int64_t>(this->RadiusVelocity.size()));
+    file.getAll(this->Speed, count);
+    file.getAll(this->Push, count);
+    file.get(this->Relaxation);
+    file.get(this->Slack);
+    file.get(this->StepsSinceSearch);
+    file.get(this->PairEvaluations);
+    file.get(this->Searches);
+    file.get(this->EvaluationSeconds);
+    file.get(this->SearchSeconds);
+    file.get(this->Exceeded);
+    if (!this->Exceeded)
+    {
+      file.getAll(this->Neighbours.offsets, static_cast<std::int64_t>(this->Bodies.size()) + 1);
+      file.getAll(this->Neighbours.indices);
+      file.getAll(this->Displacement, count);
+      file.getAll(this->Allowance, count);
+    }
+    for (std::size_t f = 0; f < this->State.size(); ++f)
+    {
+      this->copyToCapsules(f);
+    }
+  }
+
 private:
   /// The lists reach a little further than contact and hold until something could have come further than foreseen.
   void refreshNeighbours()
   {
-    if (!this->Neighbours.offsets.empty() && !this->Exceeded)
+    if (!this->searchDue())
     {
       return;
     }
@@ -378,6 +444,158 @@ void requireNumber(const char* name, double value, double lowest, double highest
   }
 }
 
+/// What the result depends on: the fibres that come in and all parameters but those that only say when to stop.
+std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
+{
+  Fingerprint print;
+  for (const double value : { options.overlapTolerance, options.overlapWeight, options.weights.curvature, options.weights.length,
+         options.weights.radius, options.weights.compactness, options.stepSize, options.momentum, options.smoothing,
+         options.relaxation, options.packingLimit, options.safetyMargin, options.radiusTolerance })
+  {
+    print.add(value);
+  }
+  print.add(static_cast<int>(options.method));
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    print.add(fibres.bundleIds[f]);
+    print.add(fibres.offsets[f + 1]);
+  }
+  for (std::size_t i = 0; i < fibres.points.size(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      print.add(fibres.points[i][axis]);
+    }
+    print.add(fibres.radii[i]);
+  }
+  return print.value();
+}
+
+/// A descent and all that its caller knows of it: what has to be written down to go on later.
+struct Run
+{
+  Run(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads)
+    : State(fibres)
+    , Path(fibres, options, threads)
+    , BestPoints(fibres.points)
+    , BestRadii(fibres.radii)
+  {
+  }
+
+  /// Notes the state that was just measured.
+  void note(const ConvergenceRow& row, double tolerance)
+  {
+    if (row.overlapCost < this->BestCost || row.maximumPenetration <= tolerance)
+    {
+      this->BestCost = row.overlapCost;
+      this->BestPoints = this->State.points;
+      this->BestRadii = this->State.radii;
+    }
+    constexpr double share = 1.0 - progressShare;
+    if (row.overlapCost < share * this->LowestCost || row.maximumPenetration < share * this->LowestPenetration)
+    {
+      this->LastProgress = row.iteration;
+      this->LowestCost = std::min(this->LowestCost, row.overlapCost);
+      this->LowestPenetration = std::min(this->LowestPenetration, row.maximumPenetration);
+    }
+  }
+
+  void save(const std::string& path, std::uint64_t fingerprint) const
+  {
+    CheckpointWriter file(path, fingerprint);
+    file.put(this->Iteration);
+    file.put(this->Seconds);
+    file.put(this->BestCost);
+    file.put(this->LowestCost);
+    file.put(this->LowestPenetration);
+    file.put(this->LastProgress);
+    file.putAll(this->Rows);
+    file.putAll(this->BestPoints);
+    file.putAll(this->BestRadii);
+    this->Path.save(file);
+    file.commit();
+  }
+
+  void load(const std::string& path, std::uint64_t fingerprint)
+  {
+    const auto count = static_cast<std::int64_t>(this->State.points.size());
+    CheckpointReader file(path, fingerprint);
+    file.get(this->Iteration);
+    file.get(this->Seconds);
+    file.get(this->BestCost);
+    file.get(this->LowestCost);
+    file.get(this->LowestPenetration);
+    file.get(this->LastProgress);
+    file.getAll(this->Rows);
+    file.getAll(this->BestPoints, count);
+    file.getAll(this->BestRadii, count);
+    this->Path.load(file);
+    file.finish();
+  }
+
+  Fibres& State;
+  Descent Path;
+  int Iteration = 0;    ///< the next one
+  double Seconds = 0.0; ///< before this run
+  std::vector<ConvergenceRow> Rows;
+  std::vector<Eigen::Vector3d> BestPoints;
+  std::vector<double> BestRadii;
+  double BestCost = std::numeric_limits<double>::infinity();
+  double LowestCost = std::numeric_limits<double>::infinity(); ///< at the last step forward
+  double LowestPenetration = std::numeric_limits<double>::infinity();
+  int LastProgress = 0;
+};
+
+/// Writes a checkpoint. That a later one cannot be written is no reason to give up a long run: it is noted.
+void writeCheckpoint(const Run& run, const std::string& path, std::uint64_t fingerprint, bool first, OptimisationResult& result)
+{
+  try
+  {
+    run.save(path, fingerprint);
+    result.checkpointFailure.clear();
+  }
+  catch (const FileError& error)
+  {
+    if (first)
+    {
+      throw;
+    }
+    result.checkpointFailure = error.what();
+  }
+}
+
+/// Whether the state that was just measured is the last one, and why.
+bool shouldStop(const Run& run, const ConvergenceRow& row, const CapsuleOptimizerOptions& options, const Context& context,
+  double seconds, StopReason& reason)
+{
+  if (row.maximumPenetration <= options.overlapTolerance)
+  {
+    reason = StopReason::Converged;
+    return true;
+  }
+  if (row.iteration >= options.maximumIterations)
+  {
+    reason = StopReason::MaximumIterations;
+    return true;
+  }
+  if (row.iteration - run.LastProgress >= patience)
+  {
+    reason = StopReason::Stagnated;
+    return true;
+  }
+  if (context.stopRequested())
+  {
+    reason = StopReason::Stopped;
+    return true;
+  }
+  if (options.timeBudget > 0.0 && seconds >= options.timeBudget)
+  {
+    reason = StopReason::TimeBudget;
+    return true;
+  }
+  return false;
+}
+
 } // namespace
 
 void validate(const CapsuleOptimizerOptions& options)
@@ -398,14 +616,22 @@ void validate(const CapsuleOptimizerOptions& options)
   requireNumber("Relaxation", options.relaxation, 0.5, 1.0, "between 0.5 and 1");
   requireNumber("PackingLimit", options.packingLimit, 0.1, 1.0, "between 0.1 and 1");
   requireNumber("TimeBudget", options.timeBudget, 0.0, large, "0 (none) or more seconds");
+  requireNumber("CheckpointInterval", options.checkpointInterval, 0.0, large, "0 or more seconds");
+  if (options.resume && options.checkpointFile.empty())
+  {
+    throw InvalidInput("Resume is on, but there is no CheckpointFile: name the one to go on from");
+  }
 }
 
-OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context)
+OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
+  const std::function<void(int iteration, const Fibres&)>& observe)
 {
   validate(options);
   validate(fibres);
   const Clock::time_point start = Clock::now();
   const int threads = context.threadCount();
+  const std::string& path = options.checkpointFile;
+  const std::uint64_t fingerprint = path.empty() ? 0 : fingerprintOf(fibres, options);
   OptimisationResult result;
   // A state without overlap is left alone.
   const bool apart = measureOverlap(fibres, options.overlapTolerance, threads).overlappingPairs == 0;
@@ -414,65 +640,49 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
     spreadBundles(fibres, options.packingLimit);
   }
   {
-    Descent descent(fibres, options, threads);
-    std::vector<Eigen::Vector3d> bestPoints = fibres.points;
-    std::vector<double> bestRadii = fibres.radii;
-    double bestCost = std::numeric_limits<double>::infinity();
-    ConvergenceRow milestone; // the last state that was a step forward
-    for (int iteration = 0;; ++iteration)
+    Run run(fibres, options, threads);
+    if (options.resume && std::ifstream(path).is_open())
     {
-      ConvergenceRow row = descent.evaluate();
-      row.iteration = iteration;
-      row.seconds = secondsSince(start);
-      result.convergence.push_back(row);
-      if (row.overlapCost < bestCost || row.maximumPenetration <= options.overlapTolerance)
-      {
-        bestCost = row.overlapCost;
-        bestPoints = fibres.points;
-        bestRadii = fibres.radii;
-      }
-      if (iteration % 10 == 0)
-      {
-        context.report(std::min(0.99, double(iteration) / std::max(1, options.maximumIterations)), describe(row));
-      }
-      if (row.maximumPenetration <= options.overlapTolerance)
-      {
-        result.reason = StopReason::Converged;
-        break;
-      }
-      if (iteration >= options.maximumIterations)
-      {
-        result.reason = StopReason::MaximumIterations;
-        break;
-      }
-      if (iteration == 0 || row.overlapCost < (1.0 - progressShare) * milestone.overlapCost ||
-          row.maximumPenetration < (1.0 - progressShare) * milestone.maximumPenetration)
-      {
-        milestone.iteration = iteration;
-        milestone.overlapCost = iteration == 0 ? row.overlapCost : std::min(milestone.overlapCost, row.overlapCost);
-        milestone.maximumPenetration =
-          iteration == 0 ? row.maximumPenetration : std::min(milestone.maximumPenetration, row.maximumPenetration);
-      }
-      if (iteration - milestone.iteration >= patience)
-      {
-        result.reason = StopReason::Stagnated;
-        break;
-      }
-      if (context.stopRequested())
-      {
-        result.reason = StopReason::Stopped;
-        break;
-      }
-      if (options.timeBudget > 0.0 && secondsSince(start) >= options.timeBudget)
-      {
-        result.reason = StopReason::TimeBudget;
-        break;
-      }
-      descent.step();
+      run.load(path, fingerprint);
     }
-    descent.account(result);
-    fibres.points = std::move(bestPoints);
-    fibres.radii = std::move(bestRadii);
+    Clock::time_point lastCheckpoint = start;
+    for (bool first = true;; ++run.Iteration, first = false)
+    {
+      if (!path.empty() && (first || (run.Path.searchDue() && secondsSince(lastCheckpoint) >= options.checkpointInterval)))
+      {
+        writeCheckpoint(run, path, fingerprint, first, result);
+        lastCheckpoint = Clock::now();
+      }
+      ConvergenceRow row = run.Path.evaluate();
+      row.iteration = run.Iteration;
+      row.seconds = run.Seconds + secondsSince(start);
+      run.note(row, options.overlapTolerance);
+      if (observe)
+      {
+        observe(run.Iteration, fibres);
+      }
+      if (run.Iteration % 10 == 0)
+      {
+        context.report(std::min(0.99, double(run.Iteration) / std::max(1, options.maximumIterations)), describe(row));
+      }
+      const bool last = shouldStop(run, row, options, context, secondsSince(start), result.reason);
+      if (last && !path.empty())
+      {
+        // Before this row is added: a run that goes on from here measures this state again.
+        run.Seconds = row.seconds;
+        writeCheckpoint(run, path, fingerprint, false, result);
+      }
+      run.Rows.push_back(row);
+      if (last)
+      {
+        break;
+      }
+      run.Path.step();
+    }
+    run.Path.account(result);
+    result.convergence = std::move(run.Rows);
+    fibres.points = std::move(run.BestPoints);
+    fibres.radii = std::move(run.BestRadii);
   }
   // The lists above reach only as far as the descent needs: what is handed back is measured afresh.
   OverlapReport report = measureOverlap(fibres, options.overlapTolerance, threads);

@@ -6,6 +6,8 @@
 #include "Fibres.h"
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace cactus
@@ -47,6 +49,13 @@ struct CapsuleOptimizerOptions
   double radiusTolerance = 0.0;
   /// Stop after this many seconds and keep the best state; 0 for no limit.
   double timeBudget = 0.0;
+  /// Where to write down the state of the run every now and then, and when it ends; empty for nowhere.
+  std::string checkpointFile;
+  /// Seconds between two checkpoints at least; 0 for one at every neighbour search.
+  double checkpointInterval = 600.0;
+  /// Go on from checkpointFile where there is one. It must have been written for the same fibres and the same parameters, but for
+  /// maximumIterations and timeBudget. The result has the same bits as that of a run that was never interrupted.
+  bool resume = false;
 };
 
 /// Throws InvalidInput naming the property that is out of range.
@@ -79,6 +88,7 @@ enum class StopReason
 struct OptimisationResult
 {
   StopReason reason = StopReason::Converged;
+  std::string checkpointFailure; ///< why a checkpoint after the first could not be written; empty where all were
   std::vector<ConvergenceRow> convergence;
   /// Of the fibres handed back, measured afresh over all neighbours.
   double maximumPenetration = 0.0;
@@ -93,8 +103,10 @@ struct OptimisationResult
 
 /// Moves control points (and, where allowed, radii) until no two capsules of different fibres penetrate by more than the
 /// tolerance, or until iterations, time or patience run out; then `fibres` holds the state with the smallest largest penetration.
-/// End points slide in the plane across their bundle's axis. Same bits on any number of threads. Throws InvalidInput (fibres,
-/// options).
-OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context);
+/// End points slide in the plane across their bundle's axis. Same bits on any number of threads. `observe`, where given, is
+/// called with each iteration's state, the first included. Throws InvalidInput (fibres, options, a checkpoint of something else)
+/// and FileError (the checkpoint).
+OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
+  const std::function<void(int iteration, const Fibres&)>& observe = {});
 
 } // namespace cactus

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -35,6 +36,20 @@ double largestCrossingAngle(const Fibres& fibres)
   return largest;
 }
 
+std::vector<double> sortedMeanRadii(const Fibres& fibres)
+{
+  std::vector<double> means;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const auto radii = fibres.radii.begin();
+    const double sum = std::accumulate(
+      radii + static_cast<std::ptrdiff_t>(fibres.offsets[f]), radii + static_cast<std::ptrdiff_t>(fibres.offsets[f + 1]), 0.0);
+    means.push_back(sum / static_cast<double>(fibres.pointCount(f)));
+  }
+  std::sort(means.begin(), means.end());
+  return means;
+}
+
 } // namespace
 
 FibreShape measureShape(const Fibres& fibres)
@@ -44,6 +59,7 @@ FibreShape measureShape(const Fibres& fibres)
   shape.tangentDispersion = meanTangentDispersion(fibres);
   shape.crossingAngle = largestCrossingAngle(fibres);
   shape.smallestBendRadius = std::numeric_limits<double>::infinity();
+  shape.smallestCurvatureRadius = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
@@ -59,12 +75,38 @@ FibreShape measureShape(const Fibres& fibres)
       const double sine = u.cross(v).norm() / (u.norm() * v.norm());
       if (sine > 1e-6 || u.dot(v) < 0.0)
       {
-        shape.smallestBendRadius =
-          std::min(shape.smallestBendRadius, 0.5 * (u + v).norm() / std::max(sine, 1e-12) / fibres.radii[i]);
+        const double radius = 0.5 * (u + v).norm() / std::max(sine, 1e-12);
+        shape.smallestCurvatureRadius = std::min(shape.smallestCurvatureRadius, radius);
+        shape.smallestBendRadius = std::min(shape.smallestBendRadius, radius / fibres.radii[i]);
       }
     }
   }
   return shape;
+}
+
+double radiusDistance(const Fibres& a, const Fibres& b)
+{
+  const std::vector<double> first = sortedMeanRadii(a);
+  const std::vector<double> second = sortedMeanRadii(b);
+  double distance = 0.0;
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i < first.size() && j < second.size())
+  {
+    // Past all that equal the smaller of the two, on both sides.
+    const double radius = std::min(first[i], second[j]);
+    while (i < first.size() && first[i] == radius)
+    {
+      ++i;
+    }
+    while (j < second.size() && second[j] == radius)
+    {
+      ++j;
+    }
+    distance = std::max(distance, std::abs(static_cast<double>(i) / static_cast<double>(first.size()) -
+                                           static_cast<double>(j) / static_cast<double>(second.size())));
+  }
+  return distance;
 }
 
 } // namespace cactus

@@ -15,9 +15,14 @@ struct FibreShape
   double totalLength = 0.0;        ///< µm, of all centre lines
   double smallestBendRadius = 0.0; ///< smallest radius of the circle through three consecutive control points, as a multiple of
                                    ///< the fibre's radius there; infinite where all are straight
+  double smallestCurvatureRadius = 0.0; ///< µm, the smallest such radius itself
 };
 
 /// Measures the fibres from end to end, also outside the domain.
 FibreShape measureShape(const Fibres& fibres);
+
+/// Kolmogorov–Smirnov distance between the radii of two sets of fibres: the largest difference of their distribution functions,
+/// each fibre counting once with the mean radius of its control points.
+double radiusDistance(const Fibres& a, const Fibres& b);
 
 } // namespace cactus

@@ -12,6 +12,11 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
 
 namespace
 {
@@ -235,6 +240,150 @@ TEST(BundleBox, SpreadsWhatIsTooDense)
   Fibres loose = before;
   cactus::spreadBundles(loose, std::min(1.0, 1.01 * density(before)));
   EXPECT_EQ(loose.points, before.points);
+}
+
+namespace
+{
+
+/// A file in the test's temporary folder, gone when the test is.
+struct TemporaryFile
+{
+  explicit TemporaryFile(const std::string& name)
+    : path(testing::TempDir() + name)
+  {
+    std::remove(this->path.c_str());
+  }
+  ~TemporaryFile() { std::remove(this->path.c_str()); }
+  std::string path;
+};
+
+} // namespace
+
+// Guarantee: a run that was interrupted and goes on from its checkpoint ends with the same bits and the same table (but for the
+// seconds) as one that was not, wherever it was interrupted, with both methods, and with other threads.
+TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
+{
+  const Fibres start = randomBundle(18, 120, 20, 9.0, 0.0);
+  for (const auto method : { cactus::DescentMethod::Momentum, cactus::DescentMethod::Adagrad })
+  {
+    cactus::CapsuleOptimizerOptions options;
+    options.method = method;
+    options.stepSize = method == cactus::DescentMethod::Momentum ? 1.0 : 0.02;
+    options.radiusTolerance = 0.02;
+    options.maximumIterations = 60;
+    cactus::Context context;
+    context.threads = 2;
+    Fibres whole = start;
+    const auto expected = cactus::optimise(whole, options, context);
+    // Interrupted as a run out of iterations is, and as one that is killed after its last regular checkpoint.
+    for (const bool killed : { false, true })
+    {
+      const TemporaryFile file("cactus-checkpoint");
+      options.checkpointFile = file.path;
+      options.checkpointInterval = 0.0;
+      options.resume = true;
+      int calls = 0;
+      for (const int until : { 7, 23, 60 })
+      {
+        options.maximumIterations = until;
+        context.threads = context.threads % 3 + 1;
+        Fibres part = start;
+        if (killed && until < 60)
+        {
+          EXPECT_THROW(cactus::optimise(part, options, context,
+                         [&](int iteration, const Fibres&)
+                         {
+                           if (iteration == until)
+                           {
+                             throw std::runtime_error("killed");
+                           }
+                         }),
+            std::runtime_error);
+          continue;
+        }
+        const auto result = cactus::optimise(part, options, context, [&](int, const Fibres&) { ++calls; });
+        if (until == 60)
+        {
+          EXPECT_LT(calls, killed ? 60 : 64);
+          ASSERT_EQ(part.points, whole.points);
+          ASSERT_EQ(part.radii, whole.radii);
+          ASSERT_EQ(result.overlap, expected.overlap);
+          ASSERT_EQ(result.convergence.size(), expected.convergence.size());
+          for (std::size_t i = 0; i < result.convergence.size(); ++i)
+          {
+            ASSERT_EQ(result.convergence[i].iteration, expected.convergence[i].iteration);
+            ASSERT_EQ(result.convergence[i].overlapCost, expected.convergence[i].overlapCost);
+            ASSERT_EQ(result.convergence[i].maximumPenetration, expected.convergence[i].maximumPenetration);
+          }
+        }
+      }
+      options.checkpointFile.clear();
+      options.resume = false;
+    }
+  }
+}
+
+// Guarantee: a checkpoint of other fibres or other parameters, a damaged one, and one that cannot be written are refused with an
+// error that says so; where there is none, the run starts from the beginning.
+TEST(CapsuleOptimizer, RefusesACheckpointOfSomethingElse)
+{
+  const TemporaryFile file("cactus-checkpoint-other");
+  cactus::CapsuleOptimizerOptions options;
+  options.checkpointFile = file.path;
+  options.resume = true;
+  options.maximumIterations = 5;
+  const auto message = [](Fibres fibres, const cactus::CapsuleOptimizerOptions& with)
+  {
+    try
+    {
+      cactus::optimise(fibres, with, {});
+    }
+    catch (const cactus::Error& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  ASSERT_EQ(message(crossingPair(), options), "");
+  ASSERT_EQ(message(crossingPair(), options), "");
+  Fibres moved = crossingPair();
+  moved.points[3][1] += 1e-9;
+  EXPECT_NE(message(moved, options).find("was written for other fibres or other parameters"), std::string::npos);
+  auto other = options;
+  other.weights.length *= 2.0;
+  EXPECT_NE(message(crossingPair(), other).find("was written for other fibres or other parameters"), std::string::npos);
+
+  std::string whole;
+  {
+    std::ifstream in(file.path, std::ios::binary);
+    whole.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  for (const std::size_t length : { std::size_t(0), std::size_t(10), std::size_t(25), whole.size() / 2, whole.size() - 1 })
+  {
+    std::ofstream(file.path, std::ios::binary).write(whole.data(), static_cast<std::streamsize>(length));
+    EXPECT_NE(message(crossingPair(), options).find("damaged: remove it"), std::string::npos) << length;
+  }
+  options.checkpointFile = "/nowhere/checkpoint";
+  EXPECT_NE(message(crossingPair(), options).find("cannot write /nowhere/checkpoint"), std::string::npos);
+  options.checkpointFile.clear();
+  EXPECT_NE(message(crossingPair(), options).find("Resume"), std::string::npos);
+}
+
+// Guarantee: an observer sees the state of every iteration, from the first to the one that is handed back.
+TEST(CapsuleOptimizer, ShowsEveryStateToAnObserver)
+{
+  Fibres fibres = randomBundle(19, 20, 12, 8.0, 0.0);
+  std::vector<Eigen::Vector3d> last;
+  int next = 0;
+  const auto result = cactus::optimise(fibres, {}, {},
+    [&](int iteration, const Fibres& state)
+    {
+      EXPECT_EQ(iteration, next++);
+      last = state.points;
+    });
+  EXPECT_EQ(result.reason, cactus::StopReason::Converged);
+  EXPECT_EQ(static_cast<std::size_t>(next), result.convergence.size());
+  EXPECT_EQ(last, fibres.points);
 }
 
 // Guarantee: radii change only within RadiusTolerance.

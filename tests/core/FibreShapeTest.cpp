@@ -18,6 +18,7 @@ TEST(FibreShape, KnowsAnArc)
   }
   const cactus::FibreShape shape = cactus::measureShape(fibres);
   EXPECT_NEAR(shape.smallestBendRadius, 12.0, 1e-9);
+  EXPECT_NEAR(shape.smallestCurvatureRadius, 6.0, 1e-9);
   EXPECT_NEAR(shape.totalLength, 18 * 12.0 * std::sin(pi / 72.0), 1e-9);
   EXPECT_NEAR(shape.meanDispersion, 0.0, 1e-6);
   // Tangents turn from +45° to −45° off the chord: 22.5° in the mean.
@@ -42,4 +43,25 @@ TEST(FibreShape, KnowsStraightFibresFoldsAndCrossings)
   EXPECT_NEAR(cactus::measureShape(fibres).crossingAngle, 60.0, 1e-9);
   fibres.points[2] = { 0.0, 0.0, 0.5 };
   EXPECT_LT(cactus::measureShape(fibres).smallestBendRadius, 1e13);
+}
+
+// The distance of two sets of radii: none from itself, however its fibres are ordered; all where they do not meet; and a quarter
+// where one fibre of four has changed its place in the order.
+TEST(FibreShape, ComparesRadii)
+{
+  const auto bundle = [](const std::vector<double>& radii)
+  {
+    cactus::Fibres fibres;
+    for (const double radius : radii)
+    {
+      fibres.addFibre(static_cast<int>(fibres.size()) + 1, 1, radius);
+      fibres.addPoint({ 0, 0, 0 }, 0.9 * radius);
+      fibres.addPoint({ 0, 0, 1 }, 1.1 * radius);
+    }
+    return fibres;
+  };
+  const cactus::Fibres four = bundle({ 0.5, 0.7, 0.7, 1.1 });
+  EXPECT_EQ(cactus::radiusDistance(four, bundle({ 1.1, 0.7, 0.5, 0.7 })), 0.0);
+  EXPECT_EQ(cactus::radiusDistance(four, bundle({ 2.0, 3.0 })), 1.0);
+  EXPECT_EQ(cactus::radiusDistance(four, bundle({ 0.5, 0.7, 0.9, 1.1 })), 0.25);
 }

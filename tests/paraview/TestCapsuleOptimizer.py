@@ -2,12 +2,20 @@
 # ctest-timeout: 300
 """CapsuleOptimizer in ParaView: what it hands on, says and keeps."""
 
+import os
+import tempfile
+
 from cactus_testing import CactusTestCase, fetch, main
 from paraview.simple import BundleInitializer, CapsuleOptimizer, Transform
 
 
 def number(data, name):
     return data.GetFieldData().GetArray(name).GetValue(0)
+
+
+def fetch_at(proxy, time):
+    proxy.UpdatePipeline(time)
+    return proxy.GetClientSideObject().GetOutputDataObject(0)
 
 
 def bundle(**properties):
@@ -28,6 +36,8 @@ class Optimizer(CactusTestCase):
         self.assertGreater(number(fibres, "TangentDispersion"), number(fibres, "InitialTangentDispersion"))
         self.assertEqual(number(fibres, "CrossingAngle"), 0)
         self.assertGreater(number(fibres, "SmallestBendRadius"), 1)
+        self.assertGreater(number(fibres, "SmallestCurvatureRadius"), 0.2)
+        self.assertEqual(number(fibres, "RadiusDistance"), 0)
         self.assertGreater(number(fibres, "LengthIncrease"), 0)
         self.assertLess(number(fibres, "LengthIncrease"), 0.2)
         self.assertEqual(fibres.GetFieldData().GetAbstractArray("Provenance").GetNumberOfValues(), 2)
@@ -63,6 +73,56 @@ class Optimizer(CactusTestCase):
         self.assertEqual(number(fibres, "Converged"), 0)
         self.assertGreater(number(fibres, "MaximumPenetration"), 1e-3)
         self.assertGreater(fibres.GetNumberOfCells(), 0)
+
+    def test_radii_that_may_change_keep_their_distribution(self):
+        fibres = fetch(CapsuleOptimizer(Input=bundle(), RadiusTolerance=0.02), 0)
+        self.assertEqual(number(fibres, "Converged"), 1)
+        self.assertGreater(number(fibres, "RadiusDistance"), 0)
+        self.assertLess(number(fibres, "RadiusDistance"), 0.1)
+
+    def test_time_steps_show_the_way_from_the_first_state_to_the_result(self):
+        plain = fetch(CapsuleOptimizer(Input=bundle()), 0)
+        optimizer = CapsuleOptimizer(Input=bundle(), KeepHistory=1, HistoryInterval=20)
+        optimizer.UpdatePipeline()
+        optimizer.UpdatePipelineInformation()
+        times = list(optimizer.TimestepValues)
+        self.assertGreater(len(times), 4)
+        self.assertEqual(times[:3], [0, 20, 40])
+        largest = []
+        for time in times:
+            state = fetch_at(optimizer, time)
+            largest.append(number(state, "MaximumPenetration"))
+            self.assertEqual(state.GetPointData().GetArray("Overlap").GetNumberOfTuples(), state.GetNumberOfPoints())
+        self.assertGreater(largest[0], 0.5)
+        self.assertLessEqual(largest[-1], 1e-3)
+        result = fetch_at(optimizer, times[-1])
+        self.assertEqual(result.GetNumberOfPoints(), plain.GetNumberOfPoints())
+        for i in range(0, plain.GetNumberOfPoints(), 17):
+            self.assertEqual(result.GetPoint(i), plain.GetPoint(i))
+        # The table is that of the whole run, whatever the time.
+        table = fetch(optimizer, 1)
+        self.assertEqual(table.GetNumberOfRows(), times[-1] + 1)
+        # Off again, there are no time steps.
+        optimizer.KeepHistory = 0
+        optimizer.UpdatePipeline()
+        optimizer.UpdatePipelineInformation()
+        self.assertEqual(len(optimizer.TimestepValues), 0)
+
+    def test_a_run_that_was_cut_short_is_resumed(self):
+        plain = fetch(CapsuleOptimizer(Input=bundle()), 0)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "run.checkpoint")
+            with self.assertError("overlaps remain: MaximumIterations were used up"):
+                fetch(CapsuleOptimizer(Input=bundle(), CheckpointFile=path, MaximumIterations=20), 0)
+            self.assertEqual(os.listdir(folder), ["run.checkpoint"])
+            optimizer = CapsuleOptimizer(Input=bundle(), CheckpointFile=path, Resume=1)
+            resumed = fetch(optimizer, 0)
+            for i in range(plain.GetNumberOfPoints()):
+                self.assertEqual(resumed.GetPoint(i), plain.GetPoint(i))
+            iterations = fetch(optimizer, 1).GetColumnByName("Iteration")
+            self.assertEqual([iterations.GetValue(i) for i in range(25)], list(range(25)))
+            with self.assertError("was written for other fibres or other parameters"):
+                fetch(CapsuleOptimizer(Input=bundle(Seed=2), CheckpointFile=path, Resume=1), 0)
 
 
 if __name__ == "__main__":
