@@ -2,6 +2,7 @@
 #include "CapsuleOptimizer.h"
 
 #include "BundleBox.h"
+#include "BundleInitializer.h"
 #include "Error.h"
 #include "RandomBundle.h"
 #include "SegmentDistance.h"
@@ -153,6 +154,35 @@ TEST(CapsuleOptimizer, SameBitsOnAnyNumberOfThreads)
       }
       ASSERT_EQ(first.convergence.back().overlapCost, second.convergence.back().overlapCost);
       ASSERT_EQ(first.overlap, second.overlap);
+    }
+  }
+}
+
+// Guarantee 4 over a whole run, from the initial state that the product makes to zero overlap: 1, 2 and 4 threads end with the
+// same fibres after the same iterations.
+TEST(CapsuleOptimizer, WholeRunHasTheSameBitsOnOneTwoAndFourThreads)
+{
+  cactus::BundleInitializerOptions bundle;
+  bundle.side = 12.0;
+  bundle.meanDispersion = 10.0;
+  const Fibres start = cactus::initialiseBundles(bundle);
+  Fibres one = start;
+  cactus::Context context;
+  context.threads = 1;
+  const auto first = cactus::optimise(one, {}, context);
+  EXPECT_EQ(first.reason, cactus::StopReason::Converged);
+  for (const int threads : { 2, 4 })
+  {
+    context.threads = threads;
+    Fibres many = start;
+    const auto second = cactus::optimise(many, {}, context);
+    ASSERT_EQ(one.points, many.points);
+    ASSERT_EQ(first.overlap, second.overlap);
+    ASSERT_EQ(first.convergence.size(), second.convergence.size());
+    for (std::size_t i = 0; i < first.convergence.size(); ++i)
+    {
+      ASSERT_EQ(first.convergence[i].overlapCost, second.convergence[i].overlapCost);
+      ASSERT_EQ(first.convergence[i].curvatureCost, second.convergence[i].curvatureCost);
     }
   }
 }
