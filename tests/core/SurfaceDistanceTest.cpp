@@ -104,8 +104,8 @@ TEST(SurfaceDistance, SmallestGapIsThatOfAllPairs)
 {
   for (unsigned seed = 1; seed <= 3; ++seed)
   {
-    const auto a = tube(0, 0, 1.0, -2, 2, 24, 20, 0.05, seed);
-    const auto b = tube(2.2, 0.1, 1.0, -2, 2, 20, 30, 0.05, seed + 10);
+    const auto a = tube(0, 0, 1.0, -2, 2, 16, 12, 0.05, seed);
+    const auto b = tube(2.2, 0.1, 1.0, -2, 2, 12, 18, 0.05, seed + 10);
     const cactus::TriangleTree treeA(a);
     const cactus::TriangleTree treeB(b);
     double smallest = std::numeric_limits<double>::infinity();
