@@ -7,11 +7,11 @@
  * `FibreId`, `BundleId` and `Surface` (0 outer, 1 inner), in increasing order of fibres, which share no points; field data
  * `Domain` and `Provenance`. Output 2 `Fibre statistics`: a table with one row per fibre of the image's FibreTable.
  *
- * Each surface is a closed, outward 2-manifold in one piece, cut off flat at the faces of the domain; inner caps lie a little
+ * Each surface is a closed, outward 2-manifold, cut off flat at the faces of the domain; inner caps lie a little
  * inside the outer ones. The method, what it guarantees and where the limits are stand in core/MyelinSurface.h; the contouring
  * is core/Isosurface.h, since marching cubes does not promise a manifold.
  *
- * The column `Myelin` tells how a fibre came out: 0 as asked; 1 thinner than asked, since the axon would fall to pieces; 2
+ * The column `Myelin` tells how a fibre came out: 0 as asked; 1 thinner than asked, since the axon would break; 2
  * thicker than asked, since myelin is at least MinimumGap thick; 3 without an inner surface, since the fibre is too thin for
  * both; 4 no voxel of the image belongs to the fibre, which has neither surface.
  *

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
@@ -70,65 +71,86 @@ SurfaceMeasure measure(const CappedSurface& surface)
   return result;
 }
 
-double keepLargestPiece(CappedSurface& surface)
+double keepMainPart(CappedSurface& surface, double smallest)
 {
   auto& points = surface.mesh.points;
   auto& triangles = surface.mesh.triangles;
-  std::vector<std::int32_t> root(points.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&root](std::int32_t p)
+  if (triangles.empty())
   {
-    while (root[std::size_t(p)] != p)
+    return 0.0;
+  }
+  std::vector<std::int32_t> parent(points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&parent](std::int32_t p)
+  {
+    while (parent[std::size_t(p)] != p)
     {
-      root[std::size_t(p)] = root[std::size_t(root[std::size_t(p)])];
-      p = root[std::size_t(p)];
+      parent[std::size_t(p)] = parent[std::size_t(parent[std::size_t(p)])];
+      p = parent[std::size_t(p)];
     }
     return p;
   };
+  const auto join = [&](std::int32_t p, std::int32_t q)
+  {
+    const std::int32_t a = find(p);
+    const std::int32_t b = find(q);
+    parent[std::size_t(std::max(a, b))] = std::min(a, b);
+  };
   for (const auto& t : triangles)
   {
-    for (std::size_t i = 1; i < 3; ++i)
-    {
-      const std::int32_t a = find(t[0]);
-      const std::int32_t b = find(t[i]);
-      root[std::size_t(std::max(a, b))] = std::min(a, b);
-    }
+    join(t[0], t[1]);
+    join(t[0], t[2]);
   }
-  std::vector<double> volume(points.size(), 0.0);
-  for (const auto& t : triangles)
-  {
-    const std::int32_t piece = find(t[0]);
-    const Eigen::Vector3d& origin = points[std::size_t(piece)];
-    volume[std::size_t(piece)] +=
-      (points[std::size_t(t[0])] - origin).dot((points[std::size_t(t[1])] - origin).cross(points[std::size_t(t[2])] - origin)) /
-      6.0;
-  }
-  const auto largest = std::max_element(volume.begin(), volume.end());
-  if (largest == volume.end())
-  {
-    return 0.0;
-  }
-  const auto kept = static_cast<std::int32_t>(largest - volume.begin());
-  double dropped = 0.0;
-  bool whole = true;
+  std::vector<std::int32_t> pieceOf(points.size());
   for (std::size_t p = 0; p < points.size(); ++p)
   {
-    const bool isRoot = root[p] == static_cast<std::int32_t>(p);
-    if (isRoot && static_cast<std::int32_t>(p) != kept)
-    {
-      dropped += std::abs(volume[p]);
-      whole = false;
-    }
+    pieceOf[p] = find(static_cast<std::int32_t>(p));
   }
-  if (whole)
+  if (std::count(pieceOf.begin(), pieceOf.end(), pieceOf.front()) == std::ptrdiff_t(points.size()))
   {
     return 0.0;
+  }
+  std::vector<double> volumeOfPiece(points.size(), 0.0);
+  for (const auto& t : triangles)
+  {
+    const auto piece = std::size_t(pieceOf[std::size_t(t[0])]);
+    const Vector3d a = points[std::size_t(t[0])] - points[piece];
+    volumeOfPiece[piece] +=
+      a.dot((points[std::size_t(t[1])] - points[piece]).cross(points[std::size_t(t[2])] - points[piece])) / 6.0;
+  }
+  // From here on a set is a part, not a piece.
+  std::array<std::int32_t, 6> onFace;
+  onFace.fill(-1);
+  for (std::size_t p = 0; p < points.size(); ++p)
+  {
+    for (std::size_t face = 0; face < 6 && surface.faces[p] != 0; ++face)
+    {
+      if ((surface.faces[p] >> face) & 1)
+      {
+        onFace[face] = onFace[face] < 0 ? std::int32_t(p) : onFace[face];
+        join(onFace[face], static_cast<std::int32_t>(p));
+      }
+    }
+  }
+  std::vector<double> volumeOfPart(points.size(), 0.0);
+  for (std::size_t p = 0; p < points.size(); ++p)
+  {
+    volumeOfPart[std::size_t(find(static_cast<std::int32_t>(p)))] += volumeOfPiece[p];
+  }
+  const auto main = static_cast<std::int32_t>(std::max_element(volumeOfPart.begin(), volumeOfPart.end()) - volumeOfPart.begin());
+  const auto isKept = [&](std::size_t p)
+  { return find(std::int32_t(p)) == main && volumeOfPiece[std::size_t(pieceOf[p])] > smallest; };
+
+  double dropped = 0.0;
+  for (std::size_t p = 0; p < points.size(); ++p)
+  {
+    dropped += pieceOf[p] == std::int32_t(p) && !isKept(p) ? std::abs(volumeOfPiece[p]) : 0.0;
   }
   std::vector<std::int32_t> number(points.size(), -1);
   std::int32_t used = 0;
   for (std::size_t p = 0; p < points.size(); ++p)
   {
-    if (find(static_cast<std::int32_t>(p)) == kept)
+    if (isKept(p))
     {
       points[std::size_t(used)] = points[p];
       surface.faces[std::size_t(used)] = surface.faces[p];

@@ -31,8 +31,11 @@ struct SurfaceMeasure
 
 SurfaceMeasure measure(const CappedSurface& surface);
 
-/// Leaves the piece of the largest volume and says what went: the sum of the other pieces' volumes (µm³), each taken as positive.
-double keepLargestPiece(CappedSurface& surface);
+/// Leaves the main part of a surface and says what went: the sum of the other pieces' volumes (µm³), each taken as positive.
+///
+/// Pieces that the same face of the box cuts off count as one part, since what leaves the box through a face and comes back
+/// through it hangs together outside. The main part is the one of the largest volume, without pieces below `smallest` (µm³).
+double keepMainPart(CappedSurface& surface, double smallest = 0.0);
 
 /// Moves a surface along its normals, all of it by the same distance, until it holds `volume` (µm³), or by `furthest` (µm) where
 /// it would have to move more. Caps stay in their faces. Returns the distance (µm), positive outwards. Nothing is checked of

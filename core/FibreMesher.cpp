@@ -38,7 +38,7 @@ constexpr int repairs = 4;
 
 bool sound(const SurfaceReport& report)
 {
-  return report.closedManifold() && report.outward() && report.components == 1;
+  return report.closedManifold() && report.outward();
 }
 
 void requireSound(const SurfaceReport& report, int fibreId)
@@ -46,9 +46,9 @@ void requireSound(const SurfaceReport& report, int fibreId)
   if (!sound(report))
   {
     std::ostringstream message;
-    message << "a surface of fibre " << fibreId << " is not a closed 2-manifold in one piece (" << report.openEdges << " open, "
-            << report.crowdedEdges << " crowded edges, " << report.pinchedPoints << " pinched points, " << report.components
-            << " pieces): choose another VoxelSize in FibreRadialGrowth, and report this as a fault";
+    message << "a surface of fibre " << fibreId << " is not a closed, outward 2-manifold (" << report.openEdges << " open, "
+            << report.crowdedEdges << " crowded edges, " << report.pinchedPoints << " pinched points, " << report.inwardComponents
+            << " inward pieces): choose another VoxelSize in FibreRadialGrowth, and report this as a fault";
     throw Error(message.str());
   }
 }
@@ -102,7 +102,7 @@ SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, in
 void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) const
 {
   CappedSurface surface = this->contourAt(this->OuterLattice, field, 0.0);
-  pair.droppedVolume = keepLargestPiece(surface);
+  pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
   if (surface.mesh.triangles.empty())
   {
     return;
@@ -115,11 +115,11 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) 
   if (this->Options.smoothingIterations > 0 && furthest > 0.0)
   {
     CappedSurface before = this->contourAt(this->OuterLattice, SmoothedField(this->Field, pair.fibreId, field.blocks(), 0), 0.0);
-    keepLargestPiece(before);
+    keepMainPart(before, this->smallestPiece());
     volume = measure(before).volume;
     level = -std::clamp((volume - now.volume) / now.freeArea, 0.0, furthest);
     surface = this->contourAt(this->OuterLattice, field, level);
-    pair.droppedVolume = keepLargestPiece(surface);
+    pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
     now = measure(surface);
     // No more is made up for than that.
     volume = std::min(std::max(volume, now.volume), now.volume + 0.1 * furthest * now.freeArea);
@@ -199,7 +199,7 @@ FibreMesher::Inner FibreMesher::innerAt(const SmoothedField& field, double level
   Inner inner;
   inner.level = level;
   inner.surface = this->contourAt(this->InnerLattice, field, level);
-  const double dropped = keepLargestPiece(inner.surface);
+  const double dropped = keepMainPart(inner.surface, this->smallestPiece());
   const SurfaceMeasure measured = measure(inner.surface);
   inner.volume = measured.volume;
   inner.area = measured.freeArea;

@@ -48,6 +48,7 @@ private:
 
   template <typename Visit>
   void forEachSample(const SmoothedField& field, Visit&& visit) const;
+  double smallestPiece() const { return this->Spacing * this->Spacing * this->Spacing; } ///< µm³, that is kept
   bool isSample(const std::array<int, 3>& node) const;
   std::vector<float> depths(const SmoothedField& field) const;
   double length(const SmoothedField& field) const;

@@ -52,9 +52,9 @@ struct LabelImageFacts
 enum class MyelinState
 {
   AsAsked = 0,
-  Thinner = 1, ///< than asked: else the axon would fall to pieces
+  Thinner = 1, ///< than asked: else the axon would break within the box
   Thicker = 2, ///< than asked: myelin is at least MinimumGap thick
-  NoAxon = 3,  ///< the fibre is too thin to hold an axon in one piece inside myelin of that thickness: no inner surface
+  NoAxon = 3,  ///< the fibre is too thin to hold an unbroken axon inside myelin of that thickness: no inner surface
   NoFibre = 4  ///< no voxel of the image belongs to the fibre: neither surface
 };
 
@@ -90,12 +90,13 @@ struct FibreSurfacePair
 ///
 /// Each surface is coarsened so far that the field at points spread over it stays within decimationError of its level, or within
 /// what the surface as contoured is off by, and moved along its normals to the volume that it is to have. It has to be a closed,
-/// outward 2-manifold in one piece that does not meet itself (exact predicates), nor its outer surface; where it fails it is made
+/// outward 2-manifold that does not meet itself (exact predicates), nor its outer surface; where it fails it is made
 /// again with less coarsening around that place, at last with none. Triangles whose squared edges have a ratio above 800 are
 /// split. Then outer surfaces are moved inwards, by nanometres, where two of them are nearer than MinimumGap (see keepApart()).
 /// What still is not as it should be is marked (isFlawed).
 ///
-/// Of a fibre's pieces the largest is kept. Throws InvalidInput (options; an image that is not valid; a fibre in the image that
+/// A fibre that leaves the box through a face and comes back has a piece for each stay; of other pieces the largest is kept (see
+/// keepMainPart()). Throws InvalidInput (options; an image that is not valid; a fibre in the image that
 /// is not in the table; decimationError above the tolerance), Infeasible (a target fraction that cannot be met), Cancelled.
 std::vector<FibreSurfacePair> myelinSurfaces(
   const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context = {});

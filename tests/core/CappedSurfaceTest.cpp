@@ -16,8 +16,9 @@ using namespace cactus;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The part of a ball of radius 0.8 around `centre` that lies in the box [-1, 1]³, and a small ball beside it.
-CappedSurface ball(const Eigen::Vector3d& centre, double smallRadius = -1.0)
+/// The parts of a ball of radius 0.8 around `centre` and of a small ball that lie in the box [-1, 1]³.
+CappedSurface ball(
+  const Eigen::Vector3d& centre, const Eigen::Vector3d& smallCentre = Eigen::Vector3d::Zero(), double smallRadius = -1.0)
 {
   NodeLattice lattice;
   for (auto& planes : lattice.planes)
@@ -41,7 +42,7 @@ CappedSurface ball(const Eigen::Vector3d& centre, double smallRadius = -1.0)
             const Eigen::Vector3d p = Eigen::Vector3d::Constant(-1.0) +
                                       0.05 * Eigen::Vector3d(range.first[0] + i, range.first[1] + j, range.first[2] + k);
             const double big = 0.8 - (p - centre).norm();
-            const double small = smallRadius - (p - Eigen::Vector3d(-0.7, -0.7, -0.7)).norm();
+            const double small = smallRadius - (p - smallCentre).norm();
             *out = static_cast<float>(std::max(big, small) + 1e-5);
           }
         }
@@ -93,16 +94,32 @@ TEST(CappedSurface, MovesNoFartherThanAllowed)
   EXPECT_EQ(moveToVolume(surface, 0.1, 0.002), -0.002);
 }
 
-TEST(CappedSurface, KeepsItsLargestPiece)
+TEST(CappedSurface, KeepsItsMainPart)
 {
-  CappedSurface two = ball({ 1, 0, 0 }, 0.2);
+  CappedSurface two = ball({ 1, 0, 0 }, { -0.7, -0.7, -0.7 }, 0.2);
   const CappedSurface one = ball({ 1, 0, 0 });
   EXPECT_EQ(checkSurface(two.mesh).components, 2u);
-  EXPECT_NEAR(keepLargestPiece(two), 4.0 / 3.0 * pi * 0.008, 2e-3);
+  EXPECT_NEAR(keepMainPart(two), 4.0 / 3.0 * pi * 0.008, 2e-3);
   EXPECT_EQ(two.mesh.triangles.size(), one.mesh.triangles.size());
   EXPECT_EQ(two.faces, one.faces);
   EXPECT_EQ(measure(two).volume, measure(one).volume);
-  EXPECT_EQ(keepLargestPiece(two), 0.0);
+  EXPECT_EQ(keepMainPart(two), 0.0);
+}
+
+TEST(CappedSurface, PiecesCutOffByTheSameFaceBelongTogether)
+{
+  // A bump on the same face belongs to the half ball, unless it is too small; one on the opposite face does not.
+  const double bump = 2.0 / 3.0 * pi * 0.008;
+  CappedSurface same = ball({ 1, 0, 0 }, { 1, 0.97, 0.97 }, 0.2);
+  EXPECT_EQ(checkSurface(same.mesh).components, 2u);
+  EXPECT_EQ(keepMainPart(same), 0.0);
+  EXPECT_EQ(checkSurface(same.mesh).components, 2u);
+  EXPECT_GT(keepMainPart(same, bump), 0.0);
+  EXPECT_EQ(checkSurface(same.mesh).components, 1u);
+  CappedSurface opposite = ball({ 1, 0, 0 }, { -1, 0, 0 }, 0.2);
+  EXPECT_EQ(checkSurface(opposite.mesh).components, 1u + 1u);
+  EXPECT_NEAR(keepMainPart(opposite), bump, 2e-3);
+  EXPECT_EQ(checkSurface(opposite.mesh).components, 1u);
 }
 
 TEST(CappedSurface, SplitsNeedles)
