@@ -4,7 +4,6 @@
 #include "VectorKernels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -19,7 +18,6 @@ constexpr std::size_t width = 16;
 
 typedef float Four __attribute__((vector_size(16)));
 typedef std::int32_t FourInts __attribute__((vector_size(16)));
-typedef std::int64_t TwoInts __attribute__((vector_size(16)));
 
 /// A bounding box; the fourth number of each corner means nothing.
 struct Box
@@ -50,13 +48,6 @@ private:
     return bits;
   }
 };
-
-inline bool overlap(const Box& a, const Box& b)
-{
-  const FourInts mask = (a.lower <= b.upper) & (b.lower <= a.upper);
-  const auto halves = (TwoInts)mask; // the same bits
-  return (halves[0] & (halves[1] | ~std::int64_t(0xffffffff))) == -1;
-}
 
 inline Four larger(const Four& a, const Four& b)
 {
@@ -156,6 +147,9 @@ public:
     return this->index(static_cast<int>(this->Last[0]), static_cast<int>(this->Last[1]), static_cast<int>(this->Last[2])) + 1;
   }
 
+  /// Cells along x.
+  std::size_t rowLength() const { return std::size_t(this->Last[0]) + 1; }
+
   /// Increases with each coordinate, so that the cell of the larger of two coordinates is the larger of their cells.
   FourInts cellOf(const Four& position) const
   {
@@ -167,6 +161,21 @@ public:
   {
     return std::size_t(x) +
            (std::size_t(this->Last[0]) + 1) * (std::size_t(y) + (std::size_t(this->Last[1]) + 1) * std::size_t(z));
+  }
+
+  /// What to look for in the rows of cells that the box reaches, but for the row.
+  BoxQuery queryOf(const Box& box) const
+  {
+    BoxQuery query = {};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      query.lower[axis] = box.lower[axis];
+      query.upper[axis] = box.upper[axis];
+      query.origin[axis] = this->Lower[axis];
+      query.inverseSize[axis] = this->InverseSize[axis];
+      query.last[axis] = this->Last[axis];
+    }
+    return query;
   }
 
   /// visit(cell, index) for every cell that the box reaches.
@@ -233,6 +242,45 @@ std::vector<Run> enterCells(const std::vector<Run>& runs, const CellGrid& grid, 
   return entries;
 }
 
+/// The entries of all cells, one column per number.
+struct CellEntries
+{
+  std::vector<float> numbers[6];   ///< lower and upper corners of the boxes
+  std::vector<std::int32_t> cells; ///< along x
+  std::vector<std::uint64_t> keys; ///< first capsule in the upper half, one past the last in the lower
+
+  CellEntries(const std::vector<Run>& entries, const std::vector<std::size_t>& start, const CellGrid& grid, int threads)
+    : cells(entries.size() + width, -1)
+    , keys(entries.size() + width)
+  {
+    for (auto& column : this->numbers)
+    {
+      column.resize(entries.size() + width);
+    }
+    const std::size_t row = grid.rowLength();
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t cell = 0; cell < start.size() - 1; ++cell)
+    {
+      for (std::size_t m = start[cell]; m < start[cell + 1]; ++m)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          this->numbers[axis][m] = entries[m].box.lower[axis];
+          this->numbers[3 + axis][m] = entries[m].box.upper[axis];
+        }
+        this->cells[m] = static_cast<std::int32_t>(cell % row);
+        this->keys[m] = (std::uint64_t(entries[m].first()) << 32) | entries[m].last();
+      }
+    }
+  }
+
+  BoxColumns columns() const
+  {
+    return { { this->numbers[0].data(), this->numbers[1].data(), this->numbers[2].data() },
+      { this->numbers[3].data(), this->numbers[4].data(), this->numbers[5].data() }, this->cells.data(), this->keys.data() };
+  }
+};
+
 /// The capsules that may be within reach of a run, relative to a point near it so that single precision is enough, padded to
 /// whole vectors with capsules that are far away.
 class Candidates
@@ -287,12 +335,12 @@ class RunSearch
 {
 public:
   RunSearch(const Capsules& capsules, const std::vector<float>& reach, const CellGrid& grid,
-    const std::vector<std::size_t>& start, const std::vector<Run>& entries)
+    const std::vector<std::size_t>& start, const BoxColumns& columns)
     : Bodies(capsules)
     , Reach(reach)
     , Grid(grid)
     , Start(start)
-    , Entries(entries)
+    , Columns(columns)
   {
   }
 
@@ -303,14 +351,14 @@ public:
     double origin[3];
     std::copy_n(this->Bodies.bodies[run.first()].p0, 3, origin);
     std::size_t count = 0;
-    for (const auto& other : this->Others)
+    for (const std::uint64_t other : this->Others)
     {
-      count += other[1] - other[0];
+      count += std::uint32_t(other) - std::uint32_t(other >> 32);
     }
     this->Near.reset(count);
-    for (const auto& other : this->Others)
+    for (const std::uint64_t other : this->Others)
     {
-      for (std::uint32_t k = other[0]; k < other[1]; ++k)
+      for (auto k = std::uint32_t(other >> 32); k < std::uint32_t(other); ++k)
       {
         this->Near.add(k, this->Bodies.bodies[k], origin, this->Reach[k]);
       }
@@ -342,27 +390,25 @@ private:
   /// The runs of other fibres whose boxes overlap this one's, in increasing order.
   void collect(const Run& run)
   {
+    const FourInts first = this->Grid.cellOf(run.box.lower);
+    const FourInts last = this->Grid.cellOf(run.box.upper);
+    BoxQuery query = this->Grid.queryOf(run.box);
     std::size_t taken = 0;
-    this->Grid.forEachCell(run.box,
-      [&](const FourInts& cell, std::size_t index)
+    for (query.z = first[2]; query.z <= last[2]; ++query.z)
+    {
+      for (query.y = first[1]; query.y <= last[1]; ++query.y)
       {
-        const std::size_t begin = this->Start[index];
-        const std::size_t end = this->Start[index + 1];
-        this->Others.resize(std::max(this->Others.size(), taken + end - begin + 1));
-        // Whether a run is taken is anybody's guess, so there is no branch on it.
-        for (std::size_t m = begin; m < end; ++m)
-        {
-          const Run& other = this->Entries[m];
-          this->Others[taken] = { { other.first(), other.last() } };
-          // Two boxes may share several cells: the other run is taken in the first one only.
-          const FourInts difference = this->Grid.cellOf(larger(run.box.lower, other.box.lower)) - cell;
-          taken += overlap(run.box, other.box) & ((difference[0] | difference[1] | difference[2]) == 0);
-        }
-      });
+        const std::size_t begin = this->Start[this->Grid.index(first[0], query.y, query.z)];
+        const std::size_t end = this->Start[this->Grid.index(last[0], query.y, query.z) + 1];
+        this->Others.resize(std::max(this->Others.size(), taken + end - begin + width));
+        const std::uint64_t* next = this->Kernels.selectBoxes(this->Columns, begin, end, query, this->Others.data() + taken);
+        taken = static_cast<std::size_t>(next - this->Others.data());
+      }
+    }
     this->Others.resize(taken);
     const std::uint32_t fibre = this->Bodies.fibre[run.first()];
     this->Others.erase(std::remove_if(this->Others.begin(), this->Others.end(),
-                         [&](const auto& other) { return this->Bodies.fibre[other[0]] == fibre; }),
+                         [&](std::uint64_t other) { return this->Bodies.fibre[other >> 32] == fibre; }),
       this->Others.end());
     std::sort(this->Others.begin(), this->Others.end());
   }
@@ -371,9 +417,9 @@ private:
   const std::vector<float>& Reach;
   const CellGrid& Grid;
   const std::vector<std::size_t>& Start;
-  const std::vector<Run>& Entries;
+  const BoxColumns Columns;
   const VectorKernels& Kernels = vectorKernels();
-  std::vector<std::array<std::uint32_t, 2>> Others;
+  std::vector<std::uint64_t> Others; ///< see CellEntries::keys
   Candidates Near;
   std::vector<std::uint32_t> Found;
 };
@@ -396,10 +442,12 @@ void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, i
   {
     const CellGrid grid(runs);
     std::vector<std::size_t> start;
-    const std::vector<Run> entries = enterCells(runs, grid, threads, start);
+    const std::vector<Run> filled = enterCells(runs, grid, threads, start);
+    const CellEntries entries(filled, start, grid, threads);
+    const BoxColumns columns = entries.columns();
 #pragma omp parallel num_threads(threads)
     {
-      RunSearch search(capsules, reach, grid, start, entries);
+      RunSearch search(capsules, reach, grid, start, columns);
 #pragma omp for schedule(dynamic, 1)
       for (std::size_t block = 0; block < blocks; ++block)
       {

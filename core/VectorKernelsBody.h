@@ -6,6 +6,10 @@
 #include "SegmentDistance.h"
 #include "VectorKernels.h"
 
+#if CACTUS_DOUBLES > 2
+#include <immintrin.h>
+#endif
+
 namespace cactus
 {
 
@@ -47,6 +51,42 @@ inline __attribute__((always_inline)) bool any(const Mask& mask)
     bits |= mask[l];
   }
   return bits != 0;
+}
+
+/// Writes those of the first `count` values whose lane is set to `found`, in their order, and returns the end of what it wrote;
+/// may write up to a vector beyond that.
+template <typename Value>
+inline __attribute__((always_inline)) Value* append(const FloatMask& mask, int count, const Value* values, Value* found)
+{
+#if CACTUS_DOUBLES == 8
+  const unsigned set = _mm512_movepi32_mask((__m512i)mask) & (0xffffu >> (floats - count));
+  if (sizeof(Value) == 4)
+  {
+    _mm512_storeu_si512(found, _mm512_maskz_compress_epi32(static_cast<__mmask16>(set), _mm512_loadu_si512(values)));
+    return found + __builtin_popcount(set);
+  }
+  for (unsigned half = 0; half < 2; ++half)
+  {
+    const unsigned mine = (set >> (8 * half)) & 0xffu;
+    _mm512_storeu_si512(found, _mm512_maskz_compress_epi64(static_cast<__mmask8>(mine), _mm512_loadu_si512(values + 8 * half)));
+    found += __builtin_popcount(mine);
+  }
+  return found;
+#elif CACTUS_DOUBLES == 4
+  for (unsigned set = static_cast<unsigned>(_mm256_movemask_ps((__m256)mask)) & (0xffu >> (floats - count)); set != 0;
+       set &= set - 1)
+  {
+    *found++ = values[__builtin_ctz(set)];
+  }
+  return found;
+#else
+  for (int l = 0; l < count; ++l)
+  {
+    *found = values[l];
+    found -= mask[l];
+  }
+  return found;
+#endif
 }
 
 /// What the neighbours contribute to one capsule, lane by lane.
@@ -253,17 +293,44 @@ std::uint32_t* selectNeighbours(
     // The errors of single precision in squared are below 10⁻⁶ of these squares, also where segments are nearly parallel: s may
     // then be off, but the distance hardly depends on it.
     const FloatMask near = squared < limit * limit + 1e-5f * (limit * limit + a + e);
-    for (std::size_t l = 0; l < floats; ++l)
+    found = append(near, floats, indices + n, found);
+  }
+  return found;
+}
+
+std::uint64_t* selectBoxes(
+  const BoxColumns& columns, std::size_t begin, std::size_t end, const BoxQuery& box, std::uint64_t* found)
+{
+  const Floats zero = {};
+  const FloatMask none = {};
+  for (std::size_t n = begin; n < end; n += floats)
+  {
+    FloatMask cellX;
+    __builtin_memcpy(&cellX, columns.cell + n, sizeof(FloatMask));
+    FloatMask taken = none == none;
+    for (int axis = 0; axis < 3; ++axis)
     {
-      *found = indices[n + l];
-      found -= near[l];
+      Floats lower, upper;
+      __builtin_memcpy(&lower, columns.lower[axis] + n, sizeof(Floats));
+      __builtin_memcpy(&upper, columns.upper[axis] + n, sizeof(Floats));
+      const Floats from = zero + box.lower[axis];
+      const Floats last = zero + box.last[axis];
+      // As CellGrid::cellOf.
+      const Floats common = lower > from ? lower : from;
+      Floats cell = (common - box.origin[axis]) * box.inverseSize[axis];
+      cell = cell > zero ? cell : zero;
+      cell = cell < last ? cell : last;
+      const FloatMask index = __builtin_convertvector(cell, FloatMask);
+      const FloatMask wanted = axis == 0 ? cellX : axis == 1 ? none + box.y : none + box.z;
+      taken &= (lower <= zero + box.upper[axis]) & (from <= upper) & (index == wanted);
     }
+    found = append(taken, static_cast<int>(end - n < floats ? end - n : floats), columns.key + n, found);
   }
   return found;
 }
 
 } // namespace
 
-const VectorKernels CACTUS_KERNELS = { evaluateCapsule, selectNeighbours };
+const VectorKernels CACTUS_KERNELS = { evaluateCapsule, selectNeighbours, selectBoxes };
 
 } // namespace cactus

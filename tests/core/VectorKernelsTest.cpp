@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace
@@ -126,4 +127,54 @@ TEST(VectorKernels, SameNeighboursOnEveryVectorUnit)
     }
   }
   EXPECT_GT(total, capsules.size());
+}
+
+// Guarantee: which boxes of a row of cells overlap does not depend on the vector unit, and is what comparing one by one gives.
+TEST(VectorKernels, SameBoxesOnEveryVectorUnit)
+{
+  constexpr std::size_t count = 101;
+  std::vector<std::vector<float>> numbers(6, std::vector<float>(count + 16));
+  std::vector<std::int32_t> cells(count + 16);
+  std::vector<std::uint64_t> keys(count + 16);
+  for (std::size_t m = 0; m < count; ++m)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      numbers[axis][m] = static_cast<float>((m * (7 + 4 * axis)) % 23) - 12.0f;
+      numbers[3 + axis][m] = numbers[axis][m] + 4.0f + static_cast<float>(m % 5);
+    }
+    cells[m] = static_cast<std::int32_t>(m % 3);
+    keys[m] = (std::uint64_t(m) << 40) + 17;
+  }
+  const cactus::BoxColumns columns{ { numbers[0].data(), numbers[1].data(), numbers[2].data() },
+    { numbers[3].data(), numbers[4].data(), numbers[5].data() }, cells.data(), keys.data() };
+  const cactus::BoxQuery box{ { -3.0f, -20.0f, -4.0f }, { 2.0f, 20.0f, 5.0f }, { -12.0f, -12.0f, -12.0f },
+    { 0.25f, 0.01f, 0.125f }, { 2.0f, 0.0f, 2.0f }, 0, 1 };
+  for (const auto& [begin, end] : { std::pair<std::size_t, std::size_t>{ 0, count }, { 3, 4 }, { 5, 40 }, { 9, 9 } })
+  {
+    std::vector<std::uint64_t> expected;
+    for (std::size_t m = begin; m < end; ++m)
+    {
+      bool taken = true;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const float lower = numbers[axis][m];
+        taken &= lower <= box.upper[axis] && box.lower[axis] <= numbers[3 + axis][m];
+        const float cell = (std::max(lower, box.lower[axis]) - box.origin[axis]) * box.inverseSize[axis];
+        const auto index = static_cast<std::int32_t>(std::min(std::max(cell, 0.0f), box.last[axis]));
+        taken &= index == (axis == 0 ? cells[m] : axis == 1 ? box.y : box.z);
+      }
+      if (taken)
+      {
+        expected.push_back(keys[m]);
+      }
+    }
+    EXPECT_TRUE(end < count || !expected.empty());
+    for (const cactus::VectorKernels* kernels : runnable())
+    {
+      std::vector<std::uint64_t> found(end - begin + 16);
+      found.resize(static_cast<std::size_t>(kernels->selectBoxes(columns, begin, end, box, found.data()) - found.data()));
+      EXPECT_EQ(found, expected);
+    }
+  }
 }
