@@ -27,6 +27,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace
@@ -223,7 +224,7 @@ protected:
   }
   void TearDown() override { std::remove(path.c_str()); }
 
-  const std::string path = testing::TempDir() + "cactus_fibre_input.strands";
+  const std::string path = testing::TempDir() + "cactus_fibre_input_" + std::to_string(::getpid()) + ".strands";
   vtkNew<Filter> filter;
 };
 
