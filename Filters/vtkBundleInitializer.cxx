@@ -51,6 +51,7 @@ int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, v
       cactus::BundleInitializerOptions options;
       options.side = this->Side;
       options.fibreVolumeFraction = this->FibreVolumeFraction;
+      options.grownFibreVolumeFraction = this->GrownFibreVolumeFraction;
       options.radius.model = static_cast<cactus::RadiusModel>(this->RadiusDistribution);
       options.radius.gammaShape = this->GammaShape;
       options.radius.gammaScale = this->GammaScale;
@@ -91,6 +92,7 @@ void vtkBundleInitializer::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Side: " << this->Side << '\n';
   os << indent << "FibreVolumeFraction: " << this->FibreVolumeFraction << '\n';
+  os << indent << "GrownFibreVolumeFraction: " << this->GrownFibreVolumeFraction << '\n';
   os << indent << "RadiusDistribution: " << this->RadiusDistribution << '\n';
   os << indent << "GammaShape: " << this->GammaShape << '\n';
   os << indent << "GammaScale: " << this->GammaScale << '\n';

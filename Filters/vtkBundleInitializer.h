@@ -55,6 +55,14 @@ public:
   ///@}
 
   ///@{
+  /** Fraction of the domain that FibreRadialGrowth is to fill later, from FibreVolumeFraction to below 1: the capsules are made
+   * thinner than the radii drawn, by sqrt(FibreVolumeFraction / this), so that these are what the grown fibres have
+   * (`TargetRadius`). Default 0: the capsules have the radii drawn, and growth makes them thicker. */
+  vtkSetMacro(GrownFibreVolumeFraction, double);
+  vtkGetMacro(GrownFibreVolumeFraction, double);
+  ///@}
+
+  ///@{
   /** One of RadiusDistributions, for the outer radius. Default GAMMA. */
   vtkSetMacro(RadiusDistribution, int);
   vtkGetMacro(RadiusDistribution, int);
@@ -162,6 +170,7 @@ private:
 
   double Side = 30.0;
   double FibreVolumeFraction = 0.7;
+  double GrownFibreVolumeFraction = 0.0;
   int RadiusDistribution = GAMMA;
   double GammaShape = 2.4;
   double GammaScale = 0.25;

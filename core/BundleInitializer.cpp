@@ -691,6 +691,9 @@ void BundleInitializerOptions::validate() const
   requireRange(side, side > 0.0, "Side", "a positive length in µm");
   requireRange(fibreVolumeFraction, fibreVolumeFraction > 0.0 && fibreVolumeFraction < 1.0, "FibreVolumeFraction",
     "a fraction above 0 and below 1");
+  requireRange(grownFibreVolumeFraction,
+    grownFibreVolumeFraction == 0.0 || (grownFibreVolumeFraction >= fibreVolumeFraction && grownFibreVolumeFraction < 1.0),
+    "GrownFibreVolumeFraction", "a fraction from FibreVolumeFraction to below 1, or 0");
   radius.validate();
   requireRange(
     meanDispersion, meanDispersion >= 0.0 && meanDispersion <= 45.0, "MeanDispersion", "an angle from 0 to 45 degrees");
@@ -718,7 +721,8 @@ std::string BundleInitializerOptions::describe() const
 {
   std::ostringstream text;
   text.precision(12);
-  text << "Side=" << side << " FibreVolumeFraction=" << fibreVolumeFraction;
+  text << "Side=" << side << " FibreVolumeFraction=" << fibreVolumeFraction
+       << " GrownFibreVolumeFraction=" << grownFibreVolumeFraction;
   switch (radius.model)
   {
   case RadiusModel::Gamma:
@@ -756,6 +760,19 @@ std::string BundleInitializerOptions::describe() const
 Fibres initialiseBundles(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport* report)
 {
   options.validate();
+  if (options.grownFibreVolumeFraction > 0.0)
+  {
+    const double thinning = std::sqrt(options.fibreVolumeFraction / options.grownFibreVolumeFraction);
+    BundleInitializerOptions thinner = options;
+    thinner.grownFibreVolumeFraction = 0.0;
+    thinner.radius = options.radius.scaled(thinning);
+    Fibres fibres = initialiseBundles(thinner, context, report);
+    for (double& radius : fibres.targetRadii)
+    {
+      radius /= thinning;
+    }
+    return fibres;
+  }
   requireMemoryFor(options);
   context.report(0.0, "Drawing radii");
   BundleInitializerReport reached;

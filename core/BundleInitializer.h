@@ -28,7 +28,11 @@ struct BundleInitializerOptions
   /// the domain: volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain.
   double fibreVolumeFraction = 0.7;
   RadiusDistributionOptions radius; ///< of the fibres' outer radii
-  double meanDispersion = 5.0;      ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
+  /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules are then thinner than the
+  /// sampled target radii by sqrt(fibreVolumeFraction / this), so that the grown fibres have these; 0: capsules have the target
+  /// radii.
+  double grownFibreVolumeFraction = 0.0;
+  double meanDispersion = 5.0; ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
   DispersionModel dispersionModel = DispersionModel::Watson;
   int numberOfBundles = 1;     ///< 1 or 2
   double crossingAngle = 90.0; ///< between the axes of two bundles, in (0, 90]

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -155,6 +156,37 @@ VoxelGrid sampleGrid(const Domain& domain, double samples)
   return grid;
 }
 
+/// Where growth goes for a fraction: the fibres with capsules of their target radii, on average along each; none where they have
+/// these already.
+std::optional<Fibres> atTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& options)
+{
+  std::optional<Fibres> result;
+  for (std::size_t f = 0; f < fibres.size() && options.targetFibreVolumeFraction > 0.0; ++f)
+  {
+    const std::size_t begin = fibres.offsets[f];
+    const std::size_t end = fibres.offsets[f + 1];
+    double sum = 0.0;
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      sum += fibres.radii[p];
+    }
+    const double factor = fibres.targetRadii[f] * static_cast<double>(end - begin) / sum;
+    if (std::abs(factor - 1.0) < 1e-6)
+    {
+      continue;
+    }
+    if (!result)
+    {
+      result = fibres;
+    }
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      result->radii[p] *= factor;
+    }
+  }
+  return result;
+}
+
 } // namespace
 
 void validate(const FibreRadialGrowthOptions& options)
@@ -218,9 +250,11 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
     size[1], " and ", size[2], " µm: choose a VoxelSize of which each is a whole multiple, or change the field data Domain"));
 }
 
-double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context)
+double growthFor(const Fibres& capsules, const FibreRadialGrowthOptions& options, const Context& context)
 {
-  validate(fibres);
+  validate(capsules);
+  const std::optional<Fibres> thickened = atTargetRadii(capsules, options);
+  const Fibres& fibres = thickened ? *thickened : capsules;
   const VoxelGrid whole = growthGrid(fibres.domain, options);
   const double target = options.targetFibreVolumeFraction;
   if (target <= 0.0)
@@ -262,10 +296,12 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
   return growth;
 }
 
-void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
+void growFibres(const Fibres& capsules, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
   std::int32_t* fibreId, float* depth, const Context& context)
 {
-  validate(fibres);
+  validate(capsules);
+  const std::optional<Fibres> thickened = atTargetRadii(capsules, options);
+  const Fibres& fibres = thickened ? *thickened : capsules;
   const VoxelGrid whole = growthGrid(fibres.domain, options);
   require(std::isfinite(growth), "the growth must be a finite number of µm");
   for (std::size_t axis = 0; axis < 3; ++axis)

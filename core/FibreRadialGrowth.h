@@ -15,7 +15,9 @@ struct FibreRadialGrowthOptions
 {
   /// Edge of a voxel. Where it does not divide the domain's sides, the nearest spacing that does is used.
   double voxelSize = 0.1;
-  /// Fraction of the domain that the grown fibres fill, in [0, 1); 0: grow by `growthIterations` voxels instead.
+  /// Fraction of the domain that the grown fibres fill, in [0, 1); 0: grow by `growthIterations` voxels instead. For a fraction,
+  /// fibres whose capsules differ from their target radii start from capsules with these (on average along the fibre, even where
+  /// they then overlap), so that each ends near its own.
   double targetFibreVolumeFraction = 0.0;
   /// Growth in voxels where no target is given.
   int growthIterations = 4;

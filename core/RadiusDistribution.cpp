@@ -83,6 +83,21 @@ void RadiusDistributionOptions::validate() const
   }
 }
 
+RadiusDistributionOptions RadiusDistributionOptions::scaled(double factor) const
+{
+  RadiusDistributionOptions result = *this;
+  for (double* length :
+    { &result.gammaScale, &result.lognormalMean, &result.lognormalDeviation, &result.minimum, &result.maximum })
+  {
+    *length *= factor;
+  }
+  for (double& radius : result.table)
+  {
+    radius *= factor;
+  }
+  return result;
+}
+
 double sampleRadius(const RadiusDistributionOptions& options, std::uint64_t seed, std::uint64_t index)
 {
   RandomEngine engine = randomStream(seed, RandomStage::Radii, index);

@@ -31,6 +31,8 @@ struct RadiusDistributionOptions
   /// Throws InvalidInput, naming the property, unless all that the model uses is positive and finite, minimum ≤ maximum, and the
   /// table, where it is used, is not empty and within [minimum, maximum].
   void validate() const;
+  /// The distribution of what this one's radii become when all are multiplied by `factor`.
+  RadiusDistributionOptions scaled(double factor) const;
 };
 
 /// One outer radius (µm) of the distribution: the same for the same seed and index, whatever else is drawn. Throws InvalidInput

@@ -88,7 +88,7 @@ def main():
         return os.path.join(wanted.output, name)
 
     stages = Stages()
-    bundle = simple.BundleInitializer(Side=wanted.side, GammaShape=2.4, GammaScale=0.25, MeanDispersion=wanted.dispersion, Seed=wanted.seed)
+    bundle = simple.BundleInitializer(Side=wanted.side, GrownFibreVolumeFraction=max(wanted.fvf, 0.7), GammaShape=2.4, GammaScale=0.25, MeanDispersion=wanted.dispersion, Seed=wanted.seed)
     stages.run("Bundle initialiser", bundle, lambda: f"{cells(bundle)} fibres")
     initial = simple.SubstrateStatistics(Fibres=bundle)
     initial.UpdatePipeline()
@@ -148,8 +148,7 @@ def main():
         ("aggregate g-ratio", g, reached["AggregateGRatio"]),
         ("mean dispersion, initial (deg)", wanted.dispersion, asked["MeanDispersion_deg"]),
         ("mean dispersion, final (deg)", wanted.dispersion, reached["MeanDispersion_deg"]),
-        ("mean radius before growth (um)", asked["MeanTargetRadius_um"], reached["MeanTargetRadius_um"]),
-        ("mean outer radius (um)", None, reached["MeanOuterRadius_um"]),
+        ("mean outer radius (um)", reached["MeanTargetRadius_um"], reached["MeanOuterRadius_um"]),
         ("mean inner radius (um)", None, reached["MeanInnerRadius_um"]),
         ("largest penetration", 1e-3, reached["LargestPenetration"]),
         ("triangles", None, reached["Triangles"]),

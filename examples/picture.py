@@ -71,7 +71,7 @@ def draw_substrate(outer, inner, side, filename, pixels=900):
     solid.CameraFocalPoint = [0.0, 0.0, 0.0]
     solid.CameraViewUp = [0.0, 0.0, 1.0]
     simple.ResetCamera(solid)
-    solid.GetActiveCamera().Zoom(1.1)
+    solid.GetActiveCamera().Zoom(1.0)
 
     layout = simple.CreateLayout("Substrate")
     simple.AssignViewToLayout(view=cut, layout=layout, hint=0)

@@ -78,6 +78,34 @@ std::string errorOf(const std::function<void(BundleInitializerOptions&)>& change
   return "no error";
 }
 
+TEST(BundleInitializer, MakesFibresThinnerThatAreToGrow)
+{
+  for (const int bundles : { 1, 2 })
+  {
+    BundleInitializerOptions options;
+    options.side = 20.0;
+    options.numberOfBundles = bundles;
+    options.fibreVolumeFraction = 0.6;
+    options.grownFibreVolumeFraction = 0.9;
+    BundleInitializerReport report;
+    const Fibres fibres = initialiseBundles(options, {}, &report);
+    EXPECT_NEAR(report.fibreVolumeFraction, 0.6, 0.01);
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+    {
+      EXPECT_NEAR(fibres.radii[fibres.offsets[f]], fibres.targetRadii[f] * std::sqrt(0.6 / 0.9), 1e-12);
+      EXPECT_GE(fibres.targetRadii[f], options.radius.minimum * (1.0 - 1e-12));
+      EXPECT_LE(fibres.targetRadii[f], options.radius.maximum * (1.0 + 1e-12));
+    }
+    // Thinner fibres fill as much only if they are more.
+    options.grownFibreVolumeFraction = 0.0;
+    const Fibres plain = initialiseBundles(options);
+    EXPECT_GT(fibres.size(), plain.size());
+  }
+  BundleInitializerOptions options;
+  options.grownFibreVolumeFraction = 0.5;
+  EXPECT_THROW(options.validate(), InvalidInput);
+}
+
 } // namespace
 
 TEST(BundleInitializer, FacesHoldAllCirclesApartAndInside)
