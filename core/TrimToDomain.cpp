@@ -34,6 +34,13 @@ bool reaches(const Domain& domain, const Eigen::Vector3d& p, const Eigen::Vector
   return enter <= leave;
 }
 
+/// Whether a fibre that leaves after one control point comes back at another so near that the two pieces could meet, grown by up
+/// to their radius: then they are one.
+bool comesBackAtOnce(const Fibres& fibres, std::size_t left, std::size_t back)
+{
+  return (fibres.points[back] - fibres.points[left]).norm() < 2.0 * (fibres.radii[left] + fibres.radii[back]);
+}
+
 } // namespace
 
 Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
@@ -54,7 +61,7 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
       {
         continue;
       }
-      if (!pieces.empty() && pieces.back().second == i)
+      if (!pieces.empty() && (pieces.back().second == i || comesBackAtOnce(fibres, pieces.back().second, i)))
       {
         pieces.back().second = i + 1;
       }

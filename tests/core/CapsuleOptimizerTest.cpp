@@ -3,6 +3,7 @@
 
 #include "BundleBox.h"
 #include "BundleInitializer.h"
+#include "Capsules.h"
 #include "Error.h"
 #include "RandomBundle.h"
 #include "SegmentDistance.h"
@@ -469,6 +470,23 @@ TEST(CapsuleOptimizer, NamesTheParameterThatIsOutOfRange)
       cactus::optimise(none, {}, {});
     },
     cactus::InvalidInput);
+}
+
+// The pieces of a fibre that is outside for a moment only would overlap, or meet when they grow.
+TEST(TrimToDomain, KeepsAFibreWholeThatComesBackAtOnce)
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  fibres.addFibre(1, 1, 0.5);
+  for (int i = 0; i <= 20; ++i)
+  {
+    const double z = -5.0 + 0.5 * i;
+    fibres.addPoint({ std::abs(z) < 0.8 ? 6.1 : 5.0, 0.0, z }, 0.5);
+  }
+  const Fibres trimmed = cactus::trimToDomain(fibres);
+  ASSERT_EQ(trimmed.size(), 1u);
+  EXPECT_EQ(trimmed.points.size(), fibres.points.size());
+  EXPECT_EQ(cactus::measureOverlap(trimmed, 1e-3, 1).overlappingPairs, 0u);
 }
 
 // Trimming keeps the domain filled, cuts what is outside, and gives a fibre that comes back an id of its own.
