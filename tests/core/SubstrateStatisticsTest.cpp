@@ -2,6 +2,7 @@
 #include "SubstrateStatistics.h"
 #include "CrossSection.h"
 #include "Error.h"
+#include "ExampleSurfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -16,35 +17,10 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// A closed prism over a regular polygon, along z from -half to half, centred on (x, y); `rings` pieces long.
+/// A closed prism over a regular polygon, along z from -half to half, centred on (x, y).
 cactus::TriangleMesh tube(double x, double y, double radius, double half, int sides = 24, int rings = 40)
 {
-  cactus::TriangleMesh mesh;
-  for (int ring = 0; ring <= rings; ++ring)
-  {
-    for (int side = 0; side < sides; ++side)
-    {
-      const double angle = 2.0 * pi * side / sides;
-      mesh.points.push_back({ x + radius * std::cos(angle), y + radius * std::sin(angle), -half + 2.0 * half * ring / rings });
-    }
-  }
-  const int bottom = static_cast<int>(mesh.points.size());
-  mesh.points.push_back({ x, y, -half });
-  mesh.points.push_back({ x, y, half });
-  for (int side = 0; side < sides; ++side)
-  {
-    const int next = (side + 1) % sides;
-    for (int ring = 0; ring < rings; ++ring)
-    {
-      const int low = ring * sides;
-      const int high = low + sides;
-      mesh.triangles.push_back({ { low + side, low + next, high + next } });
-      mesh.triangles.push_back({ { low + side, high + next, high + side } });
-    }
-    mesh.triangles.push_back({ { bottom, next, side } });
-    mesh.triangles.push_back({ { bottom + 1, rings * sides + side, rings * sides + next } });
-  }
-  return mesh;
+  return example::tube(x, y, radius, -half, half, sides, rings);
 }
 
 double polygonFactor(int sides)

@@ -3,6 +3,7 @@
 #include "SurfaceSpacing.h"
 
 #include "Error.h"
+#include "ExampleSurfaces.h"
 #include "SurfaceCheck.h"
 
 #include <gtest/gtest.h>
@@ -14,41 +15,15 @@ namespace
 
 using namespace cactus;
 
-constexpr double pi = 3.14159265358979323846;
-
 /// A closed tube along z from face to face of the box [-1, 1]³, with a bulge of height `bulge` towards +x in its middle.
 TriangleMesh tube(double x, double radius, double bulge = 0.0)
 {
-  constexpr int around = 48;
-  constexpr int along = 40;
-  TriangleMesh mesh;
-  for (int k = 0; k <= along; ++k)
+  TriangleMesh mesh = example::tube(x, 0.0, radius, -1.0, 1.0, 48, 40);
+  for (Eigen::Vector3d& p : mesh.points)
   {
-    const double z = -1.0 + 2.0 * k / along;
-    for (int i = 0; i < around; ++i)
-    {
-      const double angle = 2.0 * pi * i / around;
-      const double r = radius + bulge * std::exp(-20.0 * (z * z + angle * angle));
-      mesh.points.push_back({ x + r * std::cos(angle), r * std::sin(angle), z });
-    }
-  }
-  const auto at = [](int k, int i) { return std::int32_t(around * k + i % around); };
-  for (int k = 0; k < along; ++k)
-  {
-    for (int i = 0; i < around; ++i)
-    {
-      mesh.triangles.push_back({ { at(k, i), at(k, i + 1), at(k + 1, i + 1) } });
-      mesh.triangles.push_back({ { at(k, i), at(k + 1, i + 1), at(k + 1, i) } });
-    }
-  }
-  for (const int k : { 0, along })
-  {
-    const auto centre = std::int32_t(mesh.points.size());
-    mesh.points.push_back({ x, 0.0, k == 0 ? -1.0 : 1.0 });
-    for (int i = 0; i < around; ++i)
-    {
-      mesh.triangles.push_back({ { centre, at(k, i + (k == 0 ? 1 : 0)), at(k, i + (k == 0 ? 0 : 1)) } });
-    }
+    const Eigen::Vector3d outwards(p[0] - x, p[1], 0.0);
+    const double angle = std::atan2(p[1], p[0] - x);
+    p += bulge * std::exp(-20.0 * (p[2] * p[2] + angle * angle)) * outwards / radius;
   }
   return mesh;
 }
