@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 
 namespace cactus
@@ -28,6 +29,28 @@ struct Domain
   Eigen::Vector3d size() const { return upper - lower; }
   double volume() const { return size().prod(); }
   bool isPeriodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+  /// The part of the segment from p to q that lies in the box grown by `margin` (µm) on all sides, as fractions of its length;
+  /// the second is below the first where none does.
+  std::array<double, 2> clip(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double margin = 0.0) const
+  {
+    std::array<double, 2> part{ { 0.0, 1.0 } };
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      const double toLower = lower[axis] - margin - p[axis];
+      const double toUpper = upper[axis] + margin - p[axis];
+      const double along = q[axis] - p[axis];
+      if (along != 0.0)
+      {
+        part[0] = std::max(part[0], std::min(toLower / along, toUpper / along));
+        part[1] = std::min(part[1], std::max(toLower / along, toUpper / along));
+      }
+      else if (toLower > 0.0 || toUpper < 0.0)
+      {
+        return { { 1.0, 0.0 } };
+      }
+    }
+    return part;
+  }
   /// Signed distance to the box in the maximum norm: positive inside.
   double depth(const Eigen::Vector3d& p) const { return (p - lower).cwiseMin(upper - p).minCoeff(); }
 };

@@ -152,32 +152,14 @@ double capsuleVolumeInDomain(const Fibres& fibres)
   {
     for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
     {
-      const Eigen::Vector3d p = fibres.points[i];
-      const Eigen::Vector3d d = fibres.points[i + 1] - p;
-      double t0 = 0.0;
-      double t1 = 1.0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double lower = fibres.domain.lower[axis] - p[axis];
-        const double upper = fibres.domain.upper[axis] - p[axis];
-        if (d[axis] == 0.0)
-        {
-          if (lower > 0.0 || upper < 0.0)
-          {
-            t1 = -1.0;
-          }
-          continue;
-        }
-        t0 = std::max(t0, std::min(lower / d[axis], upper / d[axis]));
-        t1 = std::min(t1, std::max(lower / d[axis], upper / d[axis]));
-      }
+      const auto [t0, t1] = fibres.domain.clip(fibres.points[i], fibres.points[i + 1]);
       if (t1 <= t0)
       {
         continue;
       }
       const double r0 = fibres.radii[i] + t0 * (fibres.radii[i + 1] - fibres.radii[i]);
       const double r1 = fibres.radii[i] + t1 * (fibres.radii[i + 1] - fibres.radii[i]);
-      volume += coneVolume(r0, r1, (t1 - t0) * d.norm());
+      volume += coneVolume(r0, r1, (t1 - t0) * (fibres.points[i + 1] - fibres.points[i]).norm());
     }
   }
   return volume;

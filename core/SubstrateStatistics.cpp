@@ -109,25 +109,8 @@ double lengthInDomain(const Fibres& fibres, std::size_t fibre)
   double length = 0.0;
   for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
   {
-    const Eigen::Vector3d start = fibres.points[i];
-    const Eigen::Vector3d along = fibres.points[i + 1] - start;
-    double from = 0.0;
-    double to = 1.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double lower = fibres.domain.lower[axis] - start[axis];
-      const double upper = fibres.domain.upper[axis] - start[axis];
-      if (along[axis] != 0.0)
-      {
-        from = std::max(from, std::min(lower / along[axis], upper / along[axis]));
-        to = std::min(to, std::max(lower / along[axis], upper / along[axis]));
-      }
-      else if (lower > 0.0 || upper < 0.0)
-      {
-        to = 0.0;
-      }
-    }
-    length += std::max(0.0, to - from) * along.norm();
+    const auto [from, to] = fibres.domain.clip(fibres.points[i], fibres.points[i + 1]);
+    length += std::max(0.0, to - from) * (fibres.points[i + 1] - fibres.points[i]).norm();
   }
   return length;
 }

@@ -10,30 +10,6 @@ namespace cactus
 namespace
 {
 
-/// Whether the segment p–q passes through the domain grown by `margin` on all sides (slab test).
-bool reaches(const Domain& domain, const Eigen::Vector3d& p, const Eigen::Vector3d& q, double margin)
-{
-  double enter = 0.0;
-  double leave = 1.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double lower = domain.lower[axis] - margin - p[axis];
-    const double upper = domain.upper[axis] + margin - p[axis];
-    const double direction = q[axis] - p[axis];
-    if (direction == 0.0)
-    {
-      if (lower > 0.0 || upper < 0.0)
-      {
-        return false;
-      }
-      continue;
-    }
-    enter = std::max(enter, std::min(lower / direction, upper / direction));
-    leave = std::min(leave, std::max(lower / direction, upper / direction));
-  }
-  return enter <= leave;
-}
-
 /// Whether a fibre that leaves after one control point comes back at another so near that the two pieces could meet, grown by up
 /// to their radius: then they are one.
 bool comesBackAtOnce(const Fibres& fibres, std::size_t left, std::size_t back)
@@ -57,7 +33,9 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
     std::vector<std::pair<std::size_t, std::size_t>> pieces; // first and last control point
     for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
     {
-      if (!reaches(fibres.domain, fibres.points[i], fibres.points[i + 1], 2.0 * std::max(fibres.radii[i], fibres.radii[i + 1])))
+      const auto [enter, leave] =
+        fibres.domain.clip(fibres.points[i], fibres.points[i + 1], 2.0 * std::max(fibres.radii[i], fibres.radii[i + 1]));
+      if (leave < enter)
       {
         continue;
       }
