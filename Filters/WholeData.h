@@ -2,6 +2,7 @@
 // For filters that need all of their input in one place, also where the pipeline runs on several ranks.
 #pragma once
 
+#include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -25,14 +26,16 @@ inline void requestWholeInputs(vtkInformationVector** inputs, int ports)
   }
 }
 
-/// True on the rank that was asked for the first piece of the outputs: the one that gives the result, or writes it.
-inline bool ownsWholeOutput(vtkInformationVector* outputs)
+/// True on the rank that was asked for the first piece of the outputs: the one that gives the result, or writes it. Only the port
+/// that `request` came through counts; the others may still hold what they were asked for before.
+inline bool ownsWholeOutput(vtkInformation* request, vtkInformationVector* outputs)
 {
+  const auto piece = vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER();
+  const int from = request->Has(vtkExecutive::FROM_OUTPUT_PORT()) ? request->Get(vtkExecutive::FROM_OUTPUT_PORT()) : -1;
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputs->GetInformationObject(port);
-    const auto key = vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER();
-    if (info->Has(key) && info->Get(key) > 0)
+    if ((from < 0 || from == port) && info->Has(piece) && info->Get(piece) > 0)
     {
       return false;
     }

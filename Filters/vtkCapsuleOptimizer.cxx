@@ -374,9 +374,9 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   fillTable(run.Optimisation.convergence, vtkTable::GetData(outputs, 1));
 }
 
-int vtkCapsuleOptimizer::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!cactus::ownsWholeOutput(outputs))
+  if (!cactus::ownsWholeOutput(request, outputs))
   {
     return 1;
   }

@@ -172,7 +172,7 @@ int vtkMyelinSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector*
   return 1;
 }
 
-int vtkMyelinSurface::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
@@ -188,7 +188,7 @@ int vtkMyelinSurface::RequestData(vtkInformation*, vtkInformationVector** inputs
       options.clipToDomain = this->ClipToDomain;
       options.seed = cactus::seedFrom(this->Seed);
       cactus::validate(options);
-      if (!cactus::ownsWholeOutput(outputs))
+      if (!cactus::ownsWholeOutput(request, outputs))
       {
         return;
       }

@@ -7,6 +7,7 @@
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
+#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 
@@ -25,6 +26,12 @@ int vtkStrandWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkStrandWriter::WriteData()
 {
+  // On several ranks each gets all fibres, as a sink asks for the first piece of one; the first writes them.
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller != nullptr && controller->GetLocalProcessId() > 0)
+  {
+    return;
+  }
   const int written = cactus::guarded(this,
     [&]
     {

@@ -72,12 +72,12 @@ int vtkSubstrateCertificate::RequestUpdateExtent(vtkInformation*, vtkInformation
   return 1;
 }
 
-int vtkSubstrateCertificate::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
     {
-      if (!cactus::ownsWholeOutput(outputs))
+      if (!cactus::ownsWholeOutput(request, outputs))
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
       }

@@ -151,7 +151,7 @@ int vtkSubstrateStatistics::RequestUpdateExtent(vtkInformation*, vtkInformationV
   return 1;
 }
 
-int vtkSubstrateStatistics::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
@@ -160,7 +160,7 @@ int vtkSubstrateStatistics::RequestData(vtkInformation*, vtkInformationVector** 
       {
         throw cactus::InvalidInput("NumberOfBins must be at least 1");
       }
-      if (!cactus::ownsWholeOutput(outputs))
+      if (!cactus::ownsWholeOutput(request, outputs))
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
       }

@@ -88,12 +88,12 @@ int vtkSubstrateWriter::RequestUpdateExtent(vtkInformation*, vtkInformationVecto
   return 1;
 }
 
-int vtkSubstrateWriter::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
     {
-      if (!cactus::ownsWholeOutput(outputs))
+      if (!cactus::ownsWholeOutput(request, outputs))
       {
         return;
       }
