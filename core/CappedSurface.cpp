@@ -138,8 +138,18 @@ double keepMainPart(CappedSurface& surface, double smallest)
     volumeOfPart[std::size_t(find(static_cast<std::int32_t>(p)))] += volumeOfPiece[p];
   }
   const auto main = static_cast<std::int32_t>(std::max_element(volumeOfPart.begin(), volumeOfPart.end()) - volumeOfPart.begin());
+  // The largest piece of it stays, however small.
+  std::size_t largest = std::size_t(main);
+  for (std::size_t p = 0; p < points.size(); ++p)
+  {
+    const bool isBetter = find(std::int32_t(p)) == main && volumeOfPiece[p] > volumeOfPiece[largest];
+    largest = isBetter ? p : largest;
+  }
   const auto isKept = [&](std::size_t p)
-  { return find(std::int32_t(p)) == main && volumeOfPiece[std::size_t(pieceOf[p])] > smallest; };
+  {
+    const auto piece = std::size_t(pieceOf[p]);
+    return piece == largest || (find(std::int32_t(p)) == main && volumeOfPiece[piece] > smallest);
+  };
 
   double dropped = 0.0;
   for (std::size_t p = 0; p < points.size(); ++p)

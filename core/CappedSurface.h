@@ -34,7 +34,8 @@ SurfaceMeasure measure(const CappedSurface& surface);
 /// Leaves the main part of a surface and says what went: the sum of the other pieces' volumes (µm³), each taken as positive.
 ///
 /// Pieces that the same face of the box cuts off count as one part, since what leaves the box through a face and comes back
-/// through it hangs together outside. The main part is the one of the largest volume, without pieces below `smallest` (µm³).
+/// through it hangs together outside. The main part is the one of the largest volume, without pieces below `smallest` (µm³) but
+/// for the largest.
 double keepMainPart(CappedSurface& surface, double smallest = 0.0);
 
 /// Moves a surface along its normals, all of it by the same distance, until it holds `volume` (µm³), or by `furthest` (µm) where

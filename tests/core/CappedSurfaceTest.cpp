@@ -114,6 +114,9 @@ TEST(CappedSurface, PiecesCutOffByTheSameFaceBelongTogether)
   EXPECT_EQ(checkSurface(same.mesh).components, 2u);
   EXPECT_EQ(keepMainPart(same), 0.0);
   EXPECT_EQ(checkSurface(same.mesh).components, 2u);
+  CappedSurface copy = same;
+  EXPECT_GT(keepMainPart(copy, 10.0), 0.0);
+  EXPECT_EQ(checkSurface(copy.mesh).components, 1u); // the larger one stays, however small
   EXPECT_GT(keepMainPart(same, bump), 0.0);
   EXPECT_EQ(checkSurface(same.mesh).components, 1u);
   CappedSurface opposite = ball({ 1, 0, 0 }, { -1, 0, 0 }, 0.2);
