@@ -5,6 +5,7 @@
 #include "FibreRadialGrowth.h"
 #include "FilterSupport.h"
 #include "Memory.h"
+#include "WholeData.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
@@ -80,7 +81,9 @@ int vtkFibreRadialGrowth::RequestInformation(vtkInformation*, vtkInformationVect
   int extent[6] = { 0, 0, 0, 0, 0, 0 };
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
 
-  // Only the fibres themselves say how large the domain is.
+  // Only the fibres themselves say how large the domain is. Whoever updated them before may have asked this process for another
+  // piece of them, which holds nothing.
+  cactus::requestWholeInputs(inputs, 1);
   int port = 0;
   vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port);
   producer->Update(port);
@@ -113,10 +116,7 @@ int vtkFibreRadialGrowth::RequestInformation(vtkInformation*, vtkInformationVect
 int vtkFibreRadialGrowth::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
   // Any part of the image may need any fibre.
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), 0);
-  info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-  info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  cactus::requestWholeInputs(inputs, 1);
   return 1;
 }
 

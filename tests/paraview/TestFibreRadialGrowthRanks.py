@@ -33,7 +33,9 @@ class Ranks(CactusTestCase):
         path = os.path.join(self.folder, "three.strands")
         with open(path, "w") as file:
             file.write(STRANDS)
-        growth = FibreRadialGrowth(Input=StrandReader(FileName=path), VoxelSize=0.12, TargetFibreVolumeFraction=0.5)
+        fibres = StrandReader(FileName=path)
+        fibres.UpdatePipeline()  # which asks all ranks but the first for nothing: growth has to ask again
+        growth = FibreRadialGrowth(Input=fibres, VoxelSize=0.12, TargetFibreVolumeFraction=0.5)
         growth.UpdatePipeline()
         together = os.path.join(self.folder, "together.pvti")
         SaveData(together, proxy=growth, DataMode="Binary")  # Debian's ParaView cannot read the appended data that is the default

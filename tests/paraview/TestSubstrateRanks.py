@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-ranks: 2
-"""The statistics and the certificate are the same, and one row, on any number of ranks."""
+# ctest-timeout: 300
+"""On any number of ranks: statistics and certificate are the same, and one row; a substrate is grown whole."""
 
 import os
 
 from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import SubstrateCertificate, SubstrateStatistics, XMLPolyDataReader
+from paraview import servermanager
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate,
+                             SubstrateStatistics, SubstrateWriter, XMLPolyDataReader)
 from surfaces import POLYGON, two_tubes
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -33,6 +36,21 @@ class Ranks(CactusTestCase):
         table = fetch(SubstrateCertificate(**self.inputs()))
         self.assertEqual(table.GetNumberOfRows(), 1)
         self.assertEqual(table.GetValueByName(0, "Certified").ToInt(), 1)
+
+    def test_what_was_updated_by_itself_is_whole_for_the_next_stage(self):
+        """An update asks each rank for a piece of its own, and all but the first get nothing: the next stage has to ask again."""
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=6, MeanDispersion=10, MaximumRadius=1, Seed=1)), 0)
+        fibres.UpdatePipeline()
+        # A fibre fills the corner of the image: were that all that a rank sees of it, its surface would not be closed.
+        grown = FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=0.9, VoxelSize=0.1)
+        surfaces = MyelinSurface(Input=grown)
+        outer, inner = OutputPort(surfaces, 0), OutputPort(surfaces, 1)
+        # Each rank makes the whole substrate, and an error of any fails the test; the first writes it.
+        folder = os.path.join(self.folder, "substrate")
+        SubstrateWriter(Fibres=fibres, Outer=outer, Inner=inner, FolderName=folder).UpdatePipeline()
+        count = servermanager.Fetch(fibres).GetNumberOfCells()
+        self.assertGreater(count, 3)
+        self.assertEqual(len(os.listdir(os.path.join(folder, "outer"))), count)
 
 
 if __name__ == "__main__":
