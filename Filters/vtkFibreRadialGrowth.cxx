@@ -4,6 +4,7 @@
 #include "FibreData.h"
 #include "FibreRadialGrowth.h"
 #include "FilterSupport.h"
+#include "GrowthTarget.h"
 #include "Memory.h"
 #include "WholeData.h"
 
@@ -21,7 +22,9 @@
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
+#include <memory>
 #include <sstream>
+#include <utility>
 
 vtkStandardNewMacro(vtkFibreRadialGrowth);
 
@@ -65,6 +68,10 @@ void addColumn(vtkFieldData* data, const char* name, const Values& values)
 }
 
 } // namespace
+
+vtkFibreRadialGrowth::vtkFibreRadialGrowth() = default;
+
+vtkFibreRadialGrowth::~vtkFibreRadialGrowth() = default;
 
 int vtkFibreRadialGrowth::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -155,7 +162,12 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
 
       if (this->GrowthParameterTime != this->GetMTime() || this->GrowthInputTime != input->GetMTime())
       {
-        this->Growth = cactus::growthFor(fibres, options, context);
+        // Nothing is kept of a search that fails.
+        this->Aimed.reset();
+        this->GrowthParameterTime = 0;
+        auto aimed = std::make_unique<cactus::Fibres>(cactus::aimAtTargetRadii(fibres, options, context));
+        this->Growth = cactus::growthFor(*aimed, options, context);
+        this->Aimed = std::move(aimed);
         this->GrowthParameterTime = this->GetMTime();
         this->GrowthInputTime = input->GetMTime();
       }
@@ -166,7 +178,7 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       vtkNew<vtkFloatArray> depth;
       depth->SetName("Depth");
       depth->SetNumberOfValues(static_cast<vtkIdType>(grid.size()));
-      cactus::growFibres(fibres, options, this->Growth, grid, fibreId->GetPointer(0), depth->GetPointer(0), context);
+      cactus::growFibres(*this->Aimed, options, this->Growth, grid, fibreId->GetPointer(0), depth->GetPointer(0), context);
 
       output->SetExtent(extent);
       output->SetOrigin(grid.origin.data());

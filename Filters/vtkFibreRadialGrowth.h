@@ -6,7 +6,8 @@
  * All fibres grow at the same speed until they have grown by `GrowthIterations` voxels, or fill `TargetFibreVolumeFraction` of
  * the domain, or meet a neighbour, from which they keep `MinimumGap` (paper, section "Fibre radial growth"; what is computed is
  * the limit of that method for small voxels, see core/FibreRadialGrowth.h). No voxel belongs to two fibres, also where capsules
- * overlap.
+ * overlap. For a target fraction the capsules' radii are changed first, so that each fibre ends at its TargetRadius where these
+ * add up to the fraction (core/GrowthTarget.h).
  *
  * Input: fibres (polylines with point data `Radius`). Output: an image of cubic voxels that fill the field data `Domain`, its
  * points the voxels' centres, with
@@ -29,6 +30,13 @@
 
 #include <vtkImageAlgorithm.h>
 
+#include <memory>
+
+namespace cactus
+{
+struct Fibres;
+}
+
 class CACTUSFILTERS_EXPORT vtkFibreRadialGrowth : public vtkImageAlgorithm
 {
 public:
@@ -43,7 +51,7 @@ public:
   ///@}
 
   ///@{
-  /** Fraction of the domain that the grown fibres fill; 0: grow by GrowthIterations. */
+  /** Fraction of the domain that the grown fibres fill, with their radii on target; 0: grow by GrowthIterations. */
   vtkSetMacro(TargetFibreVolumeFraction, double);
   vtkGetMacro(TargetFibreVolumeFraction, double);
   ///@}
@@ -91,8 +99,8 @@ public:
   ///@}
 
 protected:
-  vtkFibreRadialGrowth() = default;
-  ~vtkFibreRadialGrowth() override = default;
+  vtkFibreRadialGrowth();
+  ~vtkFibreRadialGrowth() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -112,7 +120,8 @@ private:
   int Seed = 1;
   int NumberOfThreads = 0;
 
-  // The growth that the target needs, kept from one extent to the next.
+  // What the target needs, kept from one extent to the next: the fibres that grow, and how far.
+  std::unique_ptr<cactus::Fibres> Aimed;
   double Growth = 0.0;
   vtkMTimeType GrowthParameterTime = 0;
   vtkMTimeType GrowthInputTime = 0;

@@ -2,6 +2,7 @@
 // Growth of a bundle of bent fibres of two calibres, packed to two thirds before it grows; rates are per voxel and second of wall
 // time.
 #include "FibreRadialGrowth.h"
+#include "GrowthTarget.h"
 
 #include <benchmark/benchmark.h>
 
@@ -79,5 +80,20 @@ void solveForGrowth(benchmark::State& state)
   }
 }
 BENCHMARK(solveForGrowth)->Name("FibreRadialGrowthTarget")->Unit(benchmark::kMillisecond);
+
+/// The radii from which it ends on the target radii.
+void aimAtRadii(benchmark::State& state)
+{
+  const Fibres fibres = bundle(12.0);
+  FibreRadialGrowthOptions options;
+  options.targetFibreVolumeFraction = 0.9;
+  Context context;
+  context.threads = 1;
+  for (auto _ : state)
+  {
+    benchmark::DoNotOptimize(aimAtTargetRadii(fibres, options, context));
+  }
+}
+BENCHMARK(aimAtRadii)->Name("FibreRadialGrowthTargetRadii")->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -20,13 +19,7 @@ namespace cactus
 namespace
 {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double bandInVoxels = 4.0;
-constexpr double samplesForFraction = 8e6;
-/// Width of the classes (µm) in which arrival times are counted.
-constexpr double growthClass = 0.00025;
-/// Growth beyond this (µm) is not looked for.
-constexpr double largestGrowth = 8.0;
 
 template <typename... Parts>
 std::string text(const Parts&... parts)
@@ -53,138 +46,6 @@ bool within(double value, double lower, double upper)
 double largestRadius(const Fibres& fibres)
 {
   return *std::max_element(fibres.radii.begin(), fibres.radii.end());
-}
-
-/// Box of the samples that a grid holds.
-Eigen::AlignedBox3d sampleBox(const VoxelGrid& grid)
-{
-  Eigen::AlignedBox3d box(grid.position(grid.lower[0], grid.lower[1], grid.lower[2]));
-  box.extend(
-    grid.position(grid.lower[0] + grid.count[0] - 1, grid.lower[1] + grid.count[1] - 1, grid.lower[2] + grid.count[2] - 1));
-  return box;
-}
-
-/// Of all samples: how many fibres reach only after some growth, by classes of that growth.
-struct Arrivals
-{
-  double first = 0.0;                ///< growth at the lower end of the first class
-  std::vector<std::uint64_t> counts; ///< samples that become part of a fibre in each class
-  std::uint64_t reachable = 0;       ///< sum of counts
-  std::uint64_t samples = 0;         ///< all samples
-};
-
-/// Counts over `grid` the growth at which each sample becomes part of a fibre, up to `reach`.
-Arrivals countArrivals(
-  const Fibres& fibres, const FibreRadialGrowthOptions& options, const VoxelGrid& grid, double reach, const Context& context)
-{
-  const double first = -largestRadius(fibres) - growthClass;
-  const auto classes = std::size_t(std::ceil((reach - first) / growthClass)) + 1;
-  const int threads = context.threadCount();
-  std::vector<std::vector<std::uint64_t>> perThread(std::size_t(threads), std::vector<std::uint64_t>(classes, 0));
-  FieldRelevance relevance;
-  relevance.bestReach = reach;
-  relevance.secondReach = reach;
-  relevance.contrast = options.gap();
-  const CapsuleField field(
-    fibres, { options.surfaceRoughness, options.seed }, sampleBox(grid), reach + options.gap() + grid.spacing);
-  const auto gap = static_cast<float>(options.gap());
-  field.sweep(grid, relevance, context, 0.0, 0.5, "finding the growth that reaches the target",
-    [&](const FieldCell& cell, int thread)
-    {
-      auto& counts = perThread[std::size_t(thread)];
-      for (int k = cell.begin[2]; k < cell.end[2]; ++k)
-      {
-        for (int j = cell.begin[1]; j < cell.end[1]; ++j)
-        {
-          const int row = FieldCell::sizeX * (j + FieldCell::sizeY * k);
-          for (int i = row + cell.begin[0]; i < row + cell.end[0]; ++i)
-          {
-            const double arrival = -static_cast<double>(cell.best[i]);
-            if (arrival < reach && cell.best[i] - cell.second[i] > gap)
-            {
-              ++counts[std::size_t((arrival - first) / growthClass)];
-            }
-          }
-        }
-      }
-    });
-  Arrivals arrivals;
-  arrivals.first = first;
-  arrivals.samples = grid.size();
-  arrivals.counts.assign(classes, 0);
-  for (const auto& counts : perThread)
-  {
-    for (std::size_t c = 0; c < classes; ++c)
-    {
-      arrivals.counts[c] += counts[c];
-      arrivals.reachable += counts[c];
-    }
-  }
-  return arrivals;
-}
-
-/// The growth at which `target` of the samples lie in a fibre; infinite where the counts end before.
-double growthAt(const Arrivals& arrivals, double target)
-{
-  const double needed = target * static_cast<double>(arrivals.samples);
-  double before = 0.0;
-  for (std::size_t c = 0; c < arrivals.counts.size(); ++c)
-  {
-    const auto count = static_cast<double>(arrivals.counts[c]);
-    if (count > 0.0 && before + count >= needed)
-    {
-      return arrivals.first + growthClass * (static_cast<double>(c) + (needed - before) / count);
-    }
-    before += count;
-  }
-  return infinity;
-}
-
-/// About `samples` points spread evenly over the domain.
-VoxelGrid sampleGrid(const Domain& domain, double samples)
-{
-  const Eigen::Vector3d size = domain.size();
-  VoxelGrid grid;
-  grid.spacing = std::cbrt(domain.volume() / samples);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int count = std::max(1, static_cast<int>(std::round(size[axis] / grid.spacing)));
-    grid.count[static_cast<std::size_t>(axis)] = count;
-    // Centred: what a side leaves over is shared by its two ends.
-    grid.origin[axis] = domain.lower[axis] + 0.5 * (size[axis] - (count - 1) * grid.spacing);
-  }
-  return grid;
-}
-
-/// Where growth goes for a fraction: the fibres with capsules of their target radii, on average along each; none where they have
-/// these already.
-std::optional<Fibres> atTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& options)
-{
-  std::optional<Fibres> result;
-  for (std::size_t f = 0; f < fibres.size() && options.targetFibreVolumeFraction > 0.0; ++f)
-  {
-    const std::size_t begin = fibres.offsets[f];
-    const std::size_t end = fibres.offsets[f + 1];
-    double sum = 0.0;
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      sum += fibres.radii[p];
-    }
-    const double factor = fibres.targetRadii[f] * static_cast<double>(end - begin) / sum;
-    if (std::abs(factor - 1.0) < 1e-6)
-    {
-      continue;
-    }
-    if (!result)
-    {
-      result = fibres;
-    }
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      result->radii[p] *= factor;
-    }
-  }
-  return result;
 }
 
 } // namespace
@@ -250,58 +111,10 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
     size[1], " and ", size[2], " µm: choose a VoxelSize of which each is a whole multiple, or change the field data Domain"));
 }
 
-double growthFor(const Fibres& capsules, const FibreRadialGrowthOptions& options, const Context& context)
-{
-  validate(capsules);
-  const std::optional<Fibres> thickened = atTargetRadii(capsules, options);
-  const Fibres& fibres = thickened ? *thickened : capsules;
-  const VoxelGrid whole = growthGrid(fibres.domain, options);
-  const double target = options.targetFibreVolumeFraction;
-  if (target <= 0.0)
-  {
-    return options.growthIterations * whole.spacing;
-  }
-
-  // Few samples tell roughly how far to grow: the less far the many have to look, the faster.
-  Context quiet = context;
-  quiet.progress = nullptr;
-  const Arrivals rough =
-    countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForFraction / 64.0), largestGrowth, quiet);
-  double reach = std::min(growthAt(rough, target) + 0.1, largestGrowth);
-  Arrivals arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForFraction), reach, context);
-  while (!(growthAt(arrivals, target) < infinity) && reach < largestGrowth)
-  {
-    reach = std::min(reach + 2.0, largestGrowth);
-    arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForFraction), reach, context);
-  }
-  const double growth = growthAt(arrivals, target);
-  if (!(growth < infinity))
-  {
-    throw Infeasible(text("TargetFibreVolumeFraction ", target, " cannot be reached: growth fills at most ",
-      static_cast<double>(arrivals.reachable) / static_cast<double>(arrivals.samples), " of the domain with MinimumGap ",
-      options.minimumGap, " and SurfaceTolerance ", options.surfaceTolerance,
-      " µm. Ask for less, make the gap smaller, or start from more fibres"));
-  }
-  // The shrunk chain of a fibre is all that is sure to be there along the whole of it.
-  const auto thinnest = std::min_element(fibres.radii.begin(), fibres.radii.end());
-  if (growth <= -*thinnest * (1.0 - options.surfaceRoughness))
-  {
-    const auto point = static_cast<std::size_t>(thinnest - fibres.radii.begin());
-    const auto next = std::upper_bound(fibres.offsets.begin(), fibres.offsets.end(), point);
-    const auto fibre = static_cast<std::size_t>(next - fibres.offsets.begin()) - 1;
-    throw Infeasible(text("TargetFibreVolumeFraction ", target, " needs all fibres shrunk by ", -growth,
-      " µm, which severs fibre ", fibres.fibreIds[fibre], " of radius ", *thinnest,
-      " µm: ask for more, choose a smaller SurfaceRoughness, or start from fewer fibres"));
-  }
-  return growth;
-}
-
-void growFibres(const Fibres& capsules, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
+void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
   std::int32_t* fibreId, float* depth, const Context& context)
 {
-  validate(capsules);
-  const std::optional<Fibres> thickened = atTargetRadii(capsules, options);
-  const Fibres& fibres = thickened ? *thickened : capsules;
+  validate(fibres);
   const VoxelGrid whole = growthGrid(fibres.domain, options);
   require(std::isfinite(growth), "the growth must be a finite number of µm");
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -320,7 +133,7 @@ void growFibres(const Fibres& capsules, const FibreRadialGrowthOptions& options,
   relevance.secondReach = growth + halfGap;
   relevance.sumReach = 2.0 * (growth + halfGap);
   const double reach = std::max(relevance.bestReach, largestRadius(fibres) + relevance.sumReach) + 2.0 * grid.spacing;
-  const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, sampleBox(grid), std::max(reach, 0.0));
+  const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, grid.box(), std::max(reach, 0.0));
   std::vector<std::int32_t> idOfRank(field.size());
   for (std::size_t rank = 0; rank < idOfRank.size(); ++rank)
   {

@@ -15,9 +15,7 @@ struct FibreRadialGrowthOptions
 {
   /// Edge of a voxel. Where it does not divide the domain's sides, the nearest spacing that does is used.
   double voxelSize = 0.1;
-  /// Fraction of the domain that the grown fibres fill, in [0, 1); 0: grow by `growthIterations` voxels instead. For a fraction,
-  /// fibres whose capsules differ from their target radii start from capsules with these (on average along the fibre, even where
-  /// they then overlap), so that each ends near its own.
+  /// Fraction of the domain that the grown fibres fill, in [0, 1), see GrowthTarget.h; 0: grow by `growthIterations` voxels.
   double targetFibreVolumeFraction = 0.0;
   /// Growth in voxels where no target is given.
   int growthIterations = 4;
@@ -43,13 +41,6 @@ void validate(const FibreRadialGrowthOptions& options);
 /// voxelSize), for another box within a tenth of voxelSize. Throws InvalidInput where there is none, or voxelSize is larger than
 /// the domain.
 VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& options);
-
-/// The growth g (µm, see growFibres) that the options ask for: growthIterations voxels, or what makes the fibres fill
-/// targetFibreVolumeFraction of the whole domain, which may be negative. The fraction is counted over about eight million
-/// sample points spread evenly over the domain, so it depends neither on the voxel size nor on the part of the image asked for.
-/// Throws Infeasible, with the largest fraction that can be reached, where a target cannot, and where it needs so much
-/// shrinkage that a fibre vanishes. Throws Cancelled.
-double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {});
 
 /// Fibre radial growth (paper, section "Fibre radial growth"): all fibres grow outwards from seeds inside their capsules at the
 /// same speed until they have grown by g or meet a neighbour, from which they keep a gap.

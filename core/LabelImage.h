@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
@@ -27,6 +28,12 @@ struct VoxelGrid
            std::size_t(count[0]) * (std::size_t(j - lower[1]) + std::size_t(count[1]) * std::size_t(k - lower[2]));
   }
   Eigen::Vector3d position(int i, int j, int k) const { return origin + spacing * Eigen::Vector3d(i, j, k); }
+  /// The box (µm) of the samples held, of which there is at least one.
+  Eigen::AlignedBox3d box() const
+  {
+    return Eigen::AlignedBox3d(position(lower[0], lower[1], lower[2]),
+      position(lower[0] + count[0] - 1, lower[1] + count[1] - 1, lower[2] + count[2] - 1));
+  }
 };
 
 /// Which fibre each voxel belongs to, and how deep it lies in it.

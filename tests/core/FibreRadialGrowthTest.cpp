@@ -4,6 +4,7 @@
 #include "CapsuleField.h"
 #include "Error.h"
 #include "FibreField.h"
+#include "GrowthTarget.h"
 #include "Random.h"
 
 #include <gtest/gtest.h>
@@ -543,43 +544,6 @@ TEST(FibreRadialGrowth, MeetsATargetFraction)
   EXPECT_NEAR(growthFor(one, options), std::sqrt(0.15 * 16.0 / pi) - 1.2, 5e-4);
   options.targetFibreVolumeFraction = 0.5;
   EXPECT_NEAR(growthFor(one, options), std::sqrt(0.5 * 16.0 / pi) - 1.2, 5e-4);
-}
-
-TEST(FibreRadialGrowth, ATargetFractionEndsAtTheTargetRadii)
-{
-  // Apart from each other, so that each area tells a radius; together they fill what their target radii fill.
-  const double targets[] = { 0.9, 0.5, 0.3 };
-  Fibres fibres = emptyFibres(4.0);
-  double area = 0.0;
-  for (int f = 0; f < 3; ++f)
-  {
-    const double x = -1.0 + f;
-    addStraight(fibres, { x, x, -4 }, { x, x, 4 }, 0.8 * targets[f]);
-    fibres.targetRadii.back() = targets[f];
-    area += pi * targets[f] * targets[f];
-  }
-  FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.0;
-  options.voxelSize = 0.02;
-  options.targetFibreVolumeFraction = area / 16.0;
-  const double growth = growthFor(fibres, options);
-  EXPECT_NEAR(growth, 0.0, 1e-3);
-  const LabelImage image = growFibres(fibres, options, growth, growthGrid(fibres.domain, options));
-  std::array<double, 4> count{};
-  for (const std::int32_t id : image.fibreId)
-  {
-    count[std::size_t(id)] += 1.0;
-  }
-  for (int f = 0; f < 3; ++f)
-  {
-    const double voxels = count[std::size_t(fibres.fibreIds[std::size_t(f)])] / image.grid.count[2];
-    EXPECT_NEAR(std::sqrt(voxels * 0.02 * 0.02 / pi), targets[f], 0.004);
-  }
-  // In steps, growth goes from the capsules as they are.
-  options.targetFibreVolumeFraction = 0.0;
-  options.growthIterations = 0;
-  const LabelImage capsules = growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
-  EXPECT_NEAR(filledFraction(capsules), 0.64 * area / 16.0, 0.002);
 }
 
 TEST(FibreRadialGrowth, SaysHowFarATargetCanBeReached)

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fibre radial growth through ParaView: the data model, requested extents, repeatability, and bad input."""
+"""Fibre radial growth through ParaView: the data model, targets, requested extents, repeatability, and bad input."""
 
 import hashlib
 import math
 import os
 import random
 
+import numpy as np
 from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import FibreRadialGrowth, StrandReader
+from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, OutputPort, StrandReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
 
@@ -73,6 +74,21 @@ class FibreRadialGrowthTest(CactusTestCase):
         ids, _ = arrays(image)
         inner = ids.reshape(66, 66, 66)[3:-3, 3:-3, 3:-3]
         self.assertAlmostEqual((inner > 0).mean(), 0.8, delta=0.003)
+
+    def test_radii_end_on_target(self):
+        bundle = BundleInitializer(Side=10, MeanDispersion=3, GrownFibreVolumeFraction=0.85, Seed=2)
+        fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
+        image = fetch(FibreRadialGrowth(Input=fibres, VoxelSize=0.1, TargetFibreVolumeFraction=0.85))
+        ids = arrays(image)[0].reshape(100, 100, 100)
+        field = image.GetFieldData()
+        target = dict(zip(*(vtk_to_numpy(field.GetArray("FibreTable." + name)) for name in ("FibreId", "TargetRadius"))))
+        cut = set(np.unique(ids[:, (0, -1), :])) | set(np.unique(ids[:, :, (0, -1)]))
+        # Those that run from end to end without touching a side: their volume is their length times their area.
+        whole = sorted((set(np.unique(ids[0])) & set(np.unique(ids[-1]))) - cut - {0})
+        self.assertGreater(len(whole), 15)
+        ratios = [math.sqrt((ids == fibre).sum() * 1e-3 / 10 / math.pi) / target[fibre] for fibre in whole]
+        self.assertAlmostEqual(np.mean(ratios), 1.0, delta=0.03)
+        self.assertLess(max(ratios) - min(ratios), 0.15)
 
     def test_a_requested_extent_equals_that_part_of_the_whole(self):
         growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.75)
