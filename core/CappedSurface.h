@@ -3,6 +3,8 @@
 
 #include "TriangleMesh.h"
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
 #include <vector>
 
@@ -15,12 +17,20 @@ struct CappedSurface
 {
   TriangleMesh mesh;
   std::vector<std::uint8_t> faces;
+  Eigen::AlignedBox3d box; ///< µm; empty where nothing is said of it
 
   bool isCap(const std::array<std::int32_t, 3>& t) const
   {
     return (faces[std::size_t(t[0])] & faces[std::size_t(t[1])] & faces[std::size_t(t[2])]) != 0;
   }
 };
+
+/// Where a point of the box that is to move from one place to another shall go: no more than half as near to a face as it was.
+/// What does not lie in a face so stays off it.
+inline Eigen::Vector3d keptInside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+{
+  return box.isEmpty() ? to : Eigen::Vector3d(to.cwiseMax(0.5 * (box.min() + from)).cwiseMin(0.5 * (box.max() + from)));
+}
 
 /// How much a surface holds.
 struct SurfaceMeasure

@@ -20,6 +20,35 @@ constexpr double thinnestCell = 0.3;
 
 typedef float Four __attribute__((vector_size(16)));
 
+/// From a sample to one of the 26 around it.
+struct Direction
+{
+  int i;
+  int j;
+  int k;
+  int distance; ///< along how many axes
+  float length; ///< in voxels
+};
+
+/// The nearest ones first.
+std::array<Direction, 26> neighbourDirections()
+{
+  std::array<Direction, 26> directions;
+  std::size_t count = 0;
+  for (int distance = 1; distance <= 3; ++distance)
+  {
+    for (int n = 0; n < 27; ++n)
+    {
+      const Direction d{ n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1, distance, static_cast<float>(std::sqrt(double(distance))) };
+      if (std::abs(d.i) + std::abs(d.j) + std::abs(d.k) == distance)
+      {
+        directions[count++] = d;
+      }
+    }
+  }
+  return directions;
+}
+
 } // namespace
 
 FibreField::FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain)
@@ -89,6 +118,12 @@ NodeLattice FibreField::lattice(double inset) const
   return lattice;
 }
 
+Eigen::Vector3d FibreField::firstNode() const
+{
+  const VoxelGrid& grid = this->Image.grid;
+  return grid.origin + grid.spacing * Eigen::Vector3d(this->First[0] - 1, this->First[1] - 1, this->First[2] - 1);
+}
+
 int FibreField::sampleOf(std::size_t axis, int node) const
 {
   return this->First[axis] + std::clamp(node - 1, 0, this->Count[axis] - 1);
@@ -102,36 +137,44 @@ std::int32_t FibreField::nearest(int i, int j, int k) const
   const VoxelGrid& grid = this->Image.grid;
   std::int32_t best = 0;
   float bestEstimate = -std::numeric_limits<float>::infinity();
-  for (int distance = 1; distance <= 3 && best == 0; ++distance)
+  // Amid the image there is no need to ask what it holds.
+  const bool isAmid = this->holds(i - 2, j - 2, k - 2) && this->holds(i + 2, j + 2, k + 2);
+  const auto here = std::ptrdiff_t(grid.index(i, j, k));
+  const std::ptrdiff_t rows = grid.count[0];
+  const std::ptrdiff_t slices = rows * grid.count[1];
+  static const std::array<Direction, 26> directions = neighbourDirections();
+  int distance = 1;
+  for (const Direction& d : directions)
   {
-    const float step = static_cast<float>(grid.spacing * std::sqrt(double(distance)));
-    for (int n = 0; n < 27; ++n)
+    if (d.distance > distance && best != 0)
     {
-      const std::array<int, 3> d{ { n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1 } };
-      if (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]) != distance || !this->holds(i + d[0], j + d[1], k + d[2]))
+      break;
+    }
+    distance = d.distance;
+    if (!isAmid && !this->holds(i + d.i, j + d.j, k + d.k))
+    {
+      continue;
+    }
+    const std::ptrdiff_t step = d.i + d.j * rows + d.k * slices;
+    const auto next = std::size_t(here + step);
+    const std::int32_t id = this->Image.fibreId[next];
+    if (id == 0)
+    {
+      continue;
+    }
+    float estimate = this->Image.depth[next] - static_cast<float>(grid.spacing) * d.length;
+    if (isAmid || this->holds(i + 2 * d.i, j + 2 * d.j, k + 2 * d.k))
+    {
+      const auto beyond = std::size_t(here + 2 * step);
+      if (this->Image.fibreId[beyond] == id)
       {
-        continue;
+        estimate = 2.0f * this->Image.depth[next] - this->Image.depth[beyond];
       }
-      const std::size_t next = grid.index(i + d[0], j + d[1], k + d[2]);
-      const std::int32_t id = this->Image.fibreId[next];
-      if (id == 0)
-      {
-        continue;
-      }
-      float estimate = this->Image.depth[next] - step;
-      if (this->holds(i + 2 * d[0], j + 2 * d[1], k + 2 * d[2]))
-      {
-        const std::size_t beyond = grid.index(i + 2 * d[0], j + 2 * d[1], k + 2 * d[2]);
-        if (this->Image.fibreId[beyond] == id)
-        {
-          estimate = 2.0f * this->Image.depth[next] - this->Image.depth[beyond];
-        }
-      }
-      if (estimate > bestEstimate || (estimate == bestEstimate && id < best))
-      {
-        bestEstimate = estimate;
-        best = id;
-      }
+    }
+    if (estimate > bestEstimate || (estimate == bestEstimate && id < best))
+    {
+      bestEstimate = estimate;
+      best = id;
     }
   }
   return best;
@@ -249,16 +292,11 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out)
   }
 }
 
-Eigen::Vector3d FibreField::nodesAt(const Eigen::Vector3d& point) const
-{
-  const Eigen::Vector3d first(this->First[0] - 1, this->First[1] - 1, this->First[2] - 1);
-  return (point - this->Image.grid.origin) / this->Image.grid.spacing - first;
-}
-
 SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes)
-  : Field(field)
-  , Lattice(field.lattice())
+  : Lattice(field.lattice())
   , Blocks(std::move(blocks))
+  , FirstNode(field.firstNode())
+  , NodesPerLength(1.0 / field.image().grid.spacing)
 {
   std::vector<Index> at;
   Index last{ { 0, 0, 0 } };
@@ -362,7 +400,7 @@ void SmoothedField::values(double level, double smallest, const NodeRange& aroun
 double SmoothedField::value(const Eigen::Vector3d& at) const
 {
   // The cell between samples that holds the point, or the nearest one, and how far into it the point lies.
-  const Eigen::Vector3d nodes = this->Field.nodesAt(at);
+  const Eigen::Vector3d nodes = (at - this->FirstNode) * this->NodesPerLength;
   Index cell;
   Index block;
   std::array<double, 3> t;

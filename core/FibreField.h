@@ -48,8 +48,8 @@ public:
   double atSample(std::int32_t fibre, int i, int j, int k) const;
   /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside.
   void atNodes(std::int32_t fibre, const NodeRange& range, float* out) const;
-  /// Where a point is, counted in nodes of the lattice; the first sample is at 1.
-  Eigen::Vector3d nodesAt(const Eigen::Vector3d& point) const;
+  /// Where node 0 would be if it were as far from the first sample as that from the next, µm.
+  Eigen::Vector3d firstNode() const;
 
 private:
   /// Index in the image of the sample that a node takes its value from.
@@ -93,9 +93,10 @@ private:
   /// Number of a block in Places; none where it lies outside the box of the blocks held.
   std::ptrdiff_t placeOf(const Index& block) const;
 
-  const FibreField& Field;
   NodeLattice Lattice;
   std::vector<std::uint32_t> Blocks;
+  Eigen::Vector3d FirstNode;          ///< µm
+  double NodesPerLength;              ///< per µm
   std::vector<float> Values;          ///< of each block held, and one node beyond on every side
   Index First{ { 0, 0, 0 } };         ///< the box of the blocks held: first one
   Index Count{ { 0, 0, 0 } };         ///< and how many

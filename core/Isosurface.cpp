@@ -90,6 +90,9 @@ public:
   explicit Contourer(const NodeLattice& lattice)
     : Lattice(lattice)
   {
+    const auto& planes = lattice.planes;
+    Surface.box = Eigen::AlignedBox3d(Eigen::Vector3d(planes[0].front(), planes[1].front(), planes[2].front()),
+      Eigen::Vector3d(planes[0].back(), planes[1].back(), planes[2].back()));
   }
 
   void addBlock(const NodeRange& range, const float* values)

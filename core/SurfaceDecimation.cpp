@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceDecimation.h"
 
+#include "EditableSurface.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -102,72 +104,138 @@ Shape shapeOf(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 
 /// Heights below this part of the longest edge are not made.
 constexpr double flattestTriangle = 0.015;
-/// Least cosine between a triangle's normals before and after a collapse.
+/// Least cosine between a triangle's normals before and after a collapse, and between those of two triangles and their mean that
+/// take the place of two others.
 constexpr double leastTurn = 0.3;
-/// Errors of the sweeps, as parts of the largest one.
-constexpr double sweepErrors[] = { 0.05, 0.15, 0.4, 1.0 };
+constexpr double leastFlipTurn = 0.5;
+/// Errors of the sweeps before the last ones, as parts of the largest error.
+constexpr double sweepErrors[] = { 0.25, 0.5 };
 /// Collapses of less than this part of the largest error are made without a look at the field.
-constexpr double unnoticed = 0.12;
+constexpr double unnoticed = 0.25;
+/// How often edges are flipped, after which come sweeps of the largest error.
+constexpr int flipRounds = 2;
+/// An edge is flipped where that lessens the largest distance of the field from the middle of its range by a twentieth, and
+/// nowhere where this is small anyway.
+constexpr double flipGain = 0.95;
+constexpr double flipNeed = 0.2;
 constexpr int sweepsPerError = 10;
 
 class Decimation
 {
 public:
   Decimation(CappedSurface& surface, const SurfaceDecimationOptions& options)
-    : Surface(surface)
+    : Mesh(surface)
     , Options(options)
-    , Points(surface.mesh.points)
-    , Triangles(surface.mesh.triangles)
-    , Faces(surface.faces)
+    , Box(surface.box)
+    , Origin(surface.mesh.points.empty() ? Vector3d::Zero() : surface.mesh.points.front())
+    , Quadrics(Mesh.pointCount())
+    , Locked(Mesh.pointCount(), 0)
+    , Changed(Mesh.pointCount(), 0)
+    , Part(Mesh.pointCount(), 1.0f)
+    , Known(Mesh.triangleCount(), 0)
   {
+    for (std::size_t t = 0; t < Mesh.triangleCount(); ++t)
+    {
+      this->addPlane(Mesh.cornersOf(t));
+    }
+    for (const CalmPlace& place : options.calm)
+    {
+      for (std::size_t p = 0; p < Mesh.pointCount(); ++p)
+      {
+        if ((Mesh.at(std::int32_t(p)) - place.centre).squaredNorm() < place.radius * place.radius)
+        {
+          Part[p] *= static_cast<float>(place.part);
+        }
+      }
+    }
   }
 
   void run()
   {
-    this->prepare();
     for (const double part : sweepErrors)
     {
-      const double error = part * this->Options.maximumError;
-      for (int sweep = 0; sweep < sweepsPerError; ++sweep)
-      {
-        if (this->sweep(error * error, sweep == 0) * 20 < this->Alive)
-        {
-          break;
-        }
-      }
+      this->sweeps(part * this->Options.maximumError);
+    }
+    for (int round = 0; round < flipRounds; ++round)
+    {
+      this->flipEdges();
+      this->sweeps(this->Options.maximumError);
     }
     this->mend();
-    this->compact();
+    this->Mesh.compact();
   }
 
 private:
-  /// Removes points next to both u and v that have but three neighbours, with which u and v cannot become one.
-  void removeBetween(std::int32_t u, std::int32_t v, double limit)
+  enum class Verdict
   {
-    for (std::int32_t c = this->First[std::size_t(u)]; c >= 0;)
+    Worse,
+    NoWorse, ///< than before, or not looked at
+    Kept     ///< the field is in its range
+  };
+
+  /// What the field says of a point, or of the triangles around one.
+  struct Fit
+  {
+    double excess = 0.0; ///< by how much it is out of its range, 0 or more
+    /// How far the point may move outwards so that it comes into its range everywhere, as far as it changes linearly; the
+    /// lower one is larger where that is not possible.
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+  };
+
+  void addPlane(const std::array<std::int32_t, 3>& corners)
+  {
+    if (this->Mesh.isCap(corners))
     {
-      const auto corners = this->Triangles[std::size_t(c) / 3];
-      c = this->Next[std::size_t(c)];
-      for (const std::int32_t w : corners)
+      return; // its points stay in their plane anyway; counted in, caps would water down the error of their rims
+    }
+    const Vector3d& a = this->Mesh.at(corners[0]);
+    const Vector3d normal = (this->Mesh.at(corners[1]) - a).cross(this->Mesh.at(corners[2]) - a);
+    const double twiceArea = normal.norm();
+    if (twiceArea > 0.0)
+    {
+      const Vector3d unit = normal / twiceArea;
+      for (const std::int32_t corner : corners)
       {
-        int around = 0;
-        bool besideV = false;
-        for (std::int32_t e = w == u || w == v ? -1 : this->First[std::size_t(w)]; e >= 0; e = this->Next[std::size_t(e)])
+        this->Quadrics[std::size_t(corner)].addPlane(unit, -unit.dot(a - this->Origin), twiceArea);
+      }
+    }
+  }
+
+  /// Sweeps until one removes little.
+  void sweeps(double error)
+  {
+    for (int sweep = 0; sweep < sweepsPerError; ++sweep)
+    {
+      if (this->sweep(error * error, sweep == 0) * 20 < this->Mesh.aliveCount())
+      {
+        return;
+      }
+    }
+  }
+
+  /// Tries every edge once or, but for the first sweep of an error, every edge near which something has changed since it was
+  /// tried; the number of triangles removed.
+  std::size_t sweep(double limit, bool all)
+  {
+    const std::size_t before = this->Mesh.aliveCount();
+    ++this->Sweep;
+    for (std::size_t t = 0; t < this->Mesh.triangleCount(); ++t)
+    {
+      for (std::size_t i = 0; i < 3 && !this->Mesh.isDead(t); ++i)
+      {
+        const std::int32_t u = this->Mesh.cornersOf(t)[i];
+        const std::int32_t v = this->Mesh.cornersOf(t)[(i + 1) % 3];
+        // Each edge from one of its two sides; and a point moves once in a sweep, so that cheap collapses spread evenly.
+        const bool isNew = all || std::max(this->Changed[std::size_t(u)], this->Changed[std::size_t(v)]) + 1 >= this->Sweep;
+        if (u < v && isNew && this->Locked[std::size_t(u)] != this->Sweep && this->Locked[std::size_t(v)] != this->Sweep)
         {
-          const auto& other = this->Triangles[std::size_t(e) / 3];
-          besideV = besideV || other[0] == v || other[1] == v || other[2] == v;
-          ++around;
-        }
-        if (around == 3 && besideV)
-        {
-          this->tryCollapse(std::min(u, w), std::max(u, w), limit, true);
-          if (this->First[std::size_t(u)] < 0 || this->First[std::size_t(w)] < 0)
-          {
-            return; // what was to be visited next may be gone
-          }
+          const double part = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
+          this->tryCollapse(u, v, part * part * limit);
         }
       }
     }
+    return before - this->Mesh.aliveCount();
   }
 
   /// Removes the shortest edges of triangles that are still too long for their width, whatever that costs within twice the error.
@@ -178,17 +246,17 @@ private:
     {
       ++this->Sweep;
       bool any = false;
-      for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+      for (std::size_t t = 0; t < this->Mesh.triangleCount(); ++t)
       {
-        if (this->isDead(t))
+        if (this->Mesh.isDead(t))
         {
           continue;
         }
-        const auto corners = this->Triangles[t];
+        const auto corners = this->Mesh.cornersOf(t);
         std::array<double, 3> length;
         for (std::size_t i = 0; i < 3; ++i)
         {
-          length[i] = (this->at(corners[(i + 1) % 3]) - this->at(corners[i])).squaredNorm();
+          length[i] = (this->Mesh.at(corners[(i + 1) % 3]) - this->Mesh.at(corners[i])).squaredNorm();
         }
         const auto shortest = std::size_t(std::min_element(length.begin(), length.end()) - length.begin());
         if (*std::max_element(length.begin(), length.end()) > this->Options.largestSquaredEdgeRatio * length[shortest])
@@ -196,11 +264,11 @@ private:
           const std::int32_t u = corners[shortest];
           const std::int32_t v = corners[(shortest + 1) % 3];
           this->removeBetween(u, v, limit);
-          if (!this->isDead(t))
+          if (!this->Mesh.isDead(t))
           {
             this->tryCollapse(std::min(u, v), std::max(u, v), limit, true);
           }
-          any = any || this->isDead(t);
+          any = any || this->Mesh.isDead(t);
         }
       }
       if (!any)
@@ -210,179 +278,92 @@ private:
     }
   }
 
-  void prepare()
+  /// Removes points next to both u and v that have but three neighbours, with which u and v cannot become one.
+  void removeBetween(std::int32_t u, std::int32_t v, double limit)
   {
-    this->Origin = this->Points.empty() ? Vector3d::Zero() : this->Points.front();
-    this->Quadrics.assign(this->Points.size(), Quadric());
-    this->First.assign(this->Points.size(), -1);
-    this->Next.resize(3 * this->Triangles.size());
-    this->Locked.assign(this->Points.size(), 0);
-    this->Changed.assign(this->Points.size(), 0);
-    this->Mark.assign(this->Points.size(), 0);
-    this->Part.assign(this->Points.size(), 1.0f);
-    for (const CalmPlace& place : this->Options.calm)
+    for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0;)
     {
-      for (std::size_t p = 0; p < this->Points.size(); ++p)
+      const auto corners = this->Mesh.cornersOf(std::size_t(c) / 3);
+      c = this->Mesh.nextCorner(c);
+      for (const std::int32_t w : corners)
       {
-        if ((this->Points[p] - place.centre).squaredNorm() < place.radius * place.radius)
+        if (w != u && w != v && this->Mesh.valence(w) == 3 && this->Mesh.areLinked(w, v))
         {
-          this->Part[p] *= static_cast<float>(place.part);
-        }
-      }
-    }
-    this->Alive = this->Triangles.size();
-    for (std::size_t t = this->Triangles.size(); t-- > 0;)
-    {
-      const auto& corners = this->Triangles[t];
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        auto& first = this->First[std::size_t(corners[i])];
-        this->Next[3 * t + i] = first;
-        first = static_cast<std::int32_t>(3 * t + i);
-      }
-      const Vector3d& a = this->at(corners[0]);
-      const Vector3d normal = (this->at(corners[1]) - a).cross(this->at(corners[2]) - a);
-      // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
-      const double twiceArea = this->isCap(corners) ? 0.0 : normal.norm();
-      if (twiceArea > 0.0)
-      {
-        const Vector3d unit = normal / twiceArea;
-        for (const std::int32_t corner : corners)
-        {
-          this->Quadrics[std::size_t(corner)].addPlane(unit, -unit.dot(a - this->Origin), twiceArea);
+          this->tryCollapse(std::min(u, w), std::max(u, w), limit, true);
+          if (this->Mesh.isDeadPoint(u) || this->Mesh.isDeadPoint(w))
+          {
+            return; // what was to be visited next may be gone
+          }
         }
       }
     }
   }
 
-  const Vector3d& at(std::int32_t point) const { return this->Points[std::size_t(point)]; }
-  bool isDead(std::size_t triangle) const { return this->Triangles[triangle][0] < 0; }
-
-  bool isCap(const std::array<std::int32_t, 3>& t) const
-  {
-    return (this->Faces[std::size_t(t[0])] & this->Faces[std::size_t(t[1])] & this->Faces[std::size_t(t[2])]) != 0;
-  }
-
-  /// Tries every edge once or, but for the first sweep of an error, every edge near which something has changed since it was
-  /// tried; the number of triangles removed.
-  std::size_t sweep(double limit, bool all)
-  {
-    const std::size_t before = this->Alive;
-    ++this->Sweep;
-    for (std::size_t t = 0; t < this->Triangles.size(); ++t)
-    {
-      for (std::size_t i = 0; i < 3 && !this->isDead(t); ++i)
-      {
-        const std::int32_t u = this->Triangles[t][i];
-        const std::int32_t v = this->Triangles[t][(i + 1) % 3];
-        // Each edge from one of its two sides; and a point moves once in a sweep, so that cheap collapses spread evenly.
-        const bool isNew = all || std::max(this->Changed[std::size_t(u)], this->Changed[std::size_t(v)]) + 1 >= this->Sweep;
-        if (u < v && isNew && this->Locked[std::size_t(u)] != this->Sweep && this->Locked[std::size_t(v)] != this->Sweep)
-        {
-          const double part = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
-          this->tryCollapse(u, v, part * part * limit);
-        }
-      }
-    }
-    return before - this->Alive;
-  }
-
+  /// Collapses an edge where that keeps the surface what it shall be. `thorough` also tries all places that come into question,
+  /// and puts up with flat triangles.
   void tryCollapse(std::int32_t u, std::int32_t v, double limit, bool thorough = false)
   {
     Quadric sum = this->Quadrics[std::size_t(u)];
     sum.add(this->Quadrics[std::size_t(v)]);
-    const std::uint8_t facesU = this->Faces[std::size_t(u)];
-    const std::uint8_t facesV = this->Faces[std::size_t(v)];
+    const std::uint8_t facesU = this->Mesh.facesOf(u);
+    const std::uint8_t facesV = this->Mesh.facesOf(v);
     const std::uint8_t both = facesU & facesV;
     std::array<Vector3d, 3> places;
     std::size_t count = 0;
     if (facesU == facesV)
     {
-      const Vector3d middle = 0.5 * (this->at(u) + this->at(v));
+      const Vector3d middle = 0.5 * (this->Mesh.at(u) + this->Mesh.at(v));
       if (facesU == 0)
       {
-        places[count++] = sum.best(middle - this->Origin, (this->at(u) - this->at(v)).norm()) + this->Origin;
+        const double reach = (this->Mesh.at(u) - this->Mesh.at(v)).norm();
+        places[count++] = keptInside(this->Box, middle, sum.best(middle - this->Origin, reach) + this->Origin);
       }
       else
       {
         places[count++] = middle;
       }
-      places[count++] = this->at(u);
-      places[count++] = this->at(v);
+      places[count++] = this->Mesh.at(u);
+      places[count++] = this->Mesh.at(v);
     }
     else if (both == facesU)
     {
-      places[count++] = this->at(v);
+      places[count++] = this->Mesh.at(v);
     }
     else if (both == facesV)
     {
-      places[count++] = this->at(u);
+      places[count++] = this->Mesh.at(u);
     }
     std::array<double, 3> errors;
     for (std::size_t p = 0; p < count; ++p)
     {
       errors[p] = sum.error(places[p] - this->Origin);
     }
-    bool linked = false;
+    const bool isInside = facesU == 0 && facesV == 0;
     for (std::size_t tried = 0; tried < count; ++tried)
     {
       const std::size_t p =
         std::size_t(std::min_element(errors.begin(), errors.begin() + std::ptrdiff_t(count)) - errors.begin());
-      if (errors[p] > limit)
+      if (errors[p] > limit || (tried == 0 && !this->Mesh.isCollapsible(u, v)))
       {
         return;
       }
-      if (!linked && !this->linkCondition(u, v))
+      if (this->keepsShape(u, v, places[p], thorough))
       {
-        return;
+        const double noticed = unnoticed * this->Options.maximumError;
+        const bool isUnnoticed = !this->Options.field || (errors[p] <= noticed * noticed && !thorough);
+        const Verdict verdict = isUnnoticed ? Verdict::NoWorse : this->keepsField(u, v, places[p], isInside && !thorough);
+        if (verdict != Verdict::Worse)
+        {
+          this->collapse(u, v, places[p], sum, verdict == Verdict::Kept);
+          return;
+        }
       }
-      linked = true;
-      const bool isSmall =
-        errors[p] <= unnoticed * unnoticed * this->Options.maximumError * this->Options.maximumError && !thorough;
-      if (this->keepsShape(u, v, places[p], thorough) && (isSmall || this->keepsField(u, v, places[p])))
-      {
-        this->collapse(u, v, places[p], sum, facesU | facesV);
-        return;
-      }
-      if (facesU == 0 && facesV == 0 && !thorough)
+      if (isInside && !thorough)
       {
         return; // the other places are little better
       }
       errors[p] = std::numeric_limits<double>::infinity();
     }
-  }
-
-  /// The points next to both are just the two that the edge's triangles have beside it, and the surface is no tetrahedron.
-  bool linkCondition(std::int32_t u, std::int32_t v)
-  {
-    this->MarkValue += 2;
-    int around = 0;
-    for (std::int32_t c = this->First[std::size_t(u)]; c >= 0; c = this->Next[std::size_t(c)])
-    {
-      const auto& corners = this->Triangles[std::size_t(c) / 3];
-      for (const std::int32_t corner : corners)
-      {
-        this->Mark[std::size_t(corner)] = this->MarkValue;
-      }
-      ++around;
-    }
-    int common = 0;
-    int aroundV = 0;
-    for (std::int32_t c = this->First[std::size_t(v)]; c >= 0; c = this->Next[std::size_t(c)])
-    {
-      const auto& corners = this->Triangles[std::size_t(c) / 3];
-      for (const std::int32_t corner : corners)
-      {
-        auto& mark = this->Mark[std::size_t(corner)];
-        if (corner != u && corner != v && mark == this->MarkValue)
-        {
-          ++common;
-          mark = this->MarkValue + 1;
-        }
-      }
-      ++aroundV;
-    }
-    return common == 2 && around + aroundV > 6;
   }
 
   /// Sum of the normals of the triangles at u and v, but for caps.
@@ -391,13 +372,13 @@ private:
     Vector3d sum = Vector3d::Zero();
     for (const std::int32_t self : { u, v })
     {
-      for (std::int32_t c = this->First[std::size_t(self)]; c >= 0; c = this->Next[std::size_t(c)])
+      for (std::int32_t c = this->Mesh.firstCorner(self); c >= 0; c = this->Mesh.nextCorner(c))
       {
-        const auto& corners = this->Triangles[std::size_t(c) / 3];
-        if (!this->isCap(corners))
+        const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
+        if (!this->Mesh.isCap(corners))
         {
-          const Vector3d& a = this->at(corners[0]);
-          sum += (this->at(corners[1]) - a).cross(this->at(corners[2]) - a);
+          const Vector3d& a = this->Mesh.at(corners[0]);
+          sum += (this->Mesh.at(corners[1]) - a).cross(this->Mesh.at(corners[2]) - a);
         }
       }
     }
@@ -410,10 +391,10 @@ private:
     Shape worst{ this->Options.largestSquaredEdgeRatio, flattestTriangle };
     for (const std::int32_t self : { u, v })
     {
-      for (std::int32_t c = this->First[std::size_t(self)]; c >= 0; c = this->Next[std::size_t(c)])
+      for (std::int32_t c = this->Mesh.firstCorner(self); c >= 0; c = this->Mesh.nextCorner(c))
       {
-        const auto& corners = this->Triangles[std::size_t(c) / 3];
-        const Shape shape = shapeOf(this->at(corners[0]), this->at(corners[1]), this->at(corners[2]));
+        const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
+        const Shape shape = shapeOf(this->Mesh.at(corners[0]), this->Mesh.at(corners[1]), this->Mesh.at(corners[2]));
         worst.edgeRatio = std::max(worst.edgeRatio, shape.edgeRatio);
         worst.flatness = std::min(worst.flatness, shape.flatness);
       }
@@ -430,9 +411,9 @@ private:
     for (int side = 0; side < 2; ++side)
     {
       const std::int32_t other = side == 0 ? v : u;
-      for (std::int32_t c = this->First[std::size_t(side == 0 ? u : v)]; c >= 0; c = this->Next[std::size_t(c)])
+      for (std::int32_t c = this->Mesh.firstCorner(side == 0 ? u : v); c >= 0; c = this->Mesh.nextCorner(c))
       {
-        const auto& corners = this->Triangles[std::size_t(c) / 3];
+        const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
         const auto i = std::size_t(c) % 3;
         const std::int32_t second = corners[(i + 1) % 3];
         const std::int32_t third = corners[(i + 2) % 3];
@@ -440,10 +421,10 @@ private:
         {
           continue;
         }
-        const Vector3d& b = this->at(second);
-        const Vector3d& d = this->at(third);
+        const Vector3d& b = this->Mesh.at(second);
+        const Vector3d& d = this->Mesh.at(third);
         const Vector3d edge = d - b;
-        const Vector3d before = this->at(corners[i]) - b;
+        const Vector3d before = this->Mesh.at(corners[i]) - b;
         const Vector3d after = place - b;
         const Vector3d normalBefore = edge.cross(before);
         const Vector3d normalAfter = edge.cross(after);
@@ -453,7 +434,7 @@ private:
         const double longestBefore = std::max({ edgeSquared, before.squaredNorm(), (before - edge).squaredNorm() });
         const bool isNoise =
           normalBefore.squaredNorm() < this->Options.maximumError * this->Options.maximumError * longestBefore &&
-          !this->isCap(corners);
+          !this->Mesh.isCap(corners);
         if (isNoise && !isAroundKnown)
         {
           around = this->normalAround(u, v);
@@ -482,28 +463,39 @@ private:
     return worst.edgeRatio <= old.edgeRatio && (thorough || worst.flatness >= old.flatness);
   }
 
-  /// By how much the field is out of its range at a point of the surface; on faces of the box it may be larger.
-  double excess(const Vector3d& p, std::uint8_t faces) const
+  void addToFit(Fit& fit, const Vector3d& p, std::uint8_t faces, double weight) const
   {
     const double value = this->Options.field(p);
-    return std::max(this->Options.smallestField - value, faces != 0 ? 0.0 : value - this->Options.largestField);
+    const double below = this->Options.smallestField - value;
+    fit.excess = std::max(fit.excess, below);
+    fit.upper = std::min(fit.upper, -below / weight);
+    if (faces == 0) // in a face of the box the field may be larger
+    {
+      const double above = value - this->Options.largestField;
+      fit.excess = std::max(fit.excess, above);
+      fit.lower = std::max(fit.lower, above / weight);
+    }
   }
 
-  /// The largest excess at points on the triangles around an edge: as they are, or with u and v moved to `place`.
-  double worstExcess(std::int32_t u, std::int32_t v, const Vector3d* place) const
+  /// What the field says at the corner, edges' middles and centroids of the triangles around an edge: as they are, or with u and
+  /// v moved to `place`.
+  Fit fit(std::int32_t u, std::int32_t v, const Vector3d* place) const
   {
-    double worst = 0.0;
-    const std::uint8_t facesOfBoth = this->Faces[std::size_t(u)] | this->Faces[std::size_t(v)];
+    Fit result;
+    const std::uint8_t facesOfBoth = this->Mesh.facesOf(u) | this->Mesh.facesOf(v);
     for (int side = 0; side < 2; ++side)
     {
       const std::int32_t self = side == 0 ? u : v;
       const std::int32_t other = side == 0 ? v : u;
-      const Vector3d& a = place != nullptr ? *place : this->at(self);
-      const std::uint8_t faces = place != nullptr ? facesOfBoth : this->Faces[std::size_t(self)];
-      worst = std::max(worst, this->excess(a, faces));
-      for (std::int32_t c = this->First[std::size_t(self)]; c >= 0; c = this->Next[std::size_t(c)])
+      const Vector3d& a = place != nullptr ? *place : this->Mesh.at(self);
+      const std::uint8_t faces = place != nullptr ? facesOfBoth : this->Mesh.facesOf(self);
+      if (place == nullptr || side == 0)
       {
-        const auto& corners = this->Triangles[std::size_t(c) / 3];
+        this->addToFit(result, a, faces, 1.0);
+      }
+      for (std::int32_t c = this->Mesh.firstCorner(self); c >= 0; c = this->Mesh.nextCorner(c))
+      {
+        const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
         const auto i = std::size_t(c) % 3;
         const std::int32_t second = corners[(i + 1) % 3];
         const std::int32_t third = corners[(i + 2) % 3];
@@ -511,128 +503,162 @@ private:
         {
           continue;
         }
-        const Vector3d& b = this->at(second);
-        const Vector3d& d = this->at(third);
-        const std::uint8_t facesOfEdge = faces & this->Faces[std::size_t(second)];
-        const std::uint8_t facesOfAll = facesOfEdge & this->Faces[std::size_t(third)];
-        worst = std::max({ worst, this->excess(0.5 * (a + b), facesOfEdge), this->excess((a + b + d) / 3.0, facesOfAll) });
+        const Vector3d& b = this->Mesh.at(second);
+        const Vector3d& d = this->Mesh.at(third);
+        const std::uint8_t facesOfEdge = faces & this->Mesh.facesOf(second);
+        const std::uint8_t facesOfAll = facesOfEdge & this->Mesh.facesOf(third);
+        this->addToFit(result, 0.5 * (a + b), facesOfEdge, 1.0 / 2.0);
+        this->addToFit(result, (a + b + d) / 3.0, facesOfAll, 1.0 / 3.0);
       }
+    }
+    return result;
+  }
+
+  /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. Where moving `place`
+  /// outwards or inwards brings it into its range, and `mayMove`, it is moved.
+  Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove) const
+  {
+    const Fit after = this->fit(u, v, &place);
+    if (after.excess <= 0.0)
+    {
+      return Verdict::Kept;
+    }
+    if (mayMove && after.lower <= after.upper)
+    {
+      const double least = std::clamp(0.0, after.lower, after.upper);
+      const double middle = 0.5 * (after.lower + after.upper);
+      const Vector3d outward = this->normalAround(u, v).normalized();
+      const Vector3d moved = keptInside(this->Box, place, place + 0.5 * (least + middle) * outward);
+      if (this->keepsShape(u, v, moved, false) && this->fit(u, v, &moved).excess <= 0.0)
+      {
+        place = moved;
+        return Verdict::Kept;
+      }
+    }
+    return !this->isKnown(u, v) && after.excess <= this->fit(u, v, nullptr).excess ? Verdict::NoWorse : Verdict::Worse;
+  }
+
+  /// Whether the triangles at u and v have been found to keep the field in its range.
+  bool isKnown(std::int32_t u, std::int32_t v) const
+  {
+    for (const std::int32_t self : { u, v })
+    {
+      for (std::int32_t c = this->Mesh.firstCorner(self); c >= 0; c = this->Mesh.nextCorner(c))
+      {
+        if (!this->Known[std::size_t(c) / 3])
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, const Quadric& sum, bool isKnown)
+  {
+    this->Mesh.collapse(u, v, place);
+    this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
+    this->Quadrics[std::size_t(u)] = sum;
+    this->Locked[std::size_t(u)] = this->Sweep;
+    for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0; c = this->Mesh.nextCorner(c))
+    {
+      this->Known[std::size_t(c) / 3] = isKnown;
+      this->markChanged(std::size_t(c) / 3);
+    }
+  }
+
+  void markChanged(std::size_t triangle)
+  {
+    for (const std::int32_t corner : this->Mesh.cornersOf(triangle))
+    {
+      this->Changed[std::size_t(corner)] = this->Sweep;
+    }
+  }
+
+  /// Flips edges, away from caps and from places that want less coarsening, so that the surface comes nearer to the field's
+  /// level.
+  void flipEdges()
+  {
+    for (std::size_t t = 0; this->Options.field && t < this->Mesh.triangleCount(); ++t)
+    {
+      for (std::size_t i = 0; i < 3 && !this->Mesh.isDead(t); ++i)
+      {
+        const std::int32_t a = this->Mesh.cornersOf(t)[i];
+        const std::int32_t b = this->Mesh.cornersOf(t)[(i + 1) % 3];
+        if (a < b && this->tryFlip(t, a, b, this->Mesh.cornersOf(t)[(i + 2) % 3]))
+        {
+          break;
+        }
+      }
+    }
+  }
+
+  bool tryFlip(std::size_t one, std::int32_t a, std::int32_t b, std::int32_t c)
+  {
+    const std::size_t other = this->Mesh.triangleAlong(b, a);
+    const std::int32_t d = this->Mesh.thirdCorner(other, a, b);
+    const float part = std::min(
+      { this->Part[std::size_t(a)], this->Part[std::size_t(b)], this->Part[std::size_t(c)], this->Part[std::size_t(d)] });
+    const bool isAtFace =
+      (this->Mesh.facesOf(a) & this->Mesh.facesOf(b)) != 0 || (this->Mesh.facesOf(c) & this->Mesh.facesOf(d)) != 0;
+    if (part < 1.0f || isAtFace)
+    {
+      return false;
+    }
+    const Vector3d& pa = this->Mesh.at(a);
+    const Vector3d& pb = this->Mesh.at(b);
+    const Vector3d& pc = this->Mesh.at(c);
+    const Vector3d& pd = this->Mesh.at(d);
+    const double before = this->worstOff(pa, pb, pc, pd);
+    if (before < flipNeed * 0.5 * (this->Options.largestField - this->Options.smallestField))
+    {
+      return false;
+    }
+    const Vector3d normal = (pb - pa).cross(pc - pa) + (pa - pb).cross(pd - pb);
+    const Vector3d first = (pd - pa).cross(pc - pa);
+    const Vector3d second = (pb - pd).cross(pc - pd);
+    const double turn = leastFlipTurn * normal.norm();
+    const Shape shapes[2] = { shapeOf(pa, pd, pc), shapeOf(pd, pb, pc) };
+    if (!(first.dot(normal) > turn * first.norm()) || !(second.dot(normal) > turn * second.norm()) ||
+        std::max(shapes[0].edgeRatio, shapes[1].edgeRatio) > this->Options.largestSquaredEdgeRatio ||
+        std::min(shapes[0].flatness, shapes[1].flatness) < flattestTriangle)
+    {
+      return false;
+    }
+    if (this->worstOff(pc, pd, pa, pb) > flipGain * before || this->Mesh.areLinked(c, d))
+    {
+      return false;
+    }
+    this->Mesh.flip(one, other, a, b);
+    this->Known[one] = this->Known[other] = this->Known[one] && this->Known[other];
+    this->markChanged(one);
+    this->markChanged(other);
+    return true;
+  }
+
+  /// The largest distance of the field from the middle of its range on the edge a b and on the triangles that it makes with c and
+  /// d.
+  double worstOff(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) const
+  {
+    const double level = 0.5 * (this->Options.smallestField + this->Options.largestField);
+    double worst = 0.0;
+    for (const Vector3d& p : { Vector3d((a + b) / 2.0), Vector3d((a + b + c) / 3.0), Vector3d((a + b + d) / 3.0) })
+    {
+      worst = std::max(worst, std::abs(this->Options.field(p) - level));
     }
     return worst;
   }
 
-  /// The new triangles keep the field in its range, or exceed it no more than the old ones do.
-  bool keepsField(std::int32_t u, std::int32_t v, const Vector3d& place) const
-  {
-    if (!this->Options.field)
-    {
-      return true;
-    }
-    const double after = this->worstExcess(u, v, &place);
-    return after <= 0.0 || after <= this->worstExcess(u, v, nullptr);
-  }
-
-  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, const Quadric& sum, std::uint8_t faces)
-  {
-    this->Points[std::size_t(u)] = place;
-    this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
-    this->Quadrics[std::size_t(u)] = sum;
-    this->Faces[std::size_t(u)] = faces;
-    this->Locked[std::size_t(u)] = this->Sweep;
-    // The triangles on the edge die; v's others become u's.
-    for (std::int32_t c = this->First[std::size_t(v)]; c >= 0;)
-    {
-      const std::int32_t next = this->Next[std::size_t(c)];
-      const auto t = std::size_t(c) / 3;
-      auto& corners = this->Triangles[t];
-      if (corners[0] == u || corners[1] == u || corners[2] == u)
-      {
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-          if (corners[i] != v)
-          {
-            this->unlink(corners[i], static_cast<std::int32_t>(3 * t + i));
-          }
-        }
-        corners = { { -1, -1, -1 } };
-        --this->Alive;
-      }
-      else
-      {
-        corners[std::size_t(c) % 3] = u;
-        this->Next[std::size_t(c)] = this->First[std::size_t(u)];
-        this->First[std::size_t(u)] = c;
-      }
-      c = next;
-    }
-    this->First[std::size_t(v)] = -1;
-    for (std::int32_t c = this->First[std::size_t(u)]; c >= 0; c = this->Next[std::size_t(c)])
-    {
-      for (const std::int32_t corner : this->Triangles[std::size_t(c) / 3])
-      {
-        this->Changed[std::size_t(corner)] = this->Sweep;
-      }
-    }
-  }
-
-  void unlink(std::int32_t point, std::int32_t corner)
-  {
-    std::int32_t* link = &this->First[std::size_t(point)];
-    while (*link != corner)
-    {
-      link = &this->Next[std::size_t(*link)];
-    }
-    *link = this->Next[std::size_t(corner)];
-  }
-
-  void compact()
-  {
-    std::vector<std::int32_t> number(this->Points.size(), -1);
-    std::size_t triangles = 0;
-    std::vector<Vector3d> points;
-    std::vector<std::uint8_t> faces;
-    for (std::size_t t = 0; t < this->Triangles.size(); ++t)
-    {
-      if (this->isDead(t))
-      {
-        continue;
-      }
-      auto corners = this->Triangles[t];
-      for (std::int32_t& corner : corners)
-      {
-        auto& n = number[std::size_t(corner)];
-        if (n < 0)
-        {
-          n = static_cast<std::int32_t>(points.size());
-          points.push_back(this->at(corner));
-          faces.push_back(this->Faces[std::size_t(corner)]);
-        }
-        corner = n;
-      }
-      this->Triangles[triangles++] = corners;
-    }
-    this->Triangles.resize(triangles);
-    this->Triangles.shrink_to_fit();
-    this->Points = std::move(points);
-    this->Faces = std::move(faces);
-  }
-
-  CappedSurface& Surface;
+  EditableSurface Mesh;
   const SurfaceDecimationOptions& Options;
-  std::vector<Vector3d>& Points;
-  std::vector<std::array<std::int32_t, 3>>& Triangles; ///< a dead one has corners of -1
-  std::vector<std::uint8_t>& Faces;
-  Vector3d Origin = Vector3d::Zero(); ///< what places in quadrics count from, so that they lose no digits
+  Eigen::AlignedBox3d Box;
+  Vector3d Origin; ///< what places in quadrics count from, so that they lose no digits
   std::vector<Quadric> Quadrics;
-  std::vector<std::int32_t> First; ///< per point, a corner (3 · triangle + place) that it is, or -1
-  std::vector<std::int32_t> Next;  ///< per corner, the next one that is the same point, or -1
-  std::vector<int> Locked;         ///< per point, the sweep in which it was moved
-  std::vector<int> Changed;        ///< per point, the sweep in which a triangle at it changed
-  std::vector<float> Part;         ///< per point, of the largest error
-  std::vector<int> Mark;
-  int MarkValue = 0;
+  std::vector<int> Locked;  ///< per point, the sweep in which it was moved
+  std::vector<int> Changed; ///< per point, the sweep in which a triangle at it changed
+  std::vector<float> Part;  ///< per point, of the largest error
+  std::vector<char> Known;  ///< per triangle, that it keeps the field in its range
   int Sweep = 0;
-  std::size_t Alive = 0;
 };
 
 } // namespace

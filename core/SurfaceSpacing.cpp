@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceSpacing.h"
 
+#include "CappedSurface.h"
 #include "Parallel.h"
 #include "SurfaceDistance.h"
 #include "TriangleTree.h"
@@ -114,7 +115,8 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
     const double length = normal.norm();
     if (length > 0.0)
     {
-      mesh.points[std::size_t(point)] -= (distance / length) * normal;
+      Vector3d& p = mesh.points[std::size_t(point)];
+      p = keptInside(box, p, p - (distance / length) * normal);
     }
   }
 }
