@@ -200,7 +200,7 @@ double moveToVolume(CappedSurface& surface, double volume, double furthest)
       const double length = directions[p].norm();
       if (length > 0.0)
       {
-        points[p] = keptInside(surface.box, points[p], points[p] + ((wanted - moved) / length) * directions[p]);
+        points[p] = keptInside(surface.box, points[p], points[p] + ((wanted - moved) / length) * directions[p], furthest);
       }
     }
     moved = wanted;

@@ -25,11 +25,14 @@ struct CappedSurface
   }
 };
 
-/// Where a point of the box that is to move from one place to another shall go: no more than half as near to a face as it was.
-/// What does not lie in a face so stays off it.
-inline Eigen::Vector3d keptInside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+/// Where a point that is to move from one place of the box to another shall go: no nearer to a face than `margin` (µm) or, where
+/// that is less, than it was. So what is not cut off by a face keeps off it.
+inline Eigen::Vector3d keptInside(
+  const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double margin)
 {
-  return box.isEmpty() ? to : Eigen::Vector3d(to.cwiseMax(0.5 * (box.min() + from)).cwiseMin(0.5 * (box.max() + from)));
+  const Eigen::Vector3d lower = (box.min().array() + margin).matrix().cwiseMin(from);
+  const Eigen::Vector3d upper = (box.max().array() - margin).matrix().cwiseMax(from);
+  return box.isEmpty() ? to : Eigen::Vector3d(to.cwiseMax(lower).cwiseMin(upper));
 }
 
 /// How much a surface holds.

@@ -26,9 +26,11 @@ constexpr double negligiblePart = 1e-3;
 /// Relative error of an inner volume that is good enough.
 constexpr double volumeTolerance = 1e-3;
 /// Distance from where an inner surface has the wanted volume that is good enough before coarsening, as a part of a voxel.
-constexpr double nearEnough = 0.01;
-/// The most that an outer surface is moved to make up for what smoothing takes off it, as a part of the tolerance.
-constexpr double makeUpPart = 1.0;
+constexpr double nearEnough = 0.02;
+/// How far an outer surface mostly moves out to make up for what smoothing takes off it, and what may be left of that before
+/// coarsening, as parts of the tolerance.
+constexpr double usualPart = 0.5;
+constexpr double restPart = 0.15;
 /// Quadrics tell a mean and may say more than the error allowed: the field decides.
 constexpr double quadricPart = 2.0;
 /// MC/DC warns of triangles above 1000.
@@ -101,28 +103,32 @@ SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, in
 
 void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) const
 {
-  CappedSurface surface = this->contourAt(this->OuterLattice, field, 0.0);
+  // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre's
+  // samples stand for.
+  const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
+  double level = -usualPart * furthest;
+  CappedSurface surface = this->contourAt(this->OuterLattice, field, level);
   pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
   if (surface.mesh.triangles.empty())
   {
     return;
   }
-  // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre held before.
-  double level = 0.0;
   SurfaceMeasure now = measure(surface);
   double volume = now.volume;
-  const double furthest = makeUpPart * this->Facts.surfaceTolerance;
-  if (this->Options.smoothingIterations > 0 && furthest > 0.0)
+  if (furthest > 0.0)
   {
-    CappedSurface before = this->contourAt(this->OuterLattice, SmoothedField(this->Field, pair.fibreId, field.blocks(), 0), 0.0);
-    keepMainPart(before, this->smallestPiece());
-    volume = measure(before).volume;
-    level = -std::clamp((volume - now.volume) / now.freeArea, 0.0, furthest);
-    surface = this->contourAt(this->OuterLattice, field, level);
-    pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
-    now = measure(surface);
-    // No more is made up for than that.
-    volume = std::min(std::max(volume, now.volume), now.volume + 0.1 * furthest * now.freeArea);
+    volume = this->Field.sampledVolume(pair.fibreId, field.blocks()) - pair.droppedVolume;
+    const double right = std::clamp(level - (volume - now.volume) / now.freeArea, -furthest, 0.0);
+    // The rest is left to the move after coarsening.
+    const double rest = restPart * furthest;
+    if (std::abs(right - level) > rest)
+    {
+      level = right;
+      surface = this->contourAt(this->OuterLattice, field, level);
+      pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
+      now = measure(surface);
+    }
+    volume = std::clamp(volume, now.volume - rest * now.freeArea, now.volume + rest * now.freeArea);
   }
   this->finish(field, surface, level, volume, nullptr, pair.outerReport, pair);
   pair.outer = std::move(surface.mesh);
@@ -183,7 +189,8 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   this->finish(
     field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer, pair.innerReport, pair);
   pair.inner = std::move(best.surface.mesh);
-  pair.thickness = best.level - pair.outerLevel;
+  // By how much the volume was off before it was moved to what is wanted, was the level.
+  pair.thickness = best.level - pair.outerLevel + (state == MyelinState::AsAsked ? (best.volume - wanted) / best.area : 0.0);
   pair.state = state;
   pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
 }
@@ -313,7 +320,7 @@ void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
   pair.isFlawed = pair.isFlawed || (error > 0.0 && !faults(surface.mesh, containerTree.get()).empty());
 }
 
-/// The largest difference between the field and `level` at points spread over the surface, at most half a voxel apart; on caps
+/// The largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps
 /// only where the field is smaller.
 double FibreMesher::largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const
 {
@@ -326,7 +333,7 @@ double FibreMesher::largestMove(const SmoothedField& field, const CappedSurface&
     const Eigen::Vector3d ac = points[std::size_t(t[2])] - a;
     const bool isCap = surface.isCap(t);
     const double longest = std::sqrt(std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() }));
-    const int n = std::max(1, static_cast<int>(std::ceil(2.0 * longest / this->Spacing)));
+    const int n = std::max(1, static_cast<int>(std::ceil(longest / this->Spacing)));
     for (int i = 0; i <= n; ++i)
     {
       for (int j = 0; i + j <= n; ++j)

@@ -202,12 +202,18 @@ private:
     }
   }
 
+  /// Where a point in no face of the box goes.
+  Vector3d keptOffFaces(const Vector3d& from, const Vector3d& to) const
+  {
+    return keptInside(this->Box, from, to, this->Options.maximumError);
+  }
+
   /// Sweeps until one removes little.
   void sweeps(double error)
   {
     for (int sweep = 0; sweep < sweepsPerError; ++sweep)
     {
-      if (this->sweep(error * error, sweep == 0) * 20 < this->Mesh.aliveCount())
+      if (this->sweep(error * error, sweep == 0) * 10 < this->Mesh.aliveCount())
       {
         return;
       }
@@ -316,7 +322,7 @@ private:
       if (facesU == 0)
       {
         const double reach = (this->Mesh.at(u) - this->Mesh.at(v)).norm();
-        places[count++] = keptInside(this->Box, middle, sum.best(middle - this->Origin, reach) + this->Origin);
+        places[count++] = this->keptOffFaces(middle, sum.best(middle - this->Origin, reach) + this->Origin);
       }
       else
       {
@@ -528,7 +534,7 @@ private:
       const double least = std::clamp(0.0, after.lower, after.upper);
       const double middle = 0.5 * (after.lower + after.upper);
       const Vector3d outward = this->normalAround(u, v).normalized();
-      const Vector3d moved = keptInside(this->Box, place, place + 0.5 * (least + middle) * outward);
+      const Vector3d moved = this->keptOffFaces(place, place + 0.5 * (least + middle) * outward);
       if (this->keepsShape(u, v, moved, false) && this->fit(u, v, &moved).excess <= 0.0)
       {
         place = moved;

@@ -69,7 +69,7 @@ std::vector<Pair> neighbours(const std::vector<std::unique_ptr<TriangleTree>>& t
 /// How far to move each of the points that have to move.
 using Moves = std::map<std::int32_t, double>;
 
-void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox3d& box)
+void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox3d& box, double margin)
 {
   const auto onFace = [&](std::int32_t p, Eigen::Index axis, int side)
   { return mesh.points[std::size_t(p)][axis] == (side == 0 ? box.min()[axis] : box.max()[axis]); };
@@ -116,7 +116,7 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
     if (length > 0.0)
     {
       Vector3d& p = mesh.points[std::size_t(point)];
-      p = keptInside(box, p, p - (distance / length) * normal);
+      p = keptInside(box, p, p - (distance / length) * normal, margin);
     }
   }
 }
@@ -201,7 +201,8 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, 
       changed.push_back(entry.first);
       isChanged[entry.first] = isMoved[entry.first] = 1;
     }
-    parallelFor(changed.size(), context, [&](std::size_t c) { moveInwards(*surfaces[changed[c]], moves.at(changed[c]), box); });
+    parallelFor(
+      changed.size(), context, [&](std::size_t c) { moveInwards(*surfaces[changed[c]], moves.at(changed[c]), box, gap); });
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s)
   {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantees: a surface is moved to just the volume asked for, by no more than allowed, and its caps stay in their faces.
+// What is coarsened or moved beside a face of the box stays in the box.
 #include "CappedSurface.h"
 #include "Isosurface.h"
 #include "SurfaceCheck.h"
+#include "SurfaceDecimation.h"
 
 #include <gtest/gtest.h>
 
@@ -145,6 +147,25 @@ TEST(CappedSurface, SplitsNeedles)
   for (std::size_t p = 0; p < points.size(); ++p)
   {
     EXPECT_EQ((surface.faces[p] & 2) != 0, points[p][0] == 1.0);
+  }
+}
+
+TEST(CappedSurface, StaysInTheBoxWhereItGrazesAFace)
+{
+  // Just cut off, just not, and with a vertex of the coarsened ball beyond the face where nothing held it back.
+  for (const double x : { 0.19, 0.197, 0.199, 0.2003, 0.203 })
+  {
+    CappedSurface surface = ball({ x, 0.01, -0.02 });
+    SurfaceDecimationOptions options;
+    options.maximumError = 0.02;
+    decimate(surface, options);
+    moveToVolume(surface, 10.0, 0.01);
+    ASSERT_TRUE(checkSurface(surface.mesh).closedManifold());
+    for (std::size_t p = 0; p < surface.mesh.points.size(); ++p)
+    {
+      const double fromFace = 1.0 - surface.mesh.points[p][0];
+      EXPECT_TRUE(surface.faces[p] != 0 ? fromFace == 0.0 : fromFace > 0.0) << x << ": " << fromFace;
+    }
   }
 }
 
