@@ -274,46 +274,6 @@ std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(int re
   return blocksOf;
 }
 
-double FibreField::sampledVolume(std::int32_t fibre, const std::vector<std::uint32_t>& blocks) const
-{
-  const NodeLattice all = this->lattice();
-  const auto width = [&](int axis, int node)
-  {
-    const auto& planes = all.planes[std::size_t(axis)];
-    const auto at = std::size_t(node);
-    const bool isFirst = node == 1;
-    const bool isLast = node + 1 == all.cells(axis);
-    const double lower = isFirst ? planes.front() : 0.5 * (planes[at - 1] + planes[at]);
-    const double upper = isLast ? planes.back() : 0.5 * (planes[at] + planes[at + 1]);
-    return upper - lower;
-  };
-  double volume = 0.0;
-  for (const std::uint32_t block : blocks)
-  {
-    // Each sample belongs to the block that has it behind its first node.
-    const NodeRange range = nodesOfBlock(all, block);
-    std::array<int, 3> end;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      end[axis] = std::min(range.first[axis] + range.count[axis], all.cells(int(axis)));
-    }
-    for (int k = range.first[2] + 1; k < end[2]; ++k)
-    {
-      for (int j = range.first[1] + 1; j < end[1]; ++j)
-      {
-        const std::size_t row = this->Image.grid.index(this->First[0], this->sampleOf(1, j), this->sampleOf(2, k));
-        double length = 0.0;
-        for (int i = range.first[0] + 1; i < end[0]; ++i)
-        {
-          length += this->Image.fibreId[row + std::size_t(i - 1)] == fibre ? width(0, i) : 0.0;
-        }
-        volume += length * width(1, j) * width(2, k);
-      }
-    }
-  }
-  return volume;
-}
-
 void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out) const
 {
   for (int k = 0; k < range.count[2]; ++k)

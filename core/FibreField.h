@@ -44,10 +44,6 @@ public:
   /// Cancelled.
   std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(int reach, const Context& context = {}) const;
 
-  /// What the samples of a fibre in some blocks stand for, each for the part of the box that is nearer to it than to others along
-  /// every axis; µm³.
-  double sampledVolume(std::int32_t fibre, const std::vector<std::uint32_t>& blocks) const;
-
   /// The field of a fibre at a sample of the image.
   double atSample(std::int32_t fibre, int i, int j, int k) const;
   /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside.

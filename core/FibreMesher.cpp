@@ -103,8 +103,7 @@ SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, in
 
 void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) const
 {
-  // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre's
-  // samples stand for.
+  // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre held before.
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
   double level = -usualPart * furthest;
   CappedSurface surface = this->contourAt(this->OuterLattice, field, level);
@@ -117,7 +116,9 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) 
   double volume = now.volume;
   if (furthest > 0.0)
   {
-    volume = this->Field.sampledVolume(pair.fibreId, field.blocks()) - pair.droppedVolume;
+    CappedSurface before = this->contourAt(this->OuterLattice, SmoothedField(this->Field, pair.fibreId, field.blocks(), 0), 0.0);
+    keepMainPart(before, this->smallestPiece());
+    volume = measure(before).volume;
     const double right = std::clamp(level - (volume - now.volume) / now.freeArea, -furthest, 0.0);
     // The rest is left to the move after coarsening.
     const double rest = restPart * furthest;

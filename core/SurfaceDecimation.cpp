@@ -111,7 +111,7 @@ constexpr double leastFlipTurn = 0.5;
 /// Errors of the sweeps before the last ones, as parts of the largest error.
 constexpr double sweepErrors[] = { 0.25, 0.5 };
 /// Collapses of less than this part of the largest error are made without a look at the field.
-constexpr double unnoticed = 0.25;
+constexpr double unnoticed = 0.15;
 /// How often edges are flipped, after which come sweeps of the largest error.
 constexpr int flipRounds = 2;
 /// An edge is flipped where that lessens the largest distance of the field from the middle of its range by a twentieth, and

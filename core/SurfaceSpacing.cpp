@@ -24,6 +24,8 @@ using Eigen::Vector3d;
 
 /// A pair is moved a little farther apart than it has to be, µm: rounding, and corners that move askew, take some of it back.
 constexpr double extra = 0.0002;
+/// µm that a distance may lose where points are written in single precision; extra is more.
+constexpr double rounding = 5e-5;
 constexpr int rounds = 12;
 
 /// Two surfaces, and by which triangles they are too near.
@@ -135,14 +137,15 @@ void addMoves(Moves& moves, const TriangleMesh& mesh, const std::vector<std::uin
 
 } // namespace
 
-SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double smallest, const Eigen::AlignedBox3d& box,
   const Context& context, double from, double to)
 {
   SpacingReport report;
-  if (!(gap > 0.0))
+  if (!(smallest > 0.0))
   {
     return report;
   }
+  const double gap = smallest + rounding;
   std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
   std::vector<std::size_t> changed(surfaces.size());
   std::iota(changed.begin(), changed.end(), std::size_t(0));

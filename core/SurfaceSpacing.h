@@ -23,6 +23,9 @@ struct SpacingReport
 /// apart: those of the triangles that come nearer. Meant for surfaces that keep the gap but for what coarsening has cost; it
 /// gives up on pairs that a few rounds do not part. Distances are those of the triangles (see smallestGap()), no samples.
 ///
+/// "At least" is meant for files, too, that hold points in single precision: what is nearer than 0.00005 µm more than the gap is
+/// moved.
+///
 /// Points on a face of `box` stay on it, so that flat caps stay flat. Empty surfaces are left out. Same result on any number of
 /// threads. Progress runs from `from` to `to`. Throws Cancelled.
 SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,

@@ -97,30 +97,6 @@ TEST(SmoothedField, InterpolatesTheSamples)
   EXPECT_GT(inside, 1000);
 }
 
-TEST(FibreField, SamplesStandForTheWholeBox)
-{
-  // A box that ends amid voxels; all samples belong to fibre 1, but for a slab of fibre 2 that is three samples thick.
-  LabelImage image;
-  image.grid.origin = Eigen::Vector3d(-1.0, -1.0, -1.0);
-  image.grid.spacing = 0.1;
-  image.grid.count = { { 21, 41, 21 } };
-  image.fibreId.assign(21 * 41 * 21, 1);
-  image.depth.assign(image.fibreId.size(), 0.05f);
-  for (std::size_t n = 0; n < image.fibreId.size(); ++n)
-  {
-    const std::size_t j = n / 21 % 41;
-    image.fibreId[n] = j >= 20 && j < 23 ? 2 : 1;
-  }
-  Domain domain;
-  domain.lower = Eigen::Vector3d(-0.93, -0.98, -0.86);
-  domain.upper = Eigen::Vector3d(0.98, 2.77, 0.91);
-  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), 0.0 }, domain, true);
-  const auto blocks = field.findFibres(0);
-  const double slab = 1.91 * 0.3 * 1.77;
-  EXPECT_NEAR(field.sampledVolume(2, blocks.at(2)), slab, 1e-9);
-  EXPECT_NEAR(field.sampledVolume(1, blocks.at(1)), domain.volume() - slab, 1e-9);
-}
-
 TEST(FibreField, RefusesWhatIsNoLabelImage)
 {
   FibreRadialGrowthOptions options;
