@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes whole substrates and prints what was measured on their meshes, as rows of a Markdown table.
+
+    ./cactus pvpython benchmarks/substrates.py --side 50 --fraction 0.955 dispersion-0 dispersion-25 crossing-90
+    ./cactus pvpython benchmarks/substrates.py --side 30 histology-1 histology-2 histology-3 histology-4
+
+dispersion-D is one bundle with a mean dispersion of D degrees, crossing-A are two bundles, of 5° each, that cross at A degrees (the
+rows of the paper's table of maximum fibre volume fractions); histology-N is row N of its table of histological targets. Radii are
+the defaults, Γ(2.4, 0.25) cut to 0.2-2 µm.
+"""
+
+import argparse
+import resource
+import sys
+import time
+
+from paraview import servermanager
+from paraview.simple import *
+
+# Axon and fibre volume fraction (paper, table of histological targets).
+HISTOLOGY = [(0.25, 0.60), (0.25, 0.68), (0.31, 0.75), (0.39, 0.76)]
+
+
+def seconds(work):
+    start = time.time()
+    work()
+    return time.time() - start
+
+
+def substrate(name, arguments):
+    kind, _, number = name.partition("-")
+    bundle = {"Side": arguments.side, "Seed": arguments.seed}
+    growth = {"TargetFibreVolumeFraction": arguments.fraction, "SurfaceTolerance": arguments.tolerance}
+    myelin = {"GRatio": 0.7}
+    if kind == "dispersion":
+        bundle["MeanDispersion"] = float(number)
+    elif kind == "crossing":
+        bundle.update(MeanDispersion=5, NumberOfBundles=2, CrossingAngle=float(number))
+    elif kind == "histology":
+        axons, fibres = HISTOLOGY[int(number) - 1]
+        bundle.update(MeanDispersion=5, FibreVolumeFraction=min(0.7, 0.9 * fibres), GrownFibreVolumeFraction=fibres)
+        growth = {"TargetFibreVolumeFraction": fibres}
+        myelin = {"GRatioModel": "TargetAxonVolumeFraction", "TargetAxonVolumeFraction": axons}
+    else:
+        sys.exit(f"{name} is no substrate: dispersion-D, crossing-A or histology-N")
+
+    initial = BundleInitializer(**bundle)
+    optimizer = CapsuleOptimizer(Input=initial)
+    fibres = OutputPort(optimizer, 0)
+    times = [seconds(lambda: UpdatePipeline(proxy=optimizer))]
+    # The image alone takes 8 bytes a voxel, and nothing but the surfaces is wanted of it.
+    grown = FibreRadialGrowth(Input=fibres, VoxelSize=arguments.voxel, ReleaseDataFlag=1, **growth)
+    surfaces = MyelinSurface(Input=grown, **myelin)
+    outer, inner = OutputPort(surfaces, 0), OutputPort(surfaces, 1)
+    times.append(seconds(lambda: UpdatePipeline(proxy=surfaces)))
+    certificate = SubstrateCertificate(Fibres=fibres, Outer=outer, Inner=inner)
+    times.append(seconds(lambda: UpdatePipeline(proxy=certificate)))
+    if arguments.output:
+        writer = SubstrateWriter(Fibres=fibres, Outer=outer, Inner=inner, FolderName=f"{arguments.output}/{name}")
+        times.append(seconds(writer.UpdatePipeline))
+    table = servermanager.Fetch(certificate, idx=0)
+    found = {table.GetColumnName(i): table.GetValue(0, i).ToDouble() for i in range(table.GetNumberOfColumns())}
+    if not found:
+        sys.exit(f"{name} failed, see above")
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+    cells = (
+        name,
+        f"{found['OuterSurfaces']:.0f}",
+        f"{found['FVF']:.4f}",
+        f"{found['AVF']:.4f}",
+        f"{found['FVF'] - found['AVF']:.4f}",
+        f"{found['AggregateGRatio']:.4f}",
+        "yes" if found["Certified"] else "no",
+        f"{found['SmallestGap_um']:.4f}",
+        f"{found['TrianglesPerArea_um-2']:.1f}",
+        " + ".join(f"{t:.0f}" for t in times),
+        f"{peak:.1f}",
+    )
+    print("| " + " | ".join(cells) + " |", flush=True)
+    for proxy in (certificate, surfaces, grown, optimizer, initial):
+        Delete(proxy)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="+", metavar="SUBSTRATE")
+    parser.add_argument("--side", type=float, default=30, help="side of the cube, µm (%(default)s)")
+    parser.add_argument("--fraction", type=float, default=0.955, help="TargetFibreVolumeFraction (%(default)s)")
+    parser.add_argument("--tolerance", type=float, default=0.0065, help="SurfaceTolerance, µm (%(default)s)")
+    parser.add_argument("--voxel", type=float, default=0.1, help="VoxelSize, µm (%(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="Seed of the bundle (%(default)s)")
+    parser.add_argument("--output", help="folder for the substrates' files; none are written without it")
+    arguments = parser.parse_args()
+    columns = "substrate, fibres, FVF, AVF, MVF, g, certified, smallest gap (µm), triangles/µm²".split(", ")
+    stages = "optimise + grow and mesh + certify" + (" + write" if arguments.output else "") + " (s)"
+    columns += [stages, "peak memory so far (GB)"]
+    print("| " + " | ".join(columns) + " |\n|" + "---|" * len(columns), flush=True)
+    for name in arguments.names:
+        substrate(name, arguments)
+
+
+main()
