@@ -10,6 +10,7 @@ the defaults, Γ(2.4, 0.25) cut to 0.2-2 µm.
 """
 
 import argparse
+import os
 import resource
 import sys
 import time
@@ -56,6 +57,7 @@ def substrate(name, arguments):
     certificate = SubstrateCertificate(Fibres=fibres, Outer=outer, Inner=inner)
     times.append(seconds(lambda: UpdatePipeline(proxy=certificate)))
     if arguments.output:
+        os.makedirs(arguments.output, exist_ok=True)
         writer = SubstrateWriter(Fibres=fibres, Outer=outer, Inner=inner, FolderName=f"{arguments.output}/{name}")
         times.append(seconds(writer.UpdatePipeline))
     table = servermanager.Fetch(certificate, idx=0)
