@@ -81,6 +81,8 @@ void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fib
   number("InnerRadius_um", [](const Fibre& f) { return f.innerRadius.mean; });
   number("OuterRadiusDeviation_um", [](const Fibre& f) { return f.outerRadius.deviation; });
   number("InnerRadiusDeviation_um", [](const Fibre& f) { return f.innerRadius.deviation; });
+  number("OuterCircularity", [](const Fibre& f) { return f.outerRadius.circularity; });
+  number("InnerCircularity", [](const Fibre& f) { return f.innerRadius.circularity; });
   number("GRatio", [](const Fibre& f) { return f.gRatio; });
   number("Length_um", [](const Fibre& f) { return f.length; });
   number("OuterVolume_um3", [](const Fibre& f) { return f.outer.volume; });

@@ -213,4 +213,14 @@ double polygonArea(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vec
   return 0.5 * twice;
 }
 
+double polygonPerimeter(const std::vector<Eigen::Vector3d>& polygon)
+{
+  double length = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  }
+  return length;
+}
+
 } // namespace cactus

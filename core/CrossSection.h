@@ -41,4 +41,7 @@ private:
 /// Area (µm²) of a plane polygon, positive where it runs counter-clockwise seen against unit `normal`.
 double polygonArea(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& normal);
 
+/// Perimeter (µm) of a polygon.
+double polygonPerimeter(const std::vector<Eigen::Vector3d>& polygon);
+
 } // namespace cactus

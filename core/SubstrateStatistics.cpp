@@ -124,6 +124,7 @@ RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const
   }
   const CrossSections sections(surface);
   std::vector<double> radii;
+  double circularities = 0.0;
   for (std::size_t cut = 0; (static_cast<double>(cut) + 0.5) * spacing < arc.back(); ++cut)
   {
     const double s = (static_cast<double>(cut) + 0.5) * spacing;
@@ -141,11 +142,14 @@ RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const
       [&](const Eigen::Vector3d& corner) { return fibres.domain.depth(corner) > boundaryTolerance; });
     if (!outline.empty() && whole)
     {
-      radii.push_back(std::sqrt(polygonArea(outline, normal) / pi));
+      const double area = polygonArea(outline, normal);
+      const double perimeter = polygonPerimeter(outline);
+      radii.push_back(std::sqrt(area / pi));
+      circularities += 4.0 * pi * area / (perimeter * perimeter);
     }
   }
 
-  RadiusAlongFibre result{ radii.size(), notANumber, notANumber };
+  RadiusAlongFibre result{ radii.size(), notANumber, notANumber, notANumber };
   if (!radii.empty())
   {
     double sum = 0.0;
@@ -154,6 +158,7 @@ RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const
       sum += radius;
     }
     result.mean = sum / static_cast<double>(radii.size());
+    result.circularity = circularities / static_cast<double>(radii.size());
     double squares = 0.0;
     for (const double radius : radii)
     {

@@ -121,6 +121,17 @@ TEST(SubstrateStatistics, StraightTubes)
   EXPECT_EQ(fibre.outerRadius.cuts, 10u);
   EXPECT_NEAR(fibre.outerRadius.mean, 1.5 * equivalent, 1e-9);
   EXPECT_NEAR(fibre.outerRadius.deviation, 0.0, 1e-9);
+  EXPECT_NEAR(fibre.outerRadius.circularity, (pi / 24.0) / std::tan(pi / 24.0), 1e-9);
+}
+
+TEST(SubstrateStatistics, CircularityOfPrisms)
+{
+  const auto fibres = twoFibres();
+  for (const int sides : { 4, 6, 200 })
+  {
+    const double expected = (pi / sides) / std::tan(pi / sides);
+    EXPECT_NEAR(cactus::radiusAlongFibre(fibres, 0, tube(-2, 0, 1.0, 5.0, sides), 1.0).circularity, expected, 1e-9);
+  }
 }
 
 TEST(SubstrateStatistics, RadiusVaryingAlongTheFibre)
