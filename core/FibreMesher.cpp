@@ -101,7 +101,7 @@ SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, in
   return SmoothedField(this->Field, fibreId, blocks, this->Options.smoothingIterations);
 }
 
-void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) const
+void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm) const
 {
   // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre held before.
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
@@ -131,17 +131,27 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair) 
     }
     volume = std::clamp(volume, now.volume - rest * now.freeArea, now.volume + rest * now.freeArea);
   }
-  this->finish(field, surface, level, volume, nullptr, pair.outerReport, pair);
+  this->finish(field, surface, level, volume, nullptr, calm, pair.outerReport, pair);
   pair.outer = std::move(surface.mesh);
   pair.outerLevel = level;
   pair.state = MyelinState::NoAxon;
 }
 
-void FibreMesher::checkOuter(FibreSurfacePair& pair) const
+std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) const
 {
   pair.outerReport = checkSurface(pair.outer);
   requireSound(pair.outerReport, pair.fibreId);
-  pair.isFlawed = pair.isFlawed || !faults(pair.outer, nullptr).empty();
+  return faults(pair.outer, nullptr);
+}
+
+std::vector<CalmPlace> FibreMesher::calmAround(const std::vector<Eigen::Vector3d>& places, int attempt) const
+{
+  std::vector<CalmPlace> calm;
+  for (const Eigen::Vector3d& place : places)
+  {
+    calm.push_back({ place, 2.0 * this->Spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });
+  }
+  return calm;
 }
 
 double FibreMesher::equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const
@@ -187,8 +197,8 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   {
     return;
   }
-  this->finish(
-    field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer, pair.innerReport, pair);
+  this->finish(field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer, {},
+    pair.innerReport, pair);
   pair.inner = std::move(best.surface.mesh);
   // By how much the volume was off before it was moved to what is wanted, was the level.
   pair.thickness = best.level - pair.outerLevel + (state == MyelinState::AsAsked ? (best.volume - wanted) / best.area : 0.0);
@@ -276,7 +286,7 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
 /// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong with it, it is made again with
 /// less coarsening around there; what cannot be mended like that stays as contoured.
 void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
-  const TriangleMesh* container, SurfaceReport& report, FibreSurfacePair& pair) const
+  const TriangleMesh* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
 {
   const double error = this->Options.decimationError;
   std::unique_ptr<TriangleTree> containerTree;
@@ -285,6 +295,7 @@ void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     containerTree = std::make_unique<TriangleTree>(*container);
   }
   SurfaceDecimationOptions decimation;
+  decimation.calm = calm;
   decimation.maximumError = quadricPart * error;
   decimation.smallestField = level - error;
   decimation.largestField = level + error;
@@ -307,10 +318,8 @@ void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     {
       break; // no place to mend
     }
-    for (const Eigen::Vector3d& place : places)
-    {
-      decimation.calm.push_back({ place, 2.0 * this->Spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });
-    }
+    const std::vector<CalmPlace> more = this->calmAround(places, attempt);
+    decimation.calm.insert(decimation.calm.end(), more.begin(), more.end());
   }
   if (error > 0.0)
   {

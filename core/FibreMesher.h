@@ -3,6 +3,7 @@
 
 #include "FibreField.h"
 #include "MyelinSurface.h"
+#include "SurfaceDecimation.h"
 
 #include <Eigen/Core>
 
@@ -24,11 +25,16 @@ public:
   /// The field of a fibre, from the blocks that findFibres() found for it.
   SmoothedField smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const;
 
-  /// Makes the outer surface; leaves the pair's state at NoFibre where there is none, else at NoAxon.
-  void makeOuter(const SmoothedField& field, FibreSurfacePair& pair) const;
+  /// Makes the outer surface, with less coarsening in `calm`; leaves the pair's state at NoFibre where there is none, else at
+  /// NoAxon.
+  void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm = {}) const;
 
-  /// Measures the outer surface again after it has been changed. Throws Error where it is none any more.
-  void checkOuter(FibreSurfacePair& pair) const;
+  /// Measures the outer surface again after it has been changed, and says where it now meets itself. Throws Error where it is no
+  /// surface any more.
+  std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
+
+  /// What has to be coarsened less where something went wrong at some places, for the first time (0) or once more.
+  std::vector<CalmPlace> calmAround(const std::vector<Eigen::Vector3d>& places, int attempt) const;
 
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const;
@@ -43,7 +49,7 @@ private:
   Inner innerAt(const SmoothedField& field, double level) const;
   MyelinState solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const;
   void finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleMesh* container,
-    SurfaceReport& report, FibreSurfacePair& pair) const;
+    const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
   template <typename Visit>

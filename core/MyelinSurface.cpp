@@ -40,6 +40,8 @@ void require(bool good, const char* message)
 
 /// Relative error of the axons' common volume that is good enough.
 constexpr double volumeTolerance = 2e-3;
+/// How often outer surfaces that went wrong when they were moved are made again.
+constexpr int remakes = 3;
 
 std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const std::map<std::int32_t, Blocks>& blocksOf)
 {
@@ -71,6 +73,55 @@ std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const std::
     }
   }
   return pairs;
+}
+
+/// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again with
+/// less coarsening there.
+template <typename BlocksOf>
+void spaceOut(
+  const FibreMesher& mesher, const BlocksOf& blocks, double gap, std::vector<FibreSurfacePair>& pairs, const Context& context)
+{
+  std::vector<TriangleMesh*> outer;
+  for (FibreSurfacePair& pair : pairs)
+  {
+    outer.push_back(&pair.outer);
+  }
+  const Domain& box = mesher.field().box();
+  std::vector<std::size_t> made(pairs.size());
+  std::iota(made.begin(), made.end(), std::size_t(0));
+  std::map<std::size_t, std::vector<CalmPlace>> calm;
+  for (int attempt = 0; !made.empty(); ++attempt)
+  {
+    const SpacingReport spacing =
+      keepApart(outer, made, gap, Eigen::AlignedBox3d(box.lower, box.upper), context, attempt == 0 ? 0.45 : 0.54, 0.55);
+    std::vector<std::vector<Eigen::Vector3d>> faults(spacing.moved.size());
+    parallelFor(faults.size(), context, [&](std::size_t i) { faults[i] = mesher.checkOuter(pairs[spacing.moved[i]]); });
+    for (const std::size_t i : spacing.tooNear)
+    {
+      pairs[i].isFlawed = true;
+    }
+    made.clear();
+    for (std::size_t i = 0; i < faults.size(); ++i)
+    {
+      if (!faults[i].empty() && attempt < remakes)
+      {
+        const std::vector<CalmPlace> more = mesher.calmAround(faults[i], attempt);
+        auto& known = calm[spacing.moved[i]];
+        known.insert(known.end(), more.begin(), more.end());
+        made.push_back(spacing.moved[i]);
+      }
+      else
+      {
+        pairs[spacing.moved[i]].isFlawed = pairs[spacing.moved[i]].isFlawed || !faults[i].empty();
+      }
+    }
+    parallelFor(made.size(), context,
+      [&](std::size_t i)
+      {
+        FibreSurfacePair& pair = pairs[made[i]];
+        mesher.makeOuter(mesher.smoothed(blocks(pair), pair.fibreId), pair, calm.at(made[i]));
+      });
+  }
 }
 
 } // namespace
@@ -148,19 +199,7 @@ std::vector<FibreSurfacePair> myelinSurfaces(
     },
     "making outer surfaces", 0.05, 0.45);
 
-  std::vector<TriangleMesh*> outer;
-  for (FibreSurfacePair& pair : pairs)
-  {
-    outer.push_back(&pair.outer);
-  }
-  const Domain& box = mesher.field().box();
-  const SpacingReport spacing =
-    keepApart(outer, facts.minimumGap, Eigen::AlignedBox3d(box.lower, box.upper), context, 0.45, 0.55);
-  parallelFor(spacing.moved.size(), context, [&](std::size_t i) { mesher.checkOuter(pairs[spacing.moved[i]]); });
-  for (const std::size_t i : spacing.tooNear)
-  {
-    pairs[i].isFlawed = true;
-  }
+  spaceOut(mesher, blocks, facts.minimumGap, pairs, context);
 
   const auto makeInner = [&]
   {

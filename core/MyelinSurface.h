@@ -92,7 +92,8 @@ struct FibreSurfacePair
 /// what the surface as contoured is off by, and moved along its normals to the volume that it is to have. It has to be a closed,
 /// outward 2-manifold that does not meet itself (exact predicates), nor its outer surface; where it fails it is made
 /// again with less coarsening around that place, at last with none. Triangles whose squared edges have a ratio above 800 are
-/// split. Then outer surfaces are moved inwards, by nanometres, where two of them are nearer than MinimumGap (see keepApart()).
+/// split. Then outer surfaces are moved inwards, by nanometres, where two of them are nearer than MinimumGap (see keepApart());
+/// one that then meets itself is made again with less coarsening.
 /// What still is not as it should be is marked (isFlawed).
 ///
 /// A fibre that leaves the box through a face and comes back has a piece for each stay; of other pieces the largest is kept (see

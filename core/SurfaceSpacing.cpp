@@ -38,26 +38,31 @@ struct Pair
   std::vector<std::uint32_t> trianglesOfOther;
 };
 
-/// All pairs of surfaces whose boxes come nearer than the gap.
-std::vector<Pair> neighbours(const std::vector<std::unique_ptr<TriangleTree>>& trees, double gap)
+/// All pairs of surfaces, one of which has changed, whose boxes come nearer than the gap.
+std::vector<Pair> neighbours(const std::vector<TriangleMesh*>& surfaces, const std::vector<char>& isChanged, double gap)
 {
+  std::vector<Eigen::AlignedBox3d> boxes(surfaces.size());
   std::vector<std::size_t> order;
-  for (std::size_t s = 0; s < trees.size(); ++s)
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
   {
-    if (trees[s] && !trees[s]->empty())
+    for (const Vector3d& p : surfaces[s]->points)
+    {
+      boxes[s].extend(p);
+    }
+    if (!surfaces[s]->triangles.empty())
     {
       order.push_back(s);
     }
   }
-  const auto box = [&](std::size_t s) -> const FloatBox& { return trees[s]->nodes().front().box; };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return box(a).lower[0] < box(b).lower[0]; });
+  std::stable_sort(
+    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return boxes[a].min()[0] < boxes[b].min()[0]; });
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < order.size(); ++i)
   {
-    const FloatBox& a = box(order[i]);
-    for (std::size_t j = i + 1; j < order.size() && double(box(order[j]).lower[0]) <= double(a.upper[0]) + gap; ++j)
+    const Eigen::AlignedBox3d& a = boxes[order[i]];
+    for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].min()[0] <= a.max()[0] + gap; ++j)
     {
-      if (a.squaredDistance(box(order[j])) < gap * gap)
+      if ((isChanged[order[i]] || isChanged[order[j]]) && a.squaredExteriorDistance(boxes[order[j]]) < gap * gap)
       {
         pairs.push_back({ std::min(order[i], order[j]), std::max(order[i], order[j]), 0.0, {}, {} });
       }
@@ -137,8 +142,8 @@ void addMoves(Moves& moves, const TriangleMesh& mesh, const std::vector<std::uin
 
 } // namespace
 
-SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double smallest, const Eigen::AlignedBox3d& box,
-  const Context& context, double from, double to)
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double smallest,
+  const Eigen::AlignedBox3d& box, const Context& context, double from, double to)
 {
   SpacingReport report;
   if (!(smallest > 0.0))
@@ -147,21 +152,27 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double small
   }
   const double gap = smallest + rounding;
   std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
-  std::vector<std::size_t> changed(surfaces.size());
-  std::iota(changed.begin(), changed.end(), std::size_t(0));
-  std::vector<char> isChanged(surfaces.size(), 1);
+  std::vector<char> isChanged(surfaces.size(), 0);
   std::vector<char> isMoved(surfaces.size(), 0);
-  std::vector<Pair> pairs;
+  for (const std::size_t s : changed)
+  {
+    isChanged[s] = 1;
+  }
+  std::vector<Pair> pairs = neighbours(surfaces, isChanged, gap);
+  std::vector<std::size_t> toPlant;
+  for (const Pair& pair : pairs)
+  {
+    toPlant.push_back(pair.one);
+    toPlant.push_back(pair.other);
+  }
+  std::sort(toPlant.begin(), toPlant.end());
+  toPlant.erase(std::unique(toPlant.begin(), toPlant.end()), toPlant.end());
   // Most of the work is the first look at all pairs.
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {
     parallelFor(
-      changed.size(), context, [&](std::size_t c) { trees[changed[c]] = std::make_unique<TriangleTree>(*surfaces[changed[c]]); });
-    if (round == 0)
-    {
-      pairs = neighbours(trees, gap);
-    }
+      toPlant.size(), context, [&](std::size_t c) { trees[toPlant[c]] = std::make_unique<TriangleTree>(*surfaces[toPlant[c]]); });
     parallelFor(
       pairs.size(), context,
       [&](std::size_t p)
@@ -197,15 +208,15 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double small
       }
       break;
     }
-    changed.clear();
+    toPlant.clear();
     std::fill(isChanged.begin(), isChanged.end(), 0);
     for (const auto& entry : moves)
     {
-      changed.push_back(entry.first);
+      toPlant.push_back(entry.first);
       isChanged[entry.first] = isMoved[entry.first] = 1;
     }
     parallelFor(
-      changed.size(), context, [&](std::size_t c) { moveInwards(*surfaces[changed[c]], moves.at(changed[c]), box, gap); });
+      toPlant.size(), context, [&](std::size_t c) { moveInwards(*surfaces[toPlant[c]], moves.at(toPlant[c]), box, gap); });
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s)
   {
@@ -215,6 +226,14 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double small
     }
   }
   return report;
+}
+
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
+  const Context& context, double from, double to)
+{
+  std::vector<std::size_t> all(surfaces.size());
+  std::iota(all.begin(), all.end(), std::size_t(0));
+  return keepApart(surfaces, all, gap, box, context, from, to);
 }
 
 } // namespace cactus

@@ -24,10 +24,15 @@ struct SpacingReport
 /// gives up on pairs that a few rounds do not part. Distances are those of the triangles (see smallestGap()), no samples.
 ///
 /// "At least" is meant for files, too, that hold points in single precision: what is nearer than 0.00005 µm more than the gap is
-/// moved.
+/// moved. Points on a face of `box` stay on it, so that flat caps stay flat; what else a surface may run into, such as a cap that
+/// folds, is for the caller to check. Empty surfaces are left out. Same result on any number of threads.
 ///
-/// Points on a face of `box` stay on it, so that flat caps stay flat. Empty surfaces are left out. Same result on any number of
-/// threads. Progress runs from `from` to `to`. Throws Cancelled.
+/// Only pairs with a surface among those in `changed` (increasing) are looked at: the others are taken to be apart, and stay so.
+/// Progress runs from `from` to `to`. Throws Cancelled.
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double gap,
+  const Eigen::AlignedBox3d& box, const Context& context = {}, double from = 0.0, double to = 1.0);
+
+/// All of them.
 SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
   const Context& context = {}, double from = 0.0, double to = 1.0);
 

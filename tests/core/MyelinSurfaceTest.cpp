@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: two smoothed fields sum to at most -gap everywhere on the grid; models give the g-ratios that they state.
+// Guarantees: two smoothed fields sum to at most -gap everywhere on the grid; models give the g-ratios that they state; fibres
+// are the gap apart even where growth left less.
 #include "MyelinSurface.h"
+#include "BundleInitializer.h"
+#include "CapsuleOptimizer.h"
 #include "Error.h"
 #include "FibreField.h"
 #include "FibreRadialGrowth.h"
 #include "GRatio.h"
+#include "GrowthTarget.h"
+#include "SurfaceDistance.h"
+#include "SurfaceIntersection.h"
+#include "TrimToDomain.h"
 
 #include <gtest/gtest.h>
 
@@ -149,6 +156,41 @@ TEST(GRatio, DistributedHasItsMeanAndDeviationAndDependsOnSeedAndFibre)
   EXPECT_EQ(distributedGRatio(0.6, 0.0, 1, 1), 0.6);
   EXPECT_THROW(distributedGRatio(0.2, 0.05, 1, 1), InvalidInput);
   EXPECT_THROW(distributedGRatio(0.7, -0.1, 1, 1), InvalidInput);
+}
+
+// Surfaces are moved by much more than coarsening costs; some fold, and are made again.
+TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
+{
+  BundleInitializerOptions bundle;
+  bundle.side = 8.0;
+  bundle.meanDispersion = 10.0;
+  Fibres fibres = initialiseBundles(bundle);
+  optimise(fibres, {}, {});
+  fibres = trimToDomain(fibres);
+  FibreRadialGrowthOptions growth;
+  growth.targetFibreVolumeFraction = 0.93;
+  fibres = aimAtTargetRadii(fibres, growth);
+  const LabelImage image = growFibres(fibres, growth, growthFor(fibres, growth), growthGrid(fibres.domain, growth));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = 0.06;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  const auto pairs =
+    myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, MyelinSurfaceOptions());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    EXPECT_FALSE(pairs[i].isFlawed) << pairs[i].fibreId;
+    const TriangleTree tree(pairs[i].outer);
+    EXPECT_TRUE(selfIntersections(tree).empty()) << pairs[i].fibreId;
+    for (std::size_t j = i + 1; j < pairs.size(); ++j)
+    {
+      const TriangleTree other(pairs[j].outer);
+      EXPECT_FALSE(smallestGap(tree, other, 0.06).found()) << pairs[i].fibreId << ", " << pairs[j].fibreId;
+    }
+  }
 }
 
 } // namespace

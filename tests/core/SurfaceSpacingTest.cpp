@@ -137,4 +137,16 @@ TEST(SurfaceSpacing, SameBitsOnAnyNumberOfThreadsAndStops)
   EXPECT_THROW(keepApart({ &left, &right }, 0.02, box, context), Cancelled);
 }
 
+TEST(SurfaceSpacing, LooksOnlyAtWhatHasChanged)
+{
+  TriangleMesh left = tube(-0.5, 0.49);
+  TriangleMesh middle = tube(0.5, 0.495);
+  TriangleMesh right = tube(1.5, 0.49);
+  const TriangleMesh oldLeft = left;
+  const SpacingReport report = keepApart({ &left, &middle, &right }, { 2 }, 0.02, box);
+  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 1, 2 })) << "0 and 1 are too near, too, but none has changed";
+  EXPECT_EQ(left.points, oldLeft.points);
+  EXPECT_EQ(keepApart({ &left, &middle, &right }, { 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
+}
+
 } // namespace
