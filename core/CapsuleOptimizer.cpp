@@ -5,6 +5,7 @@
 #include "Capsules.h"
 #include "Checkpoint.h"
 #include "Error.h"
+#include "FibreOrder.h"
 #include "NeighbourSearch.h"
 #include "OverlapCost.h"
 
@@ -633,14 +634,16 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
   const std::string& path = options.checkpointFile;
   const std::uint64_t fingerprint = path.empty() ? 0 : fingerprintOf(fibres, options);
   OptimisationResult result;
+  const FibreOrder order(fibres);
+  Fibres state = order.ordered(fibres);
   // A state without overlap is left alone.
-  const bool apart = measureOverlap(fibres, options.overlapTolerance, threads).overlappingPairs == 0;
+  const bool apart = measureOverlap(state, options.overlapTolerance, threads).overlappingPairs == 0;
   if (!apart && options.weights.compactness > 0.0)
   {
-    spreadBundles(fibres, options.packingLimit);
+    spreadBundles(state, options.packingLimit);
   }
   {
-    Run run(fibres, options, threads);
+    Run run(state, options, threads);
     if (options.resume && std::ifstream(path).is_open())
     {
       run.load(path, fingerprint);
@@ -659,6 +662,8 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
       run.note(row, options.overlapTolerance);
       if (observe)
       {
+        order.restore(state.points, fibres.points);
+        order.restore(state.radii, fibres.radii);
         observe(run.Iteration, fibres);
       }
       if (run.Iteration % 10 == 0)
@@ -681,14 +686,16 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
     }
     run.Path.account(result);
     result.convergence = std::move(run.Rows);
-    fibres.points = std::move(run.BestPoints);
-    fibres.radii = std::move(run.BestRadii);
+    state.points = std::move(run.BestPoints);
+    state.radii = std::move(run.BestRadii);
   }
   // The lists above reach only as far as the descent needs: what is handed back is measured afresh.
-  OverlapReport report = measureOverlap(fibres, options.overlapTolerance, threads);
+  const OverlapReport report = measureOverlap(state, options.overlapTolerance, threads);
   result.maximumPenetration = std::max(0.0, report.largestPenetration);
   result.overlappingPairs = report.overlappingPairs;
-  result.overlap = std::move(report.perPoint);
+  order.restore(report.perPoint, result.overlap);
+  order.restore(state.points, fibres.points);
+  order.restore(state.radii, fibres.radii);
   return result;
 }
 

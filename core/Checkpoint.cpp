@@ -11,7 +11,7 @@ namespace cactus
 namespace
 {
 
-constexpr char title[] = "CACTUS checkpoint 1\n";
+constexpr char title[] = "CACTUS checkpoint 2\n";
 constexpr std::uint64_t ending = 0x656e642e656e642eu;
 
 } // namespace
