@@ -45,12 +45,59 @@ inline __attribute__((always_inline)) Vector squareRoot(const Vector& x)
 
 inline __attribute__((always_inline)) bool any(const Mask& mask)
 {
+#if CACTUS_DOUBLES == 8
+  return _mm512_movepi64_mask((__m512i)mask) != 0;
+#elif CACTUS_DOUBLES == 4
+  return _mm256_movemask_pd((__m256d)mask) != 0;
+#else
   long long bits = 0;
   for (int l = 0; l < width; ++l)
   {
     bits |= mask[l];
   }
   return bits != 0;
+#endif
+}
+
+/// Lane l of q[n] becomes number n of capsule l.
+inline __attribute__((always_inline)) void transpose(const Capsule* const (&capsules)[width], Vector (&q)[8])
+{
+#if CACTUS_DOUBLES == 8
+  // Pairs of numbers two by two, then blocks of them four by four. With masks of all lanes: GCC 12 warns of the forms without.
+  __m512d even[4], odd[4];
+  for (int pair = 0; pair < 4; ++pair)
+  {
+    const __m512d first = _mm512_load_pd(capsules[2 * pair]->p0);
+    const __m512d second = _mm512_load_pd(capsules[2 * pair + 1]->p0);
+    even[pair] = _mm512_maskz_unpacklo_pd(0xff, first, second);
+    odd[pair] = _mm512_maskz_unpackhi_pd(0xff, first, second);
+  }
+  for (int parity = 0; parity < 2; ++parity)
+  {
+    const __m512d(&x)[4] = parity == 0 ? even : odd;
+    const __m512d lower01 = _mm512_maskz_shuffle_f64x2(0xff, x[0], x[1], 0x44);
+    const __m512d upper01 = _mm512_maskz_shuffle_f64x2(0xff, x[0], x[1], 0xee);
+    const __m512d lower23 = _mm512_maskz_shuffle_f64x2(0xff, x[2], x[3], 0x44);
+    const __m512d upper23 = _mm512_maskz_shuffle_f64x2(0xff, x[2], x[3], 0xee);
+    q[parity] = (Vector)_mm512_maskz_shuffle_f64x2(0xff, lower01, lower23, 0x88);
+    q[2 + parity] = (Vector)_mm512_maskz_shuffle_f64x2(0xff, lower01, lower23, 0xdd);
+    q[4 + parity] = (Vector)_mm512_maskz_shuffle_f64x2(0xff, upper01, upper23, 0x88);
+    q[6 + parity] = (Vector)_mm512_maskz_shuffle_f64x2(0xff, upper01, upper23, 0xdd);
+  }
+#else
+  double numbers[8][width];
+  for (int l = 0; l < width; ++l)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      numbers[axis][l] = capsules[l]->p0[axis];
+      numbers[4 + axis][l] = capsules[l]->p1[axis];
+    }
+    numbers[3][l] = capsules[l]->r0;
+    numbers[7][l] = capsules[l]->r1;
+  }
+  __builtin_memcpy(&q, &numbers, sizeof(q));
+#endif
 }
 
 /// Writes those of the first `count` values whose lane is set to `found`, in their order, and returns the end of what it wrote;
@@ -107,7 +154,8 @@ struct LaneSums
 inline __attribute__((always_inline)) void addLanes(
   const Capsule& p, const Vector (&q)[8], double margin, double tolerance, bool tapered, LaneSums& sums)
 {
-  const Vector zero = q[0] - q[0];
+  // Nothing here that depends on p alone depends on q, so that it is computed once.
+  const Vector zero = {};
   const Vector one = zero + 1.0;
   Vector u[3], v[3], r[3], w[3];
   Vector a = zero, b = zero, c = zero, e = zero, f = zero;
@@ -141,7 +189,7 @@ inline __attribute__((always_inline)) void addLanes(
     return;
   }
   const Vector distance = squareRoot(squared);
-  const Vector lengthP = zero + __builtin_sqrt(a[0]);
+  const Vector lengthP = squareRoot(a);
   const Vector lengthQ = squareRoot(e);
   const Vector inverseSum = one / (rp + rq);
   const Vector ratio = distance * inverseSum;
@@ -149,7 +197,7 @@ inline __attribute__((always_inline)) void addLanes(
   const Vector D = select(depth > zero, depth, zero);
   const Vector lengths = lengthP * lengthQ;
   const Vector scale = lengths * rp * rq;
-  const Vector byLength = D * D * lengthQ * rp * rq / lengthP; // ∂F/∂|p0−p1| / |p0−p1|
+  const Vector byLength = D * D * lengthQ * rp * rq * (one / lengthP); // ∂F/∂|p0−p1| / |p0−p1|
   // Concentric capsules have no direction to part in: no push, the next step of their neighbours breaks the tie.
   const Vector push = -2.0 * D * scale * inverseSum / select(distance > 1e-12, distance, one);
   const Vector byRp = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rq;
@@ -210,20 +258,13 @@ void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std
     sums.penetration -= 1.0;
     for (std::size_t n = std::size_t(v) * width; n < count; n += lanes)
     {
-      double numbers[8][width];
+      const Capsule* others[width];
       for (std::size_t l = 0; l < width; ++l)
       {
-        const Capsule& other = n + l < count ? bodies[neighbours[n + l]] : nothing;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          numbers[axis][l] = other.p0[axis];
-          numbers[4 + axis][l] = other.p1[axis];
-        }
-        numbers[3][l] = other.r0;
-        numbers[7][l] = other.r1;
+        others[l] = n + l < count ? bodies + neighbours[n + l] : &nothing;
       }
       Vector q[8];
-      __builtin_memcpy(&q, &numbers, sizeof(q));
+      transpose(others, q);
       addLanes(p, q, margin, tolerance, tapered, sums);
     }
     all[v] = sums;
