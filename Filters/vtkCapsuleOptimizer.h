@@ -197,8 +197,8 @@ private:
   double LengthWeight = 10.0;
   double RadiusWeight = 1.0;
   double CompactnessWeight = 2.0;
-  double StepSize = 1.0;
-  double Relaxation = 0.97;
+  double StepSize = 1.7;
+  double Relaxation = 0.96;
   double PackingLimit = 0.7;
   double RadiusTolerance = 0.0;
   bool TrimToDomain = true;

@@ -33,7 +33,7 @@ double secondsSince(Clock::time_point start)
 
 /// Largest step of a control point with momentum, as a multiple of its radius: fibres that push each other away at full speed
 /// land in others, and every neighbour list is worthless at once.
-constexpr double fastest = 0.05;
+constexpr double fastest = 0.065;
 
 /// Without progress for so many iterations a descent has got stuck: progress is a cost, or a largest penetration, smaller by
 /// this share than any before.

@@ -30,16 +30,16 @@ struct CapsuleOptimizerOptions
   /// Weights of the cost terms, by priority: overlap first.
   double overlapWeight = 1.0;
   FibreCostWeights weights;
-  /// Momentum: fraction of the Newton step along each coordinate. Adagrad: first step in µm.
-  double stepSize = 1.0;
+  /// Momentum: fraction of the Newton step along each coordinate; above 1.9 contacts swing up. Adagrad: first step in µm.
+  double stepSize = 1.7;
   /// Part of the last step that the next one carries on (Momentum only), in [0, 1).
-  double momentum = 0.97;
+  double momentum = 0.95;
   /// Stiffness, relative to that of a contact, of the thread that spreads a step along its fibre (Momentum only): fibres then
   /// move as a whole instead of kinking control point by control point. 0 for none.
   double smoothing = 5.0;
   /// Curvature, length and compactness fade by this factor in every iteration (Momentum only), so that at first they shape the
   /// fibres and at last cannot hold an overlap open; 1 keeps them.
-  double relaxation = 0.97;
+  double relaxation = 0.96;
   /// A bundle whose overlapping fibres would fill more than this of its cuboid is widened so far (where compactness has a
   /// weight).
   double packingLimit = 0.70;
