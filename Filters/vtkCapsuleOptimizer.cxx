@@ -10,6 +10,7 @@
 #include "WholeData.h"
 
 #include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
@@ -21,6 +22,7 @@
 #include <vtkTable.h>
 
 #include <algorithm>
+#include <exception>
 #include <functional>
 #include <numeric>
 #include <set>
@@ -152,6 +154,7 @@ struct vtkCapsuleOptimizer::Run
   cactus::OptimisationResult Optimisation; ///< what is to be said of it
   cactus::FibreShape Before;
   double RadiusDistance = 0.0;
+  bool WasReported = false; ///< whether the user has been told of what went wrong
 
   /// A state on the way, in single precision.
   struct State
@@ -224,10 +227,44 @@ void vtkCapsuleOptimizer::OfferTimes(vtkInformationVector* outputs) const
   }
 }
 
-int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  if (this->KeepHistory)
+  {
+    // Only the run itself says which times there are, and what follows asks for them here, not after RequestData.
+    cactus::requestWholeInputs(inputs, 1);
+    for (int connection = 0; connection < this->GetNumberOfInputConnections(0); ++connection)
+    {
+      int port = 0;
+      vtkAlgorithm* producer = this->GetInputAlgorithm(0, connection, port);
+      producer->Update(port);
+      if (vtkPolyData::GetData(inputs[0], connection) == nullptr)
+      {
+        return 1; // whoever should have made it has said why
+      }
+    }
+    try
+    {
+      this->EnsureRun(inputs[0]);
+    }
+    catch (const std::exception&)
+    {
+      // RequestData fails in the same way and reports it.
+    }
+  }
   this->OfferTimes(outputs);
   return 1;
+}
+
+void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs)
+{
+  const bool isKnown = this->KeepHistory && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
+                       this->LastRun->InputTime == inputTime(inputs);
+  if (!isKnown)
+  {
+    this->LastRun.reset();
+    this->LastRun = this->Optimise(inputs);
+  }
 }
 
 std::unique_ptr<vtkCapsuleOptimizer::Run> vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs)
@@ -383,27 +420,19 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
   return cactus::guarded(this,
     [&]
     {
-      const bool known = this->KeepHistory && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
-                         this->LastRun->InputTime == inputTime(inputs[0]);
-      if (!known)
-      {
-        this->LastRun.reset();
-        this->LastRun = this->Optimise(inputs[0]);
-      }
-      const Run& run = *this->LastRun;
+      this->EnsureRun(inputs[0]);
+      Run& run = *this->LastRun;
       std::size_t state = run.States.size();
       double time = run.lastIteration();
       if (this->KeepHistory)
       {
-        this->OfferTimes(outputs);
         const std::vector<double> times = run.times();
-        for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+        // The other port may still hold the time it was asked for before.
+        const int from = request->Has(vtkExecutive::FROM_OUTPUT_PORT()) ? request->Get(vtkExecutive::FROM_OUTPUT_PORT()) : 0;
+        vtkInformation* info = outputs->GetInformationObject(std::max(from, 0));
+        if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
         {
-          vtkInformation* info = outputs->GetInformationObject(port);
-          if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-          {
-            time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-          }
+          time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
         }
         const auto after = std::upper_bound(times.begin(), times.end(), time);
         state = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
@@ -417,17 +446,18 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
         }
       }
       const cactus::OptimisationResult& result = run.Optimisation;
-      if (!known && !result.checkpointFailure.empty())
+      if (!run.WasReported && !result.checkpointFailure.empty())
       {
         vtkWarningMacro(<< "the run could not be written down to go on from: " << result.checkpointFailure);
       }
-      if (!known && result.maximumPenetration > this->OverlapTolerance)
+      if (!run.WasReported && result.maximumPenetration > this->OverlapTolerance)
       {
         vtkWarningMacro(<< "overlaps remain: " << reasonText(result.reason) << " after " << run.lastIteration()
                         << " iterations with " << result.overlappingPairs << " capsule pairs above OverlapTolerance "
                         << this->OverlapTolerance << ", the largest penetration being " << result.maximumPenetration
                         << ". The best state is kept. Allow more iterations or time, or ask for a lower density.");
       }
+      run.WasReported = true;
       if (!this->KeepHistory)
       {
         this->LastRun.reset();

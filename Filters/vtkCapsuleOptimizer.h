@@ -13,8 +13,9 @@
  * `SmallestBendRadius` (the same as a multiple of the fibre's radius there), `LengthIncrease` (a fraction) and `RadiusDistance`
  * (Kolmogorov–Smirnov distance of the radii to those that came in). Output 1 `Convergence`: one row per iteration.
  *
- * With KeepHistory on, every HistoryInterval-th state is kept, and the iterations are offered as time steps once the filter has
- * run: a request for a time gets the last state that is not after it, the last one being the result.
+ * With KeepHistory on, every HistoryInterval-th state is kept, and the iterations are offered as time steps: a request for a time
+ * gets the last state that is not after it, the last one being the result. The run then takes place as soon as the times are
+ * asked for.
  *
  * Where overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how
  * many and how large, and the output is the best state that was seen.
@@ -180,6 +181,8 @@ private:
   vtkCapsuleOptimizer(const vtkCapsuleOptimizer&) = delete;
   void operator=(const vtkCapsuleOptimizer&) = delete;
 
+  /** Runs the optimisation unless LastRun holds it. */
+  void EnsureRun(vtkInformationVector* inputs);
   /** Runs the optimisation. */
   std::unique_ptr<Run> Optimise(vtkInformationVector* inputs);
   /** Fills the outputs with a state of the run. */

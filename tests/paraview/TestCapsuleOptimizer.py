@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 300
+# ctest-needs: display
 """CapsuleOptimizer in ParaView: what it hands on, says and keeps."""
 
 import os
 import tempfile
 
 from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import BundleInitializer, CapsuleOptimizer, Transform
+from paraview import servermanager
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, CreateView, GetAnimationScene, OutputPort, Show, Transform, Tube)
+
+COLUMNS = ["Iteration", "OverlapCost", "MaximumPenetration", "OverlappingPairs", "CurvatureCost", "LengthCost", "RadiusCost",
+           "CompactnessCost", "Seconds"]
 
 
 def number(data, name):
@@ -44,8 +49,7 @@ class Optimizer(CactusTestCase):
 
         table = fetch(optimizer, 1)
         names = [table.GetColumnName(i) for i in range(table.GetNumberOfColumns())]
-        self.assertEqual(names, ["Iteration", "OverlapCost", "MaximumPenetration", "OverlappingPairs", "CurvatureCost",
-                                 "LengthCost", "RadiusCost", "CompactnessCost", "Seconds"])
+        self.assertEqual(names, COLUMNS)
         last = table.GetNumberOfRows() - 1
         self.assertGreater(last, 10)
         self.assertGreater(table.GetColumnByName("MaximumPenetration").GetValue(0), 0.1)
@@ -107,6 +111,33 @@ class Optimizer(CactusTestCase):
         optimizer.UpdatePipeline()
         optimizer.UpdatePipelineInformation()
         self.assertEqual(len(optimizer.TimestepValues), 0)
+
+    def test_time_steps_reach_what_follows(self):
+        """As in a view that plays an animation of tubes: each time is known downstream, and shows its own state."""
+        optimizer = CapsuleOptimizer(Input=bundle(), KeepHistory=1, HistoryInterval=40)
+        tubes = Tube(Input=OutputPort(optimizer, 0), Scalars=["POINTS", "Radius"])
+        OutputPort(optimizer, 1).UpdatePipeline(0)  # a time that the other port was asked for does not count
+        times = list(optimizer.TimestepValues)
+        self.assertEqual(times[:2], [0, 40])
+        scene = GetAnimationScene()
+        scene.UpdateAnimationUsingDataTimeSteps()
+        self.assertEqual((scene.StartTime, scene.EndTime), (0, times[-1]))
+        largest = [number(fetch_at(tubes, time), "MaximumPenetration") for time in (0, 40, times[-1], 40, 0)]
+        self.assertGreater(largest[0], largest[1])
+        self.assertGreater(largest[1], largest[2])
+        self.assertLessEqual(largest[2], 1e-3)
+        self.assertEqual(largest[3:], [largest[1], largest[0]])
+
+    def test_convergence_opens_as_a_chart(self):
+        optimizer = CapsuleOptimizer(Input=bundle(), MaximumIterations=5)
+        with self.assertError("overlaps remain"):
+            optimizer.UpdatePipeline()
+        controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
+        self.assertEqual(controller.GetPreferredViewType(optimizer.SMProxy, 1), "XYChartView")
+        # By row, which is the iteration, and every column is there to be drawn.
+        chart = Show(OutputPort(optimizer, 1), CreateView("XYChartView"))
+        self.assertEqual(chart.UseIndexForXAxis, 1)
+        self.assertEqual(sorted(chart.SeriesVisibility), sorted(COLUMNS))
 
     def test_a_run_that_was_cut_short_is_resumed(self):
         plain = fetch(CapsuleOptimizer(Input=bundle()), 0)
