@@ -5,8 +5,9 @@
     ./cactus pvpython benchmarks/substrates.py --side 30 histology-1 histology-2 histology-3 histology-4
 
 dispersion-D is one bundle with a mean dispersion of D degrees, crossing-A are two bundles, of 5° each, that cross at A degrees (the
-rows of the paper's table of maximum fibre volume fractions); histology-N is row N of its table of histological targets. Radii are
-the defaults, Γ(2.4, 0.25) cut to 0.2-2 µm.
+rows of the paper's table of maximum fibre volume fractions); histology-N is row N of its table of histological targets; radii-F is one
+bundle that is packed for a fibre volume fraction F and grown to it, so that fibres end at their target radii. Radii are the
+defaults, Γ(2.4, 0.25) cut to 0.2-2 µm; the last columns compare those that were asked for with those of the meshes.
 """
 
 import argparse
@@ -15,11 +16,27 @@ import resource
 import sys
 import time
 
+import numpy as np
 from paraview import servermanager
 from paraview.simple import *
 
 # Axon and fibre volume fraction (paper, table of histological targets).
 HISTOLOGY = [(0.25, 0.60), (0.25, 0.68), (0.31, 0.75), (0.39, 0.76)]
+
+
+def column(proxy, index, name):
+    table = servermanager.Fetch(proxy, idx=index)
+    return np.array([table.GetColumnByName(name).GetValue(row) for row in range(table.GetNumberOfRows())])
+
+
+def compare_radii(surfaces, certificate):
+    """Correlation of the fibres' target radii with those of their meshes, and the Kolmogorov-Smirnov distance of the two."""
+    targets = dict(zip(column(surfaces, 2, "FibreId"), column(surfaces, 2, "TargetRadius_um")))
+    reached = dict(zip(column(certificate, 1, "FibreId"), column(certificate, 1, "OuterRadius_um")))
+    both = np.array([(targets[fibre], radius) for fibre, radius in reached.items() if np.isfinite(radius)])
+    values = np.sort(both.ravel())
+    below = [np.searchsorted(np.sort(radii), values, side="right") / len(radii) for radii in both.T]
+    return len(both), np.corrcoef(both.T)[0, 1], np.abs(below[0] - below[1]).max()
 
 
 def seconds(work):
@@ -42,8 +59,11 @@ def substrate(name, arguments):
         bundle.update(MeanDispersion=5, FibreVolumeFraction=min(0.7, 0.9 * fibres), GrownFibreVolumeFraction=fibres)
         growth = {"TargetFibreVolumeFraction": fibres}
         myelin = {"GRatioModel": "TargetAxonVolumeFraction", "TargetAxonVolumeFraction": axons}
+    elif kind == "radii":
+        bundle.update(MeanDispersion=10, GrownFibreVolumeFraction=float(number))
+        growth = {"TargetFibreVolumeFraction": float(number)}
     else:
-        sys.exit(f"{name} is no substrate: dispersion-D, crossing-A or histology-N")
+        sys.exit(f"{name} is no substrate: dispersion-D, crossing-A, histology-N or radii-F")
 
     initial = BundleInitializer(**bundle)
     optimizer = CapsuleOptimizer(Input=initial)
@@ -64,6 +84,7 @@ def substrate(name, arguments):
     found = {table.GetColumnName(i): table.GetValue(0, i).ToDouble() for i in range(table.GetNumberOfColumns())}
     if not found:
         sys.exit(f"{name} failed, see above")
+    radii = compare_radii(surfaces, certificate)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     cells = (
         name,
@@ -76,6 +97,7 @@ def substrate(name, arguments):
         f"{found['SmallestGap_um']:.4f}",
         f"{found['TrianglesPerArea_um-2']:.1f}",
         " + ".join(f"{t:.0f}" for t in times),
+        f"{radii[1]:.4f}, {radii[2]:.3f} ({radii[0]})",
         f"{peak:.1f}",
     )
     print("| " + " | ".join(cells) + " |", flush=True)
@@ -95,7 +117,7 @@ def main():
     arguments = parser.parse_args()
     columns = "substrate, fibres, FVF, AVF, MVF, g, certified, smallest gap (µm), triangles/µm²".split(", ")
     stages = "optimise + grow and mesh + certify" + (" + write" if arguments.output else "") + " (s)"
-    columns += [stages, "peak memory so far (GB)"]
+    columns += [stages, "radii: correlation, KS (fibres)", "peak memory so far (GB)"]
     print("| " + " | ".join(columns) + " |\n|" + "---|" * len(columns), flush=True)
     for name in arguments.names:
         substrate(name, arguments)

@@ -100,7 +100,12 @@ public:
     this->Range = range;
     this->Values = values;
     this->Stride = { { 1, std::size_t(range.count[0] + 2), std::size_t(range.count[0] + 2) * std::size_t(range.count[1] + 2) } };
-    this->Local.assign(cornerCount * range.size(), -1);
+    for (const std::size_t local : this->Used)
+    {
+      this->Local[local] = -1;
+    }
+    this->Used.clear();
+    this->Local.resize(std::max(this->Local.size(), cornerCount * range.size()), -1);
     const auto& n = range.count;
     for (int k = 0; k + 1 < n[2]; ++k)
     {
@@ -274,6 +279,7 @@ private:
     {
       return known;
     }
+    this->Used.push_back(local);
     bool shared = false; // with a block beside this one
     std::uint64_t node = 0;
     for (std::size_t axis = 3; axis-- > 0;)
@@ -365,7 +371,8 @@ private:
   NodeRange Range;
   const float* Values = nullptr;
   std::array<std::size_t, 3> Stride{ { 0, 0, 0 } };       ///< of values
-  std::vector<std::int32_t> Local;                        ///< points of the current block, by lower node and direction
+  std::vector<std::int32_t> Local;                        ///< points of the current block, by lower node and direction, or -1
+  std::vector<std::size_t> Used;                          ///< which of them are not -1
   std::unordered_map<std::uint64_t, std::int32_t> Shared; ///< points on planes between blocks
   CappedSurface Surface;
 };
