@@ -19,6 +19,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
@@ -142,6 +143,25 @@ void fillTable(vtkTable* table, const std::vector<cactus::FibreSurfacePair>& fib
   number("DroppedVolume_um3", [](const Fibre& f) { return f.droppedVolume; });
 }
 
+/// Empties the image that comes in at the port of an algorithm, and those further up that share its arrays, as ParaView puts filters
+/// of its own between two stages. Each counts as released, so that it is made again for whoever asks for it.
+void releaseImage(vtkAlgorithm* consumer)
+{
+  vtkSmartPointer<vtkDataArray> shared;
+  while (consumer != nullptr && consumer->GetNumberOfInputPorts() > 0 && consumer->GetNumberOfInputConnections(0) == 1)
+  {
+    auto* image = vtkImageData::SafeDownCast(consumer->GetInputDataObject(0, 0));
+    vtkDataArray* fibreId = image != nullptr ? image->GetPointData()->GetArray("FibreId") : nullptr;
+    if (fibreId == nullptr || (shared != nullptr && fibreId != shared))
+    {
+      return;
+    }
+    shared = fibreId;
+    image->ReleaseData();
+    consumer = consumer->GetInputAlgorithm(0, 0);
+  }
+}
+
 } // namespace
 
 vtkMyelinSurface::vtkMyelinSurface()
@@ -209,6 +229,23 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       view.gap = facts.minimumGap + 2.0 * facts.surfaceTolerance;
 
       auto fibres = cactus::myelinSurfaces(view, facts, options, context);
+      std::ostringstream parameters;
+      parameters.precision(15);
+      parameters << "GRatioModel=" << this->GRatioModel << " GRatio=" << this->GRatio
+                 << " GRatioDeviation=" << this->GRatioDeviation << " TargetAxonVolumeFraction=" << this->TargetAxonVolumeFraction
+                 << " SmoothingIterations=" << this->SmoothingIterations << " DecimationError=" << this->DecimationError
+                 << " ClipToDomain=" << this->ClipToDomain << " Seed=" << this->Seed;
+      for (int port = 0; port < 3; ++port)
+      {
+        vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
+        cactus::setDomain(output, facts.domain);
+        cactus::addProvenance(image, output, "MyelinSurface", parameters.str());
+      }
+      if (this->ReleaseInput)
+      {
+        releaseImage(this);
+      }
+
       fillTable(vtkTable::GetData(outputs, 2), fibres);
       std::vector<cactus::NamedSurface> outer;
       std::vector<cactus::NamedSurface> inner;
@@ -235,19 +272,6 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
                            "column Flawed of Fibre statistics: choose a smaller VoxelSize or raise SurfaceTolerance in "
                            "FibreRadialGrowth, or choose a smaller DecimationError here");
       }
-
-      std::ostringstream parameters;
-      parameters.precision(15);
-      parameters << "GRatioModel=" << this->GRatioModel << " GRatio=" << this->GRatio
-                 << " GRatioDeviation=" << this->GRatioDeviation << " TargetAxonVolumeFraction=" << this->TargetAxonVolumeFraction
-                 << " SmoothingIterations=" << this->SmoothingIterations << " DecimationError=" << this->DecimationError
-                 << " ClipToDomain=" << this->ClipToDomain << " Seed=" << this->Seed;
-      for (int port = 0; port < 3; ++port)
-      {
-        vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
-        cactus::setDomain(output, facts.domain);
-        cactus::addProvenance(image, output, "MyelinSurface", parameters.str());
-      }
     });
 }
 
@@ -262,5 +286,6 @@ void vtkMyelinSurface::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "DecimationError: " << this->DecimationError << '\n'
      << indent << "ClipToDomain: " << this->ClipToDomain << '\n'
      << indent << "Seed: " << this->Seed << '\n'
+     << indent << "ReleaseInput: " << this->ReleaseInput << '\n'
      << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
 }

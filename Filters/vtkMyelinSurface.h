@@ -90,6 +90,13 @@ public:
   ///@}
 
   ///@{
+  /** Give the label image's memory back once the surfaces are made; what else needs the image makes it anew. */
+  vtkSetMacro(ReleaseInput, bool);
+  vtkGetMacro(ReleaseInput, bool);
+  vtkBooleanMacro(ReleaseInput, bool);
+  ///@}
+
+  ///@{
   /** Threads to use; 0 means all. The result does not depend on it. */
   vtkSetMacro(NumberOfThreads, int);
   vtkGetMacro(NumberOfThreads, int);
@@ -115,6 +122,7 @@ private:
   double DecimationError = 0.005;
   bool ClipToDomain = true;
   int Seed = 1;
+  bool ReleaseInput = false;
   int NumberOfThreads = 0;
 };
 

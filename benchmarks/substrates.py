@@ -70,8 +70,8 @@ def substrate(name, arguments):
     fibres = OutputPort(optimizer, 0)
     times = [seconds(lambda: UpdatePipeline(proxy=optimizer))]
     # The image alone takes 8 bytes a voxel, and nothing but the surfaces is wanted of it.
-    grown = FibreRadialGrowth(Input=fibres, VoxelSize=arguments.voxel, ReleaseDataFlag=1, **growth)
-    surfaces = MyelinSurface(Input=grown, **myelin)
+    grown = FibreRadialGrowth(Input=fibres, VoxelSize=arguments.voxel, **growth)
+    surfaces = MyelinSurface(Input=grown, ReleaseInput=1, **myelin)
     outer, inner = OutputPort(surfaces, 0), OutputPort(surfaces, 1)
     times.append(seconds(lambda: UpdatePipeline(proxy=surfaces)))
     certificate = SubstrateCertificate(Fibres=fibres, Outer=outer, Inner=inner)

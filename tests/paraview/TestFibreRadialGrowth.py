@@ -8,7 +8,7 @@ import random
 
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, StrandReader
+from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, OutputPort, StrandReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
 
@@ -116,17 +116,6 @@ class FibreRadialGrowthTest(CactusTestCase):
             ids, depth = arrays(fetch(growth))
             digests.add(hashlib.sha256(ids.tobytes() + depth.tobytes()).hexdigest())
         self.assertEqual(len(digests), 1)
-
-    def test_the_image_can_be_released(self):
-        for release in (0, 1):
-            growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.2, GrowthIterations=2, ReleaseDataFlag=release)
-            surfaces = MyelinSurface(Input=growth)
-            surfaces.UpdatePipeline()
-            image = growth.GetClientSideObject().GetOutputDataObject(0)
-            self.assertEqual(image.GetPointData().GetNumberOfArrays(), 0 if release else 2)
-            self.assertGreater(fetch(surfaces).GetNumberOfCells(), 0)
-        # Whoever asks for it gets it all the same.
-        self.assertEqual(len(set(arrays(fetch(growth))[0])), len(set(arrays(fetch(FibreRadialGrowth(growth.Input, VoxelSize=0.2, GrowthIterations=2)))[0])))
 
     def test_bad_properties_give_one_error_and_no_image(self):
         for name, value in (

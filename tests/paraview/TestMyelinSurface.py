@@ -232,6 +232,22 @@ class MyelinSurfaceTest(CactusTestCase):
             digests.add(digest.hexdigest())
         self.assertEqual(len(digests), 1)
 
+    def test_the_image_can_be_released(self):
+        cells = set()
+        for release in (0, 1):
+            growth = self.growth(hexagonal(3.0), GrowthIterations=1)
+            surface = MyelinSurface(Input=growth, ReleaseInput=release)
+            surface.UpdatePipeline()
+            filters = [growth.GetClientSideObject(), surface.GetClientSideObject()]
+            images = [filters[0].GetOutputDataObject(0), filters[1].GetInputDataObject(0, 0)]
+            for image in images:
+                self.assertEqual(image.GetPointData().GetNumberOfArrays(), 0 if release else 2)
+            cells.add((fetch(surface, 0).GetNumberOfCells(), fetch(surface, 1).GetNumberOfCells()))
+            # Taking the surfaces has not made it anew; asking for it does.
+            self.assertEqual(images[1].GetPointData().GetNumberOfArrays(), 0 if release else 2)
+            self.assertGreater(fetch(growth, 0).GetPointData().GetArray("FibreId").GetRange()[1], 0)
+        self.assertEqual(len(cells), 1)
+
     def test_data_model(self):
         surface = MyelinSurface(Input=self.growth(hexagonal(3.0), GrowthIterations=1))
         for port in (0, 1):
