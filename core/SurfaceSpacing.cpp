@@ -28,11 +28,15 @@ constexpr double extra = 0.0002;
 constexpr double rounding = 5e-5;
 constexpr int rounds = 12;
 
+/// Trees over surfaces are held for about so many surfaces and their neighbours at a time.
+constexpr std::size_t surfacesAtATime = 128;
+
 /// Two surfaces, and by which triangles they are too near.
 struct Pair
 {
   std::size_t one;
   std::size_t other;
+  std::size_t batch;    ///< in which the pair is looked at; batches go through the box along x
   double missing = 0.0; ///< µm, of the gap
   std::vector<std::uint32_t> trianglesOfOne;
   std::vector<std::uint32_t> trianglesOfOther;
@@ -64,13 +68,66 @@ std::vector<Pair> neighbours(const std::vector<TriangleMesh*>& surfaces, const s
     {
       if ((isChanged[order[i]] || isChanged[order[j]]) && a.squaredExteriorDistance(boxes[order[j]]) < gap * gap)
       {
-        pairs.push_back({ std::min(order[i], order[j]), std::max(order[i], order[j]), 0.0, {}, {} });
+        pairs.push_back({ std::min(order[i], order[j]), std::max(order[i], order[j]), i / surfacesAtATime, 0.0, {}, {} });
       }
     }
   }
-  std::sort(pairs.begin(), pairs.end(),
-    [](const Pair& a, const Pair& b) { return std::make_pair(a.one, a.other) < std::make_pair(b.one, b.other); });
   return pairs;
+}
+
+/// Looks at all pairs, in batches, with trees only over what the present batch and those after it need.
+void measureGaps(const std::vector<Pair*>& pairs, const std::vector<TriangleMesh*>& surfaces, double gap, const Context& context,
+  double from, double to)
+{
+  std::vector<std::size_t> lastBatch(surfaces.size(), 0);
+  for (const Pair* pair : pairs)
+  {
+    lastBatch[pair->one] = lastBatch[pair->other] = pair->batch; // they come batch by batch
+  }
+  std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
+  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end)
+  {
+    const std::size_t batch = pairs[begin]->batch;
+    std::vector<std::size_t> missing;
+    for (end = begin; end < pairs.size() && pairs[end]->batch == batch; ++end)
+    {
+      for (const std::size_t s : { pairs[end]->one, pairs[end]->other })
+      {
+        if (!trees[s])
+        {
+          missing.push_back(s);
+        }
+      }
+    }
+    std::sort(missing.begin(), missing.end());
+    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+    parallelFor(
+      missing.size(), context, [&](std::size_t m) { trees[missing[m]] = std::make_unique<TriangleTree>(*surfaces[missing[m]]); });
+    parallelFor(
+      end - begin, context,
+      [&](std::size_t p)
+      {
+        Pair& pair = *pairs[begin + p];
+        const TriangleTree& one = *trees[pair.one];
+        const TriangleTree& other = *trees[pair.other];
+        const SurfaceGap nearest = smallestGap(one, other, gap);
+        pair.missing = nearest.found() ? gap - nearest.distance : 0.0;
+        pair.trianglesOfOne = nearest.found() ? trianglesNear(one, other, gap) : std::vector<std::uint32_t>();
+        pair.trianglesOfOther = nearest.found() ? trianglesNear(other, one, gap) : std::vector<std::uint32_t>();
+      },
+      "keeping fibres apart", from + (to - from) * double(begin) / double(pairs.size()),
+      from + (to - from) * double(end) / double(pairs.size()));
+    for (std::size_t p = begin; p < end; ++p)
+    {
+      for (const std::size_t s : { pairs[p]->one, pairs[p]->other })
+      {
+        if (lastBatch[s] == batch)
+        {
+          trees[s].reset();
+        }
+      }
+    }
+  }
 }
 
 /// How far to move each of the points that have to move.
@@ -151,7 +208,6 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
     return report;
   }
   const double gap = smallest + rounding;
-  std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
   std::vector<char> isChanged(surfaces.size(), 0);
   std::vector<char> isMoved(surfaces.size(), 0);
   for (const std::size_t s : changed)
@@ -159,38 +215,19 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
     isChanged[s] = 1;
   }
   std::vector<Pair> pairs = neighbours(surfaces, isChanged, gap);
-  std::vector<std::size_t> toPlant;
-  for (const Pair& pair : pairs)
-  {
-    toPlant.push_back(pair.one);
-    toPlant.push_back(pair.other);
-  }
-  std::sort(toPlant.begin(), toPlant.end());
-  toPlant.erase(std::unique(toPlant.begin(), toPlant.end()), toPlant.end());
   // Most of the work is the first look at all pairs.
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {
-    parallelFor(
-      toPlant.size(), context, [&](std::size_t c) { trees[toPlant[c]] = std::make_unique<TriangleTree>(*surfaces[toPlant[c]]); });
-    parallelFor(
-      pairs.size(), context,
-      [&](std::size_t p)
+    std::vector<Pair*> active;
+    for (Pair& pair : pairs)
+    {
+      if (isChanged[pair.one] || isChanged[pair.other])
       {
-        Pair& pair = pairs[p];
-        if (!isChanged[pair.one] && !isChanged[pair.other])
-        {
-          return;
-        }
-        const TriangleTree& one = *trees[pair.one];
-        const TriangleTree& other = *trees[pair.other];
-        const SurfaceGap nearest = smallestGap(one, other, gap);
-        pair.missing = nearest.found() ? gap - nearest.distance : 0.0;
-        pair.trianglesOfOne = nearest.found() ? trianglesNear(one, other, gap) : std::vector<std::uint32_t>();
-        pair.trianglesOfOther = nearest.found() ? trianglesNear(other, one, gap) : std::vector<std::uint32_t>();
-      },
-      "keeping fibres apart", round == 0 ? from : half, round == 0 ? half : to);
-
+        active.push_back(&pair);
+      }
+    }
+    measureGaps(active, surfaces, gap, context, round == 0 ? from : half, round == 0 ? half : to);
     std::map<std::size_t, Moves> moves;
     for (const Pair& pair : pairs)
     {
@@ -208,15 +245,14 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
       }
       break;
     }
-    toPlant.clear();
+    std::vector<std::size_t> moving;
     std::fill(isChanged.begin(), isChanged.end(), 0);
     for (const auto& entry : moves)
     {
-      toPlant.push_back(entry.first);
+      moving.push_back(entry.first);
       isChanged[entry.first] = isMoved[entry.first] = 1;
     }
-    parallelFor(
-      toPlant.size(), context, [&](std::size_t c) { moveInwards(*surfaces[toPlant[c]], moves.at(toPlant[c]), box, gap); });
+    parallelFor(moving.size(), context, [&](std::size_t m) { moveInwards(*surfaces[moving[m]], moves.at(moving[m]), box, gap); });
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s)
   {
