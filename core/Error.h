@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -48,5 +49,24 @@ class Cancelled : public Error
 public:
   using Error::Error;
 };
+
+/// The parts of a message one after the other, numbers with four significant digits.
+template <typename... Parts>
+std::string text(const Parts&... parts)
+{
+  std::ostringstream out;
+  out.precision(4);
+  (out << ... << parts);
+  return out.str();
+}
+
+/// Throws InvalidInput where what has to hold does not.
+inline void require(bool good, const char* message)
+{
+  if (!good)
+  {
+    throw InvalidInput(message);
+  }
+}
 
 } // namespace cactus

@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,23 +18,6 @@ namespace
 {
 
 constexpr double bandInVoxels = 4.0;
-
-template <typename... Parts>
-std::string text(const Parts&... parts)
-{
-  std::ostringstream out;
-  out << std::setprecision(4);
-  (out << ... << parts);
-  return out.str();
-}
-
-void require(bool good, const char* message)
-{
-  if (!good)
-  {
-    throw InvalidInput(message);
-  }
-}
 
 bool within(double value, double lower, double upper)
 {

@@ -10,10 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iomanip>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,15 +41,6 @@ constexpr double mostThickening = 1.2;
 constexpr double mostThinning = 1.5;
 /// Samples are counted in slabs of this many layers, the blocks of a sweep.
 constexpr int slabLayers = 16;
-
-template <typename... Parts>
-std::string text(const Parts&... parts)
-{
-  std::ostringstream out;
-  out << std::setprecision(4);
-  (out << ... << parts);
-  return out.str();
-}
 
 double largestRadius(const Fibres& fibres)
 {

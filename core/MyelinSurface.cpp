@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <string>
 
 namespace cactus
@@ -20,23 +19,6 @@ namespace
 {
 
 using Blocks = std::vector<std::uint32_t>;
-
-template <typename... Parts>
-std::string text(const Parts&... parts)
-{
-  std::ostringstream out;
-  out.precision(4);
-  (out << ... << parts);
-  return out.str();
-}
-
-void require(bool good, const char* message)
-{
-  if (!good)
-  {
-    throw InvalidInput(message);
-  }
-}
 
 /// Relative error of the axons' common volume that is good enough.
 constexpr double volumeTolerance = 2e-3;
