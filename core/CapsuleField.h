@@ -55,6 +55,23 @@ struct FieldCell
   const float* best;   ///< largest field, `size` values
   const float* second; ///< largest field of any other fibre
   const int* rank;     ///< whose field `best` is (rank as in CapsuleField), -1 where no fibre is near
+
+  /// visit(n) for the samples asked for: their places in `best`, `second` and `rank`.
+  template <typename Visit>
+  void forEachSample(Visit&& visit) const
+  {
+    for (int k = this->begin[2]; k < this->end[2]; ++k)
+    {
+      for (int j = this->begin[1]; j < this->end[1]; ++j)
+      {
+        const int row = sizeX * (j + sizeY * k);
+        for (int i = row + this->begin[0]; i < row + this->end[0]; ++i)
+        {
+          visit(i);
+        }
+      }
+    }
+  }
 };
 
 /// The seed fields s_i (µm) of fibres: s_i(x) is the largest radius minus distance to the centre over all balls of fibre i, so

@@ -74,21 +74,15 @@ Arrivals countArrivals(
     [&](const FieldCell& cell, int thread)
     {
       auto& counts = perThread[std::size_t(thread)];
-      for (int k = cell.begin[2]; k < cell.end[2]; ++k)
-      {
-        for (int j = cell.begin[1]; j < cell.end[1]; ++j)
+      cell.forEachSample(
+        [&](int n)
         {
-          const int row = FieldCell::sizeX * (j + FieldCell::sizeY * k);
-          for (int i = row + cell.begin[0]; i < row + cell.end[0]; ++i)
+          const double arrival = -static_cast<double>(cell.best[n]);
+          if (arrival < reach && cell.best[n] - cell.second[n] > gap)
           {
-            const double arrival = -static_cast<double>(cell.best[i]);
-            if (arrival < reach && cell.best[i] - cell.second[i] > gap)
-            {
-              ++counts[std::size_t((arrival - first) / growthClass)];
-            }
+            ++counts[std::size_t((arrival - first) / growthClass)];
           }
-        }
-      }
+        });
     });
   Arrivals arrivals;
   arrivals.first = first;
@@ -248,20 +242,14 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
       [&](const FieldCell& cell, int thread)
       {
         auto& counts = perThread[static_cast<std::size_t>(thread)];
-        for (int k = cell.begin[2]; k < cell.end[2]; ++k)
-        {
-          for (int j = cell.begin[1]; j < cell.end[1]; ++j)
+        cell.forEachSample(
+          [&](int sample)
           {
-            const int row = FieldCell::sizeX * (j + FieldCell::sizeY * k);
-            for (int i = row + cell.begin[0]; i < row + cell.end[0]; ++i)
+            if (cell.best[sample] > lowest && cell.best[sample] - cell.second[sample] > gap)
             {
-              if (cell.best[i] > lowest && cell.best[i] - cell.second[i] > gap)
-              {
-                ++counts[static_cast<std::size_t>(cell.rank[i])];
-              }
+              ++counts[static_cast<std::size_t>(cell.rank[sample])];
             }
-          }
-        }
+          });
       });
   }
   std::vector<double> samples(fibres.size(), 0.0);

@@ -101,6 +101,7 @@ void spaceOut(
       [&](std::size_t i)
       {
         FibreSurfacePair& pair = pairs[made[i]];
+        pair.isFlawed = false; // of the surface that goes
         mesher.makeOuter(mesher.smoothed(blocks(pair), pair.fibreId), pair, calm.at(made[i]));
       });
   }
