@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -16,73 +17,27 @@ namespace
 
 /// Corners of a cell are numbered by bits: 1 for the upper x, 2 for the upper y, 4 for the upper z.
 constexpr int cornerCount = 8;
+/// Points of a node: the node itself, and one on the edge that leads up from it along each axis.
+constexpr int pointsPerNode = 4;
 
-/// A tetrahedron of Kuhn's triangulation, with corners ordered so that its determinant is positive, and those of its sides that
-/// lie on a face of the cell, wound outward.
-struct Tetrahedron
+/// The corners of a face of a cell, counterclockwise as seen from outside; face 2·axis is the lower one, 2·axis + 1 the upper.
+std::array<int, 4> cornersOfFace(int face)
 {
-  std::array<int, 4> corners;
-  int lowerAxis; ///< `lowerSide` lies on the cell's lower face across this axis
-  std::array<int, 3> lowerSide;
-  int upperAxis; ///< `upperSide` lies on the cell's upper face across this axis
-  std::array<int, 3> upperSide;
-};
-
-/// The one of the path 0, a, a + b, a + b + c along the axes a, b, c from corner 0 to corner 7.
-Tetrahedron tetrahedronOf(int a, int b, int c)
-{
-  const int v1 = 1 << a;
-  const int v2 = v1 | (1 << b);
-  const bool even = (b - a + 3) % 3 == 1;
-  Tetrahedron t;
-  t.lowerAxis = c;
-  t.upperAxis = a;
-  if (even)
+  const int axis = face / 2;
+  const int b = 1 << ((axis + 1) % 3);
+  const int c = 1 << ((axis + 2) % 3);
+  if (face % 2 == 0)
   {
-    t.corners = { { 0, v1, v2, 7 } };
-    t.lowerSide = { { 0, v2, v1 } };
-    t.upperSide = { { v1, v2, 7 } };
+    return { { 0, c, b | c, b } };
   }
-  else
-  {
-    t.corners = { { 0, v2, v1, 7 } };
-    t.lowerSide = { { 0, v1, v2 } };
-    t.upperSide = { { v2, v1, 7 } };
-  }
-  return t;
+  const int a = 1 << axis;
+  return { { a, a | b, a | b | c, a | c } };
 }
 
-std::array<Tetrahedron, 6> allTetrahedra()
+std::array<std::array<int, 4>, 6> allFaces()
 {
-  return { { tetrahedronOf(0, 1, 2), tetrahedronOf(1, 2, 0), tetrahedronOf(2, 0, 1), tetrahedronOf(0, 2, 1),
-    tetrahedronOf(2, 1, 0), tetrahedronOf(1, 0, 2) } };
+  return { { cornersOfFace(0), cornersOfFace(1), cornersOfFace(2), cornersOfFace(3), cornersOfFace(4), cornersOfFace(5) } };
 }
-
-/// For the corners of a tetrahedron that are positive (bit by bit): its corners in an even order, with the odd ones out in front.
-struct TetrahedronCase
-{
-  int positive;             ///< how many
-  std::array<int, 4> order; ///< the positive one first; for three, the negative one first; for two, the positive two first
-};
-
-constexpr std::array<TetrahedronCase, 16> cases = { {
-  { 0, { { 0, 1, 2, 3 } } }, // none
-  { 1, { { 0, 1, 2, 3 } } }, // 0
-  { 1, { { 1, 0, 3, 2 } } }, // 1
-  { 2, { { 0, 1, 2, 3 } } }, // 0 1
-  { 1, { { 2, 3, 0, 1 } } }, // 2
-  { 2, { { 0, 2, 3, 1 } } }, // 0 2
-  { 2, { { 1, 2, 0, 3 } } }, // 1 2
-  { 3, { { 3, 2, 1, 0 } } }, // 0 1 2
-  { 1, { { 3, 2, 1, 0 } } }, // 3
-  { 2, { { 0, 3, 1, 2 } } }, // 0 3
-  { 2, { { 1, 3, 2, 0 } } }, // 1 3
-  { 3, { { 2, 3, 0, 1 } } }, // 0 1 3
-  { 2, { { 2, 3, 0, 1 } } }, // 2 3
-  { 3, { { 1, 0, 3, 2 } } }, // 0 2 3
-  { 3, { { 0, 1, 2, 3 } } }, // 1 2 3
-  { 4, { { 0, 1, 2, 3 } } }, // all
-} };
 
 class Contourer
 {
@@ -105,27 +60,38 @@ public:
       this->Local[local] = -1;
     }
     this->Used.clear();
-    this->Local.resize(std::max(this->Local.size(), cornerCount * range.size()), -1);
+    this->Local.resize(std::max(this->Local.size(), pointsPerNode * range.size()), -1);
     const auto& n = range.count;
+    this->findSigns();
     for (int k = 0; k + 1 < n[2]; ++k)
     {
       for (int j = 0; j + 1 < n[1]; ++j)
       {
-        const std::size_t row = this->valueIndex({ { 0, j, k } });
-        const int edgesOfRow = this->boundary(1, j) | this->boundary(2, k);
-        // Per cell, the signs at its lower x are those at the upper x of the one before.
-        int upper = this->signs(row);
-        for (int i = 0; i + 1 < n[0]; ++i)
+        // Bit by bit along x: cells with a corner inside, and those with all of them inside.
+        const std::uint32_t rows[4] = { this->signs(j, k), this->signs(j + 1, k), this->signs(j, k + 1),
+          this->signs(j + 1, k + 1) };
+        const std::uint32_t any = rows[0] | rows[1] | rows[2] | rows[3];
+        const std::uint32_t every = rows[0] & rows[1] & rows[2] & rows[3];
+        const std::uint32_t cells = (1u << (n[0] - 1)) - 1u;
+        const int sidesOfRow = this->boundary(1, j) | this->boundary(2, k);
+        std::uint32_t inside = every & (every >> 1);
+        if (sidesOfRow != 0)
         {
-          const int lower = upper;
-          upper = this->signs(row + std::size_t(i) + 1);
-          const int mask = lower | (upper << 1);
-          const int sides = edgesOfRow | this->boundary(0, i);
-          if (mask == 0 || (mask == 255 && sides == 0))
+          inside = 0; // these have caps
+        }
+        else
+        {
+          inside &= ~((this->boundary(0, 0) != 0 ? 1u : 0u) | (this->boundary(0, n[0] - 2) != 0 ? 1u << (n[0] - 2) : 0u));
+        }
+        for (std::uint32_t left = (any | (any >> 1)) & ~inside & cells; left != 0; left &= left - 1)
+        {
+          const int i = __builtin_ctz(left);
+          int mask = 0;
+          for (int row = 0; row < 4; ++row)
           {
-            continue;
+            mask |= static_cast<int>((rows[row] >> i) & 3u) << (2 * row);
           }
-          this->addCell({ { i, j, k } }, mask, sides);
+          this->addCell({ { i, j, k } }, mask, sidesOfRow | this->boundary(0, i));
         }
       }
     }
@@ -136,14 +102,35 @@ public:
 private:
   using Corner = std::array<int, 3>; ///< a node, counted within the block
 
-  /// Bits of the positive ones among the four nodes at one x of a cell, spread as the cell's corners of lower x.
-  int signs(std::size_t at) const
+  /// An edge of a cell, by the corners at its ends.
+  struct Edge
   {
-    const float* v = this->Values + at;
-    const std::size_t up = this->Stride[1];
-    const std::size_t above = this->Stride[2];
-    return (v[0] > 0.0f ? 1 : 0) | (v[up] > 0.0f ? 4 : 0) | (v[above] > 0.0f ? 16 : 0) | (v[up + above] > 0.0f ? 64 : 0);
+    int from;
+    int to;
+
+    std::size_t index() const { return std::size_t(3 * (from & to) + (from ^ to) / 2); }
+  };
+  static constexpr std::size_t edgeCount = 3 * (cornerCount - 1); // some numbers stand for none
+
+  /// Writes down which nodes of the block are positive, a bit each.
+  void findSigns()
+  {
+    const auto& n = this->Range.count;
+    for (int k = 0; k < n[2]; ++k)
+    {
+      for (int j = 0; j < n[1]; ++j)
+      {
+        const float* row = this->Values + this->valueIndex({ { 0, j, k } });
+        std::uint32_t bits = 0;
+        for (int i = 0; i < n[0]; ++i)
+        {
+          bits |= (row[i] > 0.0f ? 1u : 0u) << i;
+        }
+        this->Signs[std::size_t(k)][std::size_t(j)] = bits;
+      }
+    }
   }
+  std::uint32_t signs(int j, int k) const { return this->Signs[std::size_t(k)][std::size_t(j)]; }
 
   /// On which faces of the lattice a cell at this place of the block ends: bit 2·axis, bit 2·axis + 1.
   int boundary(int axis, int cell) const
@@ -171,109 +158,171 @@ private:
 
   void addCell(const Corner& cell, int mask, int sides)
   {
-    static const std::array<Tetrahedron, 6> tetrahedra = allTetrahedra();
-    for (const Tetrahedron& tetrahedron : tetrahedra)
+    // By edge: a loop of the surface goes on from there to this one. An edge on which it enters the positive part of one face is
+    // one on which it leaves that of another.
+    std::array<Edge, edgeCount> next;
+    std::array<Edge, 12> entries;
+    std::size_t entryCount = 0;
+    bool isPlain = true;
+    for (int face = 0; face < 6; ++face)
     {
-      const auto& c = tetrahedron.corners;
-      const int inside =
-        ((mask >> c[0]) & 1) | (((mask >> c[1]) & 1) << 1) | (((mask >> c[2]) & 1) << 2) | (((mask >> c[3]) & 1) << 3);
-      if (inside == 0)
+      static const std::array<std::array<int, 4>, 6> faces = allFaces();
+      const std::array<int, 4>& corners = faces[std::size_t(face)];
+      // Crossings around the face, from outside to inside or the other way round.
+      std::array<Edge, 4> crossings;
+      std::array<bool, 4> enters;
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < 4; ++i)
       {
-        continue;
+        const int from = corners[i];
+        const int to = corners[(i + 1) % 4];
+        if (((mask >> from) & 1) != ((mask >> to) & 1))
+        {
+          enters[count] = ((mask >> to) & 1) != 0;
+          crossings[count++] = { from, to };
+        }
       }
-      this->addTetrahedron(cell, tetrahedron, cases[std::size_t(inside)]);
-      if ((sides & (1 << (2 * tetrahedron.lowerAxis))) != 0)
+      const bool isJoined = count == 4 && this->positivesMeet(cell, corners, mask);
+      isPlain = isPlain && count < 4;
+      for (std::size_t i = 0; i < count; ++i)
       {
-        this->addCap(cell, tetrahedron.lowerSide, mask);
+        if (enters[i])
+        {
+          // Around the positive corner that follows or, where positives meet, around the negative one before.
+          next[crossings[i].index()] = crossings[(i + (isJoined ? count - 1 : 1)) % count];
+          entries[entryCount++] = crossings[i];
+        }
       }
-      if ((sides & (2 << (2 * tetrahedron.upperAxis))) != 0)
+      if (((sides >> face) & 1) != 0)
       {
-        this->addCap(cell, tetrahedron.upperSide, mask);
+        this->addCaps(cell, corners, mask, isJoined);
+      }
+    }
+    std::uint32_t done = 0;
+    for (std::size_t e = 0; e < entryCount; ++e)
+    {
+      this->Polygon.clear();
+      for (Edge at = entries[e]; (done & (1u << at.index())) == 0; at = next[at.index()])
+      {
+        done |= 1u << at.index();
+        this->Polygon.push_back(this->edgePoint(cell, at.from, at.to));
+      }
+      if (!this->Polygon.empty())
+      {
+        isPlain ? this->addPolygon() : this->addFan();
       }
     }
   }
 
-  void addTetrahedron(const Corner& cell, const Tetrahedron& tetrahedron, const TetrahedronCase& kind)
+  /// Of a face whose positive corners are opposite each other: whether they hang together, as the saddle of the bilinear field
+  /// says.
+  bool positivesMeet(const Corner& cell, const std::array<int, 4>& corners, int mask) const
   {
-    if (kind.positive == 4)
+    double positives = 1.0;
+    double negatives = 1.0;
+    for (const int corner : corners)
+    {
+      (((mask >> corner) & 1) != 0 ? positives : negatives) *= this->Values[this->valueIndex(cornerAt(cell, corner))];
+    }
+    return positives > negatives;
+  }
+
+  /// The part of a face of the box in which the field is positive.
+  void addCaps(const Corner& cell, const std::array<int, 4>& corners, int mask, bool isJoined)
+  {
+    this->Polygon.clear();
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const int from = corners[i];
+      const int to = corners[(i + 1) % 4];
+      const bool isInside = ((mask >> from) & 1) != 0;
+      if (isInside)
+      {
+        this->Polygon.push_back(this->edgePoint(cell, from, from));
+      }
+      if (isInside != (((mask >> to) & 1) != 0))
+      {
+        this->Polygon.push_back(this->edgePoint(cell, from, to));
+      }
+    }
+    if (this->Polygon.empty())
     {
       return;
     }
-    const auto corner = [&](int i) { return tetrahedron.corners[std::size_t(kind.order[std::size_t(i)])]; };
-    if (kind.positive == 2)
+    const bool isAmbiguous = this->Polygon.size() == 6;
+    if (!isAmbiguous || isJoined)
     {
-      this->addQuad(this->edgePoint(cell, corner(0), corner(2)), this->edgePoint(cell, corner(0), corner(3)),
-        this->edgePoint(cell, corner(1), corner(3)), this->edgePoint(cell, corner(1), corner(2)));
+      this->addPolygon();
       return;
     }
-    const std::int32_t a = this->edgePoint(cell, corner(0), corner(1));
-    const std::int32_t b = this->edgePoint(cell, corner(0), corner(2));
-    const std::int32_t c = this->edgePoint(cell, corner(0), corner(3));
-    if (kind.positive == 1)
+    // Two corners: from the crossing before each to the one behind.
+    const std::vector<std::int32_t> all = this->Polygon;
+    const std::size_t first = ((mask >> corners[0]) & 1) != 0 ? 5 : 0;
+    for (std::size_t corner = 0; corner < 2; ++corner)
     {
-      this->Surface.mesh.triangles.push_back({ { a, b, c } });
-    }
-    else
-    {
-      this->Surface.mesh.triangles.push_back({ { a, c, b } });
+      const std::size_t at = first + 3 * corner;
+      this->Polygon = { all[at % 6], all[(at + 1) % 6], all[(at + 2) % 6] };
+      this->addPolygon();
     }
   }
 
-  /// The part of a boundary triangle in which the field is positive.
-  void addCap(const Corner& cell, const std::array<int, 3>& side, int mask)
+  /// Cuts what Polygon holds into triangles between its corners, by the shortest diagonals.
+  void addPolygon()
   {
-    std::array<std::int32_t, 4> polygon;
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < 3; ++i)
+    const auto& points = this->Surface.mesh.points;
+    std::vector<std::int32_t>& p = this->Polygon;
+    while (p.size() > 3)
     {
-      const int from = side[i];
-      const int to = side[(i + 1) % 3];
-      if ((mask >> from) & 1)
+      std::size_t best = 0;
+      double shortest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < p.size(); ++i)
       {
-        polygon[size++] = this->edgePoint(cell, from, from);
+        const std::int32_t before = p[(i + p.size() - 1) % p.size()];
+        const std::int32_t behind = p[(i + 1) % p.size()];
+        const double length = (points[std::size_t(before)] - points[std::size_t(behind)]).squaredNorm();
+        if (length < shortest)
+        {
+          shortest = length;
+          best = i;
+        }
       }
-      if (((mask >> from) & 1) != ((mask >> to) & 1))
-      {
-        polygon[size++] = this->edgePoint(cell, from, to);
-      }
+      this->Surface.mesh.triangles.push_back({ { p[(best + p.size() - 1) % p.size()], p[best], p[(best + 1) % p.size()] } });
+      p.erase(p.begin() + std::ptrdiff_t(best));
     }
-    if (size == 3)
-    {
-      this->Surface.mesh.triangles.push_back({ { polygon[0], polygon[1], polygon[2] } });
-    }
-    else if (size == 4)
-    {
-      this->addQuad(polygon[0], polygon[1], polygon[2], polygon[3]);
-    }
+    this->Surface.mesh.triangles.push_back({ { p[0], p[1], p[2] } });
   }
 
-  /// A convex, flat quadrilateral, cut along its shorter diagonal.
-  void addQuad(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d)
+  /// Cuts what Polygon holds into triangles around a point in its middle.
+  void addFan()
   {
-    const auto& p = this->Surface.mesh.points;
-    auto& triangles = this->Surface.mesh.triangles;
-    const double ac = (p[std::size_t(a)] - p[std::size_t(c)]).squaredNorm();
-    const double bd = (p[std::size_t(b)] - p[std::size_t(d)]).squaredNorm();
-    if (ac <= bd)
+    std::vector<std::int32_t>& p = this->Polygon;
+    if (p.size() == 3)
     {
-      triangles.push_back({ { a, b, c } });
-      triangles.push_back({ { a, c, d } });
+      this->addPolygon();
+      return;
     }
-    else
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const std::int32_t point : p)
     {
-      triangles.push_back({ { a, b, d } });
-      triangles.push_back({ { b, c, d } });
+      middle += this->Surface.mesh.points[std::size_t(point)];
+    }
+    const auto centre = static_cast<std::int32_t>(this->Surface.mesh.points.size());
+    this->Surface.mesh.points.push_back(middle / double(p.size()));
+    this->Surface.faces.push_back(0);
+    for (std::size_t i = 0; i < p.size(); ++i)
+    {
+      this->Surface.mesh.triangles.push_back({ { centre, p[i], p[(i + 1) % p.size()] } });
     }
   }
 
   /// The point where the field is 0 between two corners of a cell, or the corner where both are one.
   std::int32_t edgePoint(const Corner& cell, int one, int other)
   {
-    const int lowerCorner = one & other; // one of the two, by how Kuhn's triangulation is made
-    const int direction = one ^ other;
+    const int lowerCorner = one & other;
+    const int direction = one == other ? 0 : 1 + (one ^ other) / 2;
     const Corner lower = cornerAt(cell, lowerCorner);
     const Corner upper = cornerAt(cell, one | other);
-    const std::size_t local = cornerCount * this->localIndex(lower) + std::size_t(direction);
+    const std::size_t local = pointsPerNode * this->localIndex(lower) + std::size_t(direction);
     std::int32_t& known = this->Local[local];
     if (known >= 0)
     {
@@ -291,7 +340,7 @@ private:
     {
       return known = this->addPoint(lower, upper);
     }
-    const auto entry = this->Shared.emplace(cornerCount * node + std::uint64_t(direction), -1).first;
+    const auto entry = this->Shared.emplace(pointsPerNode * node + std::uint64_t(direction), -1).first;
     if (entry->second < 0)
     {
       entry->second = this->addPoint(lower, upper);
@@ -370,10 +419,12 @@ private:
   const NodeLattice& Lattice;
   NodeRange Range;
   const float* Values = nullptr;
-  std::array<std::size_t, 3> Stride{ { 0, 0, 0 } };       ///< of values
+  std::array<std::size_t, 3> Stride{ { 0, 0, 0 } };                                                      ///< of values
+  std::array<std::array<std::uint32_t, NodeLattice::blockCells + 1>, NodeLattice::blockCells + 1> Signs; ///< see findSigns()
   std::vector<std::int32_t> Local;                        ///< points of the current block, by lower node and direction, or -1
   std::vector<std::size_t> Used;                          ///< which of them are not -1
   std::unordered_map<std::uint64_t, std::int32_t> Shared; ///< points on planes between blocks
+  std::vector<std::int32_t> Polygon;                      ///< that is being cut into triangles
   CappedSurface Surface;
 };
 

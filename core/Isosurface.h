@@ -51,10 +51,12 @@ inline double agreedBend(double a, double b)
 /// The boundary of the region of the lattice's box in which a field is positive: its zero surface, closed by flat caps on the
 /// faces of the box.
 ///
-/// The field is what `values` gives at the nodes. Each cell is cut into six tetrahedra by Kuhn's (Freudenthal's) triangulation,
-/// and each tetrahedron holds at most two triangles, whose corners lie on those of its edges at whose ends the signs differ.
-/// Hence the surface is a closed, outward 2-manifold without self-intersection, as the level set of a piecewise linear function
-/// is, which tables for whole cells (marching cubes) do not promise. It may have several components.
+/// The field is what `values` gives at the nodes. The surface crosses each edge of a cell once where the signs at its ends differ
+/// (marching cubes, Lorensen and Cline 1987); on a face of a cell with four crossings the saddle of the bilinear field says which
+/// of them belong together (asymptotic decider, Nielson and Hamann 1991). Crossings of a cell are chained into loops, face by
+/// face, so cells agree on what they share and the surface is a closed, outward 2-manifold. A loop is cut into triangles by
+/// diagonals or, in a cell with such a face, around a point in its middle, since a diagonal might lie in the face and be made
+/// twice. It may have several components.
 ///
 /// Along an edge the field is taken as a parabola, bent by the second difference that the samples before and behind agree on, so
 /// that the surface of a smooth field is off by the third power of the spacing; linear interpolation would leave ripples of

@@ -484,8 +484,9 @@ private:
   }
 
   /// What the field says at the corner, edges' middles and centroids of the triangles around an edge: as they are, or with u and
-  /// v moved to `place`.
-  Fit fit(std::int32_t u, std::int32_t v, const Vector3d* place) const
+  /// v moved to `place`. What `isHopeless` says yes to is not looked at further.
+  template <typename IsHopeless>
+  Fit fit(std::int32_t u, std::int32_t v, const Vector3d* place, IsHopeless&& isHopeless) const
   {
     Fit result;
     const std::uint8_t facesOfBoth = this->Mesh.facesOf(u) | this->Mesh.facesOf(v);
@@ -515,6 +516,10 @@ private:
         const std::uint8_t facesOfAll = facesOfEdge & this->Mesh.facesOf(third);
         this->addToFit(result, 0.5 * (a + b), facesOfEdge, 1.0 / 2.0);
         this->addToFit(result, (a + b + d) / 3.0, facesOfAll, 1.0 / 3.0);
+        if (isHopeless(result))
+        {
+          return result;
+        }
       }
     }
     return result;
@@ -524,8 +529,11 @@ private:
   /// outwards or inwards brings it into its range, and `mayMove`, it is moved.
   Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove) const
   {
-    const Fit after = this->fit(u, v, &place);
-    if (after.excess <= 0.0)
+    const bool mustFit = this->isKnown(u, v);
+    const auto isOut = [](const Fit& fit) { return fit.excess > 0.0; };
+    const Fit after =
+      this->fit(u, v, &place, [&](const Fit& fit) { return mustFit && isOut(fit) && !(mayMove && fit.lower <= fit.upper); });
+    if (!isOut(after))
     {
       return Verdict::Kept;
     }
@@ -535,13 +543,18 @@ private:
       const double middle = 0.5 * (after.lower + after.upper);
       const Vector3d outward = this->normalAround(u, v).normalized();
       const Vector3d moved = this->keptOffFaces(place, place + 0.5 * (least + middle) * outward);
-      if (this->keepsShape(u, v, moved, false) && this->fit(u, v, &moved).excess <= 0.0)
+      if (this->keepsShape(u, v, moved, false) && !isOut(this->fit(u, v, &moved, isOut)))
       {
         place = moved;
         return Verdict::Kept;
       }
     }
-    return !this->isKnown(u, v) && after.excess <= this->fit(u, v, nullptr).excess ? Verdict::NoWorse : Verdict::Worse;
+    if (mustFit)
+    {
+      return Verdict::Worse;
+    }
+    const Fit before = this->fit(u, v, nullptr, [&](const Fit& fit) { return fit.excess >= after.excess; });
+    return after.excess <= before.excess ? Verdict::NoWorse : Verdict::Worse;
   }
 
   /// Whether the triangles at u and v have been found to keep the field in its range.

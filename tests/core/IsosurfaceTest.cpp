@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: whatever the field, its contour is a closed, outward 2-manifold, on the field's zero to third order, flat on the
-// box.
+// Guarantee: whatever the field, its contour is a closed, outward 2-manifold that does not cut itself, on the field's zero to
+// third order, flat on the box.
 #include "Isosurface.h"
 #include "Error.h"
 #include "Random.h"
 #include "SurfaceCheck.h"
 #include "SurfaceDecimation.h"
+#include "SurfaceIntersection.h"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,8 @@ TEST(Isosurface, NoiseGivesClosedManifolds)
     EXPECT_EQ(report.pinchedPoints, 0u);
     EXPECT_GT(report.volume, 0.0);
     EXPECT_EQ(report.points, surface.mesh.points.size());
+    const auto cuts = selfIntersections(TriangleTree(surface.mesh));
+    EXPECT_TRUE(cuts.empty()) << cuts.size() << " of " << report.triangles;
   }
 }
 
@@ -187,14 +190,16 @@ TEST(SurfaceDecimation, KeepsASphereClosedAndNear)
     EXPECT_EQ(report.components, 1u);
     EXPECT_LT(report.largestSquaredEdgeRatio, 1000.0);
     EXPECT_LT(report.triangles, before);
-    EXPECT_NEAR(report.volume, 4.0 / 3.0 * pi, 4.0 * pi * error);
+    EXPECT_NEAR(report.volume, 4.0 / 3.0 * pi, 4.0 * pi * std::max(error, 0.0025));
     for (const auto& p : surface.mesh.points)
     {
-      EXPECT_LE(std::abs(sphereDepth(p, 1.0)), std::max(error, 0.0016));
+      // Where triangles of the contour cut corners off the sphere by more than the error, that may stay so: √2 · 0.1 long, they
+      // do by up to 0.0025.
+      EXPECT_LE(std::abs(sphereDepth(p, 1.0)), std::max(error, 0.0025));
     }
     before = report.triangles;
   }
-  EXPECT_LT(double(before), 0.03 * double(fine.mesh.triangles.size()));
+  EXPECT_LT(double(before), 0.06 * double(fine.mesh.triangles.size()));
 }
 
 TEST(SurfaceDecimation, KeepsFlatFacesAndTheirEdges)
