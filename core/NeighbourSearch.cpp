@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
+#include <memory>
+#include <numeric>
 
 namespace cactus
 {
@@ -26,29 +28,6 @@ struct Box
   Four upper;
 };
 
-/// A run as a cell sees it: consecutive capsules of one fibre. The fourth numbers of the box hold the first of them and one past
-/// the last.
-struct Run
-{
-  Box box;
-
-  void setRange(std::uint32_t first, std::uint32_t last)
-  {
-    std::memcpy(reinterpret_cast<char*>(&this->box.lower) + 12, &first, 4);
-    std::memcpy(reinterpret_cast<char*>(&this->box.upper) + 12, &last, 4);
-  }
-  std::uint32_t first() const { return fourth(this->box.lower); }
-  std::uint32_t last() const { return fourth(this->box.upper); }
-
-private:
-  static std::uint32_t fourth(const Four& corner)
-  {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, reinterpret_cast<const char*>(&corner) + 12, 4);
-    return bits;
-  }
-};
-
 inline Four larger(const Four& a, const Four& b)
 {
   return a > b ? a : b;
@@ -59,8 +38,8 @@ inline Four smaller(const Four& a, const Four& b)
   return a < b ? a : b;
 }
 
-/// A capsule's bounding box, larger by its reach. Two boxes of capsules within reach of each other overlap; a last
-/// part in a million sees to it that single precision does not lose a pair.
+/// A capsule's bounding box, larger by its reach. Two boxes of capsules within reach of each other overlap; a last part in a
+/// million sees to it that single precision does not lose a pair.
 Box boxOf(const Capsule& capsule, float reach)
 {
   const double radius = std::max(capsule.r0, capsule.r1) + static_cast<double>(reach);
@@ -75,52 +54,78 @@ Box boxOf(const Capsule& capsule, float reach)
   return box;
 }
 
+/// A box that overlaps none.
+Box nothing()
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const Four corner = { infinity, infinity, infinity, 0.0f };
+  return { corner, -corner };
+}
+
 void extend(Box& box, const Box& by)
 {
   box.lower = smaller(box.lower, by.lower);
   box.upper = larger(box.upper, by.upper);
 }
 
-std::vector<Run> runsOf(const Capsules& capsules, const std::vector<float>& reach, int threads)
+/// Runs of consecutive capsules of one fibre.
+struct Runs
 {
-  std::vector<std::uint32_t> first;
-  for (std::size_t k = 0; k < capsules.size();)
+  std::vector<std::uint32_t> first; ///< capsule of each, and one past the last
+  std::vector<Box> boxes;
+  std::unique_ptr<BoxBlock[]> blocks; ///< of their capsules
+
+  std::size_t size() const { return this->boxes.size(); }
+
+  Runs(const Capsules& capsules, const std::vector<float>& reach, int threads)
   {
-    first.push_back(static_cast<std::uint32_t>(k));
-    const std::size_t begin = k;
-    while (k < capsules.size() && k < begin + runLength && capsules.fibre[k] == capsules.fibre[begin])
+    for (std::size_t k = 0; k < capsules.size();)
     {
-      ++k;
+      this->first.push_back(static_cast<std::uint32_t>(k));
+      const std::size_t begin = k;
+      while (k < capsules.size() && k < begin + runLength && capsules.fibre[k] == capsules.fibre[begin])
+      {
+        ++k;
+      }
     }
-  }
-  std::vector<Run> runs(first.size());
-  first.push_back(static_cast<std::uint32_t>(capsules.size()));
+    const std::size_t count = this->first.size();
+    this->first.push_back(static_cast<std::uint32_t>(capsules.size()));
+    this->boxes.resize(count);
+    this->blocks.reset(new BoxBlock[count]);
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t i = 0; i < runs.size(); ++i)
-  {
-    runs[i].box = boxOf(capsules.bodies[first[i]], reach[first[i]]);
-    for (std::uint32_t k = first[i] + 1; k < first[i + 1]; ++k)
+    for (std::size_t i = 0; i < count; ++i)
     {
-      extend(runs[i].box, boxOf(capsules.bodies[k], reach[k]));
+      Box all = nothing();
+      BoxBlock& block = this->blocks[i];
+      for (std::uint32_t l = 0; l < 8; ++l)
+      {
+        const std::uint32_t k = this->first[i] + l;
+        const Box box = k < this->first[i + 1] ? boxOf(capsules.bodies[k], reach[k]) : nothing();
+        extend(all, box);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          block.bounds[axis][l] = box.lower[axis];
+          block.bounds[axis][8 + l] = -box.upper[axis];
+        }
+      }
+      this->boxes[i] = all;
     }
-    runs[i].setRange(first[i], first[i + 1]);
   }
-  return runs;
-}
+};
 
 /// A uniform grid over the runs' bounding box.
 class CellGrid
 {
 public:
   /// Cells half as large again as the mean run along each axis, and fewer of them than runs.
-  explicit CellGrid(const std::vector<Run>& runs)
+  explicit CellGrid(const std::vector<Box>& runs)
   {
-    Box all = runs.front().box;
+    Box all = runs.front();
     double extent[3] = {};
-    for (const Run& run : runs)
+    for (const Box& run : runs)
     {
-      extend(all, run.box);
-      const Four size = run.box.upper - run.box.lower;
+      extend(all, run);
+      const Four size = run.upper - run.lower;
       for (int axis = 0; axis < 3; ++axis)
       {
         extent[axis] += size[axis];
@@ -178,7 +183,7 @@ public:
     return query;
   }
 
-  /// visit(cell, index) for every cell that the box reaches.
+  /// visit(index) for every cell that the box reaches.
   template <typename Visit>
   void forEachCell(const Box& box, Visit&& visit) const
   {
@@ -191,7 +196,7 @@ public:
         const std::size_t row = this->index(0, y, z);
         for (int x = first[0]; x <= last[0]; ++x)
         {
-          visit(FourInts{ x, y, z, 0 }, row + std::size_t(x));
+          visit(row + std::size_t(x));
         }
       }
     }
@@ -203,225 +208,242 @@ private:
   Four Last = {};
 };
 
-/// Counting sort of the runs into all cells that their boxes reach: those of cell c are at start[c] … start[c + 1] − 1, in an
-/// order that depends on the threads; whoever reads them sorts what is taken.
-std::vector<Run> enterCells(const std::vector<Run>& runs, const CellGrid& grid, int threads, std::vector<std::size_t>& start)
+/// The runs in all cells that their boxes reach, one column per number.
+class CellEntries
 {
-  const std::size_t cells = grid.size();
-  start.assign(cells + 1, 0);
+public:
+  /// A counting sort. The order within a cell depends on the threads; whoever reads it sorts what is taken.
+  CellEntries(const std::vector<Box>& runs, const CellGrid& grid, int threads)
+    : Start(grid.size() + 1)
+  {
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t i = 0; i < runs.size(); ++i)
-  {
-    grid.forEachCell(runs[i].box,
-      [&](const FourInts&, std::size_t cell)
-      {
-#pragma omp atomic
-        ++start[cell];
-      });
-  }
-  std::size_t sum = 0;
-  for (std::size_t& entry : start)
-  {
-    sum += entry;
-    entry = sum;
-  }
-  std::vector<Run> entries(sum);
-  // From the end of each cell towards its start, which is where its cursor is left.
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::size_t i = 0; i < runs.size(); ++i)
-  {
-    grid.forEachCell(runs[i].box,
-      [&](const FourInts&, std::size_t cell)
-      {
-        std::size_t place = 0;
-#pragma omp atomic capture
-        place = --start[cell];
-        entries[place] = runs[i];
-      });
-  }
-  return entries;
-}
-
-/// The entries of all cells, one column per number.
-struct CellEntries
-{
-  std::vector<float> numbers[6];   ///< lower and upper corners of the boxes
-  std::vector<std::int32_t> cells; ///< along x
-  std::vector<std::uint64_t> keys; ///< first capsule in the upper half, one past the last in the lower
-
-  CellEntries(const std::vector<Run>& entries, const std::vector<std::size_t>& start, const CellGrid& grid, int threads)
-    : cells(entries.size() + width, -1)
-    , keys(entries.size() + width)
-  {
-    for (auto& column : this->numbers)
+    for (std::size_t i = 0; i < runs.size(); ++i)
     {
-      column.resize(entries.size() + width);
+      grid.forEachCell(runs[i],
+        [&](std::size_t cell)
+        {
+#pragma omp atomic
+          ++this->Start[cell];
+        });
+    }
+    std::size_t sum = 0;
+    for (std::size_t& entry : this->Start)
+    {
+      sum += entry;
+      entry = sum;
+    }
+    const std::size_t padded = sum + width;
+    this->Keys.reset(new std::uint32_t[padded]);
+    this->Cells.reset(new std::int32_t[padded]);
+    for (auto& column : this->Numbers)
+    {
+      column.reset(new float[padded]);
+      std::fill_n(column.get() + sum, width, 0.0f);
+    }
+    std::fill_n(this->Keys.get() + sum, width, 0);
+    std::fill_n(this->Cells.get() + sum, width, -1);
+    // From the end of each cell towards its start, which is where its cursor is left.
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t i = 0; i < runs.size(); ++i)
+    {
+      grid.forEachCell(runs[i],
+        [&](std::size_t cell)
+        {
+          std::size_t place = 0;
+#pragma omp atomic capture
+          place = --this->Start[cell];
+          this->Keys[place] = static_cast<std::uint32_t>(i);
+        });
     }
     const std::size_t row = grid.rowLength();
 #pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::size_t cell = 0; cell < start.size() - 1; ++cell)
+    for (std::size_t cell = 0; cell < this->Start.size() - 1; ++cell)
     {
-      for (std::size_t m = start[cell]; m < start[cell + 1]; ++m)
+      for (std::size_t m = this->Start[cell]; m < this->Start[cell + 1]; ++m)
       {
+        const Box& box = runs[this->Keys[m]];
         for (int axis = 0; axis < 3; ++axis)
         {
-          this->numbers[axis][m] = entries[m].box.lower[axis];
-          this->numbers[3 + axis][m] = entries[m].box.upper[axis];
+          this->Numbers[axis][m] = box.lower[axis];
+          this->Numbers[3 + axis][m] = box.upper[axis];
         }
-        this->cells[m] = static_cast<std::int32_t>(cell % row);
-        this->keys[m] = (std::uint64_t(entries[m].first()) << 32) | entries[m].last();
+        this->Cells[m] = static_cast<std::int32_t>(cell % row);
       }
     }
+  }
+
+  /// The entries of cell c are those from start(c) to before start(c + 1).
+  std::size_t start(std::size_t cell) const
+  {
+    return this->Start[cell];
   }
 
   BoxColumns columns() const
   {
-    return { { this->numbers[0].data(), this->numbers[1].data(), this->numbers[2].data() },
-      { this->numbers[3].data(), this->numbers[4].data(), this->numbers[5].data() }, this->cells.data(), this->keys.data() };
+    return { { this->Numbers[0].get(), this->Numbers[1].get(), this->Numbers[2].get() },
+      { this->Numbers[3].get(), this->Numbers[4].get(), this->Numbers[5].get() }, this->Cells.get(), this->Keys.get() };
   }
-};
-
-/// The capsules that may be within reach of a run, relative to a point near it so that single precision is enough, padded to
-/// whole vectors with capsules that are far away.
-class Candidates
-{
-public:
-  /// Makes room for `count`, all far away.
-  void reset(std::size_t count)
-  {
-    this->Size = 0;
-    const std::size_t padded = (count + width - 1) / width * width;
-    if (padded > this->Capacity)
-    {
-      this->Capacity = 2 * padded;
-      this->Numbers.resize(7 * this->Capacity);
-      this->Indices.resize(this->Capacity);
-    }
-    for (int number = 0; number < 7; ++number)
-    {
-      const float far = number < 3 ? 1e9f : number < 6 ? 1.001e9f : 0.0f;
-      float* column = this->column(number);
-      for (std::size_t i = padded > width ? padded - width : 0; i < padded; ++i)
-      {
-        column[i] = far;
-      }
-    }
-  }
-  void add(std::uint32_t index, const Capsule& capsule, const double (&origin)[3], float reach)
-  {
-    float* place = this->Numbers.data() + this->Size;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      place[std::size_t(axis) * this->Capacity] = static_cast<float>(capsule.p0[axis] - origin[axis]);
-      place[std::size_t(axis + 3) * this->Capacity] = static_cast<float>(capsule.p1[axis] - origin[axis]);
-    }
-    place[6 * this->Capacity] = static_cast<float>(std::max(capsule.r0, capsule.r1)) + reach;
-    this->Indices[this->Size++] = index;
-  }
-  std::size_t size() const { return this->Size; }
-  const float* column(int number) const { return this->Numbers.data() + std::size_t(number) * this->Capacity; }
-  float* column(int number) { return this->Numbers.data() + std::size_t(number) * this->Capacity; }
-  const std::uint32_t* indices() const { return this->Indices.data(); }
 
 private:
-  std::size_t Size = 0;
-  std::size_t Capacity = 0;
-  std::vector<float> Numbers; ///< columns: p0, p1, largest radius plus reach
-  std::vector<std::uint32_t> Indices;
+  std::vector<std::size_t> Start;
+  std::unique_ptr<float[]> Numbers[6];   ///< lower and upper corners of the boxes
+  std::unique_ptr<std::int32_t[]> Cells; ///< along x
+  std::unique_ptr<std::uint32_t[]> Keys; ///< numbers of the runs
 };
 
-/// Finds the neighbours of the capsules of one run.
+/// Room for the columns of capsules near a run.
+class NearCapsules
+{
+public:
+  NearColumns columnsFor(std::size_t count)
+  {
+    const std::size_t padded = (count + width - 1) / width * width;
+    if (padded > this->Stride)
+    {
+      this->Stride = 2 * padded;
+      this->Numbers.resize(NearColumns::count * this->Stride);
+    }
+    return { this->Numbers.data(), this->Stride };
+  }
+
+private:
+  std::size_t Stride = 0;
+  std::vector<float> Numbers;
+};
+
+/// Finds the neighbours of the capsules of one run after the other.
 class RunSearch
 {
 public:
-  RunSearch(const Capsules& capsules, const std::vector<float>& reach, const CellGrid& grid,
-    const std::vector<std::size_t>& start, const BoxColumns& columns)
+  RunSearch(
+    const Capsules& capsules, const std::vector<float>& reach, const Runs& runs, const CellGrid& grid, const CellEntries& entries)
     : Bodies(capsules)
     , Reach(reach)
+    , AllRuns(runs)
     , Grid(grid)
-    , Start(start)
-    , Columns(columns)
+    , Entries(entries)
   {
   }
 
-  /// Appends to `indices`; counts[k] becomes the number of neighbours of capsule k.
-  void find(const Run& run, std::vector<std::uint32_t>& indices, std::size_t* counts)
+  /// counts[k] becomes the number of neighbours of capsule k.
+  void find(std::size_t run, std::size_t* counts)
   {
-    this->collect(run);
-    double origin[3];
-    std::copy_n(this->Bodies.bodies[run.first()].p0, 3, origin);
-    std::size_t count = 0;
-    for (const std::uint64_t other : this->Others)
+    const std::size_t count = this->collect(run);
+    const std::uint32_t first = this->AllRuns.first[run];
+    const Capsule* bodies = this->Bodies.bodies.data();
+    const double(&origin)[3] = bodies[first].p0;
+    const NearColumns near = this->Near.columnsFor(count);
+    this->Kernels.gatherNear(bodies, this->Reach.data(), this->Candidates.data(), count, origin, near);
+    std::uint32_t mine[runLength];
+    const std::uint32_t length = this->AllRuns.first[run + 1] - first;
+    std::iota(mine, mine + length, first);
+    const NearColumns own = this->Own.columnsFor(length);
+    this->Kernels.gatherNear(bodies, this->Reach.data(), mine, length, origin, own);
+    for (std::uint32_t l = 0; l < length; ++l)
     {
-      count += std::uint32_t(other) - std::uint32_t(other >> 32);
-    }
-    this->Near.reset(count);
-    for (const std::uint64_t other : this->Others)
-    {
-      for (auto k = std::uint32_t(other >> 32); k < std::uint32_t(other); ++k)
+      float numbers[NearColumns::count];
+      for (int number = 0; number < NearColumns::count; ++number)
       {
-        this->Near.add(k, this->Bodies.bodies[k], origin, this->Reach[k]);
+        numbers[number] = own.numbers[std::size_t(number) * own.stride + l];
       }
-    }
-    this->Found.resize(std::max(this->Found.size(), count + width));
-    const float* columns[7];
-    for (int number = 0; number < 7; ++number)
-    {
-      columns[number] = this->Near.column(number);
-    }
-    for (std::uint32_t k = run.first(); k < run.last(); ++k)
-    {
-      const Capsule& body = this->Bodies.bodies[k];
-      float numbers[7];
-      for (int axis = 0; axis < 3; ++axis)
+      if (this->Room.size() < this->Size + count + width)
       {
-        numbers[axis] = static_cast<float>(body.p0[axis] - origin[axis]);
-        numbers[3 + axis] = static_cast<float>(body.p1[axis] - origin[axis]);
+        this->Room.resize(2 * (this->Size + count + width));
       }
-      numbers[6] = static_cast<float>(std::max(body.r0, body.r1)) + this->Reach[k];
-      const std::uint32_t* end =
-        this->Kernels.selectNeighbours(columns, this->Near.indices(), count, numbers, this->Found.data());
-      indices.insert(indices.end(), static_cast<const std::uint32_t*>(this->Found.data()), end);
-      counts[k] = static_cast<std::size_t>(end - this->Found.data());
+      std::uint32_t* begin = this->Room.data() + this->Size;
+      const std::uint32_t* end = this->Kernels.selectNeighbours(near, this->Candidates.data(), count, numbers, begin);
+      counts[mine[l]] = static_cast<std::size_t>(end - begin);
+      this->Size += counts[mine[l]];
     }
+  }
+
+  /// What all runs since the last time have found, one after the other.
+  std::vector<std::uint32_t> take()
+  {
+    const auto begin = this->Room.begin();
+    std::vector<std::uint32_t> taken(begin, begin + static_cast<std::ptrdiff_t>(this->Size));
+    this->Size = 0;
+    return taken;
   }
 
 private:
-  /// The runs of other fibres whose boxes overlap this one's, in increasing order.
-  void collect(const Run& run)
+  /// Puts the capsules of other fibres whose boxes overlap the run's in increasing order into Candidates, and returns their
+  /// number.
+  std::size_t collect(std::size_t run)
   {
-    const FourInts first = this->Grid.cellOf(run.box.lower);
-    const FourInts last = this->Grid.cellOf(run.box.upper);
-    BoxQuery query = this->Grid.queryOf(run.box);
+    const Box& box = this->AllRuns.boxes[run];
+    const FourInts first = this->Grid.cellOf(box.lower);
+    const FourInts last = this->Grid.cellOf(box.upper);
+    const BoxColumns columns = this->Entries.columns();
+    BoxQuery query = this->Grid.queryOf(box);
+    this->findFibre(run);
+    query.skipFrom = static_cast<std::uint32_t>(this->FibreBegin);
+    query.skipTo = static_cast<std::uint32_t>(this->FibreEnd);
     std::size_t taken = 0;
     for (query.z = first[2]; query.z <= last[2]; ++query.z)
     {
       for (query.y = first[1]; query.y <= last[1]; ++query.y)
       {
-        const std::size_t begin = this->Start[this->Grid.index(first[0], query.y, query.z)];
-        const std::size_t end = this->Start[this->Grid.index(last[0], query.y, query.z) + 1];
+        const std::size_t begin = this->Entries.start(this->Grid.index(first[0], query.y, query.z));
+        const std::size_t end = this->Entries.start(this->Grid.index(last[0], query.y, query.z) + 1);
         this->Others.resize(std::max(this->Others.size(), taken + end - begin + width));
-        const std::uint64_t* next = this->Kernels.selectBoxes(this->Columns, begin, end, query, this->Others.data() + taken);
+        const std::uint32_t* next = this->Kernels.selectBoxes(columns, begin, end, query, this->Others.data() + taken);
         taken = static_cast<std::size_t>(next - this->Others.data());
       }
     }
-    this->Others.resize(taken);
-    const std::uint32_t fibre = this->Bodies.fibre[run.first()];
-    this->Others.erase(std::remove_if(this->Others.begin(), this->Others.end(),
-                         [&](std::uint64_t other) { return this->Bodies.fibre[other >> 32] == fibre; }),
-      this->Others.end());
-    std::sort(this->Others.begin(), this->Others.end());
+    this->Sorted.resize(this->Others.size());
+    constexpr std::size_t few = 128; // beyond that the square of the count is what takes longer
+    if (taken <= few)
+    {
+      this->Kernels.sortKeys(this->Others.data(), taken, this->Sorted.data());
+    }
+    else
+    {
+      const auto begin = this->Others.begin();
+      std::sort(begin, begin + static_cast<std::ptrdiff_t>(taken));
+      this->Others.swap(this->Sorted);
+    }
+    this->Candidates.resize(std::max(this->Candidates.size(), 8 * taken + width));
+    const std::uint32_t* end = this->Kernels.selectFromRuns(
+      this->AllRuns.blocks.get(), this->AllRuns.first.data(), this->Sorted.data(), taken, query, this->Candidates.data());
+    return static_cast<std::size_t>(end - this->Candidates.data());
+  }
+
+  /// The runs of the run's fibre.
+  void findFibre(std::size_t run)
+  {
+    if (this->FibreBegin <= run && run < this->FibreEnd)
+    {
+      return;
+    }
+    const auto fibreOf = [&](std::size_t i) { return this->Bodies.fibre[this->AllRuns.first[i]]; };
+    this->FibreBegin = run;
+    while (this->FibreBegin > 0 && fibreOf(this->FibreBegin - 1) == fibreOf(run))
+    {
+      --this->FibreBegin;
+    }
+    this->FibreEnd = run + 1;
+    while (this->FibreEnd < this->AllRuns.size() && fibreOf(this->FibreEnd) == fibreOf(run))
+    {
+      ++this->FibreEnd;
+    }
   }
 
   const Capsules& Bodies;
   const std::vector<float>& Reach;
+  const Runs& AllRuns;
   const CellGrid& Grid;
-  const std::vector<std::size_t>& Start;
-  const BoxColumns Columns;
+  const CellEntries& Entries;
   const VectorKernels& Kernels = vectorKernels();
-  std::vector<std::uint64_t> Others; ///< see CellEntries::keys
-  Candidates Near;
-  std::vector<std::uint32_t> Found;
+  std::size_t FibreBegin = 0; ///< runs of the present fibre
+  std::size_t FibreEnd = 0;
+  std::vector<std::uint32_t> Others; ///< runs whose boxes overlap
+  std::vector<std::uint32_t> Sorted;
+  std::vector<std::uint32_t> Candidates; ///< capsules
+  NearCapsules Near;
+  NearCapsules Own;
+  std::vector<std::uint32_t> Room; ///< what has been found, and room for more
+  std::size_t Size = 0;
 };
 
 } // namespace
@@ -430,44 +452,47 @@ void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, i
 {
   const std::size_t count = capsules.size();
   list.offsets.assign(count + 1, 0);
-  list.indices.clear();
   if (count == 0)
   {
+    list.indices.clear();
     return;
   }
-  const std::vector<Run> runs = runsOf(capsules, reach, threads);
+  Runs runs(capsules, reach, threads);
   constexpr std::size_t blockSize = 1024;
   const std::size_t blocks = (runs.size() + blockSize - 1) / blockSize;
   std::vector<std::vector<std::uint32_t>> found(blocks); // joined once all are known
   {
-    const CellGrid grid(runs);
-    std::vector<std::size_t> start;
-    const std::vector<Run> filled = enterCells(runs, grid, threads, start);
-    const CellEntries entries(filled, start, grid, threads);
-    const BoxColumns columns = entries.columns();
+    const CellGrid grid(runs.boxes);
+    const CellEntries entries(runs.boxes, grid, threads);
 #pragma omp parallel num_threads(threads)
     {
-      RunSearch search(capsules, reach, grid, start, columns);
+      RunSearch search(capsules, reach, runs, grid, entries);
 #pragma omp for schedule(dynamic, 1)
       for (std::size_t block = 0; block < blocks; ++block)
       {
         const std::size_t end = std::min(runs.size(), (block + 1) * blockSize);
         for (std::size_t i = block * blockSize; i < end; ++i)
         {
-          search.find(runs[i], found[block], list.offsets.data() + 1);
+          search.find(i, list.offsets.data() + 1);
         }
+        found[block] = search.take();
       }
     }
+    runs.blocks.reset();
   }
   for (std::size_t k = 0; k < count; ++k)
   {
     list.offsets[k + 1] += list.offsets[k];
   }
+  if (list.indices.capacity() < list.offsets[count])
+  {
+    std::vector<std::uint32_t>().swap(list.indices); // nothing in it is worth copying
+  }
   list.indices.resize(list.offsets[count]);
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (std::size_t block = 0; block < blocks; ++block)
   {
-    const std::size_t begin = list.offsets[runs[block * blockSize].first()];
+    const std::size_t begin = list.offsets[runs.first[block * blockSize]];
     std::copy(found[block].begin(), found[block].end(), list.indices.begin() + static_cast<std::ptrdiff_t>(begin));
     std::vector<std::uint32_t>().swap(found[block]);
   }

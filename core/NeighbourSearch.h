@@ -18,13 +18,13 @@ struct NeighbourList
   std::vector<std::uint32_t> indices;
 };
 
-/// Finds all pairs of capsules of different fibres with distance < rp + rq + reach[p] + reach[q] (µm, one per capsule; radii taken
-/// at their larger end; nothing is missed; a pair beyond that limit by less
-/// than a relative 10⁻⁴ may be listed too).
+/// Finds all pairs of capsules of different fibres with distance < rp + rq + reach[p] + reach[q] (µm, one per capsule; radii
+/// taken at their larger end). Nothing is missed; a pair beyond that limit by less than a relative 10⁻⁴ may be listed too.
 ///
 /// Cells of fixed size (Turau 1991, as the paper) hold short runs of consecutive capsules of a fibre, which have most of their
-/// neighbours in common; a run is entered wherever its bounding box reaches, so that thick and thin fibres can be mixed. Same
-/// result on any number of threads.
+/// neighbours in common; a run is entered wherever its bounding box reaches, so that thick and thin fibres can be mixed. Of the
+/// runs that meet a run, those capsules are compared with each of its own whose bounding boxes meet its; and of these, those
+/// exactly whose bounding balls meet. Same result on any number of threads.
 void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, int threads, NeighbourList& list);
 
 /// The same with distance < rp + rq + reach for all.

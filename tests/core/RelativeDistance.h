@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Capsules.h"
+#include "SegmentDistance.h"
+
+#include <algorithm>
+
+/// Distance of two capsules over the limit up to which they are neighbours: their radii and their reaches together.
+inline double relativeDistance(const cactus::Capsule& p, const cactus::Capsule& q, double reach)
+{
+  using Eigen::Vector3d;
+  const auto pair = cactus::closestPoints(Vector3d::Map(p.p0), Vector3d::Map(p.p1), Vector3d::Map(q.p0), Vector3d::Map(q.p1));
+  return pair.distance / (std::max(p.r0, p.r1) + std::max(q.r0, q.r1) + reach);
+}
