@@ -11,6 +11,7 @@ defaults, Γ(2.4, 0.25) cut to 0.2-2 µm; the last columns compare those that we
 """
 
 import argparse
+import csv
 import os
 import resource
 import sys
@@ -24,15 +25,27 @@ from paraview.simple import *
 HISTOLOGY = [(0.25, 0.60), (0.25, 0.68), (0.31, 0.75), (0.39, 0.76)]
 
 
-def column(proxy, index, name):
+def columns_of(proxy, index):
     table = servermanager.Fetch(proxy, idx=index)
-    return np.array([table.GetColumnByName(name).GetValue(row) for row in range(table.GetNumberOfRows())])
+    return {
+        table.GetColumnName(i): np.array([table.GetValue(row, i).ToDouble() for row in range(table.GetNumberOfRows())])
+        for i in range(table.GetNumberOfColumns())
+    }
 
 
-def compare_radii(surfaces, certificate):
+def certificate_in(folder):
+    """What columns_of gives of the certificate's two tables, from the files of a substrate folder."""
+    with open(f"{folder}/certificate.csv", newline="") as file:
+        found = {row["quantity"]: [float(row["value"])] for row in csv.DictReader(file)}
+    with open(f"{folder}/certificate_fibres.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return found, {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def compare_radii(fibres, certified):
     """Correlation of the fibres' target radii with those of their meshes, and the Kolmogorov-Smirnov distance of the two."""
-    targets = dict(zip(column(surfaces, 2, "FibreId"), column(surfaces, 2, "TargetRadius_um")))
-    reached = dict(zip(column(certificate, 1, "FibreId"), column(certificate, 1, "OuterRadius_um")))
+    targets = dict(zip(fibres["FibreId"], fibres["TargetRadius_um"]))
+    reached = dict(zip(certified["FibreId"], certified["OuterRadius_um"]))
     both = np.array([(targets[fibre], radius) for fibre, radius in reached.items() if np.isfinite(radius)])
     values = np.sort(both.ravel())
     below = [np.searchsorted(np.sort(radii), values, side="right") / len(radii) for radii in both.T]
@@ -74,17 +87,21 @@ def substrate(name, arguments):
     surfaces = MyelinSurface(Input=grown, ReleaseInput=1, **myelin)
     outer, inner = OutputPort(surfaces, 0), OutputPort(surfaces, 1)
     times.append(seconds(lambda: UpdatePipeline(proxy=surfaces)))
-    certificate = SubstrateCertificate(Fibres=fibres, Outer=outer, Inner=inner)
-    times.append(seconds(lambda: UpdatePipeline(proxy=certificate)))
     if arguments.output:
+        # Certifies what it writes.
         os.makedirs(arguments.output, exist_ok=True)
-        writer = SubstrateWriter(Fibres=fibres, Outer=outer, Inner=inner, FolderName=f"{arguments.output}/{name}")
-        times.append(seconds(writer.UpdatePipeline))
-    table = servermanager.Fetch(certificate, idx=0)
-    found = {table.GetColumnName(i): table.GetValue(0, i).ToDouble() for i in range(table.GetNumberOfColumns())}
+        folder = f"{arguments.output}/{name}"
+        last = SubstrateWriter(Fibres=fibres, Outer=outer, Inner=inner, FolderName=folder)
+        times.append(seconds(last.UpdatePipeline))
+        found, certified = certificate_in(folder)
+    else:
+        last = SubstrateCertificate(Fibres=fibres, Outer=outer, Inner=inner)
+        times.append(seconds(lambda: UpdatePipeline(proxy=last)))
+        found, certified = columns_of(last, 0), columns_of(last, 1)
     if not found:
         sys.exit(f"{name} failed, see above")
-    radii = compare_radii(surfaces, certificate)
+    found = {key: value[0] for key, value in found.items()}
+    radii = compare_radii(columns_of(surfaces, 2), certified)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
     cells = (
         name,
@@ -101,7 +118,7 @@ def substrate(name, arguments):
         f"{peak:.1f}",
     )
     print("| " + " | ".join(cells) + " |", flush=True)
-    for proxy in (certificate, surfaces, grown, optimizer, initial):
+    for proxy in (last, surfaces, grown, optimizer, initial):
         Delete(proxy)
 
 
@@ -116,7 +133,7 @@ def main():
     parser.add_argument("--output", help="folder for the substrates' files; none are written without it")
     arguments = parser.parse_args()
     columns = "substrate, fibres, FVF, AVF, MVF, g, certified, smallest gap (µm), triangles/µm²".split(", ")
-    stages = "optimise + grow and mesh + certify" + (" + write" if arguments.output else "") + " (s)"
+    stages = "optimise + grow and mesh + certify" + (" and write" if arguments.output else "") + " (s)"
     columns += [stages, "radii: correlation, KS (fibres)", "peak memory so far (GB)"]
     print("| " + " | ".join(columns) + " |\n|" + "---|" * len(columns), flush=True)
     for name in arguments.names:
