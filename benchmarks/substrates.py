@@ -34,12 +34,12 @@ def columns_of(proxy, index):
 
 
 def certificate_in(folder):
-    """What columns_of gives of the certificate's two tables, from the files of a substrate folder."""
+    """What the certificate in a substrate folder says of all fibres, and the radius of each."""
     with open(f"{folder}/certificate.csv", newline="") as file:
         found = {row["quantity"]: [float(row["value"])] for row in csv.DictReader(file)}
     with open(f"{folder}/certificate_fibres.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    return found, {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+    return found, {name: np.array([float(row[name] or "nan") for row in rows]) for name in ("FibreId", "OuterRadius_um")}
 
 
 def compare_radii(fibres, certified):
