@@ -18,6 +18,10 @@ namespace
 /// A sample nearer to a face than this part of a voxel is left out: the cells between them would be too flat.
 constexpr double thinnestCell = 0.3;
 
+/// Radii, in voxels, up to which smoothing spares a fibre altogether and from which on it does not.
+constexpr double sparedRadius = 2.0;
+constexpr double smoothedRadius = 4.0;
+
 typedef float Four __attribute__((vector_size(16)));
 
 /// From a sample to one of the 26 around it.
@@ -199,6 +203,104 @@ float FibreField::field(std::int32_t fibre, std::size_t index, int i, int j, int
   return -(depth + gap);
 }
 
+void FibreField::spareThinFibres(const Context& context)
+{
+  struct Depths
+  {
+    double sum = 0.0;
+    double count = 0.0;
+  };
+  const VoxelGrid& grid = this->Image.grid;
+  std::vector<std::unordered_map<std::int32_t, Depths>> ofSlice(std::size_t(this->Count[2]));
+  parallelFor(ofSlice.size(), context,
+    [&](std::size_t k)
+    {
+      for (int j = 0; j < this->Count[1]; ++j)
+      {
+        const std::size_t row = grid.index(this->First[0], this->First[1] + j, this->First[2] + static_cast<int>(k));
+        const std::size_t end = row + std::size_t(this->Count[0]);
+        for (std::size_t i = row; i < end;)
+        {
+          const std::int32_t id = this->Image.fibreId[i];
+          Depths run;
+          for (; i < end && this->Image.fibreId[i] == id; ++i)
+          {
+            run.sum += double(this->Image.depth[i]);
+            run.count += 1.0;
+          }
+          if (id != 0)
+          {
+            Depths& all = ofSlice[k][id];
+            all.sum += run.sum;
+            all.count += run.count;
+          }
+        }
+      }
+    });
+  std::map<std::int32_t, Depths> depths;
+  for (const auto& slice : ofSlice)
+  {
+    for (const auto& [id, part] : slice)
+    {
+      depths[id].sum += part.sum;
+      depths[id].count += part.count;
+    }
+  }
+  for (const auto& [id, all] : depths)
+  {
+    const double radius = 3.0 * all.sum / (all.count * grid.spacing);
+    const double part = (radius - sparedRadius) / (smoothedRadius - sparedRadius);
+    if (part < 1.0)
+    {
+      this->Smoothing[id] = static_cast<float>(std::max(part, 0.0));
+    }
+  }
+}
+
+bool FibreField::smoothingAt(const NodeRange& range, float* out) const
+{
+  constexpr float outside = 2.0f; // of all fibres
+  std::vector<float> ofFibre(range.size());
+  bool any = false;
+  std::size_t n = 0;
+  std::int32_t last = 0;
+  float part = outside;
+  for (int k = 0; k < range.count[2]; ++k)
+  {
+    for (int j = 0; j < range.count[1]; ++j)
+    {
+      for (int i = 0; i < range.count[0]; ++i, ++n)
+      {
+        const std::int32_t id = this->Image.fibreId[this->Image.grid.index(
+          this->sampleOf(0, range.first[0] + i), this->sampleOf(1, range.first[1] + j), this->sampleOf(2, range.first[2] + k))];
+        if (id != last)
+        {
+          const auto found = this->Smoothing.find(id);
+          part = id == 0 ? outside : found == this->Smoothing.end() ? 1.0f : found->second;
+          last = id;
+          any = any || part < 1.0f;
+        }
+        ofFibre[n] = part;
+      }
+    }
+  }
+  if (!any)
+  {
+    return false;
+  }
+  const std::size_t stride[3] = { 1, std::size_t(range.count[0]), std::size_t(range.count[0]) * std::size_t(range.count[1]) };
+  std::transform(ofFibre.begin(), ofFibre.end(), out, [](float own) { return std::min(own, 1.0f); });
+  for (n = stride[2]; n + stride[2] < range.size(); ++n)
+  {
+    // Beside a fibre as in it.
+    for (std::size_t axis = 0; axis < 3 && ofFibre[n] == outside; ++axis)
+    {
+      out[n] = std::min({ out[n], ofFibre[n - stride[axis]], ofFibre[n + stride[axis]] });
+    }
+  }
+  return true;
+}
+
 double FibreField::atSample(std::int32_t fibre, int i, int j, int k) const
 {
   return this->field(fibre, this->Image.grid.index(i, j, k), i, j, k);
@@ -324,6 +426,7 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
   std::size_t place = 0;
   std::vector<float> buffer;
   std::vector<float> before;
+  std::vector<float> part;
   for (std::size_t b = 0; b < Blocks.size(); ++b)
   {
     NodeRange range = nodesOfBlock(Lattice, Blocks[b]);
@@ -338,6 +441,7 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
     const std::array<std::size_t, 3> stride{ { 1, std::size_t(range.count[0]),
       std::size_t(range.count[0]) * std::size_t(range.count[1]) } };
     const std::size_t all = range.size();
+    const bool isUniform = passes == 0 || !field.smoothingAt(range, (part.resize(range.size()), part.data()));
     for (int pass = 0; pass < passes; ++pass)
     {
       for (const std::size_t step : stride)
@@ -347,6 +451,10 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
         for (std::size_t n = step; n + step < all; ++n)
         {
           buffer[n] = 0.5f * before[n] + 0.25f * (before[n - step] + before[n + step]);
+        }
+        for (std::size_t n = step; !isUniform && n + step < all; ++n)
+        {
+          buffer[n] = (1.0f - part[n]) * before[n] + part[n] * buffer[n]; // with 1 the very same bits
         }
       }
     }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <unordered_map>
 #include <vector>
 
 namespace cactus
@@ -44,6 +45,13 @@ public:
   /// Cancelled.
   std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(int reach, const Context& context = {}) const;
 
+  /// From now on smoothing spares thin fibres, which it would shrink and break: it does nothing in and beside those of a radius
+  /// below two voxels, and all from four on. The radius is three times the mean depth of a fibre's samples, as in a round one.
+  void spareThinFibres(const Context& context = {});
+  /// How much of each pass of smoothing the nodes get that have a node before and behind in the range, from 0 to 1: the same for
+  /// all fibres. False where that is 1 everywhere, and nothing has been written.
+  bool smoothingAt(const NodeRange& range, float* out) const;
+
   /// The field of a fibre at a sample of the image.
   double atSample(std::int32_t fibre, int i, int j, int k) const;
   /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside.
@@ -61,14 +69,16 @@ private:
 
   LabelImageView Image;
   Domain Box;
-  std::array<int, 3> First{ { 0, 0, 0 } }; ///< first sample used, per axis
-  std::array<int, 3> Count{ { 0, 0, 0 } }; ///< number of samples used, per axis
+  std::unordered_map<std::int32_t, float> Smoothing; ///< of thin fibres, below 1
+  std::array<int, 3> First{ { 0, 0, 0 } };           ///< first sample used, per axis
+  std::array<int, 3> Count{ { 0, 0, 0 } };           ///< number of samples used, per axis
 };
 
 /// The field of one fibre, smoothed, held for all blocks near the fibre.
 ///
-/// Smoothing averages each node with its neighbours, (1 2 1)/4 along each axis in turn. That is a linear operation with weights
-/// that are positive and sum to 1, so what holds for all fields goes on to hold: two of them sum to at most -gap, and none
+/// Smoothing averages each node with its neighbours, (1 2 1)/4 along each axis in turn, or does so in part (see
+/// FibreField::spareThinFibres()). That is a linear operation with weights that are positive, sum to 1 and are the same for all
+/// fibres, so what holds for all fields goes on to hold: two of them sum to at most -gap, and none
 /// changes by more than the distance between two samples. So surfaces of smoothed fields keep their gap, whatever the shape of
 /// the fibres; on average over a convex part of radius r they move inwards by passes · spacing² / (4 r).
 class SmoothedField

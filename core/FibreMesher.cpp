@@ -83,7 +83,8 @@ std::vector<Eigen::Vector3d> faults(const TriangleMesh& mesh, const TriangleTree
 
 } // namespace
 
-FibreMesher::FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
+FibreMesher::FibreMesher(
+  const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context)
   : Facts(facts)
   , Options(options)
   , Field(image, facts.domain, options.clipToDomain)
@@ -94,6 +95,10 @@ FibreMesher::FibreMesher(const LabelImageView& image, const LabelImageFacts& fac
   , Nudge(std::min(0.02 * Spacing, 0.2 * std::max(facts.surfaceTolerance, 1e-3 * Spacing)))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing }))
 {
+  if (options.smoothingIterations > 0)
+  {
+    this->Field.spareThinFibres(context);
+  }
 }
 
 SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const

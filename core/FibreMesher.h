@@ -17,8 +17,10 @@ namespace cactus
 class FibreMesher
 {
 public:
-  /// What is given has to outlive the mesher. Throws InvalidInput where the image is not a proper one.
-  FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options);
+  /// What is given has to outlive the mesher, but for the context. Throws InvalidInput where the image is not a proper one, and
+  /// Cancelled.
+  FibreMesher(
+    const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context = {});
 
   const FibreField& field() const { return this->Field; }
 

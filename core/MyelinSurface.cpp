@@ -144,7 +144,7 @@ std::vector<FibreSurfacePair> myelinSurfaces(
     throw InvalidInput(text("DecimationError ", options.decimationError, " is more than the room of ", facts.surfaceTolerance,
       " µm that growth left for moving surfaces: choose a smaller one, or raise SurfaceTolerance in FibreRadialGrowth"));
   }
-  const FibreMesher mesher(image, facts, options);
+  const FibreMesher mesher(image, facts, options, context);
   const auto blocksOf = mesher.field().findFibres(options.smoothingIterations, context);
   std::vector<FibreSurfacePair> pairs = fibresOf(facts, blocksOf);
   static const Blocks none;
