@@ -16,7 +16,7 @@ namespace
 
 using namespace cactus;
 
-/// 10⁴ to 10⁶ capsules, and 10⁷ (which takes some 6 GB) if the environment variable CACTUS_BENCHMARK_LARGE is set.
+/// 10⁴ to 10⁶ capsules, and 10⁷ (which takes some 9 GB) if the environment variable CACTUS_BENCHMARK_LARGE is set.
 void sizes(benchmark::internal::Benchmark* benchmark)
 {
   benchmark->ArgName("capsules");

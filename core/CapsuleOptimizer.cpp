@@ -193,13 +193,13 @@ private:
       return;
     }
     // Each capsule reaches as far as it would come in so many steps at its present speed and with its present push, but for those
-    // that will be hit suddenly at least by some share of its radius. A search costs about as much as four evaluations, a wide
-    // list costs time in every step: that share follows from letting a list hold for some twelve steps.
-    constexpr double foresight = 15.0;
+    // that will be hit suddenly at least by some share of its radius. A search costs about as much as two evaluations, a wide
+    // list costs time in every step: that share follows from letting a list hold for some eleven steps.
+    constexpr double foresight = 12.0;
     constexpr double pushes = 5.0;
     if (this->StepsSinceSearch > 0)
     {
-      const double change = this->StepsSinceSearch < 11 ? 1.4 : this->StepsSinceSearch > 15 ? 0.75 : 1.0;
+      const double change = this->StepsSinceSearch < 9 ? 1.4 : this->StepsSinceSearch > 13 ? 0.75 : 1.0;
       this->Slack = std::min(std::max(change * this->Slack, 0.02), 0.6);
     }
     const double margin = this->Options.safetyMargin - 1.0;
