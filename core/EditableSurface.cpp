@@ -189,7 +189,6 @@ void EditableSurface::compact()
     triangles[alive++] = corners;
   }
   triangles.resize(alive);
-  triangles.shrink_to_fit();
   this->Surface.mesh.points = std::move(points);
   this->Surface.faces = std::move(faces);
 }

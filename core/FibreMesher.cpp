@@ -61,6 +61,14 @@ Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
   return (mesh.points[std::size_t(t[0])] + mesh.points[std::size_t(t[1])] + mesh.points[std::size_t(t[2])]) / 3.0;
 }
 
+/// Gives back the room that a mesh had to grow in: all fibres' meshes are held at the same time.
+TriangleMesh packed(TriangleMesh&& mesh)
+{
+  mesh.points.shrink_to_fit();
+  mesh.triangles.shrink_to_fit();
+  return std::move(mesh);
+}
+
 /// Where a coarsened surface must not stay as it is: it cuts itself or its container.
 std::vector<Eigen::Vector3d> faults(const TriangleMesh& mesh, const TriangleTree* container)
 {
@@ -137,7 +145,7 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair, 
     volume = std::clamp(volume, now.volume - rest * now.freeArea, now.volume + rest * now.freeArea);
   }
   this->finish(field, surface, level, volume, nullptr, calm, pair.outerReport, pair);
-  pair.outer = std::move(surface.mesh);
+  pair.outer = packed(std::move(surface.mesh));
   pair.outerLevel = level;
   pair.state = MyelinState::NoAxon;
 }
@@ -204,7 +212,7 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   }
   this->finish(field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer, {},
     pair.innerReport, pair);
-  pair.inner = std::move(best.surface.mesh);
+  pair.inner = packed(std::move(best.surface.mesh));
   // By how much the volume was off before it was moved to what is wanted, was the level.
   pair.thickness = best.level - pair.outerLevel + (state == MyelinState::AsAsked ? (best.volume - wanted) / best.area : 0.0);
   pair.state = state;
