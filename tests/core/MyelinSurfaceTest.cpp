@@ -179,6 +179,20 @@ TEST(GRatio, DistributedHasItsMeanAndDeviationAndDependsOnSeedAndFibre)
   EXPECT_THROW(distributedGRatio(0.7, -0.1, 1, 1), InvalidInput);
 }
 
+/// Surfaces of fibres that have grown by so much, to be `gap` apart.
+std::vector<FibreSurfacePair> surfacesOf(const Fibres& fibres, const FibreRadialGrowthOptions& growth, double by, double gap)
+{
+  const LabelImage image = growFibres(fibres, growth, by, growthGrid(fibres.domain, growth));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = gap;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  return myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, MyelinSurfaceOptions());
+}
+
 TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
 {
   // Alone in its cube, as thick as two voxels on either side of its axis.
@@ -191,15 +205,7 @@ TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
   fibres.addPoint({ 3.0 * slope + 0.013, 0.027, 3.0 }, radius);
   FibreRadialGrowthOptions growth;
   growth.surfaceRoughness = 0.0;
-  const LabelImage image = growFibres(fibres, growth, 0.0, growthGrid(fibres.domain, growth));
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
-  facts.surfaceTolerance = growth.surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
-  const auto pairs =
-    myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, MyelinSurfaceOptions());
+  const auto pairs = surfacesOf(fibres, growth, 0.0, growth.minimumGap);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].state, MyelinState::AsAsked);
   const double volume = 4.0 * std::sqrt(1.0 + slope * slope) * 3.14159265358979 * radius * radius;
@@ -219,16 +225,7 @@ TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
   FibreRadialGrowthOptions growth;
   growth.targetFibreVolumeFraction = 0.93;
   fibres = aimAtTargetRadii(fibres, growth);
-  const LabelImage image = growFibres(fibres, growth, growthFor(fibres, growth), growthGrid(fibres.domain, growth));
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
-  facts.minimumGap = 0.06;
-  facts.surfaceTolerance = growth.surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
-  const auto pairs =
-    myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, MyelinSurfaceOptions());
+  const auto pairs = surfacesOf(fibres, growth, growthFor(fibres, growth), 0.06);
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
     EXPECT_FALSE(pairs[i].isFlawed) << pairs[i].fibreId;
