@@ -385,26 +385,14 @@ private:
     }
     const double a = this->Values[first];
     const double b = this->Values[last];
-    // The nodes before and behind in line. A cell at a face is flat, and the field the same on both sides of it, so the line is
-    // followed within the face.
-    std::size_t step = 0;
-    bool before = true;
-    bool behind = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const int node = this->Range.first[axis] + lower[axis];
-      const int end = this->Lattice.nodes(int(axis)) - 1;
-      if (lower[axis] != upper[axis] && node != 0 && node + 1 != end)
-      {
-        step += this->Stride[axis];
-        before = before && node > 1;
-        behind = behind && node + 2 < end;
-      }
-    }
-    if (step == 0)
-    {
-      before = behind = false;
-    }
+    // The nodes before and behind in line. A cell at a face is flat, and the field the same on both sides of it: nothing bends
+    // there.
+    const std::size_t axis = lower[0] != upper[0] ? 0 : lower[1] != upper[1] ? 1 : 2;
+    const std::size_t step = this->Stride[axis];
+    const int node = this->Range.first[axis] + lower[axis];
+    const int end = this->Lattice.nodes(int(axis)) - 1;
+    const bool before = node > 1 && node + 1 < end;
+    const bool behind = node > 0 && node + 2 < end;
     const double bendBefore = before ? double(this->Values[first - step]) - 2.0 * a + b : 0.0;
     const double bendBehind = behind ? a - 2.0 * b + double(this->Values[last + step]) : 0.0;
     const double bend = !behind ? bendBefore : !before ? bendBehind : agreedBend(bendBefore, bendBehind);
