@@ -65,6 +65,7 @@ int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, v
       options.radius.maximum = this->MaximumRadius;
       options.meanDispersion = this->MeanDispersion;
       options.dispersionModel = static_cast<cactus::DispersionModel>(this->DispersionModel);
+      options.correlationLength = this->CorrelationLength;
       options.numberOfBundles = this->NumberOfBundles;
       options.crossingAngle = this->CrossingAngle;
       options.crossingStyle = static_cast<cactus::CrossingStyle>(this->CrossingStyle);
@@ -104,6 +105,7 @@ void vtkBundleInitializer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumRadius: " << this->MaximumRadius << '\n';
   os << indent << "MeanDispersion: " << this->MeanDispersion << '\n';
   os << indent << "DispersionModel: " << this->DispersionModel << '\n';
+  os << indent << "CorrelationLength: " << this->CorrelationLength << '\n';
   os << indent << "NumberOfBundles: " << this->NumberOfBundles << '\n';
   os << indent << "CrossingAngle: " << this->CrossingAngle << '\n';
   os << indent << "CrossingStyle: " << this->CrossingStyle << '\n';

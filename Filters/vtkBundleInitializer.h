@@ -33,7 +33,8 @@ public:
   enum DispersionModels
   {
     WATSON = 0,
-    CONE = 1
+    CONE = 1,
+    COHERENT = 2
   };
   enum CrossingStyles
   {
@@ -108,9 +109,16 @@ public:
   ///@}
 
   ///@{
-  /** One of DispersionModels. Default WATSON. */
+  /** One of DispersionModels. Default COHERENT. */
   vtkSetMacro(DispersionModel, int);
   vtkGetMacro(DispersionModel, int);
+  ///@}
+
+  ///@{
+  /** Distance (µm) over which the directions of COHERENT are alike. Default 0: four times the fibres' mean shift between the
+   * faces. */
+  vtkSetMacro(CorrelationLength, double);
+  vtkGetMacro(CorrelationLength, double);
   ///@}
 
   ///@{
@@ -181,7 +189,8 @@ private:
   double MinimumRadius = 0.2;
   double MaximumRadius = 2.0;
   double MeanDispersion = 5.0;
-  int DispersionModel = WATSON;
+  int DispersionModel = COHERENT;
+  double CorrelationLength = 0.0;
   int NumberOfBundles = 1;
   double CrossingAngle = 90.0;
   int CrossingStyle = INTERWOVEN;

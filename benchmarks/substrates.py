@@ -4,7 +4,8 @@
     ./cactus pvpython benchmarks/substrates.py --side 50 --fraction 0.955 dispersion-0 dispersion-25 crossing-90
     ./cactus pvpython benchmarks/substrates.py --side 30 histology-1 histology-2 histology-3 histology-4
 
-dispersion-D is one bundle with a mean dispersion of D degrees, crossing-A are two bundles, of 5° each, that cross at A degrees (the
+dispersion-D is one bundle with a mean dispersion of D degrees, each fibre's direction for itself, as in the paper; coherent-D one whose
+neighbouring fibres point alike, which is the default of BundleInitializer; crossing-A are two bundles, of 5° each, that cross at A degrees (the
 rows of the paper's table of maximum fibre volume fractions); histology-N is row N of its table of histological targets; radii-F is one
 bundle that is packed for a fibre volume fraction F and grown to it, so that fibres end at their target radii. Radii are the
 defaults, Γ(2.4, 0.25) cut to 0.2-2 µm; the last columns compare those that were asked for with those of the meshes.
@@ -64,6 +65,8 @@ def substrate(name, arguments):
     growth = {"TargetFibreVolumeFraction": arguments.fraction, "SurfaceTolerance": arguments.tolerance}
     myelin = {"GRatio": 0.7}
     if kind == "dispersion":
+        bundle.update(MeanDispersion=float(number), DispersionModel="Watson")
+    elif kind == "coherent":
         bundle["MeanDispersion"] = float(number)
     elif kind == "crossing":
         bundle.update(MeanDispersion=5, NumberOfBundles=2, CrossingAngle=float(number))
@@ -76,7 +79,7 @@ def substrate(name, arguments):
         bundle.update(MeanDispersion=10, GrownFibreVolumeFraction=float(number))
         growth = {"TargetFibreVolumeFraction": float(number)}
     else:
-        sys.exit(f"{name} is no substrate: dispersion-D, crossing-A, histology-N or radii-F")
+        sys.exit(f"{name} is no substrate: dispersion-D, coherent-D, crossing-A, histology-N or radii-F")
 
     initial = BundleInitializer(**bundle)
     optimizer = CapsuleOptimizer(Input=initial)

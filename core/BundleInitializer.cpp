@@ -2,6 +2,7 @@
 #include "BundleInitializer.h"
 
 #include "CirclePacking.h"
+#include "CoherentFlow.h"
 #include "Error.h"
 #include "Memory.h"
 #include "Random.h"
@@ -206,6 +207,45 @@ Orientation orientationOf(const Bundle& bundle)
   return orientation;
 }
 
+/// Places each circle of the top face at an angle of its own.
+void placeOnRings(Bundle& bundle, const BundleInitializerOptions& options, int attempt)
+{
+  Circles& top = bundle.top;
+  const bool cone = options.dispersionModel == DispersionModel::Cone;
+  const DirectionDistribution directions(cone ? DispersionModel::Cone : DispersionModel::Watson, options.meanDispersion);
+  RandomEngine engine;
+  double reach = 0.0;
+  const auto onRing = [&](std::size_t i, int trial) -> Eigen::Vector2d
+  {
+    if (trial == 0)
+    {
+      engine = randomStream(options.seed, RandomStage::Directions, itemOf(i, bundle.id, attempt));
+      // No place on the face is further away than its diagonal, and near 90° the tangent is out of all bounds.
+      reach = std::min(bundle.length * std::tan(directions.sampleAngle(engine)), top.frame(i).size().norm());
+    }
+    return placeOnRing(top.frame(i), bundle.bottom.centres[i], top.radii[i], reach, engine);
+  };
+  placeCircles(top, onRing, trialsPerCircle);
+}
+
+/// Carries the top face's circles from where the bottom's are, all in one flow; false where it does not lead as far as asked.
+bool carryAlong(Bundle& bundle, const BundleInitializerOptions& options, int attempt, const Context& context)
+{
+  Circles& top = bundle.top;
+  const Rectangle& frame = top.frames.front();
+  const double shift = bundle.length * std::tan(options.meanDispersion * degree);
+  const double length =
+    options.correlationLength > 0.0 ? options.correlationLength : std::max(4.0 * shift, frame.size().maxCoeff() / 32.0);
+  RandomEngine engine = randomStream(options.seed, RandomStage::Directions, itemOf(0, bundle.id, attempt));
+  const bool isFarEnough =
+    CoherentFlow(frame, length, engine).carry(top.centres, bundle.length, options.meanDispersion * degree, context);
+  for (std::size_t i = 0; i < top.size(); ++i)
+  {
+    top.centres[i] = frame.clampCentre(top.centres[i], top.radii[i]);
+  }
+  return isFarEnough;
+}
+
 enum class TopFace
 {
   Done,
@@ -223,20 +263,15 @@ TopFace packTop(Bundle& bundle, const BundleInitializerOptions& options, int att
   {
     return TopFace::Done;
   }
-  const DirectionDistribution directions(options.dispersionModel, options.meanDispersion);
-  RandomEngine engine;
-  double reach = 0.0;
-  const auto onRing = [&](std::size_t i, int trial) -> Eigen::Vector2d
+  if (options.dispersionModel != DispersionModel::Coherent || options.numberOfBundles != 1)
   {
-    if (trial == 0)
-    {
-      engine = randomStream(options.seed, RandomStage::Directions, itemOf(i, bundle.id, attempt));
-      // No place on the face is further away than its diagonal, and near 90° the tangent is out of all bounds.
-      reach = std::min(bundle.length * std::tan(directions.sampleAngle(engine)), top.frame(i).size().norm());
-    }
-    return placeOnRing(top.frame(i), bottom.centres[i], top.radii[i], reach, engine);
-  };
-  placeCircles(top, onRing, trialsPerCircle);
+    placeOnRings(bundle, options, attempt);
+  }
+  else if (!carryAlong(bundle, options, attempt, context))
+  {
+    reached = orientationOf(bundle).meanAngle;
+    return TopFace::DispersionMissed;
+  }
 
   const double tolerance = std::min(0.05, 0.02 * options.meanDispersion);
   constexpr double driftTolerance = 0.1;
@@ -326,6 +361,10 @@ void packFaces(Bundle& bundle, const BundleInitializerOptions& options, const Co
   message.precision(3);
   message << "MeanDispersion " << options.meanDispersion << "° cannot be met: fibres that start and end within the faces came to "
           << dispersion << "°. Lower MeanDispersion, or enlarge Margin";
+  if (options.correlationLength > 0.0 && options.dispersionModel == DispersionModel::Coherent)
+  {
+    message << " or CorrelationLength, which is short for so large an angle";
+  }
   throw Infeasible(message.str());
 }
 
@@ -697,10 +736,12 @@ void BundleInitializerOptions::validate() const
   radius.validate();
   requireRange(
     meanDispersion, meanDispersion >= 0.0 && meanDispersion <= 45.0, "MeanDispersion", "an angle from 0 to 45 degrees");
-  if (dispersionModel != DispersionModel::Watson && dispersionModel != DispersionModel::Cone)
+  if (dispersionModel != DispersionModel::Watson && dispersionModel != DispersionModel::Cone &&
+      dispersionModel != DispersionModel::Coherent)
   {
-    throw InvalidInput("DispersionModel has no such choice: use Watson (0) or Cone (1)");
+    throw InvalidInput("DispersionModel has no such choice: use Watson (0), Cone (1) or Coherent (2)");
   }
+  requireRange(correlationLength, correlationLength >= 0.0, "CorrelationLength", "a length in µm, or 0 for the default");
   requireRange(numberOfBundles, numberOfBundles == 1 || numberOfBundles == 2, "NumberOfBundles",
     "1 or 2, and append several sources for more bundles or other directions");
   requireRange(
@@ -741,8 +782,15 @@ std::string BundleInitializerOptions::describe() const
     break;
   }
   text << " MinimumRadius=" << radius.minimum << " MaximumRadius=" << radius.maximum << " MeanDispersion=" << meanDispersion
-       << " DispersionModel=" << (dispersionModel == DispersionModel::Watson ? "Watson" : "Cone")
-       << " NumberOfBundles=" << numberOfBundles;
+       << " DispersionModel="
+       << (dispersionModel == DispersionModel::Coherent ? "Coherent"
+            : dispersionModel == DispersionModel::Cone  ? "Cone"
+                                                        : "Watson");
+  if (dispersionModel == DispersionModel::Coherent)
+  {
+    text << " CorrelationLength=" << correlationLength;
+  }
+  text << " NumberOfBundles=" << numberOfBundles;
   if (numberOfBundles == 2)
   {
     text << " CrossingAngle=" << crossingAngle

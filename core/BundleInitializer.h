@@ -33,7 +33,12 @@ struct BundleInitializerOptions
   /// radii.
   double grownFibreVolumeFraction = 0.0;
   double meanDispersion = 5.0; ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
-  DispersionModel dispersionModel = DispersionModel::Watson;
+  /// Coherent is for one bundle. The layers of two crossing bundles are too thin for a flow; their fibres are then drawn as with
+  /// Watson.
+  DispersionModel dispersionModel = DispersionModel::Coherent;
+  /// Distance over which the directions of DispersionModel::Coherent are alike (see CoherentFlow); 0: four times the mean shift
+  /// of the fibres from face to face, at least a 32nd of the face.
+  double correlationLength = 0.0;
   int numberOfBundles = 1;     ///< 1 or 2
   double crossingAngle = 90.0; ///< between the axes of two bundles, in (0, 90]
   CrossingStyle crossingStyle = CrossingStyle::Interwoven;
@@ -67,8 +72,9 @@ struct BundleInitializerReport
 /// undoing that is CapsuleOptimizer's part.
 ///
 /// The radii are drawn until the density is met (see drawRadii). On the first face circles are placed largest first and
-/// relaxed (see CirclePacking.h). Each fibre then draws its angle from the dispersion model, and its end is placed on the ring
-/// that this angle leaves on the opposite face, at the first of several random azimuths that is free, or least crowded; those
+/// relaxed (see CirclePacking.h). With DispersionModel::Coherent a random flow (see CoherentFlow.h) then carries their middles
+/// to the opposite face. Else each fibre draws its angle from the dispersion model, and its end is placed on the ring
+/// that this angle leaves on the opposite face, at the first of several random azimuths that is free, or least crowded. These
 /// circles are relaxed too. Their displacements are rescaled, and relaxed again, until the mean angle is within 0.05° (and 2 %)
 /// of meanDispersion and, as far as that is possible (usually to 0.1°), the mean direction is the axis. A fibre is never left
 /// out.

@@ -56,7 +56,7 @@ DirectionDistribution::DirectionDistribution(DispersionModel model, double meanA
   }
   if (model != DispersionModel::Watson && model != DispersionModel::Cone)
   {
-    throw InvalidInput("DispersionModel has no such choice: use Watson (0) or Cone (1)");
+    throw InvalidInput("angles are drawn from DispersionModel Watson (0) or Cone (1) only");
   }
   const double wanted = meanAngle * pi / 180.0;
   const bool watson = model == DispersionModel::Watson;

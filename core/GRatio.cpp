@@ -48,9 +48,7 @@ double distributedGRatio(double mean, double deviation, std::uint64_t seed, std:
   RandomEngine engine = randomStream(seed, RandomStage::GRatio, static_cast<std::uint64_t>(fibreId));
   for (;;)
   {
-    // Box and Muller 1958; written out, since std::normal_distribution differs from one library to the next.
-    const double radius = std::sqrt(-2.0 * std::log(uniform(engine)));
-    const double g = mean + deviation * radius * std::cos(2.0 * 3.14159265358979323846 * uniform(engine));
+    const double g = mean + deviation * normal(engine);
     if (g >= smallestGRatio && g <= largestGRatio)
     {
       return g;

@@ -4,6 +4,7 @@
 #include <Random123/conventional/Engine.hpp>
 #include <Random123/philox.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace cactus
@@ -41,6 +42,14 @@ inline double uniform(RandomEngine& engine)
   const std::uint64_t high = engine();
   const std::uint64_t bits = ((high << 32) | engine()) >> 12;
   return (static_cast<double>(bits) + 0.5) * 0x1p-52;
+}
+
+/// Normally distributed with mean 0 and variance 1 (Box and Muller 1958); written out, since std::normal_distribution differs
+/// from one library to the next.
+inline double normal(RandomEngine& engine)
+{
+  const double radius = std::sqrt(-2.0 * std::log(uniform(engine)));
+  return radius * std::cos(2.0 * 3.14159265358979323846 * uniform(engine));
 }
 
 } // namespace cactus

@@ -139,7 +139,7 @@ TEST(BundleInitializer, FacesHoldAllCirclesApartAndInside)
 
 TEST(BundleInitializer, MeanDispersionIsTheOneAsked)
 {
-  for (const DispersionModel model : { DispersionModel::Watson, DispersionModel::Cone })
+  for (const DispersionModel model : { DispersionModel::Watson, DispersionModel::Cone, DispersionModel::Coherent })
   {
     for (const double asked : { 0.0, 2.0, 5.0, 10.0, 15.0, 20.0, 25.0 })
     {
@@ -154,6 +154,48 @@ TEST(BundleInitializer, MeanDispersionIsTheOneAsked)
       expectNoOverlap(fibres, 1);
     }
   }
+}
+
+TEST(BundleInitializer, NeighboursPointAlikeWhereCoherentAndNotWhereDrawnEachForItself)
+{
+  const auto likeness = [](DispersionModel model, double length)
+  {
+    BundleInitializerOptions options;
+    options.meanDispersion = 10.0;
+    options.dispersionModel = model;
+    options.correlationLength = length;
+    const Fibres fibres = initialiseBundles(options);
+    double products = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < fibres.size(); ++i)
+    {
+      const Eigen::Vector2d one = (endPoint(fibres, i, 1) - endPoint(fibres, i, 0)).head<2>();
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        const Eigen::Vector2d other = (endPoint(fibres, j, 1) - endPoint(fibres, j, 0)).head<2>();
+        if ((endPoint(fibres, i, 0) - endPoint(fibres, j, 0)).norm() < 2.0)
+        {
+          products += one.dot(other);
+          squares += 0.5 * (one.squaredNorm() + other.squaredNorm());
+        }
+      }
+    }
+    return products / squares;
+  };
+  const double byDefault = likeness(DispersionModel::Coherent, 0.0);
+  EXPECT_GT(byDefault, 0.9);
+  EXPECT_LT(likeness(DispersionModel::Coherent, 6.0), byDefault - 0.1);
+  EXPECT_LT(std::abs(likeness(DispersionModel::Watson, 0.0)), 0.2);
+  EXPECT_LT(std::abs(likeness(DispersionModel::Cone, 0.0)), 0.2);
+}
+
+TEST(BundleInitializer, CrossingBundlesTakeWatsonForCoherent)
+{
+  BundleInitializerOptions options;
+  options.numberOfBundles = 2;
+  const Fibres fibres = initialiseBundles(options);
+  options.dispersionModel = DispersionModel::Watson;
+  EXPECT_EQ(initialiseBundles(options).points, fibres.points);
 }
 
 TEST(BundleInitializer, WithoutDispersionEndsLieOppositeEachOther)
@@ -267,7 +309,9 @@ TEST(BundleInitializer, BadParametersAreNamed)
   names("CrossingAngle", [](auto& o) { o.crossingAngle = 91.0; });
   names("Margin", [](auto& o) { o.margin = -1.0; });
   names("SheetThickness", [](auto& o) { o.sheetThickness = -1.0; });
-  names("DispersionModel", [](auto& o) { o.dispersionModel = static_cast<DispersionModel>(2); });
+  names("DispersionModel", [](auto& o) { o.dispersionModel = static_cast<DispersionModel>(3); });
+  names("CorrelationLength", [](auto& o) { o.correlationLength = -1.0; });
+  names("CorrelationLength", [](auto& o) { o.correlationLength = 0.01; });
   names("RadiusDistribution", [](auto& o) { o.radius.model = static_cast<RadiusModel>(3); });
   names("CrossingStyle", [](auto& o) { o.crossingStyle = static_cast<CrossingStyle>(2); });
   names("Side 1e+07", [](auto& o) { o.side = 1e7; });

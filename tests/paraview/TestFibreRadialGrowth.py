@@ -76,7 +76,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertAlmostEqual((inner > 0).mean(), 0.8, delta=0.003)
 
     def test_radii_end_on_target(self):
-        bundle = BundleInitializer(Side=10, MeanDispersion=3, GrownFibreVolumeFraction=0.85, Seed=2)
+        bundle = BundleInitializer(Side=10, MeanDispersion=3, GrownFibreVolumeFraction=0.85, Seed=1)
         fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         image = fetch(FibreRadialGrowth(Input=fibres, VoxelSize=0.1, TargetFibreVolumeFraction=0.85))
         ids = arrays(image)[0].reshape(100, 100, 100)
@@ -88,7 +88,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertGreater(len(whole), 15)
         ratios = [math.sqrt((ids == fibre).sum() * 1e-3 / 10 / math.pi) / target[fibre] for fibre in whole]
         self.assertAlmostEqual(np.mean(ratios), 1.0, delta=0.03)
-        self.assertLess(max(ratios) - min(ratios), 0.15)
+        self.assertLess(max(ratios) - min(ratios), 0.1)
 
     def test_a_requested_extent_equals_that_part_of_the_whole(self):
         growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.75)

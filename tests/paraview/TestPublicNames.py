@@ -15,7 +15,7 @@ NAMES = {
         "MinimumRadius": 0.2,
         "MaximumRadius": 2.0,
         "MeanDispersion": 5,
-        "DispersionModel": "Watson",
+        "DispersionModel": "Coherent",
         "NumberOfBundles": 1,
         "CrossingAngle": 90,
         "CrossingStyle": "Interwoven",
@@ -50,7 +50,7 @@ NAMES = {
 }
 CHOICES = {
     ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table"],
-    ("BundleInitializer", "DispersionModel"): ["Watson", "Cone"],
+    ("BundleInitializer", "DispersionModel"): ["Watson", "Cone", "Coherent"],
     ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],
 }
 PORTS = {
