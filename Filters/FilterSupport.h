@@ -9,6 +9,7 @@
 #include <vtkSetGet.h>
 
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -30,8 +31,19 @@ inline Context contextFor(vtkAlgorithm* algorithm, int threads = 0)
     algorithm->SetProgressText(message.c_str());
     algorithm->UpdateProgress(fraction);
   };
+  // The flag is taken back here and once it is noticed. VTK leaves it set, which would stop the next run at its start; and
+  // cleared by others after this run, it would mark the filter as modified and have it run again.
+  algorithm->SetAbortExecute(0);
   // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
-  context.cancelled = [algorithm] { return algorithm->GetAbortExecute() != 0; };
+  context.cancelled = [algorithm, stopped = std::make_shared<bool>(false)]
+  {
+    if (algorithm->GetAbortExecute() != 0)
+    {
+      *stopped = true;
+      algorithm->SetAbortExecute(0);
+    }
+    return *stopped;
+  };
   return context;
 }
 

@@ -301,7 +301,6 @@ std::unique_ptr<vtkCapsuleOptimizer::Run> vtkCapsuleOptimizer::Optimise(vtkInfor
   cactus::validate(options);
 
   auto run = std::make_unique<Run>();
-  run->ParameterTime = this->GetMTime();
   run->InputTime = inputTime(inputs);
   run->Fibres = joined(inputs);
   run->Before = cactus::measureShape(run->Fibres);
@@ -331,6 +330,7 @@ std::unique_ptr<vtkCapsuleOptimizer::Run> vtkCapsuleOptimizer::Optimise(vtkInfor
     observe = keep;
   }
   run->Optimisation = cactus::optimise(run->Fibres, options, cactus::contextFor(this, this->NumberOfThreads), observe);
+  run->ParameterTime = this->GetMTime(); // only now: being stopped modifies the filter
   run->RadiusDistance = cactus::radiusDistance(before, run->Fibres);
   // The result takes the place of the last state.
   while (!run->States.empty() && run->States.back().Iteration >= run->lastIteration())

@@ -89,6 +89,33 @@ class Optimizer(CactusTestCase):
         self.assertGreater(number(fibres, "MaximumPenetration"), 1e-3)
         self.assertGreater(fibres.GetNumberOfCells(), 0)
 
+    def test_what_is_stopped_keeps_the_best_and_can_be_run_again(self):
+        """As with the abort button: the flag is set while progress is reported, and nobody else takes it back."""
+        optimizer = CapsuleOptimizer(Input=bundle(), HistoryInterval=1)
+        algorithm = optimizer.GetClientSideObject()
+
+        def stop(*_):
+            if 0 < algorithm.GetProgress() < 1:
+                algorithm.SetAbortExecuteAndUpdateTime()
+
+        observer = algorithm.AddObserver("ProgressEvent", stop)
+        optimizer.KeepHistory = 1
+        with self.assertError("overlaps remain: the run was stopped after [1-9][0-9]* iterations with [0-9]+ capsule pairs above"):
+            fibres = fetch(optimizer, 0)
+        self.assertEqual(number(fibres, "Converged"), 0)
+        self.assertGreater(number(fibres, "MaximumPenetration"), 1e-3)
+        self.assertAlmostEqual(fibres.GetPointData().GetArray("Overlap").GetRange()[1], number(fibres, "MaximumPenetration"))
+        tubes = Tube(Input=OutputPort(optimizer, 0), Scalars=["POINTS", "Radius"])
+        self.assertGreater(fetch(tubes).GetNumberOfCells(), 0)
+        # Looking back at its states does not start the run again: it would not be stopped, and converge.
+        algorithm.RemoveObserver(observer)
+        states = fetch(optimizer, 1).GetNumberOfRows()
+        fetch_at(optimizer, 0)
+        self.assertEqual(fetch(optimizer, 1).GetNumberOfRows(), states)
+
+        optimizer.KeepHistory = 0
+        self.assertEqual(number(fetch(optimizer, 0), "Converged"), 1)
+
     def test_radii_that_may_change_keep_their_distribution(self):
         fibres = fetch(CapsuleOptimizer(Input=bundle(), RadiusTolerance=0.02), 0)
         self.assertEqual(number(fibres, "Converged"), 1)
