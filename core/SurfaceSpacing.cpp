@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -27,108 +28,41 @@ constexpr double extra = 0.0002;
 /// µm that a distance may lose where points are written in single precision; extra is more.
 constexpr double rounding = 5e-5;
 constexpr int rounds = 12;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Trees over surfaces are held for about so many surfaces and their neighbours at a time.
-constexpr std::size_t surfacesAtATime = 128;
+/// Surfaces are looked at in slabs along z, of this thickness (µm), so that trees are held over one slab at a time.
+constexpr double slabThickness = 10.0;
 
-/// Two surfaces, and by which triangles they are too near.
+/// What of a surface is in a slab.
+struct Part
+{
+  std::size_t surface = 0;
+  std::vector<std::uint32_t> triangles; ///< until they are the tree's
+  Eigen::AlignedBox3d box;
+  std::unique_ptr<TriangleTree> tree; ///< where another part is near
+};
+
+/// Two parts, and by which triangles they are too near.
 struct Pair
 {
-  std::size_t one;
-  std::size_t other;
-  std::size_t batch;    ///< in which the pair is looked at; batches go through the box along x
+  Part* one;
+  Part* other;
   double missing = 0.0; ///< µm, of the gap
   std::vector<std::uint32_t> trianglesOfOne;
   std::vector<std::uint32_t> trianglesOfOther;
 };
 
-/// All pairs of surfaces, one of which has changed, whose boxes come nearer than the gap.
-std::vector<Pair> neighbours(const std::vector<TriangleMesh*>& surfaces, const std::vector<char>& isChanged, double gap)
+/// Which surfaces are looked at together.
+struct Watch
 {
-  std::vector<Eigen::AlignedBox3d> boxes(surfaces.size());
-  std::vector<std::size_t> order;
-  for (std::size_t s = 0; s < surfaces.size(); ++s)
-  {
-    for (const Vector3d& p : surfaces[s]->points)
-    {
-      boxes[s].extend(p);
-    }
-    if (!surfaces[s]->triangles.empty())
-    {
-      order.push_back(s);
-    }
-  }
-  std::stable_sort(
-    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return boxes[a].min()[0] < boxes[b].min()[0]; });
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    const Eigen::AlignedBox3d& a = boxes[order[i]];
-    for (std::size_t j = i + 1; j < order.size() && boxes[order[j]].min()[0] <= a.max()[0] + gap; ++j)
-    {
-      if ((isChanged[order[i]] || isChanged[order[j]]) && a.squaredExteriorDistance(boxes[order[j]]) < gap * gap)
-      {
-        pairs.push_back({ std::min(order[i], order[j]), std::max(order[i], order[j]), i / surfacesAtATime, 0.0, {}, {} });
-      }
-    }
-  }
-  return pairs;
-}
+  std::vector<char> isGiven;   ///< by the caller
+  std::vector<char> isChanged; ///< since all were looked at
 
-/// Looks at all pairs, in batches, with trees only over what the present batch and those after it need.
-void measureGaps(const std::vector<Pair*>& pairs, const std::vector<TriangleMesh*>& surfaces, double gap, const Context& context,
-  double from, double to)
-{
-  std::vector<std::size_t> lastBatch(surfaces.size(), 0);
-  for (const Pair* pair : pairs)
+  bool wants(std::size_t a, std::size_t b) const
   {
-    lastBatch[pair->one] = lastBatch[pair->other] = pair->batch; // they come batch by batch
+    return (this->isGiven[a] || this->isGiven[b]) && (this->isChanged[a] || this->isChanged[b]);
   }
-  std::vector<std::unique_ptr<TriangleTree>> trees(surfaces.size());
-  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end)
-  {
-    const std::size_t batch = pairs[begin]->batch;
-    std::vector<std::size_t> missing;
-    for (end = begin; end < pairs.size() && pairs[end]->batch == batch; ++end)
-    {
-      for (const std::size_t s : { pairs[end]->one, pairs[end]->other })
-      {
-        if (!trees[s])
-        {
-          missing.push_back(s);
-        }
-      }
-    }
-    std::sort(missing.begin(), missing.end());
-    missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-    parallelFor(
-      missing.size(), context, [&](std::size_t m) { trees[missing[m]] = std::make_unique<TriangleTree>(*surfaces[missing[m]]); });
-    parallelFor(
-      end - begin, context,
-      [&](std::size_t p)
-      {
-        Pair& pair = *pairs[begin + p];
-        const TriangleTree& one = *trees[pair.one];
-        const TriangleTree& other = *trees[pair.other];
-        const SurfaceGap nearest = smallestGap(one, other, gap);
-        pair.missing = nearest.found() ? gap - nearest.distance : 0.0;
-        pair.trianglesOfOne = nearest.found() ? trianglesNear(one, other, gap) : std::vector<std::uint32_t>();
-        pair.trianglesOfOther = nearest.found() ? trianglesNear(other, one, gap) : std::vector<std::uint32_t>();
-      },
-      "keeping fibres apart", from + (to - from) * double(begin) / double(pairs.size()),
-      from + (to - from) * double(end) / double(pairs.size()));
-    for (std::size_t p = begin; p < end; ++p)
-    {
-      for (const std::size_t s : { pairs[p]->one, pairs[p]->other })
-      {
-        if (lastBatch[s] == batch)
-        {
-          trees[s].reset();
-        }
-      }
-    }
-  }
-}
+};
 
 /// How far to move each of the points that have to move.
 using Moves = std::map<std::int32_t, double>;
@@ -197,6 +131,139 @@ void addMoves(Moves& moves, const TriangleMesh& mesh, const std::vector<std::uin
   }
 }
 
+/// The boxes of the surfaces that are given, and of those whose boxes are near one of these; the others' are empty.
+std::vector<Eigen::AlignedBox3d> boxesToLookAt(
+  const std::vector<TriangleMesh*>& surfaces, const std::vector<char>& isGiven, double gap, const Context& context)
+{
+  std::vector<Eigen::AlignedBox3d> boxes(surfaces.size());
+  parallelFor(surfaces.size(), context,
+    [&](std::size_t s)
+    {
+      for (const Vector3d& p : surfaces[s]->points)
+      {
+        boxes[s].extend(p);
+      }
+    });
+  const std::vector<Eigen::AlignedBox3d> all = boxes;
+  parallelFor(surfaces.size(), context,
+    [&](std::size_t s)
+    {
+      bool isNear = isGiven[s];
+      for (std::size_t g = 0; g < all.size() && !isNear; ++g)
+      {
+        isNear = isGiven[g] && all[g].squaredExteriorDistance(all[s]) < gap * gap;
+      }
+      if (!isNear)
+      {
+        boxes[s].setEmpty();
+      }
+    });
+  return boxes;
+}
+
+/// What of a surface touches `lower` <= z <= `upper`.
+Part partBetween(const TriangleMesh& mesh, double lower, double upper)
+{
+  std::vector<unsigned char> beyond(mesh.points.size());
+  for (std::size_t p = 0; p < beyond.size(); ++p)
+  {
+    const double z = mesh.points[p][2];
+    beyond[p] = static_cast<unsigned char>((z < lower ? 1 : 0) + (z > upper ? 2 : 0));
+  }
+  Part part;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    const auto& t = mesh.triangles[i];
+    if ((beyond[std::size_t(t[0])] & beyond[std::size_t(t[1])] & beyond[std::size_t(t[2])]) == 0)
+    {
+      part.triangles.push_back(static_cast<std::uint32_t>(i));
+      for (const std::int32_t corner : t)
+      {
+        part.box.extend(mesh.points[std::size_t(corner)]);
+      }
+    }
+  }
+  return part;
+}
+
+/// Pairs of parts to look at, whose boxes come nearer than the gap. Sorts the parts.
+std::vector<Pair> neighbours(std::vector<Part>& parts, const Watch& watch, double gap)
+{
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.box.min()[0] < b.box.min()[0]; });
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    Part& a = parts[i];
+    for (std::size_t j = i + 1; j < parts.size() && parts[j].box.min()[0] <= a.box.max()[0] + gap; ++j)
+    {
+      Part& b = parts[j];
+      if (watch.wants(a.surface, b.surface) && a.box.squaredExteriorDistance(b.box) < gap * gap)
+      {
+        pairs.push_back({ &a, &b, 0.0, {}, {} });
+      }
+    }
+  }
+  return pairs;
+}
+
+/// Adds, per surface, how far points have to move for what touches `lower` <= z <= `upper`.
+void measureSlab(double lower, double upper, const std::vector<TriangleMesh*>& surfaces,
+  const std::vector<Eigen::AlignedBox3d>& boxes, const Watch& watch, double gap, const Context& context,
+  std::map<std::size_t, Moves>& moves)
+{
+  std::vector<std::size_t> present;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+  {
+    if (!boxes[s].isEmpty() && boxes[s].max()[2] >= lower && boxes[s].min()[2] <= upper)
+    {
+      present.push_back(s);
+    }
+  }
+  std::vector<Part> parts(present.size());
+  parallelFor(parts.size(), context,
+    [&](std::size_t i)
+    {
+      parts[i] = partBetween(*surfaces[present[i]], lower, upper);
+      parts[i].surface = present[i];
+    });
+  std::vector<Pair> pairs = neighbours(parts, watch, gap);
+  std::vector<char> isNear(surfaces.size(), 0);
+  for (const Pair& pair : pairs)
+  {
+    isNear[pair.one->surface] = isNear[pair.other->surface] = 1;
+  }
+  parallelFor(parts.size(), context,
+    [&](std::size_t i)
+    {
+      Part& part = parts[i];
+      if (isNear[part.surface])
+      {
+        part.tree = std::make_unique<TriangleTree>(*surfaces[part.surface], std::move(part.triangles));
+      }
+    });
+  parallelFor(pairs.size(), context,
+    [&](std::size_t p)
+    {
+      Pair& pair = pairs[p];
+      const SurfaceGap nearest = smallestGap(*pair.one->tree, *pair.other->tree, gap);
+      if (nearest.found())
+      {
+        pair.missing = gap - nearest.distance;
+        pair.trianglesOfOne = trianglesNear(*pair.one->tree, *pair.other->tree, gap);
+        pair.trianglesOfOther = trianglesNear(*pair.other->tree, *pair.one->tree, gap);
+      }
+    });
+  for (const Pair& pair : pairs)
+  {
+    if (pair.missing > 0.0)
+    {
+      const double distance = 0.5 * pair.missing + extra;
+      addMoves(moves[pair.one->surface], pair.one->tree->mesh(), pair.trianglesOfOne, distance);
+      addMoves(moves[pair.other->surface], pair.other->tree->mesh(), pair.trianglesOfOther, distance);
+    }
+  }
+}
+
 } // namespace
 
 SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double smallest,
@@ -208,34 +275,28 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
     return report;
   }
   const double gap = smallest + rounding;
-  std::vector<char> isChanged(surfaces.size(), 0);
+  Watch watch;
+  watch.isGiven.resize(surfaces.size(), 0);
   std::vector<char> isMoved(surfaces.size(), 0);
   for (const std::size_t s : changed)
   {
-    isChanged[s] = 1;
+    watch.isGiven[s] = 1;
   }
-  std::vector<Pair> pairs = neighbours(surfaces, isChanged, gap);
-  // Most of the work is the first look at all pairs.
+  watch.isChanged = watch.isGiven;
+  // Where two surfaces are too near, both are in the slab that the place is in: each holds what is as near as the gap.
+  const int slabs = std::max(1, static_cast<int>(std::ceil(box.sizes()[2] / slabThickness)));
+  // Most of the work is the first look at all surfaces.
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {
-    std::vector<Pair*> active;
-    for (Pair& pair : pairs)
-    {
-      if (isChanged[pair.one] || isChanged[pair.other])
-      {
-        active.push_back(&pair);
-      }
-    }
-    measureGaps(active, surfaces, gap, context, round == 0 ? from : half, round == 0 ? half : to);
+    const std::vector<Eigen::AlignedBox3d> boxes = boxesToLookAt(surfaces, watch.isGiven, gap, context);
     std::map<std::size_t, Moves> moves;
-    for (const Pair& pair : pairs)
+    for (int slab = 0; slab < slabs; ++slab)
     {
-      if (pair.missing > 0.0)
-      {
-        addMoves(moves[pair.one], *surfaces[pair.one], pair.trianglesOfOne, 0.5 * pair.missing + extra);
-        addMoves(moves[pair.other], *surfaces[pair.other], pair.trianglesOfOther, 0.5 * pair.missing + extra);
-      }
+      const double lower = slab == 0 ? -infinite : box.min()[2] + slab * slabThickness - gap;
+      const double upper = slab == slabs - 1 ? infinite : box.min()[2] + (slab + 1) * slabThickness + gap;
+      measureSlab(lower, upper, surfaces, boxes, watch, gap, context, moves);
+      context.report((round == 0 ? from : half) + (half - from) * (slab + 1) / slabs, "keeping fibres apart");
     }
     if (moves.empty() || round == rounds)
     {
@@ -246,11 +307,11 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
       break;
     }
     std::vector<std::size_t> moving;
-    std::fill(isChanged.begin(), isChanged.end(), 0);
+    std::fill(watch.isChanged.begin(), watch.isChanged.end(), 0);
     for (const auto& entry : moves)
     {
       moving.push_back(entry.first);
-      isChanged[entry.first] = isMoved[entry.first] = 1;
+      watch.isChanged[entry.first] = isMoved[entry.first] = 1;
     }
     parallelFor(moving.size(), context, [&](std::size_t m) { moveInwards(*surfaces[moving[m]], moves.at(moving[m]), box, gap); });
   }

@@ -27,6 +27,9 @@ struct SpacingReport
 /// moved. Points on a face of `box` stay on it, so that flat caps stay flat; what else a surface may run into, such as a cap that
 /// folds, is for the caller to check. Empty surfaces are left out. Same result on any number of threads.
 ///
+/// It looks at one slab of `box` after the other, 10 µm thick along z, and holds search trees over that slab alone. How far a
+/// place is moved depends on what is missing of the gap within its slab.
+///
 /// Only pairs with a surface among those in `changed` (increasing) are looked at: the others are taken to be apart, and stay so.
 /// Progress runs from `from` to `to`. Throws Cancelled.
 SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double gap,

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: surfaces that are too near are moved to the gap, by no more than that takes; others keep every bit.
+// Guarantees: surfaces that are too near are moved to the gap, by no more than that takes, wherever they lie to the slabs that
+// are looked at; others keep every bit.
 #include "SurfaceSpacing.h"
 
 #include "Error.h"
 #include "ExampleSurfaces.h"
 #include "SurfaceCheck.h"
+#include "SurfaceDistance.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <set>
+#include <vector>
 
 namespace
 {
@@ -147,6 +155,108 @@ TEST(SurfaceSpacing, LooksOnlyAtWhatHasChanged)
   EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 1, 2 })) << "0 and 1 are too near, too, but none has changed";
   EXPECT_EQ(left.points, oldLeft.points);
   EXPECT_EQ(keepApart({ &left, &middle, &right }, { 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
+}
+
+/// The mesh with its axes moved on: what was along z lies along x.
+TriangleMesh alongX(TriangleMesh mesh)
+{
+  for (Eigen::Vector3d& p : mesh.points)
+  {
+    p = Eigen::Vector3d(p[2], p[0], p[1]);
+  }
+  return mesh;
+}
+
+/// Whether any triangle of the one is nearer than `gap` to any of the other.
+bool tooNear(const TriangleMesh& one, const TriangleMesh& other, double gap)
+{
+  const auto corners = [](const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t)
+  {
+    return std::array<Eigen::Vector3d, 3>{ mesh.points[std::size_t(t[0])], mesh.points[std::size_t(t[1])],
+      mesh.points[std::size_t(t[2])] };
+  };
+  const auto boxOf = [](const std::array<Eigen::Vector3d, 3>& t) { return Eigen::AlignedBox3d(t[0]).extend(t[1]).extend(t[2]); };
+  for (const auto& s : one.triangles)
+  {
+    const auto a = corners(one, s);
+    const Eigen::AlignedBox3d around = boxOf(a);
+    for (const auto& t : other.triangles)
+    {
+      const auto b = corners(other, t);
+      if (around.squaredExteriorDistance(boxOf(b)) < gap * gap && triangleGap(a, b, gap).found())
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Those of the surfaces that are too near to another.
+std::vector<std::size_t> allTooNear(const std::vector<TriangleMesh>& surfaces, double gap)
+{
+  std::set<std::size_t> found;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      if (tooNear(surfaces[i], surfaces[j], gap))
+      {
+        found.insert({ i, j });
+      }
+    }
+  }
+  return { found.begin(), found.end() };
+}
+
+TEST(SurfaceSpacing, FindsAllThatIsNearInALongBox)
+{
+  // Slabs are 10 thick: their borders are at -10, 0 and 10.
+  const Eigen::AlignedBox3d longBox(Eigen::Vector3d(-20, -20, -20), Eigen::Vector3d(20, 20, 20));
+  const auto tubeAt = [](double x, double lower, double upper, int rings)
+  { return example::tube(x, 0.0, 0.5, lower, upper, 24, rings); };
+  std::vector<TriangleMesh> before{
+    tubeAt(-12.0, -20.0, 20.0, 40), tubeAt(-10.99, -20.0, 20.0, 40), // all along, with rings on the borders
+    tubeAt(-9.0, -20.0, 20.0, 37), tubeAt(-7.9, -20.0, 20.0, 40),    // at one height, on a border, see below
+    tubeAt(-6.0, 3.0, 9.995, 7), tubeAt(-6.0, 10.005, 17.0, 7),      // end to end, to either side of a border
+    tubeAt(-4.0, -9.0, 0.0, 9), tubeAt(-4.0, 0.01, 9.0, 9),          // end to end, the one on a border
+    tubeAt(-2.0, -9.0, -0.01, 9), tubeAt(-2.0, 0.0, 9.0, 9),         // the same from the other side
+    tubeAt(0.0, -20.0, 20.0, 1), tubeAt(1.01, 12.0, 18.0, 6),        // triangles through all slabs, and a short neighbour
+    tubeAt(5.0, -20.0, 20.0, 40), alongX(example::tube(1.01, -10.0, 0.5, 3.0, 7.0, 24, 5)), // one across it, on a border
+    tubeAt(9.0, -20.0, 20.0, 40), tubeAt(10.03, -20.0, 20.0, 40),                           // far enough
+  };
+  for (Eigen::Vector3d& p : before[3].points)
+  {
+    p[0] -= p[2] == 10.0 ? 0.09 : 0.0;
+  }
+  std::vector<std::size_t> near(14);
+  std::iota(near.begin(), near.end(), std::size_t(0));
+  ASSERT_EQ(allTooNear(before, 0.02), near);
+  std::vector<TriangleMesh> results[2];
+  for (const int threads : { 1, 3 })
+  {
+    std::vector<TriangleMesh>& surfaces = results[threads / 2];
+    surfaces = before;
+    std::vector<TriangleMesh*> pointers;
+    for (TriangleMesh& mesh : surfaces)
+    {
+      pointers.push_back(&mesh);
+    }
+    Context context;
+    context.threads = threads;
+    const SpacingReport report = keepApart(pointers, 0.02, longBox, context);
+    EXPECT_EQ(report.moved, near);
+    EXPECT_TRUE(report.tooNear.empty());
+  }
+  EXPECT_TRUE(allTooNear(results[0], 0.02).empty());
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    EXPECT_EQ(results[0][i].points, results[1][i].points) << i;
+    for (std::size_t p = 0; p < before[i].points.size(); ++p)
+    {
+      EXPECT_LT((results[0][i].points[p] - before[i].points[p]).norm(), 0.02) << i;
+    }
+  }
 }
 
 } // namespace
