@@ -27,6 +27,13 @@ namespace cactus
 namespace
 {
 
+/// Cells that follow one another.
+struct Run
+{
+  vtkIdType begin;
+  vtkIdType end;
+};
+
 vtkDataArray* cellScalars(vtkPolyData* input, const char* name, const std::string& port)
 {
   vtkDataArray* array = input->GetCellData()->GetArray(name);
@@ -59,7 +66,7 @@ FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surf
     throw InvalidInput(port + " has no cell data FibreId, which tells whose surface each triangle is");
   }
 
-  std::map<int, std::vector<vtkIdType>> cellsOf;
+  std::map<int, std::vector<Run>> runsOf; // most often one for each
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
   {
     if (kind != nullptr && static_cast<int>(kind->GetComponent(cell, 0)) != surface)
@@ -67,30 +74,37 @@ FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surf
       const std::string other = surface == 0 ? "inner" : "outer";
       throw InvalidInput(port + " holds " + other + " surfaces (cell data Surface): connect MyelinSurface's port " + port);
     }
-    cellsOf[static_cast<int>(fibreId->GetComponent(cell, 0))].push_back(cell);
+    std::vector<Run>& runs = runsOf[static_cast<int>(fibreId->GetComponent(cell, 0))];
+    if (runs.empty() || runs.back().end != cell)
+    {
+      runs.push_back({ cell, cell });
+    }
+    ++runs.back().end;
   }
-  auto cells = std::make_shared<std::vector<std::vector<vtkIdType>>>();
-  for (auto& entry : cellsOf)
+  auto surfaces = std::make_shared<std::vector<std::vector<Run>>>();
+  for (auto& entry : runsOf)
   {
     if (entry.first < 1)
     {
-      throw InvalidInput(port + " has a FibreId below 1 in cell " + std::to_string(entry.second[0]) + ": ids count from 1");
+      throw InvalidInput(port + " has a FibreId below 1 in cell " + std::to_string(entry.second[0].begin) + ": ids count from 1");
     }
     result.fibreIds.push_back(entry.first);
-    result.bundleIds.push_back(bundleId ? static_cast<int>(bundleId->GetComponent(entry.second[0], 0)) : 1);
-    cells->push_back(std::move(entry.second));
+    result.bundleIds.push_back(bundleId ? static_cast<int>(bundleId->GetComponent(entry.second[0].begin, 0)) : 1);
+    surfaces->push_back(std::move(entry.second));
   }
 
-  result.mesh = [cells, triangles, points = input->GetPoints()](std::size_t index)
+  result.mesh = [surfaces, triangles, points = input->GetPoints()](std::size_t index)
   {
     TriangleMesh mesh;
     std::vector<vtkIdType> ids;
-    ids.reserve(3 * (*cells)[index].size());
     vtkNew<vtkIdList> corners; // with a list of its own, reading a cell is safe in several threads
-    for (const vtkIdType cell : (*cells)[index])
+    for (const Run& run : (*surfaces)[index])
     {
-      triangles->GetCellAtId(cell, corners);
-      ids.insert(ids.end(), { corners->GetId(0), corners->GetId(1), corners->GetId(2) });
+      for (vtkIdType cell = run.begin; cell < run.end; ++cell)
+      {
+        triangles->GetCellAtId(cell, corners);
+        ids.insert(ids.end(), { corners->GetId(0), corners->GetId(1), corners->GetId(2) });
+      }
     }
     std::vector<vtkIdType> used = ids;
     std::sort(used.begin(), used.end());
@@ -100,7 +114,7 @@ FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surf
     {
       points->GetPoint(used[i], mesh.points[i].data());
     }
-    mesh.triangles.resize((*cells)[index].size());
+    mesh.triangles.resize(ids.size() / 3);
     for (std::size_t i = 0; i < ids.size(); ++i)
     {
       const auto place = std::lower_bound(used.begin(), used.end(), ids[i]) - used.begin();

@@ -76,6 +76,24 @@ class Certificate(CactusTestCase):
         with self.assertError(r"not certified: 2 inner surfaces leave their outer ones \(fibre 3 first\)"):
             self.certify(self.outer, two_tubes()[2])  # caps in one plane
 
+    def test_triangles_in_any_order(self):
+        """Surfaces may be mixed with each other in the array of cells."""
+        expected, expected_fibres = self.certify(self.outer, self.inner)
+        mixed = []
+        for data in (self.outer, self.inner):
+            data = copy(data)
+            order = np.random.default_rng(1).permutation(data.GetNumberOfCells())
+            cell_data = data.GetCellData()
+            columns = [vtk_to_numpy(cell_data.GetArray(i)) for i in range(cell_data.GetNumberOfArrays())]
+            for values in columns + [vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)]:
+                values[:] = values[order]
+            mixed.append(data)
+        self.assertGreater(np.count_nonzero(np.diff(vtk_to_numpy(mixed[0].GetCellData().GetArray("FibreId")))), 100)
+        whole, fibres = self.certify(*mixed)
+        for one, other in zip([expected] + expected_fibres, [whole] + fibres):
+            for name in one:
+                np.testing.assert_allclose(other[name], one[name], rtol=1e-12, err_msg=name)
+
     def write(self, data):
         """One PLY file for each fibre."""
         points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
