@@ -18,6 +18,8 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double stepsPerLength = 16.0;
 /// Correlation lengths after which what has not come far enough goes round in circles.
 constexpr double farthest = 6.0;
+/// Relative, of the mean angle.
+constexpr double precision = 1e-6;
 
 double meanAngleOf(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to, double height)
 {
@@ -112,30 +114,36 @@ bool CoherentFlow::carry(std::vector<Eigen::Vector2d>& points, double height, do
   const std::vector<Eigen::Vector2d> start = points;
   std::vector<Eigen::Vector2d> farthestPoints = points;
   double largest = 0.0;
+  double reached = 0.0;
   const double step = this->Length / stepsPerLength; // the mean speed is about 1
   for (double time = 0.0; time < farthest * this->Length; time += step)
   {
     const std::vector<Eigen::Vector2d> before = points;
+    double low = 0.0;
+    double lowAngle = reached;
+    double high = step;
     this->advance(points, step, context);
-    const double reached = meanAngleOf(start, points, height);
-    if (reached >= meanAngle)
+    reached = meanAngleOf(start, points, height);
+    if (reached < meanAngle)
     {
-      double low = 0.0;
-      double high = step;
-      for (int i = 0; i < 30; ++i)
+      if (reached > largest)
       {
-        const double middle = 0.5 * (low + high);
-        points = before;
-        this->advance(points, middle, context);
-        (meanAngleOf(start, points, height) < meanAngle ? low : high) = middle;
+        largest = reached;
+        farthestPoints = points;
       }
-      return true;
+      continue;
     }
-    if (reached > largest)
+    // Within a step the mean angle is nearly linear in time.
+    for (double highAngle = reached; std::abs(reached - meanAngle) > precision * meanAngle;)
     {
-      largest = reached;
-      farthestPoints = points;
+      const double between = low + (high - low) * (meanAngle - lowAngle) / (highAngle - lowAngle);
+      points = before;
+      this->advance(points, between, context);
+      reached = meanAngleOf(start, points, height);
+      (reached < meanAngle ? low : high) = between;
+      (reached < meanAngle ? lowAngle : highAngle) = reached;
     }
+    return true;
   }
   points = std::move(farthestPoints);
   return false;
