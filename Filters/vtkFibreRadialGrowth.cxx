@@ -8,6 +8,7 @@
 #include "Memory.h"
 #include "WholeData.h"
 
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -162,6 +163,12 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
 
       if (this->GrowthParameterTime != this->GetMTime() || this->GrowthInputTime != input->GetMTime())
       {
+        vtkDataArray* converged = input->GetFieldData()->GetArray("Converged");
+        if (converged != nullptr && converged->GetNumberOfTuples() > 0 && converged->GetComponent(0, 0) == 0.0)
+        {
+          vtkWarningMacro(<< "these fibres still overlap, by CapsuleOptimizer's word, and what is left between them is "
+                             "shared out: let it run on or, where it keeps its history, go to the last time step");
+        }
         // Nothing is kept of a search that fails.
         this->Aimed.reset();
         this->GrowthParameterTime = 0;

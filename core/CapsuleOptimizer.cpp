@@ -435,6 +435,15 @@ std::string describe(const ConvergenceRow& row)
   return text.str();
 }
 
+/// How far a run has come, from 0 to 0.99: by its iterations or by the logarithm of the largest penetration, whichever is more.
+double progressOf(const ConvergenceRow& row, double firstPenetration, const CapsuleOptimizerOptions& options)
+{
+  const double byIterations = double(row.iteration) / std::max(1, options.maximumIterations);
+  const double toGo = std::log(std::max(row.maximumPenetration / options.overlapTolerance, 1.0));
+  const double all = std::log(std::max(firstPenetration / options.overlapTolerance, 2.0));
+  return std::clamp(std::max(byIterations, 1.0 - toGo / all), 0.0, 0.99);
+}
+
 void requireNumber(const char* name, double value, double lowest, double highest, const char* expectation)
 {
   if (!(value >= lowest && value <= highest))
@@ -649,6 +658,7 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
       run.load(path, fingerprint);
     }
     Clock::time_point lastCheckpoint = start;
+    double progress = 0.0;
     for (bool first = true;; ++run.Iteration, first = false)
     {
       if (!path.empty() && (first || (run.Path.searchDue() && secondsSince(lastCheckpoint) >= options.checkpointInterval)))
@@ -668,7 +678,9 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
       }
       if (run.Iteration % 10 == 0)
       {
-        context.report(std::min(0.99, double(run.Iteration) / std::max(1, options.maximumIterations)), describe(row));
+        const double first = run.Rows.empty() ? row.maximumPenetration : run.Rows.front().maximumPenetration;
+        progress = std::max(progress, progressOf(row, first, options));
+        context.report(progress, describe(row));
       }
       const bool last = shouldStop(run, row, options, context, secondsSince(start), result.reason);
       if (last && !path.empty())

@@ -210,6 +210,29 @@ TEST(CapsuleOptimizer, KeepsTheBestStateWhenStopped)
   EXPECT_EQ(cactus::optimise(fibres, options, {}).reason, cactus::StopReason::TimeBudget);
 }
 
+// Guarantee: progress never falls, and tells of the overlap: a run that ends well has come far, whatever it was allowed.
+TEST(CapsuleOptimizer, ReportsHowFarItHasCome)
+{
+  Fibres fibres = randomBundle(14, 40, 12, 6.0, 0.0);
+  double last = 0.0;
+  std::size_t reports = 0;
+  cactus::Context context;
+  context.progress = [&](double fraction, const std::string& message)
+  {
+    EXPECT_GE(fraction, last);
+    EXPECT_LT(fraction, 1.0);
+    EXPECT_NE(message.find("largest penetration"), std::string::npos) << message;
+    last = fraction;
+    ++reports;
+  };
+  cactus::CapsuleOptimizerOptions options;
+  options.maximumIterations = 100000;
+  const auto result = cactus::optimise(fibres, options, context);
+  EXPECT_EQ(result.overlappingPairs, 0u);
+  EXPECT_GT(last, 0.5);
+  EXPECT_EQ(reports, (result.convergence.size() + 9) / 10);
+}
+
 // Guarantee: a state without overlap is left alone.
 TEST(CapsuleOptimizer, LeavesAGoodStateAlone)
 {

@@ -90,6 +90,17 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertAlmostEqual(np.mean(ratios), 1.0, delta=0.03)
         self.assertLess(max(ratios) - min(ratios), 0.1)
 
+    def test_fibres_that_still_overlap_are_warned_of(self):
+        optimizer = CapsuleOptimizer(Input=BundleInitializer(Side=6, MeanDispersion=10, DispersionModel="Watson"), MaximumIterations=3)
+        with self.assertError("overlaps remain"):
+            fibres = fetch(optimizer, 0)
+        self.assertEqual(fibres.GetFieldData().GetArray("Converged").GetValue(0), 0)
+        growth = FibreRadialGrowth(Input=OutputPort(optimizer, 0), VoxelSize=0.2)
+        with self.assertError("still overlap"):
+            self.assertGreater(arrays(fetch(growth))[0].max(), 0)
+        optimizer.MaximumIterations = 3000
+        fetch(growth)  # and says nothing
+
     def test_a_requested_extent_equals_that_part_of_the_whole(self):
         growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.75)
         whole_ids, whole_depth = (values.reshape(60, 60, 60).copy() for values in arrays(fetch(growth)))
