@@ -166,8 +166,8 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
         vtkDataArray* converged = input->GetFieldData()->GetArray("Converged");
         if (converged != nullptr && converged->GetNumberOfTuples() > 0 && converged->GetComponent(0, 0) == 0.0)
         {
-          vtkWarningMacro(<< "these fibres still overlap, by CapsuleOptimizer's word, and what is left between them is "
-                             "shared out: let it run on or, where it keeps its history, go to the last time step");
+          vtkWarningMacro(<< "these fibres still overlap (Converged is 0) and take space from each other: let "
+                             "CapsuleOptimizer run on or, where it keeps its history, go to the last time step");
         }
         // Nothing is kept of a search that fails.
         this->Aimed.reset();
