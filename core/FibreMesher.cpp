@@ -144,7 +144,8 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair, 
     }
     volume = std::clamp(volume, now.volume - rest * now.freeArea, now.volume + rest * now.freeArea);
   }
-  this->finish(field, surface, level, volume, nullptr, calm, pair.outerReport, pair);
+  const bool isSound = this->finish(field, surface, level, volume, nullptr, calm, pair.outerReport, pair);
+  pair.isFlawed = pair.isFlawed || !isSound;
   pair.outer = packed(std::move(surface.mesh));
   pair.outerLevel = level;
   pair.state = MyelinState::NoAxon;
@@ -205,13 +206,25 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   depths = {};
 
   Inner best;
-  const MyelinState state = this->solve(field, wanted, upper, guess, best);
+  MyelinState state = this->solve(field, wanted, upper, guess, best);
   if (state == MyelinState::NoAxon)
   {
     return;
   }
-  this->finish(field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer, {},
-    pair.innerReport, pair);
+  bool isSound = this->finish(field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer,
+    {}, pair.innerReport, pair);
+  while (!isSound)
+  {
+    // The outer surface lies further in than the field tells, where voxels do not resolve a crease or a neighbour has pushed it.
+    state = MyelinState::Thicker;
+    best = this->innerAt(field, best.level + this->ThinnestMyelin);
+    if (best.level > upper || !best.onePiece)
+    {
+      pair.innerReport = SurfaceReport();
+      return;
+    }
+    isSound = this->finish(field, best.surface, best.level, best.volume, &pair.outer, {}, pair.innerReport, pair);
+  }
   pair.inner = packed(std::move(best.surface.mesh));
   // By how much the volume was off before it was moved to what is wanted, was the level.
   pair.thickness = best.level - pair.outerLevel + (state == MyelinState::AsAsked ? (best.volume - wanted) / best.area : 0.0);
@@ -297,8 +310,8 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
 }
 
 /// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong with it, it is made again with
-/// less coarsening around there; what cannot be mended like that stays as contoured.
-void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
+/// less coarsening around there; what cannot be mended like that stays as contoured. Returns whether nothing is wrong with it.
+bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
   const TriangleMesh* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
 {
   const double error = this->Options.decimationError;
@@ -325,7 +338,7 @@ void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     {
       pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, level));
       surface = std::move(trial);
-      return;
+      return true;
     }
     if (places.empty())
     {
@@ -340,7 +353,7 @@ void FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
   }
   report = checkSurface(surface.mesh);
   requireSound(report, pair.fibreId);
-  pair.isFlawed = pair.isFlawed || (error > 0.0 && !faults(surface.mesh, containerTree.get()).empty());
+  return error == 0.0 || faults(surface.mesh, containerTree.get()).empty();
 }
 
 /// The largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps

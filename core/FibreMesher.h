@@ -41,7 +41,8 @@ public:
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const;
 
-  /// Makes the inner surface for the pair's targetGRatio, inside its outer one.
+  /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin where it would leave it, and
+  /// without an axon where no thickness prevents that.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
 private:
@@ -50,7 +51,7 @@ private:
   CappedSurface contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const;
   Inner innerAt(const SmoothedField& field, double level) const;
   MyelinState solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const;
-  void finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleMesh* container,
+  bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleMesh* container,
     const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 

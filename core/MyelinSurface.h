@@ -53,7 +53,7 @@ enum class MyelinState
 {
   AsAsked = 0,
   Thinner = 1, ///< than asked: else the axon would break within the box
-  Thicker = 2, ///< than asked: myelin is at least MinimumGap thick
+  Thicker = 2, ///< than asked: myelin is at least MinimumGap thick, and the axon does not leave it
   NoAxon = 3,  ///< the fibre is too thin to hold an unbroken axon inside myelin of that thickness: no inner surface
   NoFibre = 4  ///< no voxel of the image belongs to the fibre: neither surface
 };

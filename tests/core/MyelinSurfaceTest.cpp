@@ -6,6 +6,7 @@
 #include "CapsuleOptimizer.h"
 #include "Error.h"
 #include "FibreField.h"
+#include "FibreMesher.h"
 #include "FibreRadialGrowth.h"
 #include "GRatio.h"
 #include "GrowthTarget.h"
@@ -81,6 +82,57 @@ TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
     EXPECT_LE(sum, -options.gap() + 1e-6);
     EXPECT_GE(sum, -options.gap() - 0.01);
   }
+}
+
+// An outer surface may lie further in than the field tells, after it was moved; the axon keeps clear of it all the same.
+TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
+{
+  FibreRadialGrowthOptions options;
+  Fibres fibres;
+  fibres.domain = Domain::cube(3.0);
+  fibres.addFibre(1, 1, 0.6);
+  fibres.addPoint({ 0.0, 0.0, -2.0 }, 0.6);
+  fibres.addPoint({ 0.0, 0.0, 2.0 }, 0.6);
+  const LabelImage image = growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.fibreIds = facts.bundleIds = { 1 };
+  facts.targetRadii = { 0.6 };
+  facts.minimumGap = options.minimumGap;
+  facts.surfaceTolerance = options.surfaceTolerance;
+  const MyelinSurfaceOptions surfaceOptions;
+  const FibreMesher mesher({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, facts, surfaceOptions);
+  const auto blocks = mesher.field().findFibres(surfaceOptions.smoothingIterations, {});
+  const SmoothedField field = mesher.smoothed(blocks.at(1), 1);
+  FibreSurfacePair pair;
+  pair.fibreId = 1;
+  pair.targetGRatio = 0.7;
+  mesher.makeOuter(field, pair);
+  mesher.makeInner(field, pair);
+  EXPECT_EQ(pair.state, MyelinState::AsAsked);
+  const double volume = pair.innerReport.volume;
+  for (Eigen::Vector3d& p : pair.outer.points)
+  {
+    const double distance = (p - Eigen::Vector3d(0.6, 0.0, 0.0)).norm();
+    p[0] -= distance < 0.4 ? 0.25 * (1.0 - distance / 0.4) : 0.0; // through the myelin, 0.18 µm thick
+  }
+  EXPECT_FALSE(meetingTriangles(TriangleTree(pair.inner), TriangleTree(pair.outer)).empty());
+  EXPECT_TRUE(mesher.checkOuter(pair).empty());
+  mesher.makeInner(field, pair);
+  EXPECT_EQ(pair.state, MyelinState::Thicker);
+  EXPECT_TRUE(meetingTriangles(TriangleTree(pair.inner), TriangleTree(pair.outer)).empty());
+  EXPECT_FALSE(pair.isFlawed);
+  EXPECT_LT(pair.innerReport.volume, volume);
+  EXPECT_GT(pair.innerReport.volume, 0.5 * volume);
+  // Pushed in to its middle, the fibre has no room for an axon, and gets none.
+  for (Eigen::Vector3d& p : pair.outer.points)
+  {
+    const double distance = (p - Eigen::Vector3d(0.35, 0.0, 0.0)).norm();
+    p[0] -= distance < 0.4 ? 0.8 * (1.0 - distance / 0.4) : 0.0;
+  }
+  mesher.makeInner(field, pair);
+  EXPECT_EQ(pair.state, MyelinState::NoAxon);
+  EXPECT_TRUE(pair.inner.triangles.empty());
 }
 
 TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
