@@ -32,6 +32,12 @@ std::uint64_t itemOf(std::size_t circle, int bundle, int attempt = 0)
   return circle + (static_cast<std::uint64_t>(bundle) << 40) + (static_cast<std::uint64_t>(attempt) << 48);
 }
 
+/// Whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
+bool isCoherent(const BundleInitializerOptions& options)
+{
+  return options.dispersionModel == DispersionModel::Coherent && options.numberOfBundles == 1;
+}
+
 /// One bundle before it is turned into its place: faces in (u, v) at w = ±length/2, v being the domain's y.
 struct Bundle
 {
@@ -263,7 +269,7 @@ TopFace packTop(Bundle& bundle, const BundleInitializerOptions& options, int att
   {
     return TopFace::Done;
   }
-  if (options.dispersionModel != DispersionModel::Coherent || options.numberOfBundles != 1)
+  if (!isCoherent(options))
   {
     placeOnRings(bundle, options, attempt);
   }
@@ -361,7 +367,7 @@ void packFaces(Bundle& bundle, const BundleInitializerOptions& options, const Co
   message.precision(3);
   message << "MeanDispersion " << options.meanDispersion << "° cannot be met: fibres that start and end within the faces came to "
           << dispersion << "°. Lower MeanDispersion, or enlarge Margin";
-  if (options.correlationLength > 0.0 && options.dispersionModel == DispersionModel::Coherent)
+  if (options.correlationLength > 0.0 && isCoherent(options))
   {
     message << " or CorrelationLength, which is short for so large an angle";
   }
@@ -786,7 +792,7 @@ std::string BundleInitializerOptions::describe() const
        << (dispersionModel == DispersionModel::Coherent ? "Coherent"
             : dispersionModel == DispersionModel::Cone  ? "Cone"
                                                         : "Watson");
-  if (dispersionModel == DispersionModel::Coherent)
+  if (isCoherent(*this))
   {
     text << " CorrelationLength=" << correlationLength;
   }
