@@ -23,7 +23,7 @@ struct SeedOptions
 {
   /// How far, as a fraction of the local radius, the seeded shape may fall short of the capsule: 0 seeds the capsule itself, more
   /// makes the surface irregular. In [0, 0.5].
-  double surfaceRoughness = 0.1;
+  double surfaceRoughness = 0.0;
   std::uint64_t seed = 1;
 };
 

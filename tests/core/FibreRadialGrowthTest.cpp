@@ -217,7 +217,6 @@ TEST(CapsuleField, IsTheUnionOfTheBallsAlongTheCapsules)
 {
   const Fibres fibres = tangle(6.0, 10, 1);
   FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.0;
   const CapsuleField field = fieldOf(fibres, options);
   RandomEngine engine = randomStream(2, RandomStage::Directions);
   for (int n = 0; n < 300; ++n)
@@ -263,7 +262,9 @@ TEST(CapsuleField, RoughSeedsStayInsideTheCapsulesAndHoldTheirCore)
 TEST(CapsuleField, IsOneLipschitz)
 {
   const Fibres fibres = tangle(6.0, 10, 5);
-  const CapsuleField field = fieldOf(fibres, FibreRadialGrowthOptions());
+  FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.1;
+  const CapsuleField field = fieldOf(fibres, options);
   RandomEngine engine = randomStream(6, RandomStage::Directions);
   const auto random = [&](double scale)
   { return Eigen::Vector3d(scale * (uniform(engine) - 0.5), scale * (uniform(engine) - 0.5), scale * (uniform(engine) - 0.5)); };
@@ -305,7 +306,6 @@ TEST(FibreRadialGrowth, DepthIsTheDistanceToALoneCylinder)
     addStraight(fibres, from, -from, 1.0);
     FibreRadialGrowthOptions options;
     options.voxelSize = 0.1;
-    options.surfaceRoughness = 0.0;
     options.growthIterations = 3;
     EXPECT_DOUBLE_EQ(growthFor(fibres, options), 3 * 0.1);
     const LabelImage image = grown(fibres, options);
@@ -392,7 +392,6 @@ TEST(FibreRadialGrowth, KeepsTheSymmetryOfAHexagonalBundle)
   const Fibres fibres = hexagon(6.0, 0.9, 1.9);
   FibreRadialGrowthOptions options;
   options.voxelSize = 0.1;
-  options.surfaceRoughness = 0.0;
   options.growthIterations = 5;
   const LabelImage image = grown(fibres, options);
   const int opposite[8] = { 0, 1, 5, 6, 7, 2, 3, 4 };
@@ -425,6 +424,7 @@ TEST(FibreRadialGrowth, APartEqualsThatPartOfTheWholeBitForBit)
   FibreRadialGrowthOptions options;
   options.voxelSize = 0.1;
   options.margin = 0.3;
+  options.surfaceRoughness = 0.1;
   options.targetFibreVolumeFraction = 0.6;
   const VoxelGrid whole = growthGrid(fibres.domain, options);
   const double growth = growthFor(fibres, options);
@@ -462,6 +462,7 @@ TEST(FibreRadialGrowth, GivesTheSameBitsOnAnyNumberOfThreads)
 {
   const Fibres fibres = tangle(6.0, 20, 10);
   FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.1;
   options.targetFibreVolumeFraction = 0.6;
   const LabelImage one = grown(fibres, options, 1);
   for (const int threads : { 2, 5 })
@@ -510,6 +511,7 @@ TEST(FibreRadialGrowth, RoughSeedsFollowTheFibreNotItsPlaceInTheInput)
     }
   }
   FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.1;
   const LabelImage a = grown(fibres, options);
   const LabelImage b = grown(reversed, options);
   EXPECT_TRUE(sameBits(a.fibreId, b.fibreId));
@@ -539,7 +541,6 @@ TEST(FibreRadialGrowth, MeetsATargetFraction)
   Fibres one = emptyFibres(4.0);
   addStraight(one, { 0, 0, -4 }, { 0, 0, 4 }, 1.2);
   FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.0;
   options.targetFibreVolumeFraction = 0.15;
   EXPECT_NEAR(growthFor(one, options), std::sqrt(0.15 * 16.0 / pi) - 1.2, 5e-4);
   options.targetFibreVolumeFraction = 0.5;

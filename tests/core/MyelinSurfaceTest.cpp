@@ -74,6 +74,7 @@ double largestSum(const FibreField& field, int passes)
 TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
 {
   FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.1;
   const LabelImage image = meeting(options);
   const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
   for (const int passes : { 0, 1, 4 })
@@ -256,7 +257,6 @@ TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
   fibres.addPoint({ -3.0 * slope + 0.013, 0.027, -3.0 }, radius);
   fibres.addPoint({ 3.0 * slope + 0.013, 0.027, 3.0 }, radius);
   FibreRadialGrowthOptions growth;
-  growth.surfaceRoughness = 0.0;
   const auto pairs = surfacesOf(fibres, growth, 0.0, growth.minimumGap);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].state, MyelinState::AsAsked);

@@ -76,6 +76,14 @@ def row(proxy, port=0, index=-1):
     return {name: table.GetValueByName(index, name).ToDouble() for name in names}
 
 
+def triangles_per_area(data):
+    """Triangles per µm² of a surface."""
+    points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    corners = points[vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+    areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return len(areas) / areas.sum()
+
+
 def enclosed_volume(data):
     """Volume that each fibre's triangles enclose, by the divergence theorem."""
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
@@ -85,7 +93,7 @@ def enclosed_volume(data):
 
 
 class ChainTest(CactusTestCase):
-    def run_chain(self, side, fraction, **bundle):
+    def run_chain(self, side, fraction, most_triangles, **bundle):
         source = BundleInitializer(Side=side, Seed=3, **bundle)
         optimised = CapsuleOptimizer(Input=source)
         data = fetch(optimised)
@@ -113,6 +121,10 @@ class ChainTest(CactusTestCase):
         present = set(vtk_to_numpy(outer.GetCellData().GetArray("FibreId")))
         self.assertLessEqual(expected, present)
         self.assertLessEqual(present, set(ids))
+
+        # Economical: triangles per µm².
+        for surface in (outer, inner):
+            self.assertLessEqual(triangles_per_area(surface), most_triangles)
 
         # Guarantee 3: fractions of the meshes, measured here once more.
         volume = side**3
@@ -144,12 +156,12 @@ class ChainTest(CactusTestCase):
         return data, reached
 
     def test_single_bundle(self):
-        data, reached = self.run_chain(12, 0.9, MeanDispersion=10)
+        data, reached = self.run_chain(12, 0.9, 15, MeanDispersion=10)
         self.assertGreater(data.GetNumberOfCells(), 30)
         self.assertAlmostEqual(reached["MeanDispersion_deg"], 10, delta=1)
 
     def test_crossing(self):
-        data, _ = self.run_chain(12, 0.7, NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5)
+        data, _ = self.run_chain(12, 0.7, 25, NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5)
         points = vtk_to_numpy(data.GetPoints().GetData())
         offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
         ids = vtk_to_numpy(data.GetLines().GetConnectivityArray())

@@ -9,8 +9,9 @@ import os
 import numpy
 from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
 from paraview.simple import FibreRadialGrowth, MyelinSurface, StrandReader
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import reference, vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStaticCellLocator
 
 
 def strands(side, lines):
@@ -57,6 +58,33 @@ def volume(part):
     points, triangles = part
     a, b, c = (points[triangles[:, i]] for i in range(3))
     return numpy.einsum("ij,ij->i", a, numpy.cross(b, c)).sum() / 6
+
+
+def distances(part, other):
+    """From points spread evenly over one surface to the nearest points of another."""
+    points, triangles = part
+    corners = points[triangles]
+    areas = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    random = numpy.random.default_rng(1)
+    weights = random.dirichlet((1, 1, 1), 2000)
+    picked = corners[random.choice(len(triangles), len(weights), p=areas / areas.sum())]
+    places = numpy.einsum("ij,ijk->ik", weights, picked)
+    data = vtkPolyData()
+    data.SetPoints(vtkPoints())
+    data.GetPoints().SetData(numpy_to_vtk(other[0], deep=True))
+    cells = vtkCellArray()
+    cells.SetData(3, numpy_to_vtkIdTypeArray(other[1].astype(numpy.int64).ravel(), deep=True))
+    data.SetPolys(cells)
+    locator = vtkStaticCellLocator()
+    locator.SetDataSet(data)
+    locator.BuildLocator()
+    nearest = numpy.empty_like(places)
+    cell, part_of_cell, squared = reference(0), reference(0), reference(0.0)
+    for place, found in zip(places, nearest):
+        at = [0.0, 0.0, 0.0]
+        locator.FindClosestPoint(place, at, cell, part_of_cell, squared)
+        found[:] = at
+    return numpy.linalg.norm(places - nearest, axis=1)
 
 
 def column(table, name):
@@ -170,10 +198,22 @@ class MyelinSurfaceTest(CactusTestCase):
             surface.DecimationError = error
             coarse = parts(fetch(surface, 0))
             counts.append(sum(len(triangles) for _, triangles in coarse.values()))
-            for fibre, (points, _) in coarse.items():
+            for fibre in coarse:
                 self.assertAlmostEqual(volume(coarse[fibre]), volume(fine[fibre]), delta=0.006 * volume(fine[fibre]))
+                apart = distances(coarse[fibre], fine[fibre])
+                self.assertLess(math.sqrt((apart**2).mean()), 0.75 * error)
+                self.assertLess(numpy.percentile(apart, 90), 1.2 * error)
+                self.assertLess(numpy.percentile(apart, 99), 2.5 * error)
         self.assertLess(counts[1], counts[0])
         self.assertLess(counts[1], 0.12 * sum(len(triangles) for _, triangles in fine.values()))
+
+    def test_fibres_that_may_touch_are_coarsened_too(self):
+        # MinimumGap 0: caps of axons keep off the plane of the outer surfaces' caps all the same.
+        surface = MyelinSurface(Input=self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.8, MinimumGap=0))
+        outer, inner = (parts(fetch(surface, port)) for port in (0, 1))
+        self.assertEqual(set(inner), set(outer))
+        for fibre in inner:
+            self.assertLess(len(inner[fibre][1]), 2 * len(outer[fibre][1]))
 
     def test_models(self):
         growth = self.growth(hexagonal(), TargetFibreVolumeFraction=0.8)

@@ -39,7 +39,7 @@ NAMES = {
         "TargetFibreVolumeFraction": 0,
         "GrowthIterations": 4,
         "MinimumGap": 0.02,
-        "SurfaceRoughness": None,
+        "SurfaceRoughness": 0,
         "Seed": 1,
         "NumberOfThreads": 0,
     },
