@@ -115,7 +115,7 @@ private:
   int GrowthIterations = 4;
   double MinimumGap = 0.02;
   double SurfaceTolerance = 0.0075;
-  double SurfaceRoughness = 0.0;
+  double SurfaceRoughness = 0.1;
   double Margin = 0.0;
   int Seed = 1;
   int NumberOfThreads = 0;

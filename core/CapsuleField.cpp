@@ -19,11 +19,11 @@ namespace cactus
 namespace
 {
 
-// Seeds per radius of length, and their radii as fractions of the capsule's: few and large enough for bumps of about a radius'
-// length, which grow into an uneven calibre rather than a grainy surface.
-constexpr double ballsPerRadius = 1.5;
-constexpr double smallestBall = 0.5;
-constexpr double largestBall = 0.9;
+/// Distance (µm) of the knots between which the calibre of a rough fibre's seed varies, and into how many cones what lies
+/// between two of them is cut. Beads follow each other every few µm (Andersson et al. 2020); shorter ones would grow into a
+/// grainy surface rather than an uneven calibre, and take many triangles.
+constexpr double knotSpacing = 2.0;
+constexpr int conesPerKnot = 2;
 constexpr int blockSize = 16;
 constexpr float nowhere = -1e30f;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -39,19 +39,11 @@ struct Cone
   double lean; ///< how far past the foot point, per distance from the axis, the nearest ball's centre lies: m / sqrt(1 - m²)
 };
 
-struct Ball
-{
-  Eigen::Vector3d centre;
-  double radius;
-};
-
-/// A stretch of one capsule with the balls seeded in it.
+/// A stretch of one capsule's seed.
 struct Piece
 {
-  Cone capsule;
+  Cone cone;
   int rank;
-  std::size_t ballBegin;
-  std::size_t ballEnd;
 };
 
 Cone cone(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, double r0, double r1)
@@ -73,14 +65,6 @@ Cone cone(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, double r0, doubl
   }
   c.start = p0;
   c.radius = r0;
-  c.lean = c.slope / std::sqrt(1.0 - c.slope * c.slope);
-  return c;
-}
-
-Cone scaled(Cone c, double factor)
-{
-  c.radius *= factor;
-  c.slope *= factor;
   c.lean = c.slope / std::sqrt(1.0 - c.slope * c.slope);
   return c;
 }
@@ -112,18 +96,15 @@ struct Candidates
   {
     int rank;
     int coneBegin, coneEnd;
-    int ballBegin, ballEnd;
     float centre; ///< the fibre's field at the centre of the cell in work
   };
   std::vector<Group> groups;
   std::vector<float> x, y, z, ux, uy, uz, length, radius, slope, lean, coneAtCentre;
-  std::vector<float> bx, by, bz, br, ballAtCentre;
 
   void clear()
   {
     groups.clear();
-    for (auto* v :
-      { &x, &y, &z, &ux, &uy, &uz, &length, &radius, &slope, &lean, &coneAtCentre, &bx, &by, &bz, &br, &ballAtCentre })
+    for (auto* v : { &x, &y, &z, &ux, &uy, &uz, &length, &radius, &slope, &lean, &coneAtCentre })
     {
       v->clear();
     }
@@ -142,15 +123,6 @@ struct Candidates
     slope.push_back(float(c.slope));
     lean.push_back(float(c.lean));
     coneAtCentre.push_back(0.0f);
-  }
-  void add(const Ball& b, const Eigen::Vector3d& origin)
-  {
-    const Eigen::Vector3d centre = b.centre - origin;
-    bx.push_back(float(centre.x()));
-    by.push_back(float(centre.y()));
-    bz.push_back(float(centre.z()));
-    br.push_back(float(b.radius));
-    ballAtCentre.push_back(0.0f);
   }
 };
 
@@ -187,7 +159,7 @@ CACTUS_INLINE float smaller(float a, float b)
 }
 
 /// The two largest fields at the samples of one cell, and whose the largest is. Fields are 1-Lipschitz, so their values at the
-/// cell's centre tell which fibres, and which of their balls, can make no difference at any of its samples; the rest is
+/// cell's centre tell which fibres, and which of their cones, can make no difference at any of its samples; the rest is
 /// evaluated. Written as plain loops over eight samples, for the compiler to turn into vectors.
 CACTUS_INLINE void evaluateCellBody(Candidates& all, const CellRelevance& relevance, CellWork& work)
 {
@@ -216,19 +188,6 @@ CACTUS_INLINE void evaluateCellBody(Candidates& all, const CellRelevance& releva
       out[c] = radius[c] + slope[c] * along - std::sqrt(distance2 + rest * rest);
     }
   }
-  const int balls = static_cast<int>(all.bx.size());
-  {
-    const float *x = all.bx.data(), *y = all.by.data(), *z = all.bz.data(), *radius = all.br.data();
-    float* out = all.ballAtCentre.data();
-#pragma GCC ivdep
-    for (int b = 0; b < balls; ++b)
-    {
-      const float dx = cx - x[b];
-      const float dy = cy - y[b];
-      const float dz = cz - z[b];
-      out[b] = radius[b] - std::sqrt(dx * dx + (dy * dy + dz * dz));
-    }
-  }
   float best = nowhere;
   float second = nowhere;
   for (auto& group : all.groups)
@@ -237,10 +196,6 @@ CACTUS_INLINE void evaluateCellBody(Candidates& all, const CellRelevance& releva
     for (int c = group.coneBegin; c < group.coneEnd; ++c)
     {
       value = larger(all.coneAtCentre[c], value);
-    }
-    for (int b = group.ballBegin; b < group.ballEnd; ++b)
-    {
-      value = larger(all.ballAtCentre[b], value);
     }
     group.centre = value;
     second = larger(second, smaller(best, value));
@@ -294,21 +249,6 @@ CACTUS_INLINE void evaluateCellBody(Candidates& all, const CellRelevance& releva
         work.current[i] = larger(radius + slope * along - std::sqrt(distance2 + rest * rest), work.current[i]);
       }
     }
-    for (int b = group.ballBegin; b < group.ballEnd; ++b)
-    {
-      if (all.ballAtCentre[b] < enough)
-      {
-        continue;
-      }
-      const float x = all.bx[b], y = all.by[b], z = all.bz[b], radius = all.br[b];
-      for (int i = 0; i < FieldCell::size; ++i)
-      {
-        const float dx = work.x[i] - x;
-        const float dy = work.y[i] - y;
-        const float dz = work.z[i] - z;
-        work.current[i] = larger(radius - std::sqrt(dx * dx + (dy * dy + dz * dz)), work.current[i]);
-      }
-    }
     const int rank = group.rank;
     for (int i = 0; i < FieldCell::size; ++i)
     {
@@ -360,7 +300,6 @@ struct CapsuleField::Data
   std::vector<std::size_t> fibreOfRank;
   std::vector<std::size_t> pieceOffsets; ///< per rank
   std::vector<Piece> pieces;
-  std::vector<Ball> balls;
 
   // Uniform bins over the pieces' bounding boxes.
   Eigen::Vector3d binOrigin = Eigen::Vector3d::Zero();
@@ -380,6 +319,7 @@ struct CapsuleField::Data
   }
 
   void seed(const Fibres& fibres, const Eigen::AlignedBox3d& region, double reach);
+  double narrowing(int fibreId, double length) const;
   void fillBins();
 
   /// What one thread needs to find a block's candidates.
@@ -393,7 +333,7 @@ struct CapsuleField::Data
     std::vector<std::uint32_t> seenPiece;
     std::uint32_t visit = 0;
     std::vector<Found> found;
-    std::vector<double> coreOf, capsuleOf; ///< per rank: largest value at the block's centre of shrunk chain and of capsules
+    std::vector<double> valueOf; ///< per rank: largest value at the block's centre
     std::vector<int> touched;
     Candidates candidates;
   };
@@ -408,17 +348,14 @@ void CapsuleField::Data::seed(const Fibres& fibres, const Eigen::AlignedBox3d& r
   std::sort(fibreOfRank.begin(), fibreOfRank.end(),
     [&](std::size_t a, std::size_t b) { return fibres.fibreIds[a] < fibres.fibreIds[b]; });
 
+  const bool rough = options.surfaceRoughness > 0.0;
   // A segment's stretches are short, so that boxes are tight and single precision is enough within a block.
   const auto stretches = [&](std::size_t p)
   {
     const double length = (fibres.points[p + 1] - fibres.points[p]).norm();
     const double radius = std::max(fibres.radii[p], fibres.radii[p + 1]);
-    return int(std::min(std::max(1.0, std::ceil(length / (4.0 * radius))), 256.0));
-  };
-  const auto ballCount = [&](std::size_t p)
-  {
-    const double length = (fibres.points[p + 1] - fibres.points[p]).norm();
-    return ballsPerRadius * length / (0.5 * (fibres.radii[p] + fibres.radii[p + 1]));
+    const double longest = rough ? std::min(4.0 * radius, knotSpacing / conesPerKnot) : 4.0 * radius;
+    return int(std::min(std::max(1.0, std::ceil(length / longest)), 256.0));
   };
   const auto inReach = [&](std::size_t p)
   {
@@ -427,84 +364,73 @@ void CapsuleField::Data::seed(const Fibres& fibres, const Eigen::AlignedBox3d& r
     const double grown = reach + std::max(fibres.radii[p], fibres.radii[p + 1]);
     return box.squaredExteriorDistance(region) <= grown * grown;
   };
-  const bool rough = options.surfaceRoughness > 0.0;
   double pieceTotal = 0.0;
-  double ballTotal = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
     {
-      if (inReach(p))
-      {
-        pieceTotal += stretches(p);
-        ballTotal += rough ? ballCount(p) + 1.0 : 0.0;
-      }
+      pieceTotal += inReach(p) ? stretches(p) : 0.0;
     }
   }
-  requireMemory(pieceTotal * (sizeof(Piece) + 64.0) + ballTotal * sizeof(Ball),
-    "seeding " + std::to_string(fibres.size()) + " fibres",
+  requireMemory(pieceTotal * (sizeof(Piece) + 64.0), "seeding " + std::to_string(fibres.size()) + " fibres",
     "set SurfaceRoughness to 0, request a smaller extent, or use fewer or "
     "thicker fibres");
 
   pieces.reserve(std::size_t(pieceTotal));
-  balls.reserve(std::size_t(ballTotal));
   pieceOffsets.assign(1, 0);
-  std::vector<std::pair<double, Ball>> dropped;
   for (const std::size_t f : fibreOfRank)
   {
     const int rank = int(pieceOffsets.size()) - 1;
+    double before = 0.0; // length of the fibre up to the segment
     for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
     {
+      const Eigen::Vector3d& p0 = fibres.points[p];
+      const Eigen::Vector3d along = fibres.points[p + 1] - p0;
+      const double length = along.norm();
+      const double start = before;
+      before += length;
       if (!inReach(p))
       {
         continue;
       }
-      const Eigen::Vector3d& p0 = fibres.points[p];
-      const Eigen::Vector3d along = fibres.points[p + 1] - p0;
       const double r0 = fibres.radii[p];
       const double widening = fibres.radii[p + 1] - r0;
-      dropped.clear();
-      if (rough)
+      const auto radius = [&](double t)
       {
-        RandomEngine engine = randomStream(options.seed, RandomStage::Seeds,
-          (std::uint64_t(std::uint32_t(fibres.fibreIds[f])) << 32) | std::uint64_t(p - fibres.offsets[f]));
-        const Eigen::Vector3d axis = along.normalized();
-        const Eigen::Vector3d side = axis.unitOrthogonal();
-        const Eigen::Vector3d other = axis.cross(side);
-        const double expected = ballCount(p);
-        const auto count = std::size_t(expected + uniform(engine));
-        for (std::size_t b = 0; b < count; ++b)
-        {
-          const double t = uniform(engine);
-          const double angle = 2.0 * 3.14159265358979323846 * uniform(engine);
-          const double radius = r0 + t * widening;
-          Ball ball;
-          ball.radius = radius * (smallestBall + (largestBall - smallestBall) * uniform(engine));
-          ball.centre = p0 + t * along + (radius - ball.radius) * (std::cos(angle) * side + std::sin(angle) * other);
-          dropped.emplace_back(t, ball);
-        }
-        std::sort(dropped.begin(), dropped.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-      }
+        const double full = r0 + t * widening;
+        return rough ? full * (1.0 - this->options.surfaceRoughness * this->narrowing(fibres.fibreIds[f], start + t * length))
+                     : full;
+      };
       const int parts = stretches(p);
-      std::size_t next = 0;
       for (int part = 0; part < parts; ++part)
       {
         const double t0 = double(part) / parts;
         const double t1 = part + 1 == parts ? 1.0 : double(part + 1) / parts;
-        Piece piece;
-        piece.capsule = cone(p0 + t0 * along, p0 + t1 * along, r0 + t0 * widening, r0 + t1 * widening);
-        piece.rank = rank;
-        piece.ballBegin = balls.size();
-        for (; next < dropped.size() && (part + 1 == parts || dropped[next].first < t1); ++next)
-        {
-          balls.push_back(dropped[next].second);
-        }
-        piece.ballEnd = balls.size();
-        pieces.push_back(piece);
+        pieces.push_back({ cone(p0 + t0 * along, p0 + t1 * along, radius(t0), radius(t1)), rank });
       }
     }
     pieceOffsets.push_back(pieces.size());
   }
+}
+
+/// A smooth random function of the length along a fibre, from 0 to 1: a cubic B-spline whose coefficients have the density of a
+/// sine's values, so that they are mostly near 0 or 1.
+double CapsuleField::Data::narrowing(int fibreId, double length) const
+{
+  const double knots = length / knotSpacing;
+  const auto first = static_cast<std::uint32_t>(knots);
+  const double t = knots - first;
+  const double weights[4] = { (1.0 - t) * (1.0 - t) * (1.0 - t) / 6.0, (4.0 + t * t * (3.0 * t - 6.0)) / 6.0,
+    (1.0 + 3.0 * t * (1.0 + t * (1.0 - t))) / 6.0, t * t * t / 6.0 };
+  double sum = 0.0;
+  for (std::uint32_t k = 0; k < 4; ++k)
+  {
+    RandomEngine engine =
+      randomStream(options.seed, RandomStage::Seeds, (std::uint64_t(std::uint32_t(fibreId)) << 32) | (first + k));
+    const double sine = std::sin(3.14159265358979323846 * uniform(engine));
+    sum += weights[k] * sine * sine;
+  }
+  return sum;
 }
 
 void CapsuleField::Data::fillBins()
@@ -512,7 +438,7 @@ void CapsuleField::Data::fillBins()
   Eigen::AlignedBox3d bounds;
   for (const Piece& piece : pieces)
   {
-    bounds.extend(boundingBox(piece.capsule));
+    bounds.extend(boundingBox(piece.cone));
   }
   if (pieces.empty())
   {
@@ -526,7 +452,7 @@ void CapsuleField::Data::fillBins()
   binOffsets.assign(bins + 1, 0);
   const auto eachBin = [&](const Piece& piece, auto&& visit)
   {
-    const Eigen::AlignedBox3d box = boundingBox(piece.capsule);
+    const Eigen::AlignedBox3d box = boundingBox(piece.cone);
     const Eigen::Array3i lower = binOf(box.min());
     const Eigen::Array3i upper = binOf(box.max());
     for (int k = lower[2]; k <= upper[2]; ++k)
@@ -557,17 +483,14 @@ void CapsuleField::Data::fillBins()
 void CapsuleField::Data::gather(
   const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance, Search& search) const
 {
-  const double core = 1.0 - options.surfaceRoughness;
   double reach = extent + std::min(relevance.bestReach, extent);
   double best = -infinity;   // at least this is the largest field at the centre
   double second = -infinity; // at least this is the second largest
-  double most = -infinity;   // and at most this is the largest
   for (;;)
   {
     for (const int rank : search.touched)
     {
-      search.coreOf[std::size_t(rank)] = -infinity;
-      search.capsuleOf[std::size_t(rank)] = -infinity;
+      search.valueOf[std::size_t(rank)] = -infinity;
     }
     search.touched.clear();
     search.found.clear();
@@ -590,38 +513,33 @@ void CapsuleField::Data::gather(
             }
             search.seenPiece[p] = search.visit;
             const Piece& piece = pieces[p];
-            const double value = coneValue(piece.capsule, centre);
+            const double value = coneValue(piece.cone, centre);
             if (value <= -reach)
             {
               continue;
             }
             const auto rank = std::size_t(piece.rank);
-            if (search.capsuleOf[rank] == -infinity)
+            if (search.valueOf[rank] == -infinity)
             {
               search.touched.push_back(piece.rank);
             }
-            search.capsuleOf[rank] = std::max(search.capsuleOf[rank], value);
-            // The shrunk capsule lies nowhere deeper below the capsule than by the shrinkage of its thicker end.
-            const double thickest =
-              std::max(piece.capsule.radius, piece.capsule.radius + piece.capsule.slope * piece.capsule.length);
-            search.coreOf[rank] = std::max(search.coreOf[rank], value - (1.0 - core) * thickest);
+            search.valueOf[rank] = std::max(search.valueOf[rank], value);
             search.found.push_back({ piece.rank, p });
           }
         }
       }
     }
-    best = second = most = -infinity;
+    best = second = -infinity;
     for (const int rank : search.touched)
     {
-      const double value = search.coreOf[std::size_t(rank)];
+      const double value = search.valueOf[std::size_t(rank)];
       second = std::max(second, std::min(best, value));
       best = std::max(best, value);
-      most = std::max(most, search.capsuleOf[std::size_t(rank)]);
     }
     double needed = std::min(relevance.bestReach + extent, 2.0 * extent - best);
-    if (most + extent > -relevance.secondReach)
+    if (best + extent > -relevance.secondReach)
     {
-      needed = std::max(needed, 2.0 * extent + std::min({ most + relevance.sumReach, relevance.contrast - best, -second }));
+      needed = std::max(needed, 2.0 * extent + std::min({ best + relevance.sumReach, relevance.contrast - best, -second }));
     }
     if (needed <= reach)
     {
@@ -642,32 +560,21 @@ void CapsuleField::Data::gather(
     {
       ++end;
     }
-    const double capsule = search.capsuleOf[std::size_t(rank)];
-    if (capsule + 2.0 * extent >= second)
+    const double value = search.valueOf[std::size_t(rank)];
+    if (value + 2.0 * extent >= second)
     {
-      const double enough = search.coreOf[std::size_t(rank)] - 2.0 * extent;
       Candidates::Group group;
       group.rank = rank;
       group.coneBegin = int(out.x.size());
-      group.ballBegin = int(out.bx.size());
       for (; n < end; ++n)
       {
         const Piece& piece = pieces[search.found[n].piece];
-        if (coneValue(piece.capsule, centre) < enough)
+        if (coneValue(piece.cone, centre) >= value - 2.0 * extent)
         {
-          continue;
-        }
-        out.add(core < 1.0 ? scaled(piece.capsule, core) : piece.capsule, centre);
-        for (std::size_t b = piece.ballBegin; b < piece.ballEnd; ++b)
-        {
-          if (balls[b].radius - (centre - balls[b].centre).norm() >= enough)
-          {
-            out.add(balls[b], centre);
-          }
+          out.add(piece.cone, centre);
         }
       }
       group.coneEnd = int(out.x.size());
-      group.ballEnd = int(out.bx.size());
       group.centre = 0.0f;
       out.groups.push_back(group);
     }
@@ -701,16 +608,10 @@ std::size_t CapsuleField::fibre(int rank) const
 
 double CapsuleField::value(int rank, const Eigen::Vector3d& x) const
 {
-  const double core = 1.0 - Seeds->options.surfaceRoughness;
   double value = -infinity;
   for (std::size_t p = Seeds->pieceOffsets[std::size_t(rank)]; p < Seeds->pieceOffsets[std::size_t(rank) + 1]; ++p)
   {
-    const Piece& piece = Seeds->pieces[p];
-    value = std::max(value, coneValue(scaled(piece.capsule, core), x));
-    for (std::size_t b = piece.ballBegin; b < piece.ballEnd; ++b)
-    {
-      value = std::max(value, Seeds->balls[b].radius - (x - Seeds->balls[b].centre).norm());
-    }
+    value = std::max(value, coneValue(Seeds->pieces[p].cone, x));
   }
   return value;
 }
@@ -755,8 +656,7 @@ void CapsuleField::sweep(const VoxelGrid& grid, const FieldRelevance& relevance,
     {
       search = std::make_unique<Data::Search>();
       search->seenPiece.assign(Seeds->pieces.size(), 0);
-      search->coreOf.assign(Seeds->fibreOfRank.size(), -infinity);
-      search->capsuleOf.assign(Seeds->fibreOfRank.size(), -infinity);
+      search->valueOf.assign(Seeds->fibreOfRank.size(), -infinity);
     }
     catch (...)
     {

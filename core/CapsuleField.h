@@ -22,8 +22,8 @@ namespace cactus
 struct SeedOptions
 {
   /// How far, as a fraction of the local radius, the seeded shape may fall short of the capsule: 0 seeds the capsule itself, more
-  /// makes the surface irregular. In [0, 0.5].
-  double surfaceRoughness = 0.0;
+  /// makes the calibre uneven. In [0, 0.5].
+  double surfaceRoughness = 0.1;
   std::uint64_t seed = 1;
 };
 
@@ -82,10 +82,10 @@ struct FieldCell
 /// changes by m per length that value is smaller by up to m²/2 of the distance and not 1-Lipschitz, so the maximum over the balls
 /// is taken in closed form instead.
 ///
-/// With SurfaceRoughness ρ > 0 a fibre is its chain of capsules shrunk to 1 - ρ, which keeps it in one piece, united with balls
-/// dropped at random into the capsules (paper, "FRG description": "randomly placing seed points within all capsule fibres"). Each
-/// ball touches the capsule's surface from inside and has between half and 0.9 of its radius, so its centre lies in the shrunk
-/// chain. Hence capsule - ρ·radius <= s_i <= capsule. A ball depends on seed, fibre id and segment alone.
+/// With SurfaceRoughness ρ > 0 the seeds of the paper ("FRG description": "randomly placing seed points within all capsule
+/// fibres") become a chain of capsules whose radius is, at length l along the fibre, that of the fibre's capsules times
+/// 1 - ρ u(l), where u is a smooth random function from 0 to 1 that varies over a few µm. Hence
+/// capsule - ρ · radius <= s_i <= capsule. u depends on seed, fibre id and length alone.
 ///
 /// Fibres are ranked by increasing fibre id.
 class CapsuleField

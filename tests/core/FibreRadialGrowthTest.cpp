@@ -14,6 +14,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -217,6 +218,7 @@ TEST(CapsuleField, IsTheUnionOfTheBallsAlongTheCapsules)
 {
   const Fibres fibres = tangle(6.0, 10, 1);
   FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.0;
   const CapsuleField field = fieldOf(fibres, options);
   RandomEngine engine = randomStream(2, RandomStage::Directions);
   for (int n = 0; n < 300; ++n)
@@ -259,12 +261,51 @@ TEST(CapsuleField, RoughSeedsStayInsideTheCapsulesAndHoldTheirCore)
   }
 }
 
+// On the axis of a straight fibre the field is the seed's radius.
+TEST(CapsuleField, RoughnessVariesTheCalibreSmoothly)
+{
+  Fibres fibres = emptyFibres(40.0);
+  addStraight(fibres, { -1.5, 0, -20 }, { -1.5, 0, 20 }, 1.0, 31);
+  addStraight(fibres, { 1.5, 0, -20 }, { 1.5, 0, 20 }, 1.0, 2);
+  const auto calibre = [&](int rank, double roughness, std::uint64_t seed)
+  {
+    FibreRadialGrowthOptions options;
+    options.surfaceRoughness = roughness;
+    options.seed = seed;
+    const CapsuleField field = fieldOf(fibres, options);
+    std::vector<double> radii;
+    for (double z = -19.0; z < 19.0; z += 0.05)
+    {
+      radii.push_back(field.value(rank, { rank == 0 ? -1.5 : 1.5, 0.0, z }));
+    }
+    return radii;
+  };
+  for (const double roughness : { 0.0, 0.1, 0.4 })
+  {
+    const std::vector<double> radii = calibre(0, roughness, 1);
+    const double mean = std::accumulate(radii.begin(), radii.end(), 0.0) / static_cast<double>(radii.size());
+    double square = 0.0;
+    double step = 0.0;
+    for (std::size_t i = 1; i < radii.size(); ++i)
+    {
+      square += (radii[i] - mean) * (radii[i] - mean);
+      step = std::max(step, std::abs(radii[i] - radii[i - 1]));
+    }
+    const double deviation = std::sqrt(square / static_cast<double>(radii.size()));
+    EXPECT_NEAR(deviation, 0.25 * roughness, 0.1 * roughness + 1e-9);
+    EXPECT_LE(step, 0.4 * roughness * 0.05 + 1e-9); // at most 0.4 of the roughness per µm
+    if (roughness > 0.0)
+    {
+      EXPECT_NE(radii, calibre(0, roughness, 2));
+      EXPECT_NE(radii, calibre(1, roughness, 1));
+    }
+  }
+}
+
 TEST(CapsuleField, IsOneLipschitz)
 {
   const Fibres fibres = tangle(6.0, 10, 5);
-  FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.1;
-  const CapsuleField field = fieldOf(fibres, options);
+  const CapsuleField field = fieldOf(fibres, FibreRadialGrowthOptions());
   RandomEngine engine = randomStream(6, RandomStage::Directions);
   const auto random = [&](double scale)
   { return Eigen::Vector3d(scale * (uniform(engine) - 0.5), scale * (uniform(engine) - 0.5), scale * (uniform(engine) - 0.5)); };
@@ -306,6 +347,7 @@ TEST(FibreRadialGrowth, DepthIsTheDistanceToALoneCylinder)
     addStraight(fibres, from, -from, 1.0);
     FibreRadialGrowthOptions options;
     options.voxelSize = 0.1;
+    options.surfaceRoughness = 0.0;
     options.growthIterations = 3;
     EXPECT_DOUBLE_EQ(growthFor(fibres, options), 3 * 0.1);
     const LabelImage image = grown(fibres, options);
@@ -392,6 +434,7 @@ TEST(FibreRadialGrowth, KeepsTheSymmetryOfAHexagonalBundle)
   const Fibres fibres = hexagon(6.0, 0.9, 1.9);
   FibreRadialGrowthOptions options;
   options.voxelSize = 0.1;
+  options.surfaceRoughness = 0.0;
   options.growthIterations = 5;
   const LabelImage image = grown(fibres, options);
   const int opposite[8] = { 0, 1, 5, 6, 7, 2, 3, 4 };
@@ -424,7 +467,6 @@ TEST(FibreRadialGrowth, APartEqualsThatPartOfTheWholeBitForBit)
   FibreRadialGrowthOptions options;
   options.voxelSize = 0.1;
   options.margin = 0.3;
-  options.surfaceRoughness = 0.1;
   options.targetFibreVolumeFraction = 0.6;
   const VoxelGrid whole = growthGrid(fibres.domain, options);
   const double growth = growthFor(fibres, options);
@@ -462,7 +504,6 @@ TEST(FibreRadialGrowth, GivesTheSameBitsOnAnyNumberOfThreads)
 {
   const Fibres fibres = tangle(6.0, 20, 10);
   FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.1;
   options.targetFibreVolumeFraction = 0.6;
   const LabelImage one = grown(fibres, options, 1);
   for (const int threads : { 2, 5 })
@@ -511,7 +552,6 @@ TEST(FibreRadialGrowth, RoughSeedsFollowTheFibreNotItsPlaceInTheInput)
     }
   }
   FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.1;
   const LabelImage a = grown(fibres, options);
   const LabelImage b = grown(reversed, options);
   EXPECT_TRUE(sameBits(a.fibreId, b.fibreId));
@@ -541,6 +581,7 @@ TEST(FibreRadialGrowth, MeetsATargetFraction)
   Fibres one = emptyFibres(4.0);
   addStraight(one, { 0, 0, -4 }, { 0, 0, 4 }, 1.2);
   FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.0;
   options.targetFibreVolumeFraction = 0.15;
   EXPECT_NEAR(growthFor(one, options), std::sqrt(0.15 * 16.0 / pi) - 1.2, 5e-4);
   options.targetFibreVolumeFraction = 0.5;

@@ -166,7 +166,7 @@ TEST(GrowthTarget, RadiiOfAPackedBundleEndOnTarget)
   EXPECT_NEAR(aimed.meanDifference(), 0.0, 0.02);
   EXPECT_LE(aimed.kolmogorovSmirnov(aimed.meanDifference()), 0.05);
   // Which the same growth for all does not give.
-  EXPECT_GT(plain.kolmogorovSmirnov(plain.meanDifference()), 0.07);
+  EXPECT_GT(plain.kolmogorovSmirnov(plain.meanDifference()), 0.1);
 }
 
 TEST(GrowthTarget, RadiiEndAsMuchLargerWhereTheFractionAsksForMore)
@@ -200,6 +200,7 @@ TEST(GrowthTarget, LoneFibresEndAtTheirTargetRadii)
     area += (f < 3 ? 1.0 : 0.5) * pi * targets[f] * targets[f];
   }
   FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.0;
   options.voxelSize = 0.02;
   options.targetFibreVolumeFraction = area / 16.0;
   const Fibres aimed = aimAtTargetRadii(fibres, options);
@@ -230,7 +231,6 @@ TEST(GrowthTarget, GivesTheSameRadiiOnAnyNumberOfThreads)
 {
   const Fibres fibres = bundle(0.9);
   FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.1;
   options.targetFibreVolumeFraction = 0.9;
   Context context;
   context.threads = 1;

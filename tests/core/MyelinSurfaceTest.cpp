@@ -74,7 +74,6 @@ double largestSum(const FibreField& field, int passes)
 TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
 {
   FibreRadialGrowthOptions options;
-  options.surfaceRoughness = 0.1;
   const LabelImage image = meeting(options);
   const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
   for (const int passes : { 0, 1, 4 })
@@ -101,7 +100,8 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   facts.targetRadii = { 0.6 };
   facts.minimumGap = options.minimumGap;
   facts.surfaceTolerance = options.surfaceTolerance;
-  const MyelinSurfaceOptions surfaceOptions;
+  MyelinSurfaceOptions surfaceOptions;
+  surfaceOptions.decimationError = 0.0005; // so that there are points to push
   const FibreMesher mesher({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, facts, surfaceOptions);
   const auto blocks = mesher.field().findFibres(surfaceOptions.smoothingIterations, {});
   const SmoothedField field = mesher.smoothed(blocks.at(1), 1);
@@ -257,6 +257,7 @@ TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
   fibres.addPoint({ -3.0 * slope + 0.013, 0.027, -3.0 }, radius);
   fibres.addPoint({ 3.0 * slope + 0.013, 0.027, 3.0 }, radius);
   FibreRadialGrowthOptions growth;
+  growth.surfaceRoughness = 0.0;
   const auto pairs = surfacesOf(fibres, growth, 0.0, growth.minimumGap);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].state, MyelinState::AsAsked);

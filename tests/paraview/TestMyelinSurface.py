@@ -203,7 +203,7 @@ class MyelinSurfaceTest(CactusTestCase):
                 apart = distances(coarse[fibre], fine[fibre])
                 self.assertLess(math.sqrt((apart**2).mean()), 0.75 * error)
                 self.assertLess(numpy.percentile(apart, 90), 1.2 * error)
-                self.assertLess(numpy.percentile(apart, 99), 2.5 * error)
+                self.assertLess(numpy.percentile(apart, 99), 3.5 * error)
         self.assertLess(counts[1], counts[0])
         self.assertLess(counts[1], 0.12 * sum(len(triangles) for _, triangles in fine.values()))
 

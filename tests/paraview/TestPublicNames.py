@@ -39,7 +39,7 @@ NAMES = {
         "TargetFibreVolumeFraction": 0,
         "GrowthIterations": 4,
         "MinimumGap": 0.02,
-        "SurfaceRoughness": 0,
+        "SurfaceRoughness": None,
         "Seed": 1,
         "NumberOfThreads": 0,
     },
