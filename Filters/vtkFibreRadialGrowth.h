@@ -75,7 +75,10 @@ public:
   ///@}
 
   ///@{
-  /** How far, as a fraction of its radius, a fibre may fall short of its capsules before it grows (0 to 0.5). */
+  /**
+   * How far, as a fraction of its radius, a fibre may fall short of its capsules, at random and smoothly along it, before it grows
+   * (0 to 0.5).
+   */
   vtkSetMacro(SurfaceRoughness, double);
   vtkGetMacro(SurfaceRoughness, double);
   ///@}
@@ -87,7 +90,7 @@ public:
   ///@}
 
   ///@{
-  /** Seed of the random places where growth starts. */
+  /** Seed of the random calibre, see SurfaceRoughness. */
   vtkSetMacro(Seed, int);
   vtkGetMacro(Seed, int);
   ///@}

@@ -59,7 +59,8 @@ def seconds(work):
     return time.time() - start
 
 
-def substrate(name, arguments):
+def properties(name, arguments):
+    """The properties of BundleInitializer, FibreRadialGrowth and MyelinSurface for a substrate of that name."""
     kind, _, number = name.partition("-")
     bundle = {"Side": arguments.side, "Seed": arguments.seed}
     growth = {"TargetFibreVolumeFraction": arguments.fraction, "SurfaceTolerance": arguments.tolerance}
@@ -80,7 +81,11 @@ def substrate(name, arguments):
         growth = {"TargetFibreVolumeFraction": float(number)}
     else:
         sys.exit(f"{name} is no substrate: dispersion-D, coherent-D, crossing-A, histology-N or radii-F")
+    return bundle, growth, myelin
 
+
+def substrate(name, arguments):
+    bundle, growth, myelin = properties(name, arguments)
     initial = BundleInitializer(**bundle)
     optimizer = CapsuleOptimizer(Input=initial)
     fibres = OutputPort(optimizer, 0)
@@ -143,4 +148,5 @@ def main():
         substrate(name, arguments)
 
 
-main()
+if __name__ == "__main__":
+    main()

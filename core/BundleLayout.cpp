@@ -2,6 +2,7 @@
 #include "BundleLayout.h"
 
 #include "Error.h"
+#include "RadiusDistribution.h"
 #include "Random.h"
 
 #include <algorithm>

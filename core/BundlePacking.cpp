@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BundlePacking.h"
 
+#include "CirclePacking.h"
 #include "CoherentFlow.h"
+#include "DirectionDistribution.h"
 #include "Error.h"
 #include "Random.h"
 

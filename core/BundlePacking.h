@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BundleInitializer.h"
 #include "BundleLayout.h"
 #include "Context.h"
 
@@ -23,6 +24,7 @@ struct Orientation
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
 };
 
+/// Precondition: both faces are packed.
 Orientation orientationOf(const Bundle& bundle);
 
 /// Places the circles on both faces of bundles that have been laid out, so that none overlap and the fibres between them have the

@@ -19,11 +19,11 @@ namespace cactus
 namespace
 {
 
-/// Distance (µm) of the knots between which the calibre of a rough fibre's seed varies, and into how many cones what lies
-/// between two of them is cut. Beads follow each other every few µm (Andersson et al. 2020); shorter ones would grow into a
-/// grainy surface rather than an uneven calibre, and take many triangles.
+/// Distance (µm) of the knots between which the calibre of a rough fibre's seed varies, and how long the cones are at most that
+/// it is made of. Beads follow each other every few µm (Andersson et al. 2020); shorter ones would grow into a grainy surface
+/// rather than an uneven calibre, and take many triangles.
 constexpr double knotSpacing = 2.0;
-constexpr int conesPerKnot = 2;
+constexpr double longestCone = 1.0;
 constexpr int blockSize = 16;
 constexpr float nowhere = -1e30f;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -354,8 +354,8 @@ void CapsuleField::Data::seed(const Fibres& fibres, const Eigen::AlignedBox3d& r
   {
     const double length = (fibres.points[p + 1] - fibres.points[p]).norm();
     const double radius = std::max(fibres.radii[p], fibres.radii[p + 1]);
-    const double longest = rough ? std::min(4.0 * radius, knotSpacing / conesPerKnot) : 4.0 * radius;
-    return int(std::min(std::max(1.0, std::ceil(length / longest)), 256.0));
+    const double longest = rough ? std::min(4.0 * radius, longestCone) : 4.0 * radius;
+    return int(std::min(std::max(1.0, std::ceil(length / longest)), rough ? 1e6 : 256.0));
   };
   const auto inReach = [&](std::size_t p)
   {
@@ -373,8 +373,7 @@ void CapsuleField::Data::seed(const Fibres& fibres, const Eigen::AlignedBox3d& r
     }
   }
   requireMemory(pieceTotal * (sizeof(Piece) + 64.0), "seeding " + std::to_string(fibres.size()) + " fibres",
-    "set SurfaceRoughness to 0, request a smaller extent, or use fewer or "
-    "thicker fibres");
+    "request a smaller extent, or use fewer fibres or control points");
 
   pieces.reserve(std::size_t(pieceTotal));
   pieceOffsets.assign(1, 0);
@@ -413,13 +412,14 @@ void CapsuleField::Data::seed(const Fibres& fibres, const Eigen::AlignedBox3d& r
   }
 }
 
-/// A smooth random function of the length along a fibre, from 0 to 1: a cubic B-spline whose coefficients have the density of a
-/// sine's values, so that they are mostly near 0 or 1.
+/// A smooth random function of the length along a fibre, from 0 to 1: a cubic B-spline whose coefficients follow the arcsine
+/// distribution, so that most are near 0 or 1.
 double CapsuleField::Data::narrowing(int fibreId, double length) const
 {
   const double knots = length / knotSpacing;
-  const auto first = static_cast<std::uint32_t>(knots);
-  const double t = knots - first;
+  const double whole = std::floor(knots);
+  const double t = knots - whole;
+  const auto first = static_cast<std::uint32_t>(std::fmod(whole, 4294967296.0));
   const double weights[4] = { (1.0 - t) * (1.0 - t) * (1.0 - t) / 6.0, (4.0 + t * t * (3.0 * t - 6.0)) / 6.0,
     (1.0 + 3.0 * t * (1.0 + t * (1.0 - t))) / 6.0, t * t * t / 6.0 };
   double sum = 0.0;
@@ -484,8 +484,8 @@ void CapsuleField::Data::gather(
   const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance, Search& search) const
 {
   double reach = extent + std::min(relevance.bestReach, extent);
-  double best = -infinity;   // at least this is the largest field at the centre
-  double second = -infinity; // at least this is the second largest
+  double best = -infinity;   // the largest field at the centre, of the fibres found
+  double second = -infinity; // and the second largest
   for (;;)
   {
     for (const int rank : search.touched)

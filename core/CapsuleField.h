@@ -84,8 +84,8 @@ struct FieldCell
 ///
 /// With SurfaceRoughness ρ > 0 the seeds of the paper ("FRG description": "randomly placing seed points within all capsule
 /// fibres") become a chain of capsules whose radius is, at length l along the fibre, that of the fibre's capsules times
-/// 1 - ρ u(l), where u is a smooth random function from 0 to 1 that varies over a few µm. Hence
-/// capsule - ρ · radius <= s_i <= capsule. u depends on seed, fibre id and length alone.
+/// 1 - ρ u(l), linearly between places at most 1 µm apart, where u is a smooth random function from 0 to 1 that varies over a few
+/// µm. Hence capsule - ρ · radius <= s_i <= capsule. u depends on seed, fibre id and length alone.
 ///
 /// Fibres are ranked by increasing fibre id.
 class CapsuleField

@@ -31,7 +31,7 @@ constexpr double nearEnough = 0.02;
 /// coarsening, as parts of the tolerance.
 constexpr double usualPart = 0.5;
 constexpr double restPart = 0.15;
-/// Least distance between an inner and an outer surface's caps, in voxels: in one plane they would meet.
+/// Least distance between the planes of an inner and an outer surface's caps, in voxels: in one plane they would meet.
 constexpr double smallestInset = 0.05;
 /// Quadrics tell a mean and may say more than the error allowed: the field decides.
 constexpr double quadricPart = 2.0;
@@ -99,7 +99,7 @@ FibreMesher::FibreMesher(
   , Options(options)
   , Field(image, facts.domain, options.clipToDomain)
   , Spacing(image.grid.spacing)
-  , Inset(std::min(std::max(facts.minimumGap, smallestInset * Spacing), 0.25 * Spacing))
+  , Inset(std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing))
   , OuterLattice(Field.lattice())
   , InnerLattice(Field.lattice(Inset))
   , Nudge(std::min(0.02 * Spacing, 0.2 * std::max(facts.surfaceTolerance, 1e-3 * Spacing)))

@@ -479,7 +479,7 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
       options.minimumGap, " and SurfaceTolerance ", options.surfaceTolerance,
       " µm. Ask for less, make the gap smaller, or start from more fibres"));
   }
-  // The shrunk chain of a fibre is all that is sure to be there along the whole of it.
+  // Roughness may leave a fibre no more than this part of its radius at any place.
   const auto thinnest = std::min_element(fibres.radii.begin(), fibres.radii.end());
   if (growth <= -*thinnest * (1.0 - options.surfaceRoughness))
   {

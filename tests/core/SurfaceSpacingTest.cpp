@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <numeric>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace
@@ -63,6 +64,31 @@ double sampledDistance(const TriangleMesh& a, const TriangleMesh& b)
 }
 
 const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
+
+// Two tips, one above the other, whose normals point nearly sideways: what moves them inwards hardly moves them apart.
+TEST(SurfaceSpacing, PartsCornersThatMoveAskew)
+{
+  const auto tip = [](double z, double up)
+  {
+    TriangleMesh mesh;
+    mesh.points = { { 0.0, 0.0, z }, { -0.3, -0.5, z - up }, { -0.3, 0.5, z - up }, { -0.34, 0.0, z - 0.1 * up } };
+    mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 3, 2 } };
+    for (auto& t : mesh.triangles)
+    {
+      if (up < 0.0)
+      {
+        std::swap(t[1], t[2]);
+      }
+    }
+    return mesh;
+  };
+  TriangleMesh lower = tip(0.0, 0.9);
+  TriangleMesh upper = tip(0.019, -0.9);
+  ASSERT_TRUE(checkSurface(lower).outward() && checkSurface(upper).outward());
+  const SpacingReport report = keepApart({ &lower, &upper }, 0.02, box);
+  EXPECT_TRUE(report.tooNear.empty());
+  EXPECT_GE((upper.points[0] - lower.points[0]).norm(), 0.02);
+}
 
 TEST(SurfaceSpacing, MovesWhatIsTooNearToTheGap)
 {

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prints the shape of fibres, their triangles, and how far coarsening moved the surfaces, as rows of a Markdown table.
+
+    ./cactus pvpython benchmarks/surfaces.py --roughness 0 0.1 0.2 0.4 -- coherent-10 dispersion-10
+    ./cactus pvpython benchmarks/surfaces.py --error 0.005 0.0075 0.01 -- coherent-10
+
+Substrates have the names of substrates.py. Each cell with two figures has that of the outer surfaces first. Shapes are columns of
+SubstrateStatistics: deviation of the equivalent radius along a fibre over its mean, and 4 pi area / perimeter^2 of the cross-sections,
+both means over fibres. Distances are those of random points on the surfaces, farther than 0.15 um from the domain's faces, to the
+surfaces that have not been coarsened (DecimationError 0), as VTK finds them.
+"""
+
+import argparse
+
+import numpy as np
+from paraview import servermanager
+from paraview.simple import *
+from substrates import columns_of, properties
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import reference
+from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
+
+
+def distances(surface, original, side, count=40000):
+    """From points spread evenly over one surface to another, at none of the domain's faces."""
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    corners = points[vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    random = np.random.default_rng(1)
+    picked = corners[random.choice(len(corners), count, p=areas / areas.sum())]
+    places = np.einsum("ij,ijk->ik", random.dirichlet((1, 1, 1), count), picked)
+    places = places[np.abs(places).max(axis=1) < 0.5 * side - 0.15]
+    locator = vtkStaticCellLocator()
+    locator.SetDataSet(original)
+    locator.BuildLocator()
+    squares = np.empty(len(places))
+    cell, part, square = reference(0), reference(0), reference(0.0)
+    for i, place in enumerate(places):
+        locator.FindClosestPoint(place, [0.0, 0.0, 0.0], cell, part, square)
+        squares[i] = square.get()
+    return np.sqrt(squares)
+
+
+def pair(figures):
+    return ", ".join(figures)
+
+
+def substrate(name, arguments):
+    bundle, growth, myelin = properties(name, arguments)
+    initial = BundleInitializer(**bundle)
+    fibres = OutputPort(CapsuleOptimizer(Input=initial), 0)
+    for roughness in arguments.roughness:
+        for error in arguments.error:
+            growth.update(SurfaceRoughness=roughness, SurfaceTolerance=max(error, arguments.tolerance))
+            grown = FibreRadialGrowth(Input=fibres, VoxelSize=arguments.voxel, **growth)
+            surfaces = MyelinSurface(Input=grown, DecimationError=error, **myelin)
+            outer, inner = OutputPort(surfaces, 0), OutputPort(surfaces, 1)
+            statistics = SubstrateStatistics(Fibres=fibres, Outer=outer, Inner=inner)
+            UpdatePipeline(proxy=statistics)
+            found = columns_of(statistics, 1)
+            mean = lambda which, of: f"{np.nanmean(of(which)):.3f}"
+            per_area = lambda which: np.nansum(found[f"{which}Triangles"]) / np.nansum(found[f"{which}Area_um2"])
+            sides = ("Outer", "Inner")
+            cells = [
+                name,
+                f"{roughness:g}",
+                f"{error:g}",
+                f"{columns_of(statistics, 0)['FVF'][0]:.4f}",
+                pair(mean(w, lambda w: found[f"{w}RadiusDeviation_um"] / found[f"{w}Radius_um"]) for w in sides),
+                pair(mean(w, lambda w: found[f"{w}Circularity"]) for w in sides),
+                pair(f"{per_area(w):.1f}" for w in sides),
+            ]
+            coarse = [servermanager.Fetch(surfaces, idx=port) for port in (0, 1)]
+            surfaces.DecimationError = 0
+            UpdatePipeline(proxy=surfaces)
+            apart = [distances(c, servermanager.Fetch(surfaces, idx=port), arguments.side) for port, c in enumerate(coarse)]
+            cells += [
+                pair(f"{np.sqrt((d**2).mean()):.4f}" for d in apart),
+                pair(f"{100 * (d <= error).mean():.1f} %" for d in apart),
+                pair(f"{np.percentile(d, 99):.4f}" for d in apart),
+                pair(f"{d.max():.3f}" for d in apart),
+            ]
+            print("| " + " | ".join(cells) + " |", flush=True)
+            for proxy in (statistics, surfaces, grown):
+                Delete(proxy)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="+", metavar="SUBSTRATE")
+    parser.add_argument("--side", type=float, default=15, help="side of the cube, um (%(default)s)")
+    parser.add_argument("--fraction", type=float, default=0.9, help="TargetFibreVolumeFraction (%(default)s)")
+    parser.add_argument("--roughness", type=float, nargs="+", default=[0.1], help="SurfaceRoughness (%(default)s)")
+    parser.add_argument("--error", type=float, nargs="+", default=[0.005], help="DecimationError, um (%(default)s)")
+    parser.add_argument("--tolerance", type=float, default=0.0075, help="least SurfaceTolerance, um (%(default)s)")
+    parser.add_argument("--voxel", type=float, default=0.1, help="VoxelSize, um (%(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="Seed of the bundle (%(default)s)")
+    arguments = parser.parse_args()
+    columns = "substrate, SurfaceRoughness, DecimationError (µm), FVF, deviation over radius, circularity, triangles/µm²".split(", ")
+    columns += ["root mean square distance (µm)", "within DecimationError", "99 % within (µm)", "largest (µm)"]
+    print("| " + " | ".join(columns) + " |\n|" + "---|" * len(columns), flush=True)
+    for name in arguments.names:
+        substrate(name, arguments)
+
+
+main()
