@@ -130,14 +130,20 @@ def substrate(name, arguments):
         Delete(proxy)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def parser_for(description, side, fraction, tolerance):
+    """Of what is common to this program and surfaces.py, with defaults of their own."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="+", metavar="SUBSTRATE")
-    parser.add_argument("--side", type=float, default=30, help="side of the cube, µm (%(default)s)")
-    parser.add_argument("--fraction", type=float, default=0.955, help="TargetFibreVolumeFraction (%(default)s)")
-    parser.add_argument("--tolerance", type=float, default=0.0065, help="SurfaceTolerance, µm (%(default)s)")
+    parser.add_argument("--side", type=float, default=side, help="side of the cube, µm (%(default)s)")
+    parser.add_argument("--fraction", type=float, default=fraction, help="TargetFibreVolumeFraction (%(default)s)")
+    parser.add_argument("--tolerance", type=float, default=tolerance, help="SurfaceTolerance, µm (%(default)s)")
     parser.add_argument("--voxel", type=float, default=0.1, help="VoxelSize, µm (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="Seed of the bundle (%(default)s)")
+    return parser
+
+
+def main():
+    parser = parser_for(__doc__, side=30, fraction=0.955, tolerance=0.0065)
     parser.add_argument("--output", help="folder for the substrates' files; none are written without it")
     arguments = parser.parse_args()
     columns = "substrate, fibres, FVF, AVF, MVF, g, certified, smallest gap (µm), triangles/µm²".split(", ")

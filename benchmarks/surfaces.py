@@ -5,17 +5,15 @@
     ./cactus pvpython benchmarks/surfaces.py --error 0.005 0.0075 0.01 -- coherent-10
 
 Substrates have the names of substrates.py. Each cell with two figures has that of the outer surfaces first. Shapes are columns of
-SubstrateStatistics: deviation of the equivalent radius along a fibre over its mean, and 4 pi area / perimeter^2 of the cross-sections,
-both means over fibres. Distances are those of random points on the surfaces, farther than 0.15 um from the domain's faces, to the
+SubstrateStatistics: deviation of the equivalent radius along a fibre over its mean, and 4π · area / perimeter² of the cross-sections,
+both means over fibres. Distances are those of random points on the surfaces, farther than 0.15 µm from the domain's faces, to the
 surfaces that have not been coarsened (DecimationError 0), as VTK finds them.
 """
-
-import argparse
 
 import numpy as np
 from paraview import servermanager
 from paraview.simple import *
-from substrates import columns_of, properties
+from substrates import columns_of, parser_for, properties
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
@@ -86,15 +84,9 @@ def substrate(name, arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="+", metavar="SUBSTRATE")
-    parser.add_argument("--side", type=float, default=15, help="side of the cube, um (%(default)s)")
-    parser.add_argument("--fraction", type=float, default=0.9, help="TargetFibreVolumeFraction (%(default)s)")
+    parser = parser_for(__doc__, side=15, fraction=0.9, tolerance=0.0075)
     parser.add_argument("--roughness", type=float, nargs="+", default=[0.1], help="SurfaceRoughness (%(default)s)")
-    parser.add_argument("--error", type=float, nargs="+", default=[0.005], help="DecimationError, um (%(default)s)")
-    parser.add_argument("--tolerance", type=float, default=0.0075, help="least SurfaceTolerance, um (%(default)s)")
-    parser.add_argument("--voxel", type=float, default=0.1, help="VoxelSize, um (%(default)s)")
-    parser.add_argument("--seed", type=int, default=1, help="Seed of the bundle (%(default)s)")
+    parser.add_argument("--error", type=float, nargs="+", default=[0.005], help="DecimationError, µm; SurfaceTolerance is no less (%(default)s)")
     arguments = parser.parse_args()
     columns = "substrate, SurfaceRoughness, DecimationError (µm), FVF, deviation over radius, circularity, triangles/µm²".split(", ")
     columns += ["root mean square distance (µm)", "within DecimationError", "99 % within (µm)", "largest (µm)"]
