@@ -39,10 +39,6 @@ def distances(surface, original, side, count=40000):
     return np.sqrt(squares)
 
 
-def pair(figures):
-    return ", ".join(figures)
-
-
 def substrate(name, arguments):
     bundle, growth, myelin = properties(name, arguments)
     initial = BundleInitializer(**bundle)
@@ -56,27 +52,28 @@ def substrate(name, arguments):
             statistics = SubstrateStatistics(Fibres=fibres, Outer=outer, Inner=inner)
             UpdatePipeline(proxy=statistics)
             found = columns_of(statistics, 1)
-            mean = lambda which, of: f"{np.nanmean(of(which)):.3f}"
-            per_area = lambda which: np.nansum(found[f"{which}Triangles"]) / np.nansum(found[f"{which}Area_um2"])
-            sides = ("Outer", "Inner")
+            both = lambda form, figure: ", ".join(form.format(figure(of)) for of in ("Outer", "Inner"))
             cells = [
                 name,
                 f"{roughness:g}",
                 f"{error:g}",
                 f"{columns_of(statistics, 0)['FVF'][0]:.4f}",
-                pair(mean(w, lambda w: found[f"{w}RadiusDeviation_um"] / found[f"{w}Radius_um"]) for w in sides),
-                pair(mean(w, lambda w: found[f"{w}Circularity"]) for w in sides),
-                pair(f"{per_area(w):.1f}" for w in sides),
+                both("{:.3f}", lambda of: np.nanmean(found[f"{of}RadiusDeviation_um"] / found[f"{of}Radius_um"])),
+                both("{:.3f}", lambda of: np.nanmean(found[f"{of}Circularity"])),
+                both("{:.1f}", lambda of: np.nansum(found[f"{of}Triangles"]) / np.nansum(found[f"{of}Area_um2"])),
             ]
             coarse = [servermanager.Fetch(surfaces, idx=port) for port in (0, 1)]
             surfaces.DecimationError = 0
             UpdatePipeline(proxy=surfaces)
-            apart = [distances(c, servermanager.Fetch(surfaces, idx=port), arguments.side) for port, c in enumerate(coarse)]
+            apart = {
+                of: distances(coarse[port], servermanager.Fetch(surfaces, idx=port), arguments.side)
+                for port, of in enumerate(("Outer", "Inner"))
+            }
             cells += [
-                pair(f"{np.sqrt((d**2).mean()):.4f}" for d in apart),
-                pair(f"{100 * (d <= error).mean():.1f} %" for d in apart),
-                pair(f"{np.percentile(d, 99):.4f}" for d in apart),
-                pair(f"{d.max():.3f}" for d in apart),
+                both("{:.4f}", lambda of: np.sqrt((apart[of] ** 2).mean())),
+                both("{:.1f} %", lambda of: 100 * (apart[of] <= error).mean()),
+                both("{:.4f}", lambda of: np.percentile(apart[of], 99)),
+                both("{:.3f}", lambda of: apart[of].max()),
             ]
             print("| " + " | ".join(cells) + " |", flush=True)
             for proxy in (statistics, surfaces, grown):

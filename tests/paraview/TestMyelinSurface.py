@@ -79,13 +79,12 @@ def distances(part, other, inside):
     locator = vtkStaticCellLocator()
     locator.SetDataSet(data)
     locator.BuildLocator()
-    nearest = numpy.empty_like(places)
-    cell, part_of_cell, squared = reference(0), reference(0), reference(0.0)
-    for place, found in zip(places, nearest):
-        at = [0.0, 0.0, 0.0]
-        locator.FindClosestPoint(place, at, cell, part_of_cell, squared)
-        found[:] = at
-    return numpy.linalg.norm(places - nearest, axis=1)
+    squares = numpy.empty(len(places))
+    cell, part_of_cell, square = reference(0), reference(0), reference(0.0)
+    for i, place in enumerate(places):
+        locator.FindClosestPoint(place, [0.0, 0.0, 0.0], cell, part_of_cell, square)
+        squares[i] = square.get()
+    return numpy.sqrt(squares)
 
 
 def column(table, name):
