@@ -33,8 +33,8 @@ constexpr double usualPart = 0.5;
 constexpr double restPart = 0.15;
 /// Least distance between the planes of an inner and an outer surface's caps, in voxels: in one plane they would meet.
 constexpr double smallestInset = 0.05;
-/// Quadrics tell a mean and may say more than the error allowed: the field decides.
-constexpr double quadricPart = 2.0;
+/// Distance of the points at which coarsening looks at the field on large triangles, in voxels.
+constexpr double samplingDistance = 6.0;
 /// MC/DC warns of triangles above 1000.
 constexpr double largestSquaredEdgeRatio = 800.0;
 /// How often a surface is made again with less coarsening where something was wrong with it.
@@ -228,8 +228,7 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
     isSound = this->finish(field, best.surface, best.level, best.volume, &pair.outer, {}, pair.innerReport, pair);
   }
   pair.inner = packed(std::move(best.surface.mesh));
-  // By how much the volume was off before it was moved to what is wanted, was the level.
-  pair.thickness = best.level - pair.outerLevel + (state == MyelinState::AsAsked ? (best.volume - wanted) / best.area : 0.0);
+  pair.thickness = best.level - pair.outerLevel;
   pair.state = state;
   pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
 }
@@ -311,9 +310,10 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
   return found ? state : MyelinState::NoAxon;
 }
 
-/// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong with it, it is made again with
-/// less coarsening around there; what cannot be mended like that stays as contoured. Returns whether nothing is wrong with it.
-bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
+/// Gives a surface its volume, and `level` what it lies at then, coarsens it, and checks what comes out. Where something is wrong
+/// with it, it is made again with less coarsening around there; what cannot be mended like that stays as contoured. Returns
+/// whether nothing is wrong with it.
+bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double& level, double volume,
   const TriangleMesh* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
 {
   const double error = this->Options.decimationError;
@@ -324,13 +324,13 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
   }
   SurfaceDecimationOptions decimation;
   decimation.calm = calm;
-  decimation.maximumError = quadricPart * error;
-  decimation.smallestField = level - error;
-  decimation.largestField = level + error;
+  decimation.maximumError = error;
+  decimation.sampling = samplingDistance * this->Spacing;
   decimation.field = [&field](const Eigen::Vector3d& p) { return field.value(p); };
   for (int attempt = 0; error > 0.0 && attempt <= repairs; ++attempt)
   {
     CappedSurface trial = surface;
+    decimation.level = level - moveToVolume(trial, volume, error);
     decimate(trial, decimation);
     moveToVolume(trial, volume, error);
     splitNeedles(trial, largestSquaredEdgeRatio);
@@ -338,7 +338,8 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     const std::vector<Eigen::Vector3d> places = faults(trial.mesh, containerTree.get());
     if (places.empty() && report.degenerateTriangles == 0 && sound(report))
     {
-      pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, level));
+      pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, decimation.level));
+      level = decimation.level;
       surface = std::move(trial);
       return true;
     }

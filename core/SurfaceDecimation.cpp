@@ -19,38 +19,25 @@ namespace
 
 using Eigen::Vector3d;
 
-/// Weighted sum of squared distances to planes, as a function of the place.
+/// Sum of squared distances to the planes of triangles, weighted by the squares of their areas, as a function of the place.
 struct Quadric
 {
   double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
   Vector3d b = Vector3d::Zero();
   double c = 0.0;
-  double weight = 0.0;
 
-  void addPlane(const Vector3d& normal, double offset, double w)
+  /// The plane through a point; the length of its normal is the weight's root.
+  void addPlane(const Vector3d& normal, const Vector3d& point)
   {
-    xx += w * normal[0] * normal[0];
-    xy += w * normal[0] * normal[1];
-    xz += w * normal[0] * normal[2];
-    yy += w * normal[1] * normal[1];
-    yz += w * normal[1] * normal[2];
-    zz += w * normal[2] * normal[2];
-    b += (w * offset) * normal;
-    c += w * offset * offset;
-    weight += w;
-  }
-
-  void add(const Quadric& other)
-  {
-    xx += other.xx;
-    xy += other.xy;
-    xz += other.xz;
-    yy += other.yy;
-    yz += other.yz;
-    zz += other.zz;
-    b += other.b;
-    c += other.c;
-    weight += other.weight;
+    const double offset = -normal.dot(point);
+    xx += normal[0] * normal[0];
+    xy += normal[0] * normal[1];
+    xz += normal[0] * normal[2];
+    yy += normal[1] * normal[1];
+    yz += normal[1] * normal[2];
+    zz += normal[2] * normal[2];
+    b += offset * normal;
+    c += offset * offset;
   }
 
   Vector3d times(const Vector3d& p) const
@@ -61,6 +48,7 @@ struct Quadric
   /// Mean squared distance; 0 without planes.
   double error(const Vector3d& p) const
   {
+    const double weight = xx + yy + zz;
     return weight > 0.0 ? std::max(0.0, (p.dot(this->times(p)) + 2.0 * b.dot(p) + c) / weight) : 0.0;
   }
 
@@ -68,7 +56,7 @@ struct Quadric
   /// than `reach` away.
   Vector3d best(const Vector3d& middle, double reach) const
   {
-    const double damping = 1e-3 * (xx + yy + zz);
+    const double damping = 1e-5 * (xx + yy + zz);
     const double a = xx + damping;
     const double d = yy + damping;
     const double f = zz + damping;
@@ -108,7 +96,10 @@ constexpr double flattestTriangle = 0.015;
 /// take the place of two others.
 constexpr double leastTurn = 0.3;
 constexpr double leastFlipTurn = 0.5;
-/// Errors of the sweeps before the last ones, as parts of the largest error.
+/// Quadrics tell a mean of distances to the planes of triangles at an edge: up to so many times the largest error, the field
+/// decides.
+constexpr double quadricPart = 2.0;
+/// Errors of the sweeps before the last ones, as parts of that of the last ones.
 constexpr double sweepErrors[] = { 0.25, 0.5 };
 /// Collapses of less than this part of the largest error are made without a look at the field.
 constexpr double unnoticed = 0.15;
@@ -127,17 +118,14 @@ public:
     : Mesh(surface)
     , Options(options)
     , Box(surface.box)
-    , Origin(surface.mesh.points.empty() ? Vector3d::Zero() : surface.mesh.points.front())
-    , Quadrics(Mesh.pointCount())
+    , Smallest(options.level - options.maximumError)
+    , Largest(options.level + options.maximumError)
+    , Reach(quadricPart * options.maximumError)
     , Locked(Mesh.pointCount(), 0)
     , Changed(Mesh.pointCount(), 0)
     , Part(Mesh.pointCount(), 1.0f)
     , Known(Mesh.triangleCount(), 0)
   {
-    for (std::size_t t = 0; t < Mesh.triangleCount(); ++t)
-    {
-      this->addPlane(Mesh.cornersOf(t));
-    }
     for (const CalmPlace& place : options.calm)
     {
       for (std::size_t p = 0; p < Mesh.pointCount(); ++p)
@@ -154,12 +142,12 @@ public:
   {
     for (const double part : sweepErrors)
     {
-      this->sweeps(part * this->Options.maximumError);
+      this->sweeps(part * this->Reach);
     }
     for (int round = 0; round < flipRounds; ++round)
     {
       this->flipEdges();
-      this->sweeps(this->Options.maximumError);
+      this->sweeps(this->Reach);
     }
     this->mend();
     this->Mesh.compact();
@@ -183,30 +171,30 @@ private:
     double upper = std::numeric_limits<double>::infinity();
   };
 
-  void addPlane(const std::array<std::int32_t, 3>& corners)
+  /// Of the triangles at u and v as they are now, from `origin`. That they are not those of the beginning lets a surface of much
+  /// fewer triangles keep to the field: what earlier collapses have done to it, the field tells (Lindstrom and Turk 1998).
+  Quadric quadricAround(std::int32_t u, std::int32_t v, const Vector3d& origin) const
   {
-    if (this->Mesh.isCap(corners))
+    Quadric sum;
+    for (const std::int32_t self : { u, v })
     {
-      return; // its points stay in their plane anyway; counted in, caps would water down the error of their rims
-    }
-    const Vector3d& a = this->Mesh.at(corners[0]);
-    const Vector3d normal = (this->Mesh.at(corners[1]) - a).cross(this->Mesh.at(corners[2]) - a);
-    const double twiceArea = normal.norm();
-    if (twiceArea > 0.0)
-    {
-      const Vector3d unit = normal / twiceArea;
-      for (const std::int32_t corner : corners)
+      for (std::int32_t c = this->Mesh.firstCorner(self); c >= 0; c = this->Mesh.nextCorner(c))
       {
-        this->Quadrics[std::size_t(corner)].addPlane(unit, -unit.dot(a - this->Origin), twiceArea);
+        const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
+        const bool isCounted = self == v && (corners[0] == u || corners[1] == u || corners[2] == u);
+        // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
+        if (!isCounted && !this->Mesh.isCap(corners))
+        {
+          const Vector3d& a = this->Mesh.at(corners[0]);
+          sum.addPlane((this->Mesh.at(corners[1]) - a).cross(this->Mesh.at(corners[2]) - a), a - origin);
+        }
       }
     }
+    return sum;
   }
 
   /// Where a point in no face of the box goes.
-  Vector3d keptOffFaces(const Vector3d& from, const Vector3d& to) const
-  {
-    return keptInside(this->Box, from, to, this->Options.maximumError);
-  }
+  Vector3d keptOffFaces(const Vector3d& from, const Vector3d& to) const { return keptInside(this->Box, from, to, this->Reach); }
 
   /// Sweeps until one removes little.
   void sweeps(double error)
@@ -247,7 +235,7 @@ private:
   /// Removes the shortest edges of triangles that are still too long for their width, whatever that costs within twice the error.
   void mend()
   {
-    const double limit = 4.0 * this->Options.maximumError * this->Options.maximumError;
+    const double limit = 4.0 * this->Reach * this->Reach;
     for (int round = 0; round < 4; ++round)
     {
       ++this->Sweep;
@@ -309,8 +297,8 @@ private:
   /// and puts up with flat triangles.
   void tryCollapse(std::int32_t u, std::int32_t v, double limit, bool thorough = false)
   {
-    Quadric sum = this->Quadrics[std::size_t(u)];
-    sum.add(this->Quadrics[std::size_t(v)]);
+    const Vector3d origin = this->Mesh.at(u); // near by, so that no digits are lost
+    const Quadric sum = this->quadricAround(u, v, origin);
     const std::uint8_t facesU = this->Mesh.facesOf(u);
     const std::uint8_t facesV = this->Mesh.facesOf(v);
     const std::uint8_t both = facesU & facesV;
@@ -322,7 +310,7 @@ private:
       if (facesU == 0)
       {
         const double reach = (this->Mesh.at(u) - this->Mesh.at(v)).norm();
-        places[count++] = this->keptOffFaces(middle, sum.best(middle - this->Origin, reach) + this->Origin);
+        places[count++] = this->keptOffFaces(middle, sum.best(middle - origin, reach) + origin);
       }
       else
       {
@@ -342,7 +330,7 @@ private:
     std::array<double, 3> errors;
     for (std::size_t p = 0; p < count; ++p)
     {
-      errors[p] = sum.error(places[p] - this->Origin);
+      errors[p] = sum.error(places[p] - origin);
     }
     const bool isInside = facesU == 0 && facesV == 0;
     for (std::size_t tried = 0; tried < count; ++tried)
@@ -356,11 +344,11 @@ private:
       if (this->keepsShape(u, v, places[p], thorough))
       {
         const double noticed = unnoticed * this->Options.maximumError;
-        const bool isUnnoticed = !this->Options.field || (errors[p] <= noticed * noticed && !thorough);
+        const bool isUnnoticed = errors[p] <= noticed * noticed && !thorough;
         const Verdict verdict = isUnnoticed ? Verdict::NoWorse : this->keepsField(u, v, places[p], isInside && !thorough);
         if (verdict != Verdict::Worse)
         {
-          this->collapse(u, v, places[p], sum, verdict == Verdict::Kept);
+          this->collapse(u, v, places[p], verdict == Verdict::Kept);
           return;
         }
       }
@@ -438,9 +426,7 @@ private:
         const double normalSquared = normalAfter.squaredNorm();
         // The normal of a triangle lower than the error says little: the surroundings' is taken in its place.
         const double longestBefore = std::max({ edgeSquared, before.squaredNorm(), (before - edge).squaredNorm() });
-        const bool isNoise =
-          normalBefore.squaredNorm() < this->Options.maximumError * this->Options.maximumError * longestBefore &&
-          !this->Mesh.isCap(corners);
+        const bool isNoise = normalBefore.squaredNorm() < this->Reach * this->Reach * longestBefore && !this->Mesh.isCap(corners);
         if (isNoise && !isAroundKnown)
         {
           around = this->normalAround(u, v);
@@ -472,12 +458,12 @@ private:
   void addToFit(Fit& fit, const Vector3d& p, std::uint8_t faces, double weight) const
   {
     const double value = this->Options.field(p);
-    const double below = this->Options.smallestField - value;
+    const double below = this->Smallest - value;
     fit.excess = std::max(fit.excess, below);
     fit.upper = std::min(fit.upper, -below / weight);
     if (faces == 0) // in a face of the box the field may be larger
     {
-      const double above = value - this->Options.largestField;
+      const double above = value - this->Largest;
       fit.excess = std::max(fit.excess, above);
       fit.lower = std::max(fit.lower, above / weight);
     }
@@ -525,6 +511,53 @@ private:
     return result;
   }
 
+  /// Whether the field is in its range all over a triangle, at points less than `sampling` apart besides those of fit(). A bit of
+  /// `faces` says that a corner is on that face of the box.
+  bool keepsFieldWithin(const std::array<Vector3d, 3>& corners, const std::array<std::uint8_t, 3>& faces) const
+  {
+    const double longest = std::sqrt(std::max({ (corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
+      (corners[0] - corners[2]).squaredNorm() }));
+    const int n = 2 + static_cast<int>(longest / this->Options.sampling);
+    for (int i = 0; n > 2 && i < n; ++i)
+    {
+      for (int j = i == 0 ? 1 : 0; i + j <= n && j < n; ++j)
+      {
+        const int k = n - i - j;
+        const std::uint8_t on = (i > 0 ? faces[0] : 0xff) & (j > 0 ? faces[1] : 0xff) & (k > 0 ? faces[2] : 0xff);
+        Fit one;
+        this->addToFit(one, (double(i) / n) * corners[0] + (double(j) / n) * corners[1] + (double(k) / n) * corners[2], on, 1.0);
+        if (one.excess > 0.0)
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// The same for all triangles that are left at u and v where these move to `place`.
+  bool keepsFieldWithin(std::int32_t u, std::int32_t v, const Vector3d& place) const
+  {
+    const std::uint8_t facesOfBoth = this->Mesh.facesOf(u) | this->Mesh.facesOf(v);
+    for (int side = 0; side < 2; ++side)
+    {
+      const std::int32_t other = side == 0 ? v : u;
+      for (std::int32_t c = this->Mesh.firstCorner(side == 0 ? u : v); c >= 0; c = this->Mesh.nextCorner(c))
+      {
+        const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
+        const std::int32_t second = corners[(std::size_t(c) + 1) % 3];
+        const std::int32_t third = corners[(std::size_t(c) + 2) % 3];
+        if (second != other && third != other &&
+            !this->keepsFieldWithin({ { place, this->Mesh.at(second), this->Mesh.at(third) } },
+              { { facesOfBoth, this->Mesh.facesOf(second), this->Mesh.facesOf(third) } }))
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
   /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. Where moving `place`
   /// outwards or inwards brings it into its range, and `mayMove`, it is moved.
   Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove) const
@@ -535,7 +568,7 @@ private:
       this->fit(u, v, &place, [&](const Fit& fit) { return mustFit && isOut(fit) && !(mayMove && fit.lower <= fit.upper); });
     if (!isOut(after))
     {
-      return Verdict::Kept;
+      return this->keepsFieldWithin(u, v, place) ? Verdict::Kept : Verdict::Worse;
     }
     if (mayMove && after.lower <= after.upper)
     {
@@ -546,7 +579,7 @@ private:
       if (this->keepsShape(u, v, moved, false) && !isOut(this->fit(u, v, &moved, isOut)))
       {
         place = moved;
-        return Verdict::Kept;
+        return this->keepsFieldWithin(u, v, moved) ? Verdict::Kept : Verdict::Worse;
       }
     }
     if (mustFit)
@@ -573,11 +606,10 @@ private:
     return true;
   }
 
-  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, const Quadric& sum, bool isKnown)
+  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, bool isKnown)
   {
     this->Mesh.collapse(u, v, place);
     this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
-    this->Quadrics[std::size_t(u)] = sum;
     this->Locked[std::size_t(u)] = this->Sweep;
     for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0; c = this->Mesh.nextCorner(c))
     {
@@ -598,7 +630,7 @@ private:
   /// level.
   void flipEdges()
   {
-    for (std::size_t t = 0; this->Options.field && t < this->Mesh.triangleCount(); ++t)
+    for (std::size_t t = 0; t < this->Mesh.triangleCount(); ++t)
     {
       for (std::size_t i = 0; i < 3 && !this->Mesh.isDead(t); ++i)
       {
@@ -629,7 +661,7 @@ private:
     const Vector3d& pc = this->Mesh.at(c);
     const Vector3d& pd = this->Mesh.at(d);
     const double before = this->worstOff(pa, pb, pc, pd);
-    if (before < flipNeed * 0.5 * (this->Options.largestField - this->Options.smallestField))
+    if (before < flipNeed * this->Options.maximumError)
     {
       return false;
     }
@@ -644,7 +676,9 @@ private:
     {
       return false;
     }
-    if (this->worstOff(pc, pd, pa, pb) > flipGain * before || this->Mesh.areLinked(c, d))
+    constexpr std::array<std::uint8_t, 3> inside{ { 0, 0, 0 } };
+    if (this->worstOff(pc, pd, pa, pb) > flipGain * before || this->Mesh.areLinked(c, d) ||
+        !this->keepsFieldWithin({ { pa, pd, pc } }, inside) || !this->keepsFieldWithin({ { pd, pb, pc } }, inside))
     {
       return false;
     }
@@ -659,11 +693,10 @@ private:
   /// d.
   double worstOff(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) const
   {
-    const double level = 0.5 * (this->Options.smallestField + this->Options.largestField);
     double worst = 0.0;
     for (const Vector3d& p : { Vector3d((a + b) / 2.0), Vector3d((a + b + c) / 3.0), Vector3d((a + b + d) / 3.0) })
     {
-      worst = std::max(worst, std::abs(this->Options.field(p) - level));
+      worst = std::max(worst, std::abs(this->Options.field(p) - this->Options.level));
     }
     return worst;
   }
@@ -671,8 +704,9 @@ private:
   EditableSurface Mesh;
   const SurfaceDecimationOptions& Options;
   Eigen::AlignedBox3d Box;
-  Vector3d Origin; ///< what places in quadrics count from, so that they lose no digits
-  std::vector<Quadric> Quadrics;
+  double Smallest;          ///< value of the field, and
+  double Largest;           ///< the same, that is within the largest error
+  double Reach;             ///< µm, largest error of a quadric
   std::vector<int> Locked;  ///< per point, the sweep in which it was moved
   std::vector<int> Changed; ///< per point, the sweep in which a triangle at it changed
   std::vector<float> Part;  ///< per point, of the largest error

@@ -20,21 +20,23 @@ struct CalmPlace
 /// Parameters of decimation; lengths in µm.
 struct SurfaceDecimationOptions
 {
-  /// Largest distance between the surface before and after, as quadrics estimate it.
+  /// A value at every point of space, which rises by about 1 per µm into the body, and which one the surface lies at.
+  std::function<double(const Eigen::Vector3d&)> field;
+  double level = 0.0;
+  /// How far the field may be from its level, at the new triangles' corners, middles of edges and centroids, and at points at
+  /// most `sampling` apart on large ones; where it is further off to begin with, no further. On faces of the box it may be
+  /// larger.
   double maximumError = 0.005;
+  double sampling = 0.6;
   /// No triangle is made whose longest and shortest squared edges have a ratio above this, unless it was worse before.
   double largestSquaredEdgeRatio = 300.0;
-  /// If given: a value at every point of space. A collapse is left out where, at a corner, an edge's middle or the centroid of a
-  /// new triangle, it would lie outside [smallestField, largestField] by more than before; on faces of the box only the lower
-  /// bound counts.
-  std::function<double(const Eigen::Vector3d&)> field;
-  double smallestField = 0.0;
-  double largestField = 0.0;
   std::vector<CalmPlace> calm;
 };
 
-/// Coarsens a closed surface by edge collapses (Garland and Heckbert 1997, quadric error with optimal placement), in sweeps of
-/// rising error, cheapest first.
+/// Coarsens a closed surface by edge collapses, in sweeps of rising error, cheapest first. A point goes where it is nearest to
+/// the planes of the triangles that it replaces (quadrics of Garland and Heckbert 1997, without memory as in Lindstrom and Turk
+/// 1998), and from there along the normal, if that brings the field into its range. Then edges are flipped where that brings the
+/// surface nearer to the level.
 ///
 /// Each collapse keeps the surface a closed 2-manifold of the same topology (link condition), turns no triangle over, makes no
 /// needle, and leaves points on the faces of the box in the faces that they lie in. That distant parts of the surface do not

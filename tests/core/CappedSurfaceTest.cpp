@@ -155,8 +155,10 @@ TEST(CappedSurface, StaysInTheBoxWhereItGrazesAFace)
   // Just cut off, just not, and with a vertex of the coarsened ball beyond the face where nothing held it back.
   for (const double x : { 0.19, 0.197, 0.199, 0.2003, 0.203 })
   {
-    CappedSurface surface = ball({ x, 0.01, -0.02 });
+    const Eigen::Vector3d centre(x, 0.01, -0.02);
+    CappedSurface surface = ball(centre);
     SurfaceDecimationOptions options;
+    options.field = [&centre](const Eigen::Vector3d& p) { return 0.8 - (p - centre).norm(); };
     options.maximumError = 0.02;
     decimate(surface, options);
     moveToVolume(surface, 10.0, 0.01);

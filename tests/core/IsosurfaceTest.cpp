@@ -182,8 +182,6 @@ TEST(SurfaceDecimation, KeepsASphereClosedAndNear)
     SurfaceDecimationOptions options;
     options.maximumError = error;
     options.field = [](const Eigen::Vector3d& p) { return sphereDepth(p, 1.0); };
-    options.smallestField = -error;
-    options.largestField = error;
     decimate(surface, options);
     const SurfaceReport report = checkSurface(surface.mesh);
     EXPECT_TRUE(report.closedManifold() && report.outward());
@@ -208,6 +206,7 @@ TEST(SurfaceDecimation, KeepsFlatFacesAndTheirEdges)
   CappedSurface surface = contour(lattice, allBlocks(lattice), sampled([](int, int, int) { return 1.0; }));
   SurfaceDecimationOptions options;
   options.maximumError = 0.001;
+  options.field = [](const Eigen::Vector3d&) { return 1.0; };
   decimate(surface, options);
   const SurfaceReport report = checkSurface(surface.mesh);
   EXPECT_TRUE(report.closedManifold() && report.outward());
@@ -220,6 +219,7 @@ TEST(SurfaceDecimation, DependsOnTheInputAlone)
   CappedSurface one = sphere(0.7, 0.1, 21);
   CappedSurface other = one;
   SurfaceDecimationOptions options;
+  options.field = [](const Eigen::Vector3d& p) { return sphereDepth(p, 0.7); };
   decimate(one, options);
   decimate(other, options);
   ASSERT_EQ(one.mesh.points.size(), other.mesh.points.size());
