@@ -260,19 +260,26 @@ void FibreField::spareThinFibres(const Context& context)
 bool FibreField::smoothingAt(const NodeRange& range, float* out) const
 {
   constexpr float outside = 2.0f; // of all fibres
+  if (this->Smoothing.empty())
+  {
+    return false;
+  }
   std::vector<float> ofFibre(range.size());
   bool any = false;
   std::size_t n = 0;
   std::int32_t last = 0;
   float part = outside;
+  const std::vector<int> columns = this->columnsOf(range);
   for (int k = 0; k < range.count[2]; ++k)
   {
+    const int z = this->sampleOf(2, range.first[2] + k);
     for (int j = 0; j < range.count[1]; ++j)
     {
-      for (int i = 0; i < range.count[0]; ++i, ++n)
+      const std::int32_t* row =
+        this->Image.fibreId + this->Image.grid.index(this->First[0], this->sampleOf(1, range.first[1] + j), z);
+      for (const int column : columns)
       {
-        const std::int32_t id = this->Image.fibreId[this->Image.grid.index(
-          this->sampleOf(0, range.first[0] + i), this->sampleOf(1, range.first[1] + j), this->sampleOf(2, range.first[2] + k))];
+        const std::int32_t id = row[column];
         if (id != last)
         {
           const auto found = this->Smoothing.find(id);
@@ -280,7 +287,7 @@ bool FibreField::smoothingAt(const NodeRange& range, float* out) const
           last = id;
           any = any || part < 1.0f;
         }
-        ofFibre[n] = part;
+        ofFibre[n++] = part;
       }
     }
   }
@@ -376,8 +383,19 @@ std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(int re
   return blocksOf;
 }
 
+std::vector<int> FibreField::columnsOf(const NodeRange& range) const
+{
+  std::vector<int> columns;
+  for (int i = 0; i < range.count[0]; ++i)
+  {
+    columns.push_back(this->sampleOf(0, range.first[0] + i) - this->First[0]);
+  }
+  return columns;
+}
+
 void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out) const
 {
+  const std::vector<int> columns = this->columnsOf(range);
   for (int k = 0; k < range.count[2]; ++k)
   {
     const int z = this->sampleOf(2, range.first[2] + k);
@@ -385,10 +403,9 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out)
     {
       const int y = this->sampleOf(1, range.first[1] + j);
       const std::size_t row = this->Image.grid.index(this->First[0], y, z);
-      for (int i = 0; i < range.count[0]; ++i, ++out)
+      for (const int column : columns)
       {
-        const int x = this->sampleOf(0, range.first[0] + i);
-        *out = this->field(fibre, row + std::size_t(x - this->First[0]), x, y, z);
+        *out++ = this->field(fibre, row + std::size_t(column), this->First[0] + column, y, z);
       }
     }
   }

@@ -62,6 +62,8 @@ public:
 private:
   /// Index in the image of the sample that a node takes its value from.
   int sampleOf(std::size_t axis, int node) const;
+  /// Of a row of nodes, the samples that they take their values from, from the first one on.
+  std::vector<int> columnsOf(const NodeRange& range) const;
   /// Of a sample outside all fibres that is nearer than gap/2 to one: to which, as its neighbours tell.
   std::int32_t nearest(int i, int j, int k) const;
   bool holds(int i, int j, int k) const;

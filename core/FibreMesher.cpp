@@ -26,11 +26,11 @@ constexpr double negligiblePart = 1e-3;
 /// Relative error of an inner volume that is good enough.
 constexpr double volumeTolerance = 1e-3;
 /// Distance from where an inner surface has the wanted volume that is good enough before coarsening, as a part of a voxel.
-constexpr double nearEnough = 0.02;
+constexpr double nearEnough = 0.003;
 /// How far an outer surface mostly moves out to make up for what smoothing takes off it, and what may be left of that before
 /// coarsening, as parts of the tolerance.
 constexpr double usualPart = 0.5;
-constexpr double restPart = 0.15;
+constexpr double restPart = 0.02;
 /// Least distance between the planes of an inner and an outer surface's caps, in voxels: in one plane they would meet.
 constexpr double smallestInset = 0.05;
 /// Distance of the points at which coarsening looks at the field on large triangles, in voxels.
@@ -228,7 +228,8 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
     isSound = this->finish(field, best.surface, best.level, best.volume, &pair.outer, {}, pair.innerReport, pair);
   }
   pair.inner = packed(std::move(best.surface.mesh));
-  pair.thickness = best.level - pair.outerLevel;
+  // By how much the volume was off before it was moved to what is wanted, was the level.
+  pair.thickness = best.level - pair.outerLevel + (state == MyelinState::AsAsked ? (best.volume - wanted) / best.area : 0.0);
   pair.state = state;
   pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
 }
@@ -310,10 +311,10 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
   return found ? state : MyelinState::NoAxon;
 }
 
-/// Gives a surface its volume, and `level` what it lies at then, coarsens it, and checks what comes out. Where something is wrong
+/// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong
 /// with it, it is made again with less coarsening around there; what cannot be mended like that stays as contoured. Returns
 /// whether nothing is wrong with it.
-bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double& level, double volume,
+bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
   const TriangleMesh* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
 {
   const double error = this->Options.decimationError;
@@ -324,13 +325,13 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
   }
   SurfaceDecimationOptions decimation;
   decimation.calm = calm;
+  decimation.level = level;
   decimation.maximumError = error;
   decimation.sampling = samplingDistance * this->Spacing;
   decimation.field = [&field](const Eigen::Vector3d& p) { return field.value(p); };
   for (int attempt = 0; error > 0.0 && attempt <= repairs; ++attempt)
   {
     CappedSurface trial = surface;
-    decimation.level = level - moveToVolume(trial, volume, error);
     decimate(trial, decimation);
     moveToVolume(trial, volume, error);
     splitNeedles(trial, largestSquaredEdgeRatio);
@@ -338,8 +339,7 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     const std::vector<Eigen::Vector3d> places = faults(trial.mesh, containerTree.get());
     if (places.empty() && report.degenerateTriangles == 0 && sound(report))
     {
-      pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, decimation.level));
-      level = decimation.level;
+      pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, level));
       surface = std::move(trial);
       return true;
     }

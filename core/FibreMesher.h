@@ -51,7 +51,7 @@ private:
   CappedSurface contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const;
   Inner innerAt(const SmoothedField& field, double level) const;
   MyelinState solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const;
-  bool finish(const SmoothedField& field, CappedSurface& surface, double& level, double volume, const TriangleMesh* container,
+  bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleMesh* container,
     const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 

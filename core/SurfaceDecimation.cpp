@@ -232,10 +232,10 @@ private:
     return before - this->Mesh.aliveCount();
   }
 
-  /// Removes the shortest edges of triangles that are still too long for their width, whatever that costs within twice the error.
+  /// Mends triangles that came with a bad shape. The shortest edges of those that are too long for their width are removed,
+  /// whatever that costs within twice the error; the longest edges of those that are too flat are flipped.
   void mend()
   {
-    const double limit = 4.0 * this->Reach * this->Reach;
     for (int round = 0; round < 4; ++round)
     {
       ++this->Sweep;
@@ -253,16 +253,24 @@ private:
           length[i] = (this->Mesh.at(corners[(i + 1) % 3]) - this->Mesh.at(corners[i])).squaredNorm();
         }
         const auto shortest = std::size_t(std::min_element(length.begin(), length.end()) - length.begin());
-        if (*std::max_element(length.begin(), length.end()) > this->Options.largestSquaredEdgeRatio * length[shortest])
+        const auto longest = std::size_t(std::max_element(length.begin(), length.end()) - length.begin());
+        if (length[longest] > this->Options.largestSquaredEdgeRatio * length[shortest])
         {
           const std::int32_t u = corners[shortest];
           const std::int32_t v = corners[(shortest + 1) % 3];
+          const double part = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
+          const double limit = 4.0 * part * part * this->Reach * this->Reach;
           this->removeBetween(u, v, limit);
           if (!this->Mesh.isDead(t))
           {
             this->tryCollapse(std::min(u, v), std::max(u, v), limit, true);
           }
           any = any || this->Mesh.isDead(t);
+        }
+        else if (this->shapeOf(corners).flatness < flattestTriangle)
+        {
+          const std::int32_t a = corners[longest];
+          any = this->tryFlip(t, a, corners[(longest + 1) % 3], corners[(longest + 2) % 3], Flip::OfFlat) || any;
         }
       }
       if (!any)
@@ -379,6 +387,11 @@ private:
     return sum;
   }
 
+  Shape shapeOf(const std::array<std::int32_t, 3>& corners) const
+  {
+    return cactus::shapeOf(this->Mesh.at(corners[0]), this->Mesh.at(corners[1]), this->Mesh.at(corners[2]));
+  }
+
   /// The worst shapes among the triangles at u and v, but no better than what is allowed anyway.
   Shape worstShape(std::int32_t u, std::int32_t v) const
   {
@@ -388,7 +401,7 @@ private:
       for (std::int32_t c = this->Mesh.firstCorner(self); c >= 0; c = this->Mesh.nextCorner(c))
       {
         const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
-        const Shape shape = shapeOf(this->Mesh.at(corners[0]), this->Mesh.at(corners[1]), this->Mesh.at(corners[2]));
+        const Shape shape = this->shapeOf(corners);
         worst.edgeRatio = std::max(worst.edgeRatio, shape.edgeRatio);
         worst.flatness = std::min(worst.flatness, shape.flatness);
       }
@@ -636,7 +649,7 @@ private:
       {
         const std::int32_t a = this->Mesh.cornersOf(t)[i];
         const std::int32_t b = this->Mesh.cornersOf(t)[(i + 1) % 3];
-        if (a < b && this->tryFlip(t, a, b, this->Mesh.cornersOf(t)[(i + 2) % 3]))
+        if (a < b && this->tryFlip(t, a, b, this->Mesh.cornersOf(t)[(i + 2) % 3], Flip::ToFit))
         {
           break;
         }
@@ -644,7 +657,14 @@ private:
     }
   }
 
-  bool tryFlip(std::size_t one, std::int32_t a, std::int32_t b, std::int32_t c)
+  enum class Flip
+  {
+    ToFit, ///< so that the surface comes nearer to the level
+    OfFlat ///< so that a flat triangle goes, and the surface keeps its distance
+  };
+
+  /// Flips the edge a b of triangle `one`, whose third corner is c, where that does what it is for.
+  bool tryFlip(std::size_t one, std::int32_t a, std::int32_t b, std::int32_t c, Flip kind)
   {
     const std::size_t other = this->Mesh.triangleAlong(b, a);
     const std::int32_t d = this->Mesh.thirdCorner(other, a, b);
@@ -661,7 +681,7 @@ private:
     const Vector3d& pc = this->Mesh.at(c);
     const Vector3d& pd = this->Mesh.at(d);
     const double before = this->worstOff(pa, pb, pc, pd);
-    if (before < flipNeed * this->Options.maximumError)
+    if (before < flipNeed * this->Options.maximumError && kind == Flip::ToFit)
     {
       return false;
     }
@@ -669,15 +689,19 @@ private:
     const Vector3d first = (pd - pa).cross(pc - pa);
     const Vector3d second = (pb - pd).cross(pc - pd);
     const double turn = leastFlipTurn * normal.norm();
-    const Shape shapes[2] = { shapeOf(pa, pd, pc), shapeOf(pd, pb, pc) };
+    const Shape shapes[2] = { cactus::shapeOf(pa, pd, pc), cactus::shapeOf(pd, pb, pc) };
+    const double flattest = kind == Flip::ToFit
+                              ? flattestTriangle
+                              : std::min(flattestTriangle, 2.0 * this->shapeOf(this->Mesh.cornersOf(one)).flatness);
+    const double furthest = kind == Flip::ToFit ? flipGain * before : std::max(before, this->Options.maximumError);
     if (!(first.dot(normal) > turn * first.norm()) || !(second.dot(normal) > turn * second.norm()) ||
         std::max(shapes[0].edgeRatio, shapes[1].edgeRatio) > this->Options.largestSquaredEdgeRatio ||
-        std::min(shapes[0].flatness, shapes[1].flatness) < flattestTriangle)
+        std::min(shapes[0].flatness, shapes[1].flatness) < flattest)
     {
       return false;
     }
     constexpr std::array<std::uint8_t, 3> inside{ { 0, 0, 0 } };
-    if (this->worstOff(pc, pd, pa, pb) > flipGain * before || this->Mesh.areLinked(c, d) ||
+    if (this->worstOff(pc, pd, pa, pb) > furthest || this->Mesh.areLinked(c, d) ||
         !this->keepsFieldWithin({ { pa, pd, pc } }, inside) || !this->keepsFieldWithin({ { pd, pb, pc } }, inside))
     {
       return false;
