@@ -440,6 +440,7 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
   }
   Places.assign(std::size_t(Count[0]) * std::size_t(Count[1]) * std::size_t(Count[2]), -1);
   Values.resize(size);
+  Unsmoothed.resize(size);
   std::size_t place = 0;
   std::vector<float> buffer;
   std::vector<float> before;
@@ -458,6 +459,19 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
     const std::array<std::size_t, 3> stride{ { 1, std::size_t(range.count[0]),
       std::size_t(range.count[0]) * std::size_t(range.count[1]) } };
     const std::size_t all = range.size();
+    const auto keep = [&](std::vector<float>& held)
+    {
+      float* out = held.data() + place;
+      for (int k = passes; k + passes < range.count[2]; ++k)
+      {
+        for (int j = passes; j + passes < range.count[1]; ++j)
+        {
+          const float* row = buffer.data() + std::size_t(passes) + stride[1] * std::size_t(j) + stride[2] * std::size_t(k);
+          out = std::copy(row, row + range.count[0] - 2 * passes, out);
+        }
+      }
+    };
+    keep(Unsmoothed);
     const bool isUniform = passes == 0 || !field.smoothingAt(range, (part.resize(range.size()), part.data()));
     for (int pass = 0; pass < passes; ++pass)
     {
@@ -475,18 +489,10 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
         }
       }
     }
+    keep(Values);
     Places[std::size_t(placeOf(at[b]))] = std::ptrdiff_t(place);
     place += std::size_t(range.count[0] - 2 * passes) * std::size_t(range.count[1] - 2 * passes) *
              std::size_t(range.count[2] - 2 * passes);
-    float* out = Values.data() + Places[std::size_t(placeOf(at[b]))];
-    for (int k = passes; k + passes < range.count[2]; ++k)
-    {
-      for (int j = passes; j + passes < range.count[1]; ++j)
-      {
-        const float* row = buffer.data() + std::size_t(passes) + stride[1] * std::size_t(j) + stride[2] * std::size_t(k);
-        out = std::copy(row, row + range.count[0] - 2 * passes, out);
-      }
-    }
   }
 }
 
@@ -507,12 +513,23 @@ std::ptrdiff_t SmoothedField::placeOf(const Index& block) const
 
 void SmoothedField::values(double level, double smallest, const NodeRange& around, float* out) const
 {
+  this->copyBlock(this->Values, level, smallest, around, out);
+}
+
+void SmoothedField::unsmoothedValues(double smallest, const NodeRange& around, float* out) const
+{
+  this->copyBlock(this->Unsmoothed, 0.0, smallest, around, out);
+}
+
+void SmoothedField::copyBlock(
+  const std::vector<float>& held, double level, double smallest, const NodeRange& around, float* out) const
+{
   Index block;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     block[axis] = (around.first[axis] + 1) / NodeLattice::blockCells;
   }
-  const float* in = this->Values.data() + this->Places[std::size_t(this->placeOf(block))];
+  const float* in = held.data() + this->Places[std::size_t(this->placeOf(block))];
   const auto t = static_cast<float>(level);
   const auto least = static_cast<float>(smallest);
   for (std::size_t n = 0; n < around.size(); ++n)

@@ -93,6 +93,8 @@ public:
   /// The field less `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0 than
   /// `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles.
   void values(double level, double smallest, const NodeRange& around, float* out) const;
+  /// The same of the field before it was smoothed, at level 0.
+  void unsmoothedValues(double smallest, const NodeRange& around, float* out) const;
 
   /// The field at a point of the blocks: trilinear, and along each axis corrected for the curvature that the samples on either
   /// side agree on, as contour() does. A point beyond the outermost samples has the value of the nearest point among them; far
@@ -104,12 +106,15 @@ private:
 
   /// Number of a block in Places; none where it lies outside the box of the blocks held.
   std::ptrdiff_t placeOf(const Index& block) const;
+  /// Copies what is held of a block, less `level` and kept off 0.
+  void copyBlock(const std::vector<float>& held, double level, double smallest, const NodeRange& around, float* out) const;
 
   NodeLattice Lattice;
   std::vector<std::uint32_t> Blocks;
   Eigen::Vector3d FirstNode;          ///< µm
   double NodesPerLength;              ///< per µm
   std::vector<float> Values;          ///< of each block held, and one node beyond on every side
+  std::vector<float> Unsmoothed;      ///< the same before smoothing
   Index First{ { 0, 0, 0 } };         ///< the box of the blocks held: first one
   Index Count{ { 0, 0, 0 } };         ///< and how many
   Index Cells{ { 0, 0, 0 } };         ///< of the lattice

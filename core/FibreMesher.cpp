@@ -131,7 +131,8 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair, 
   double volume = now.volume;
   if (furthest > 0.0)
   {
-    CappedSurface before = this->contourAt(this->OuterLattice, SmoothedField(this->Field, pair.fibreId, field.blocks(), 0), 0.0);
+    CappedSurface before = contour(this->OuterLattice, field.blocks(),
+      [&](const NodeRange& around, float* out) { field.unsmoothedValues(this->Nudge, around, out); });
     keepMainPart(before, this->smallestPiece());
     volume = measure(before).volume;
     const double right = std::clamp(level - (volume - now.volume) / now.freeArea, -furthest, 0.0);

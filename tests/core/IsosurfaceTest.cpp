@@ -214,6 +214,53 @@ TEST(SurfaceDecimation, KeepsFlatFacesAndTheirEdges)
   EXPECT_LT(report.triangles, 100u);
 }
 
+TEST(SurfaceDecimation, FlipsFlatTriangles)
+{
+  // A prism, none of whose corners can go, over a b c d with c but 0.012 beyond the line from a to b: lid and floor do not have
+  // to be divided along that line.
+  const std::array<Eigen::Vector2d, 4> outline{ { { 0.0, 0.0 }, { 0.5, -0.8 }, { 1.0, 0.0 }, { 0.5, 0.012 } } };
+  CappedSurface surface;
+  for (const double z : { 0.0, 0.5 })
+  {
+    for (const Eigen::Vector2d& p : outline)
+    {
+      surface.mesh.points.push_back({ p[0], p[1], z });
+    }
+  }
+  surface.faces.assign(8, 0);
+  surface.mesh.triangles = { { { 0, 2, 1 } }, { { 0, 3, 2 } }, { { 4, 5, 6 } }, { { 4, 6, 7 } } };
+  for (std::int32_t i = 0; i < 4; ++i)
+  {
+    const std::int32_t next = (i + 1) % 4;
+    surface.mesh.triangles.push_back({ { i, next, next + 4 } });
+    surface.mesh.triangles.push_back({ { i, next + 4, i + 4 } });
+  }
+  const double volume = checkSurface(surface.mesh).volume;
+  SurfaceDecimationOptions options;
+  options.maximumError = 0.002;
+  options.field = [&outline](const Eigen::Vector3d& p)
+  {
+    double depth = std::min(p[2], 0.5 - p[2]);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const Eigen::Vector2d along = (outline[(i + 1) % 4] - outline[i]).normalized();
+      depth = std::min(depth, along[0] * (p[1] - outline[i][1]) - along[1] * (p[0] - outline[i][0]));
+    }
+    return depth;
+  };
+  decimate(surface, options);
+  const SurfaceReport report = checkSurface(surface.mesh);
+  EXPECT_TRUE(report.closedManifold() && report.outward());
+  EXPECT_EQ(report.triangles, 12u);
+  EXPECT_NEAR(report.volume, volume, 1e-12);
+  for (const auto& t : surface.mesh.triangles)
+  {
+    const Eigen::Vector3d ab = surface.mesh.points[std::size_t(t[1])] - surface.mesh.points[std::size_t(t[0])];
+    const Eigen::Vector3d ac = surface.mesh.points[std::size_t(t[2])] - surface.mesh.points[std::size_t(t[0])];
+    EXPECT_GT(ab.cross(ac).norm(), 0.1 * std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() }));
+  }
+}
+
 TEST(SurfaceDecimation, DependsOnTheInputAlone)
 {
   CappedSurface one = sphere(0.7, 0.1, 21);

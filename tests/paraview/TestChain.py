@@ -6,7 +6,9 @@ import os
 
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main, mesh_oracle
-from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateStatistics, SubstrateWriter
+from paraview.simple import (
+    BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate, SubstrateStatistics, SubstrateWriter,
+)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -125,6 +127,12 @@ class ChainTest(CactusTestCase):
         # Economical: triangles per µm² of the outer and of the inner surfaces.
         self.assertLessEqual(triangles_per_area(outer), most_triangles[0])
         self.assertLessEqual(triangles_per_area(inner), most_triangles[1])
+        # And none of them a sliver.
+        certificate = row(SubstrateCertificate(Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1)))
+        self.assertEqual(certificate["Certified"], 1)
+        self.assertLess(certificate["LargestAspect"], 100)
+        self.assertLess(certificate["LargestSquaredEdgeRatio"], 1000)
+        self.assertGreater(certificate["SmallestFeature_um"], 0.001)
 
         # Guarantee 3: fractions of the meshes, measured here once more.
         volume = side**3
@@ -156,13 +164,13 @@ class ChainTest(CactusTestCase):
         return data, reached
 
     def test_single_bundle(self):
-        data, reached = self.run_chain(12, 0.9, most_triangles=(12, 15), MeanDispersion=10)
+        data, reached = self.run_chain(12, 0.9, most_triangles=(10, 12.5), MeanDispersion=10)
         self.assertGreater(data.GetNumberOfCells(), 30)
         self.assertAlmostEqual(reached["MeanDispersion_deg"], 10, delta=1)
 
     def test_crossing(self):
         data, _ = self.run_chain(
-            12, 0.7, most_triangles=(15, 20), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5
+            12, 0.7, most_triangles=(11.5, 14), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5
         )
         points = vtk_to_numpy(data.GetPoints().GetData())
         offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
