@@ -312,9 +312,8 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
   return found ? state : MyelinState::NoAxon;
 }
 
-/// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong
-/// with it, it is made again with less coarsening around there; what cannot be mended like that stays as contoured. Returns
-/// whether nothing is wrong with it.
+/// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong with it, it is made again with
+/// less coarsening around there; what cannot be mended like that stays as contoured. Returns whether nothing is wrong with it.
 bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
   const TriangleMesh* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
 {

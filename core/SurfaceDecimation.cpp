@@ -728,8 +728,8 @@ private:
   EditableSurface Mesh;
   const SurfaceDecimationOptions& Options;
   Eigen::AlignedBox3d Box;
-  double Smallest;          ///< value of the field, and
-  double Largest;           ///< the same, that is within the largest error
+  double Smallest;          ///< value of the field within the largest error of its level
+  double Largest;           ///< the same
   double Reach;             ///< µm, largest error of a quadric
   std::vector<int> Locked;  ///< per point, the sweep in which it was moved
   std::vector<int> Changed; ///< per point, the sweep in which a triangle at it changed
