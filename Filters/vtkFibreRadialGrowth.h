@@ -76,8 +76,8 @@ public:
 
   ///@{
   /**
-   * How far, as a fraction of its radius, a fibre may fall short of its capsules, at random and smoothly along it, before it grows
-   * (0 to 0.5).
+   * How far, as a fraction of its radius, a fibre may fall short of its capsules, at random and smoothly along it, before it
+   * grows (0 to 0.5).
    */
   vtkSetMacro(SurfaceRoughness, double);
   vtkGetMacro(SurfaceRoughness, double);

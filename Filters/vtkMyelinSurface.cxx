@@ -143,8 +143,8 @@ void fillTable(vtkTable* table, const std::vector<cactus::FibreSurfacePair>& fib
   number("DroppedVolume_um3", [](const Fibre& f) { return f.droppedVolume; });
 }
 
-/// Empties the image that comes in at the port of an algorithm, and those further up that share its arrays, as ParaView puts filters
-/// of its own between two stages. Each counts as released, so that it is made again for whoever asks for it.
+/// Empties the image that comes in at the port of an algorithm, and those further up that share its arrays, as ParaView puts
+/// filters of its own between two stages. Each counts as released, so that it is made again for whoever asks for it.
 void releaseImage(vtkAlgorithm* consumer)
 {
   vtkSmartPointer<vtkDataArray> shared;

@@ -36,8 +36,8 @@ struct FibreCostTotals
 ///  - radius, per control point: (r − r_target)²;
 ///  - compactness, per control point: ½ ℓ² e², e how far the fibre's surface leaves its bundle's cuboid sideways, ℓ the mean
 ///  length of the segments at the point (it replaces an attraction to the axis, which would compress the core of a bundle that is
-///  already dense); and per fibre 50 L1² |c − C|², c its chord from end to end, C that before optimisation, L1 its first segment's
-///  length.
+///  already dense); and per fibre 50 L1² |c − C|², c its chord from end to end, C that before optimisation, L1 its first
+///  segment's length.
 /// Two limits do not fade, since a fibre that folds up finds no way out: they belong to curvature and length, and share their
 /// weights.
 ///  - bends, per triple: ¼ (L1 L2)² · max(0, cos θ_max − cos θ)², θ_max the angle at which the radius of curvature is 1.2 fibre

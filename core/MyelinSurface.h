@@ -85,8 +85,9 @@ struct FibreSurfacePair
 /// The outer surface of a fibre is where its smoothed field (see SmoothedField) equals a level at or just below 0, contoured by
 /// contour(), with flat caps on the faces of the box. The level makes up for the volume that smoothing takes off the fibre, as
 /// far as it takes no more than the tolerance. The inner surface is where the field is `thickness`, its caps moved into the box
-/// by MinimumGap, but at least a twentieth and at most a quarter of a voxel, so that they do not meet the outer ones. The thickness is solved
-/// for so that inner volume over outer volume is the square of the fibre's g-ratio, measured on the final surfaces.
+/// by MinimumGap, but at least a twentieth and at most a quarter of a voxel, so that they do not meet the outer ones. The
+/// thickness is solved for so that inner volume over outer volume is the square of the fibre's g-ratio, measured on the final
+/// surfaces.
 ///
 /// Each surface is coarsened so far that the field at points spread over it stays within decimationError of its level, or within
 /// what the surface as contoured is off by, and moved along its normals to the volume that it is to have. It has to be a closed,

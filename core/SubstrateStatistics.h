@@ -27,9 +27,9 @@ struct SubstrateStatisticsOptions
 /// The cross-sections of one surface along its fibre. The equivalent radius of a cut is that of the circle of the same area.
 struct RadiusAlongFibre
 {
-  std::size_t cuts = 0;   ///< cross-sections that lie wholly inside the domain; without any, the others are NaN
-  double mean = 0.0;      ///< µm, of the equivalent radius
-  double deviation = 0.0; ///< µm, standard deviation of the equivalent radius along the fibre
+  std::size_t cuts = 0;     ///< cross-sections that lie wholly inside the domain; without any, the others are NaN
+  double mean = 0.0;        ///< µm, of the equivalent radius
+  double deviation = 0.0;   ///< µm, standard deviation of the equivalent radius along the fibre
   double circularity = 0.0; ///< mean of 4π · area / perimeter²: 1 for circles, 0.91 for hexagons, 0.79 for squares
 };
 
@@ -83,8 +83,9 @@ struct SubstrateStatistics
 SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& outer, const FibreSurfaces& inner,
   const SubstrateStatisticsOptions& options = {}, const Context& context = {});
 
-/// Equivalent radius and circularity of the surface at every `spacing` µm along fibre number `fibre`'s centre line, from cuts orthogonal to it.
-/// Cuts that reach the domain's boundary, or around a point that lies outside the surface, do not count. `spacing` is positive.
+/// Equivalent radius and circularity of the surface at every `spacing` µm along fibre number `fibre`'s centre line, from cuts
+/// orthogonal to it. Cuts that reach the domain's boundary, or around a point that lies outside the surface, do not count.
+/// `spacing` is positive.
 RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing);
 
 /// Length (µm) of fibre number `fibre`'s centre line inside the domain.

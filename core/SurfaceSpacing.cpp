@@ -27,7 +27,8 @@ using Eigen::Vector3d;
 constexpr double extra = 0.0002;
 /// µm that a distance may lose where points are written in single precision; extra is more.
 constexpr double rounding = 5e-5;
-/// Most pairs take one or two; corners whose normals point askew, as on a face that cuts a fibre at a small angle, get apart slowly.
+/// Most pairs take one or two; corners whose normals point askew, as on a face that cuts a fibre at a small angle, get apart
+/// slowly.
 constexpr int rounds = 48;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
