@@ -172,7 +172,9 @@ CACTUS_INLINE void evaluateCellBody(Candidates& all, const CellRelevance& releva
     const float *ux = all.ux.data(), *uy = all.uy.data(), *uz = all.uz.data();
     const float *length = all.length.data(), *radius = all.radius.data(), *slope = all.slope.data(), *lean = all.lean.data();
     float* out = all.coneAtCentre.data();
+#ifndef __clang__ // which does not know it
 #pragma GCC ivdep
+#endif
     for (int c = 0; c < cones; ++c)
     {
       const float dx = cx - x[c];
