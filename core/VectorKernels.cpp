@@ -36,22 +36,27 @@ bool supportsX86V4()
 } // namespace
 #endif
 
+std::vector<const VectorKernels*> runnableVectorKernels()
+{
+  std::vector<const VectorKernels*> runnable{ &portableKernels };
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (supportsX86V3())
+  {
+    runnable.push_back(&x86V3Kernels);
+  }
+  if (supportsX86V4())
+  {
+    runnable.push_back(&x86V4Kernels);
+  }
+#endif
+  return runnable;
+}
+
 const VectorKernels& vectorKernels()
 {
-#if defined(__x86_64__)
-  static const VectorKernels& best = []() -> const VectorKernels&
-  {
-    __builtin_cpu_init();
-    if (supportsX86V4())
-    {
-      return x86V4Kernels;
-    }
-    return supportsX86V3() ? x86V3Kernels : portableKernels;
-  }();
+  static const VectorKernels& best = *runnableVectorKernels().back();
   return best;
-#else
-  return portableKernels;
-#endif
 }
 
 } // namespace cactus

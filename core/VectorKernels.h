@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace cactus
 {
@@ -86,7 +87,10 @@ struct VectorKernels
     std::size_t count, const BoxQuery& box, std::uint32_t* found);
 };
 
-/// The best of them that this machine can run.
+/// Those that this machine can run, the best last.
+std::vector<const VectorKernels*> runnableVectorKernels();
+
+/// The best of them.
 const VectorKernels& vectorKernels();
 
 extern const VectorKernels portableKernels;

@@ -14,28 +14,6 @@
 #include <utility>
 #include <vector>
 
-namespace
-{
-
-/// Those that this machine can run.
-std::vector<const cactus::VectorKernels*> runnable()
-{
-  std::vector<const cactus::VectorKernels*> all{ &cactus::portableKernels };
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("x86-64-v3"))
-  {
-    all.push_back(&cactus::x86V3Kernels);
-  }
-  if (__builtin_cpu_supports("x86-64-v4"))
-  {
-    all.push_back(&cactus::x86V4Kernels);
-  }
-#endif
-  return all;
-}
-
-} // namespace
-
 // Guarantee: cost and gradient have the same bits on every vector unit, with radii that vary and with radii that do not, and
 // whether or not the caller knows that they do not.
 TEST(VectorKernels, SameBitsOnEveryVectorUnit)
@@ -58,7 +36,7 @@ TEST(VectorKernels, SameBitsOnEveryVectorUnit)
       const auto evaluate = [&](const cactus::VectorKernels& kernels, bool flag, cactus::CapsuleOverlap& result)
       { kernels.evaluateCapsule(capsules.bodies.data(), neighbours, count, capsules.bodies[k], 1.01, 1e-3, flag, result); };
       evaluate(cactus::portableKernels, true, first);
-      for (const cactus::VectorKernels* kernels : runnable())
+      for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
       {
         for (const bool flag : { tapered, true })
         {
@@ -103,7 +81,7 @@ TEST(VectorKernels, SameColumnsOnEveryVectorUnit)
     }
     const std::size_t padded = (count + 15) / 16 * 16;
     std::vector<float> first;
-    for (const cactus::VectorKernels* kernels : runnable())
+    for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
     {
       std::vector<float> numbers(cactus::NearColumns::count * 64, -1.0f);
       kernels->gatherNear(capsules.bodies.data(), reach.data(), indices.data(), count, origin, { numbers.data(), 64 });
@@ -161,7 +139,7 @@ TEST(VectorKernels, SameNeighboursOnEveryVectorUnit)
         p[number] = numbers[number * stride + k];
       }
       std::vector<std::uint32_t> first;
-      for (const cactus::VectorKernels* kernels : runnable())
+      for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
       {
         std::vector<std::uint32_t> found(count + 16);
         found.resize(
@@ -196,7 +174,7 @@ TEST(VectorKernels, SortsKeys)
     }
     std::vector<std::uint32_t> expected(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count));
     std::sort(expected.begin(), expected.end());
-    for (const cactus::VectorKernels* kernels : runnable())
+    for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
     {
       std::vector<std::uint32_t> sorted(count);
       kernels->sortKeys(keys.data(), count, sorted.data());
@@ -254,7 +232,7 @@ TEST(VectorKernels, SameCapsulesOfRunsOnEveryVectorUnit)
     }
   }
   EXPECT_GT(expected.size(), 10u);
-  for (const cactus::VectorKernels* kernels : runnable())
+  for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
   {
     std::vector<std::uint32_t> found(8 * runs.size() + 8);
     found.resize(static_cast<std::size_t>(
@@ -305,7 +283,7 @@ TEST(VectorKernels, SameBoxesOnEveryVectorUnit)
       }
     }
     EXPECT_TRUE(end < count || !expected.empty());
-    for (const cactus::VectorKernels* kernels : runnable())
+    for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
     {
       std::vector<std::uint32_t> found(end - begin + 16);
       found.resize(static_cast<std::size_t>(kernels->selectBoxes(columns, begin, end, box, found.data()) - found.data()));
