@@ -4,6 +4,7 @@
 #include "BundleLayout.h"
 #include "BundlePacking.h"
 #include "Error.h"
+#include "Limits.h"
 #include "Memory.h"
 
 #include <algorithm>
@@ -18,16 +19,6 @@ namespace
 {
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
-
-void requireRange(double value, bool good, const char* property, const char* range)
-{
-  if (!std::isfinite(value) || !good)
-  {
-    std::ostringstream message;
-    message << property << " is " << value << ": give " << range;
-    throw InvalidInput(message.str());
-  }
-}
 
 /// Two bundles with both their faces packed to a density.
 std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double density, const Context& context)
@@ -163,35 +154,45 @@ void requireMemoryFor(const BundleInitializerOptions& options)
 
 void BundleInitializerOptions::validate() const
 {
-  requireRange(side, side > 0.0, "Side", "a positive length in µm");
-  requireRange(fibreVolumeFraction, fibreVolumeFraction > 0.0 && fibreVolumeFraction < 1.0, "FibreVolumeFraction",
-    "a fraction above 0 and below 1");
-  requireRange(grownFibreVolumeFraction,
-    grownFibreVolumeFraction == 0.0 || (grownFibreVolumeFraction >= fibreVolumeFraction && grownFibreVolumeFraction < 1.0),
-    "GrownFibreVolumeFraction", "a fraction from FibreVolumeFraction to below 1, or 0");
+  requireWithin("Side", side, limits::side);
+  requireWithin("FibreVolumeFraction", fibreVolumeFraction, limits::fraction);
+  requireWithin("GrownFibreVolumeFraction", grownFibreVolumeFraction, { fibreVolumeFraction, limits::fraction.highest, "", true },
+    " (no less than FibreVolumeFraction)");
   radius.validate();
-  requireRange(
-    meanDispersion, meanDispersion >= 0.0 && meanDispersion <= 45.0, "MeanDispersion", "an angle from 0 to 45 degrees");
+  if (radius.minimum * this->thinning() < limits::radius.lowest)
+  {
+    throw InvalidInput(
+      text("MinimumRadius ", radius.minimum, " µm makes capsules of less than ", limits::radius.lowest, " µm where they fill ",
+        fibreVolumeFraction, " to be grown to ", grownFibreVolumeFraction, ": enlarge MinimumRadius or FibreVolumeFraction"));
+  }
+  requireWithin("MeanDispersion", meanDispersion, limits::meanDispersion);
   if (dispersionModel != DispersionModel::Watson && dispersionModel != DispersionModel::Cone &&
       dispersionModel != DispersionModel::Coherent)
   {
     throw InvalidInput("DispersionModel has no such choice: use Watson (0), Cone (1) or Coherent (2)");
   }
-  requireRange(correlationLength, correlationLength >= 0.0, "CorrelationLength", "a length in µm, or 0 for the default");
-  requireRange(numberOfBundles, numberOfBundles == 1 || numberOfBundles == 2, "NumberOfBundles",
-    "1 or 2, and append several sources for more bundles or other directions");
-  requireRange(
-    crossingAngle, crossingAngle > 0.0 && crossingAngle <= 90.0, "CrossingAngle", "an angle above 0 and up to 90 degrees");
+  requireWithin("CorrelationLength", correlationLength, limits::correlationLength);
+  requireWithin(
+    "NumberOfBundles", numberOfBundles, { 1.0, 2.0 }, "; append several sources for more bundles or other directions");
+  requireWithin("CrossingAngle", crossingAngle, limits::crossingAngle);
   if (crossingStyle != CrossingStyle::Interwoven && crossingStyle != CrossingStyle::Sheets)
   {
     throw InvalidInput("CrossingStyle has no such choice: use Interwoven (0) or Sheets (1)");
   }
-  requireRange(sheetThickness, sheetThickness >= 0.0, "SheetThickness", "a length in µm, or 0 for the default");
-  requireRange(margin, margin >= 0.0, "Margin", "a length in µm that is not negative");
-  requireRange(spacingFactor, spacingFactor > 0.0, "SpacingFactor", "a positive multiple of the radius");
-  requireRange(minimumSpacing, minimumSpacing > 0.0, "MinimumSpacing", "a positive length in µm");
-  requireRange(
-    maximumSpacing, maximumSpacing >= minimumSpacing, "MaximumSpacing", "a length in µm that is not below MinimumSpacing");
+  requireWithin("SheetThickness", sheetThickness, limits::sheetThickness);
+  requireWithin("Margin", margin, limits::bundleMargin);
+  requireWithin("SpacingFactor", spacingFactor, limits::spacingFactor);
+  requireWithin("MinimumSpacing", minimumSpacing, limits::spacing);
+  requireWithin("MaximumSpacing", maximumSpacing, limits::spacing);
+  if (minimumSpacing > maximumSpacing)
+  {
+    throw InvalidInput(text("MaximumSpacing ", maximumSpacing, " is below MinimumSpacing ", minimumSpacing, ": exchange them"));
+  }
+}
+
+double BundleInitializerOptions::thinning() const
+{
+  return grownFibreVolumeFraction > 0.0 ? std::sqrt(fibreVolumeFraction / grownFibreVolumeFraction) : 1.0;
 }
 
 std::string BundleInitializerOptions::describe() const
@@ -244,24 +245,24 @@ std::string BundleInitializerOptions::describe() const
 Fibres initialiseBundles(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport* report)
 {
   options.validate();
+  const double thinning = options.thinning();
+  BundleInitializerOptions thinner = options;
   if (options.grownFibreVolumeFraction > 0.0)
   {
-    const double thinning = std::sqrt(options.fibreVolumeFraction / options.grownFibreVolumeFraction);
-    BundleInitializerOptions thinner = options;
-    thinner.grownFibreVolumeFraction = 0.0;
     thinner.radius = options.radius.scaled(thinning);
-    Fibres fibres = initialiseBundles(thinner, context, report);
+  }
+  requireMemoryFor(thinner);
+  context.report(0.0, "Drawing radii");
+  BundleInitializerReport reached;
+  Fibres fibres =
+    thinner.numberOfBundles == 2 ? initialiseCrossing(thinner, context, reached) : initialiseSingle(thinner, context, reached);
+  if (options.grownFibreVolumeFraction > 0.0)
+  {
     for (double& radius : fibres.targetRadii)
     {
       radius /= thinning;
     }
-    return fibres;
   }
-  requireMemoryFor(options);
-  context.report(0.0, "Drawing radii");
-  BundleInitializerReport reached;
-  Fibres fibres =
-    options.numberOfBundles == 2 ? initialiseCrossing(options, context, reached) : initialiseSingle(options, context, reached);
   if (report != nullptr)
   {
     *report = reached;

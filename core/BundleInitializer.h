@@ -54,8 +54,10 @@ struct BundleInitializerOptions
   double maximumSpacing = 2.0; ///< µm
   std::uint64_t seed = 1;
 
-  /// Throws InvalidInput, naming the property, unless every value is finite and within its range.
+  /// Throws InvalidInput, naming the property, unless every value is finite and within its range (see Limits.h).
   void validate() const;
+  /// Radius of the capsules over the sampled target radius.
+  double thinning() const;
   /// All parameters as "Name=value" separated by blanks, under the names of the ParaView properties.
   std::string describe() const;
 };

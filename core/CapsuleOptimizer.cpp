@@ -6,6 +6,7 @@
 #include "Checkpoint.h"
 #include "Error.h"
 #include "FibreOrder.h"
+#include "Limits.h"
 #include "NeighbourSearch.h"
 #include "OverlapCost.h"
 
@@ -444,16 +445,6 @@ double progressOf(const ConvergenceRow& row, double firstPenetration, const Caps
   return std::clamp(std::max(byIterations, 1.0 - toGo / all), 0.0, 0.99);
 }
 
-void requireNumber(const char* name, double value, double lowest, double highest, const char* expectation)
-{
-  if (!(value >= lowest && value <= highest))
-  {
-    std::ostringstream message;
-    message << name << " is " << value << ": it must be " << expectation;
-    throw InvalidInput(message.str());
-  }
-}
-
 /// What the result depends on: the fibres that come in and all parameters but those that only say when to stop.
 std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
 {
@@ -610,23 +601,22 @@ bool shouldStop(const Run& run, const ConvergenceRow& row, const CapsuleOptimize
 
 void validate(const CapsuleOptimizerOptions& options)
 {
-  constexpr double large = 1e12;
-  requireNumber("MaximumIterations", options.maximumIterations, 0, large, "0 or more");
-  requireNumber("OverlapTolerance", options.overlapTolerance, 1e-12, 0.5, "above 0 and at most 0.5");
-  requireNumber("OverlapWeight", options.overlapWeight, 1e-12, large, "above 0");
-  requireNumber("CurvatureWeight", options.weights.curvature, 0.0, large, "0 or more");
-  requireNumber("LengthWeight", options.weights.length, 0.0, large, "0 or more");
-  requireNumber("RadiusWeight", options.weights.radius, 0.0, large, "0 or more");
-  requireNumber("CompactnessWeight", options.weights.compactness, 0.0, large, "0 or more");
-  requireNumber("StepSize", options.stepSize, 1e-9, 10.0, "above 0 and at most 10");
-  requireNumber("Momentum", options.momentum, 0.0, 0.999, "at least 0 and below 1");
-  requireNumber("SafetyMargin", options.safetyMargin, 1.0, 1.2, "between 1 and 1.2");
-  requireNumber("RadiusTolerance", options.radiusTolerance, 0.0, 0.5, "between 0 and 0.5");
-  requireNumber("Smoothing", options.smoothing, 0.0, large, "0 or more");
-  requireNumber("Relaxation", options.relaxation, 0.5, 1.0, "between 0.5 and 1");
-  requireNumber("PackingLimit", options.packingLimit, 0.1, 1.0, "between 0.1 and 1");
-  requireNumber("TimeBudget", options.timeBudget, 0.0, large, "0 (none) or more seconds");
-  requireNumber("CheckpointInterval", options.checkpointInterval, 0.0, large, "0 or more seconds");
+  requireWithin("MaximumIterations", options.maximumIterations, limits::iterations);
+  requireWithin("OverlapTolerance", options.overlapTolerance, limits::overlapTolerance);
+  requireWithin("OverlapWeight", options.overlapWeight, limits::overlapWeight);
+  requireWithin("CurvatureWeight", options.weights.curvature, limits::weight);
+  requireWithin("LengthWeight", options.weights.length, limits::weight);
+  requireWithin("RadiusWeight", options.weights.radius, limits::weight);
+  requireWithin("CompactnessWeight", options.weights.compactness, limits::weight);
+  requireWithin("StepSize", options.stepSize, limits::stepSize);
+  requireWithin("Momentum", options.momentum, limits::momentum);
+  requireWithin("SafetyMargin", options.safetyMargin, limits::safetyMargin);
+  requireWithin("RadiusTolerance", options.radiusTolerance, limits::radiusTolerance);
+  requireWithin("Smoothing", options.smoothing, limits::weight);
+  requireWithin("Relaxation", options.relaxation, limits::relaxation);
+  requireWithin("PackingLimit", options.packingLimit, limits::packingLimit);
+  requireWithin("TimeBudget", options.timeBudget, limits::seconds);
+  requireWithin("CheckpointInterval", options.checkpointInterval, limits::seconds);
   if (options.resume && options.checkpointFile.empty())
   {
     throw InvalidInput("Resume is on, but there is no CheckpointFile: name the one to go on from");

@@ -3,6 +3,7 @@
 
 #include "CapsuleField.h"
 #include "Error.h"
+#include "Limits.h"
 #include "Memory.h"
 
 #include <algorithm>
@@ -19,11 +20,6 @@ namespace
 
 constexpr double bandInVoxels = 4.0;
 
-bool within(double value, double lower, double upper)
-{
-  return std::isfinite(value) && value >= lower && value <= upper;
-}
-
 double largestRadius(const Fibres& fibres)
 {
   return *std::max_element(fibres.radii.begin(), fibres.radii.end());
@@ -33,21 +29,19 @@ double largestRadius(const Fibres& fibres)
 
 void validate(const FibreRadialGrowthOptions& options)
 {
-  require(std::isfinite(options.voxelSize) && options.voxelSize > 0.0, "VoxelSize must be a positive number of µm");
-  require(std::isfinite(options.targetFibreVolumeFraction) && options.targetFibreVolumeFraction >= 0.0 &&
-            options.targetFibreVolumeFraction < 1.0,
-    "TargetFibreVolumeFraction must be at least 0 (no target) and less than 1");
-  require(options.growthIterations >= 0, "GrowthIterations must not be negative");
-  require(within(options.minimumGap, 0.0, 1e6), "MinimumGap must be a number of µm, 0 or more");
-  require(within(options.surfaceTolerance, 0.0, 1e6), "SurfaceTolerance must be a number of µm, 0 or more");
-  require(within(options.surfaceRoughness, 0.0, 0.5), "SurfaceRoughness must be between 0 and 0.5");
-  require(within(options.margin, 0.0, 1e6), "Margin must be a number of µm, 0 or more");
+  requireWithin("VoxelSize", options.voxelSize, limits::voxelSize);
+  requireWithin("TargetFibreVolumeFraction", options.targetFibreVolumeFraction, limits::targetFraction, " (0: no target)");
+  requireWithin("GrowthIterations", options.growthIterations, limits::growthIterations);
+  requireWithin("MinimumGap", options.minimumGap, limits::gap);
+  requireWithin("SurfaceTolerance", options.surfaceTolerance, limits::surfaceTolerance);
+  requireWithin("SurfaceRoughness", options.surfaceRoughness, limits::surfaceRoughness);
+  requireWithin("Margin", options.margin, limits::imageMargin);
 }
 
 VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& options)
 {
   validate(options);
-  require(!domain.isPeriodic(), "FibreRadialGrowth does not support a periodic Domain: clear its periodic axes");
+  validate(domain);
   const Eigen::Vector3d size = domain.size();
   if (options.voxelSize > size.minCoeff())
   {

@@ -2,6 +2,7 @@
 #include "Fibres.h"
 
 #include "Error.h"
+#include "Limits.h"
 
 #include <Eigen/Geometry>
 
@@ -63,6 +64,27 @@ std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)
   return axes;
 }
 
+void validateControlPoint(const Fibres& fibres, std::size_t fibre, std::size_t i, const std::string& name)
+{
+  const auto where = [&] { return name + ", control point " + std::to_string(i - fibres.offsets[fibre]); };
+  const Eigen::Vector3d& point = fibres.points[i];
+  for (const double coordinate : point)
+  {
+    if (!limits::coordinate.holds(coordinate))
+    {
+      requireWithin((where() + ": a coordinate").c_str(), coordinate, limits::coordinate);
+    }
+  }
+  if (!limits::radius.holds(fibres.radii[i]))
+  {
+    requireWithin((where() + ": Radius").c_str(), fibres.radii[i], limits::radius);
+  }
+  if (i > fibres.offsets[fibre] && (point - fibres.points[i - 1]).norm() <= 1e-9)
+  {
+    throw InvalidInput(where() + " coincides with the one before it: remove zero-length segments");
+  }
+}
+
 } // namespace
 
 void Fibres::addFibre(int fibreId, int bundleId, double targetRadius)
@@ -80,20 +102,35 @@ void Fibres::addPoint(const Eigen::Vector3d& point, double radius)
   offsets.back() = points.size();
 }
 
+void validate(const Domain& domain)
+{
+  if (!domain.lower.allFinite() || !domain.upper.allFinite() || domain.size().minCoeff() <= 0.0)
+  {
+    throw InvalidInput("the Domain is empty or not finite: give xmin < xmax, ymin < ymax, zmin < zmax in µm");
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    requireWithin("a corner of the Domain", domain.lower[axis], limits::coordinate);
+    requireWithin("a corner of the Domain", domain.upper[axis], limits::coordinate);
+    requireWithin("a side of the Domain", domain.size()[axis], { limits::side.lowest, 2.0 * limits::coordinate.highest, " µm" });
+  }
+  if (domain.isPeriodic())
+  {
+    throw InvalidInput("the Domain is periodic, which is not supported yet: use a domain that is not periodic");
+  }
+}
+
 void validate(const Fibres& fibres)
 {
   if (fibres.size() == 0)
   {
     throw InvalidInput("the input holds no fibres: connect a BundleInitializer, a reader or polylines with a Radius array");
   }
-  const Domain& domain = fibres.domain;
-  if (!domain.lower.allFinite() || !domain.upper.allFinite() || domain.size().minCoeff() <= 0.0)
+  validate(fibres.domain);
+  if (static_cast<double>(fibres.points.size()) > limits::controlPoints)
   {
-    throw InvalidInput("the Domain is empty or not finite: give xmin < xmax, ymin < ymax, zmin < zmax in µm");
-  }
-  if (domain.isPeriodic())
-  {
-    throw InvalidInput("the Domain is periodic, which is not supported yet: use a domain that is not periodic");
+    throw InvalidInput(text("the input holds ", fibres.points.size(), " control points, and at most ", limits::controlPoints,
+      " can be counted: use fewer fibres, or segments less short"));
   }
   std::unordered_set<int> seen;
   for (std::size_t f = 0; f < fibres.size(); ++f)
@@ -113,24 +150,12 @@ void validate(const Fibres& fibres)
     }
     for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
     {
-      const std::string where = name + ", control point " + std::to_string(i - fibres.offsets[f]);
-      if (!fibres.points[i].allFinite())
-      {
-        throw InvalidInput(where + " has a coordinate that is not finite (NaN or infinite)");
-      }
-      if (!std::isfinite(fibres.radii[i]) || fibres.radii[i] <= 0.0)
-      {
-        throw InvalidInput(where + " has Radius " + std::to_string(fibres.radii[i]) + ": a radius must be positive");
-      }
-      if (i > fibres.offsets[f] && (fibres.points[i] - fibres.points[i - 1]).norm() <= 1e-9)
-      {
-        throw InvalidInput(where + " coincides with the one before it: remove zero-length segments");
-      }
+      validateControlPoint(fibres, f, i, name);
     }
     // After the radii, from which a missing target is made.
-    if (!std::isfinite(fibres.targetRadii[f]) || fibres.targetRadii[f] <= 0.0)
+    if (!limits::radius.holds(fibres.targetRadii[f]))
     {
-      throw InvalidInput(name + " has a TargetRadius that is not a positive number");
+      requireWithin((name + ": TargetRadius").c_str(), fibres.targetRadii[f], limits::radius);
     }
   }
 }

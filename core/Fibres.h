@@ -31,9 +31,12 @@ struct Fibres
   void addPoint(const Eigen::Vector3d& point, double radius);
 };
 
+/// Throws InvalidInput unless the domain has corners and sides within the limits (see Limits.h) and is not periodic.
+void validate(const Domain& domain);
+
 /// Throws InvalidInput, naming the fibre, unless: there is a fibre; every fibre has at least two control points, no
-/// zero-length segment, finite coordinates and positive finite radii and target radius; ids are positive and
-/// fibre ids unique; the domain is finite, has positive size and is not periodic.
+/// zero-length segment, and coordinates, radii and target radius within the limits (see Limits.h); ids are positive and
+/// fibre ids unique; the domain is valid.
 void validate(const Fibres& fibres);
 
 /// Volume (µm³) of one fibre: its capsules as truncated cones between control points, without end caps.

@@ -2,6 +2,7 @@
 #include "RadiusDistribution.h"
 
 #include "Error.h"
+#include "Limits.h"
 #include "Random.h"
 
 #include <cmath>
@@ -18,16 +19,6 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-void requirePositive(double value, const char* property)
-{
-  if (!std::isfinite(value) || value <= 0.0)
-  {
-    std::ostringstream message;
-    message << property << " is " << value << ": give a positive number";
-    throw InvalidInput(message.str());
-  }
-}
-
 double draw(const RadiusDistributionOptions& options, RandomEngine& engine)
 {
   // The distributions are made afresh for each stream: some keep a second value for their next call.
@@ -40,12 +31,26 @@ double draw(const RadiusDistributionOptions& options, RandomEngine& engine)
   return std::lognormal_distribution<double>(std::log(options.lognormalMean) - 0.5 * variance, std::sqrt(variance))(engine);
 }
 
+/// Between limits so near each other, relative to the radius, the density of any distribution is as good as constant.
+constexpr double narrow = 1e-4;
+/// Draws for one radius.
+constexpr int tries = 100000;
+/// The smallest share of draws within the limits for which radii are drawn by the thousand.
+constexpr double smallestShare = 1e-4;
+
+[[noreturn]] void throwHardlyAny(const RadiusDistributionOptions& options)
+{
+  throw InvalidInput(text("hardly any of the RadiusDistribution lies between MinimumRadius ", options.minimum,
+    " and MaximumRadius ", options.maximum, " (less than one draw in ", 1.0 / smallestShare,
+    "): widen the limits, make them equal for equal radii, or change the distribution"));
+}
+
 } // namespace
 
 void RadiusDistributionOptions::validate() const
 {
-  requirePositive(minimum, "MinimumRadius");
-  requirePositive(maximum, "MaximumRadius");
+  requireWithin("MinimumRadius", minimum, limits::radius);
+  requireWithin("MaximumRadius", maximum, limits::radius);
   std::ostringstream message;
   if (minimum > maximum)
   {
@@ -55,12 +60,12 @@ void RadiusDistributionOptions::validate() const
   switch (model)
   {
   case RadiusModel::Gamma:
-    requirePositive(gammaShape, "GammaShape");
-    requirePositive(gammaScale, "GammaScale");
+    requireWithin("GammaShape", gammaShape, limits::gammaShape);
+    requireWithin("GammaScale", gammaScale, limits::gammaScale);
     break;
   case RadiusModel::Lognormal:
-    requirePositive(lognormalMean, "LognormalMean");
-    requirePositive(lognormalDeviation, "LognormalDeviation");
+    requireWithin("LognormalMean", lognormalMean, limits::lognormalMean);
+    requireWithin("LognormalDeviation", lognormalDeviation, limits::lognormalDeviation);
     break;
   case RadiusModel::Table:
     if (table.empty())
@@ -106,7 +111,10 @@ double sampleRadius(const RadiusDistributionOptions& options, std::uint64_t seed
     const auto size = options.table.size();
     return options.table[std::min(size - 1, static_cast<std::size_t>(uniform(engine) * static_cast<double>(size)))];
   }
-  constexpr int tries = 100000;
+  if (options.maximum - options.minimum <= narrow * options.maximum)
+  {
+    return options.minimum + uniform(engine) * (options.maximum - options.minimum);
+  }
   for (int i = 0; i < tries; ++i)
   {
     const double radius = draw(options, engine);
@@ -115,10 +123,7 @@ double sampleRadius(const RadiusDistributionOptions& options, std::uint64_t seed
       return radius;
     }
   }
-  std::ostringstream message;
-  message << "hardly any of the RadiusDistribution lies between MinimumRadius " << options.minimum << " and MaximumRadius "
-          << options.maximum << " (none of " << tries << " draws): widen the limits or change the distribution";
-  throw InvalidInput(message.str());
+  throwHardlyAny(options);
 }
 
 std::vector<double> drawRadii(const RadiusDistributionOptions& options, std::uint64_t seed, double area, std::uint64_t firstIndex)
@@ -152,6 +157,7 @@ std::vector<double> drawRadii(const RadiusDistributionOptions& options, std::uin
 double meanCircleArea(const RadiusDistributionOptions& options)
 {
   constexpr int draws = 2000;
+  requireShareWithinLimits(options);
   double sum = 0.0;
   for (int i = 0; i < draws; ++i)
   {
@@ -159,6 +165,28 @@ double meanCircleArea(const RadiusDistributionOptions& options)
     sum += pi * radius * radius;
   }
   return sum / draws;
+}
+
+void requireShareWithinLimits(const RadiusDistributionOptions& options)
+{
+  if (options.model == RadiusModel::Table || options.maximum - options.minimum <= narrow * options.maximum)
+  {
+    return;
+  }
+  RandomEngine engine = randomStream(0, RandomStage::Radii, 0);
+  constexpr int draws = 200000;
+  int within = 0;
+  for (int i = 0; i < draws; ++i)
+  {
+    const double radius = draw(options, engine);
+    within += radius >= options.minimum && radius <= options.maximum;
+    // By far the most distributions show at once that they are not so.
+    if (within >= 20)
+    {
+      return;
+    }
+  }
+  throwHardlyAny(options);
 }
 
 std::vector<double> parseRadiusTable(const std::string& text)

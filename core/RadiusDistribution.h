@@ -16,7 +16,8 @@ enum class RadiusModel
   Table      ///< one of the given radii, each as likely as the others, with replacement
 };
 
-/// Parameters of the outer radius (µm). Gamma and lognormal are cut to [minimum, maximum] by rejection.
+/// Parameters of the outer radius (µm). Gamma and lognormal are cut to [minimum, maximum] by rejection; with minimum = maximum
+/// all radii are equal.
 struct RadiusDistributionOptions
 {
   RadiusModel model = RadiusModel::Gamma;
@@ -28,8 +29,8 @@ struct RadiusDistributionOptions
   double minimum = 0.2;             ///< µm
   double maximum = 2.0;             ///< µm
 
-  /// Throws InvalidInput, naming the property, unless all that the model uses is positive and finite, minimum ≤ maximum, and the
-  /// table, where it is used, is not empty and within [minimum, maximum].
+  /// Throws InvalidInput, naming the property, unless all that the model uses is within its range (see Limits.h), minimum ≤
+  /// maximum, and the table, where it is used, is not empty and within [minimum, maximum].
   void validate() const;
   /// The distribution of what this one's radii become when all are multiplied by `factor`.
   RadiusDistributionOptions scaled(double factor) const;
@@ -45,7 +46,11 @@ double sampleRadius(const RadiusDistributionOptions& options, std::uint64_t seed
 std::vector<double> drawRadii(
   const RadiusDistributionOptions& options, std::uint64_t seed, double area, std::uint64_t firstIndex = 0);
 
-/// Mean area (µm²) of a circle of the distribution, to within some per cent.
+/// Throws InvalidInput where less than about one in ten thousand of the draws lies between minimum and maximum, unless these
+/// are as good as equal: radii could then not be drawn in reasonable time.
+void requireShareWithinLimits(const RadiusDistributionOptions& options);
+
+/// Mean area (µm²) of a circle of the distribution, to within some per cent. Throws as requireShareWithinLimits() does.
 double meanCircleArea(const RadiusDistributionOptions& options);
 
 /// The numbers of a text, separated by white space, commas or semicolons. Throws InvalidInput, naming RadiusTable and the word

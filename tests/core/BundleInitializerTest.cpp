@@ -314,8 +314,60 @@ TEST(BundleInitializer, BadParametersAreNamed)
   names("CorrelationLength", [](auto& o) { o.correlationLength = 0.01; });
   names("RadiusDistribution", [](auto& o) { o.radius.model = static_cast<RadiusModel>(3); });
   names("CrossingStyle", [](auto& o) { o.crossingStyle = static_cast<CrossingStyle>(2); });
-  names("Side 1e+07", [](auto& o) { o.side = 1e7; });
+  for (const double large : { 1e7, 1e300 })
+  {
+    names("Side is", [&](auto& o) { o.side = large; });
+    names("Margin is", [&](auto& o) { o.margin = large; });
+    names("MinimumRadius is", [&](auto& o) { o.radius.minimum = large; });
+    names("MaximumRadius is", [&](auto& o) { o.radius.maximum = large; });
+    names("GammaShape is", [&](auto& o) { o.radius.gammaShape = large; });
+    names("GammaScale is", [&](auto& o) { o.radius.gammaScale = large; });
+    names("CorrelationLength is", [&](auto& o) { o.correlationLength = large; });
+    names("SheetThickness is", [&](auto& o) { o.sheetThickness = large; });
+    names("SpacingFactor is", [&](auto& o) { o.spacingFactor = large; });
+    names("MaximumSpacing is", [&](auto& o) { o.maximumSpacing = large; });
+  }
+  for (const double small : { 1e-300, 1e-6 })
+  {
+    names("Side is", [&](auto& o) { o.side = small; });
+    names("FibreVolumeFraction is", [&](auto& o) { o.fibreVolumeFraction = small; });
+    names("MinimumRadius is", [&](auto& o) { o.radius.minimum = small; });
+    names("GammaScale is", [&](auto& o) { o.radius.gammaScale = small; });
+    names("MeanDispersion is", [&](auto& o) { o.meanDispersion = small; });
+    names("CorrelationLength is", [&](auto& o) { o.correlationLength = small; });
+    names("CrossingAngle is", [&](auto& o) { o.crossingAngle = small; });
+    names("SheetThickness is", [&](auto& o) { o.sheetThickness = small; });
+    names("MinimumSpacing is", [&](auto& o) { o.minimumSpacing = small; });
+  }
+  names("MinimumRadius 0.001 µm makes capsules",
+    [](auto& o)
+    {
+      o.radius.minimum = 0.001;
+      o.grownFibreVolumeFraction = 0.9;
+    });
+  names("hardly any",
+    [](auto& o)
+    {
+      o.radius.minimum = 6.0;
+      o.radius.maximum = 7.0;
+    });
   names("Side gives", [](auto& o) { o.side = 0.3; });
+}
+
+TEST(BundleInitializer, EqualLimitsGiveEqualRadii)
+{
+  for (const RadiusModel model : { RadiusModel::Gamma, RadiusModel::Lognormal })
+  {
+    BundleInitializerOptions options;
+    options.side = 10.0;
+    options.fibreVolumeFraction = 0.5;
+    options.radius.model = model;
+    options.radius.minimum = options.radius.maximum = 0.7;
+    const Fibres fibres = initialiseBundles(options);
+    EXPECT_NEAR(static_cast<double>(fibres.size()), 0.5 * 100.0 / (3.14159265 * 0.49), 1.0);
+    EXPECT_TRUE(std::all_of(fibres.radii.begin(), fibres.radii.end(), [](double r) { return r == 0.7; }));
+    EXPECT_TRUE(std::all_of(fibres.targetRadii.begin(), fibres.targetRadii.end(), [](double r) { return r == 0.7; }));
+  }
 }
 
 TEST(BundleInitializer, BundlesCrossAtTheAngleAsked)

@@ -484,6 +484,17 @@ TEST(CapsuleOptimizer, NamesTheParameterThatIsOutOfRange)
   EXPECT_NE(message([&](Options& o) { o.stepSize = nan; }).find("StepSize"), std::string::npos);
   EXPECT_NE(message([](Options& o) { o.weights.curvature = -1.0; }).find("CurvatureWeight"), std::string::npos);
   EXPECT_NE(message([](Options& o) { o.timeBudget = -1.0; }).find("TimeBudget"), std::string::npos);
+  for (const double large : { 1e13, 1e300 })
+  {
+    EXPECT_NE(message([&](Options& o) { o.stepSize = large; }).find("StepSize"), std::string::npos);
+    EXPECT_NE(message([&](Options& o) { o.overlapWeight = large; }).find("OverlapWeight"), std::string::npos);
+    EXPECT_NE(message([&](Options& o) { o.weights.curvature = large; }).find("CurvatureWeight"), std::string::npos);
+    EXPECT_NE(message([&](Options& o) { o.weights.length = large; }).find("LengthWeight"), std::string::npos);
+    EXPECT_NE(message([&](Options& o) { o.weights.compactness = large; }).find("CompactnessWeight"), std::string::npos);
+    EXPECT_NE(message([&](Options& o) { o.timeBudget = large; }).find("TimeBudget"), std::string::npos);
+    EXPECT_NE(message([&](Options& o) { o.checkpointInterval = large; }).find("CheckpointInterval"), std::string::npos);
+  }
+  EXPECT_NE(message([](Options& o) { o.maximumIterations = 2000000000; }).find("MaximumIterations"), std::string::npos);
   Fibres broken = crossingPair();
   broken.points[3][2] = nan;
   EXPECT_THROW(cactus::optimise(broken, {}, {}), cactus::InvalidInput);

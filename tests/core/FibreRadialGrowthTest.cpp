@@ -673,13 +673,14 @@ TEST(FibreRadialGrowth, RejectsWhatItCannotWorkWith)
       message([&](Options& o) { o.targetFibreVolumeFraction = bad; }).find("TargetFibreVolumeFraction"), std::string::npos);
     EXPECT_NE(message([&](Options& o) { o.surfaceRoughness = bad; }).find("SurfaceRoughness"), std::string::npos);
   }
-  for (const double bad : { -0.1, nan })
+  for (const double bad : { -0.1, nan, 200.0, 1e300 })
   {
     EXPECT_NE(message([&](Options& o) { o.minimumGap = bad; }).find("MinimumGap"), std::string::npos);
     EXPECT_NE(message([&](Options& o) { o.surfaceTolerance = bad; }).find("SurfaceTolerance"), std::string::npos);
     EXPECT_NE(message([&](Options& o) { o.margin = bad; }).find("Margin"), std::string::npos);
   }
   EXPECT_NE(message([](Options& o) { o.growthIterations = -1; }).find("GrowthIterations"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.growthIterations = 2000000000; }).find("GrowthIterations"), std::string::npos);
 
   Fibres spoilt = fibres;
   spoilt.radii[3] = -1.0;
