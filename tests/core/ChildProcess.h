@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Work done in a process of its own: as another user, on a disk that is full, or killed at any of its system calls.
+#pragma once
+
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sched.h>
+#include <set>
+#include <string>
+#include <sys/mount.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace cactus_testing
+{
+
+/// Runs something in a thread of its own. A child that is forked from there begins without the OpenMP threads that belong to
+/// the calling thread: they do not come along, and OpenMP would wait for them.
+template <typename Result>
+Result inThread(const std::function<Result()>& work)
+{
+  Result result{};
+  std::thread thread([&] { result = work(); });
+  thread.join();
+  return result;
+}
+
+inline std::string forked(const std::function<std::string()>& work)
+{
+  int ends[2];
+  if (::pipe(ends) != 0)
+  {
+    return "no pipe";
+  }
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    const std::string text = work();
+    const ssize_t written = ::write(ends[1], text.data(), text.size());
+    ::_exit(written == static_cast<ssize_t>(text.size()) ? 0 : 1);
+  }
+  ::close(ends[1]);
+  std::string text;
+  char piece[4096];
+  for (ssize_t size = 0; (size = ::read(ends[0], piece, sizeof(piece))) > 0;)
+  {
+    text.append(piece, static_cast<std::size_t>(size));
+  }
+  ::close(ends[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status == 0 ? text : text + " (the child ended with status " + std::to_string(status) + ")";
+}
+
+/// What `work` returned in a child process; its death is told, too.
+inline std::string inChild(const std::function<std::string()>& work)
+{
+  return inThread<std::string>([&] { return forked(work); });
+}
+
+/// For a child: goes on as a user to whom permissions mean something. Root may write everywhere.
+inline bool becomeOrdinaryUser()
+{
+  constexpr uid_t nobody = 65534;
+  return ::geteuid() != 0 || (::setgid(nobody) == 0 && ::setuid(nobody) == 0);
+}
+
+/// For a child: puts a file system of so many bytes on a folder, which nobody else sees and which goes away with the child.
+inline bool mountSmallDisk(const std::filesystem::path& folder, std::size_t bytes)
+{
+  const uid_t user = ::geteuid();
+  if (::unshare(user == 0 ? CLONE_NEWNS : CLONE_NEWNS | CLONE_NEWUSER) != 0)
+  {
+    return false;
+  }
+  if (user != 0)
+  {
+    std::ofstream("/proc/self/uid_map") << user << ' ' << user << " 1\n";
+  }
+  return ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+         ::mount("tmpfs", folder.c_str(), "tmpfs", 0, ("size=" + std::to_string(bytes)).c_str()) == 0;
+}
+
+/// For a child: from now on renameat2 says that it does not know how, as on NFS.
+inline bool forbidExchange()
+{
+  sock_filter program[] = { BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_renameat2, 0, 1), BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EINVAL),
+    BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW) };
+  sock_fprog filter{ sizeof(program) / sizeof(program[0]), program };
+  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+enum class Fate
+{
+  killed,
+  finished,
+  untraceable ///< this machine does not let processes watch each other
+};
+
+inline Fate forkedAndKilled(int call, const std::function<void()>& work)
+{
+  static const std::set<unsigned long long> changes{
+    __NR_openat, __NR_mkdirat, __NR_unlinkat, __NR_renameat2, __NR_write, __NR_fsync, __NR_syncfs, __NR_flock,
+#ifdef __NR_mkdir
+    __NR_mkdir, __NR_rmdir, __NR_unlink, __NR_rename
+#else
+    __NR_renameat
+#endif
+  };
+  const pid_t child = ::fork();
+  if (child == 0)
+  {
+    if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0)
+    {
+      ::_exit(77);
+    }
+    ::raise(SIGSTOP);
+    work();
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (!WIFSTOPPED(status))
+  {
+    return Fate::untraceable;
+  }
+  ::ptrace(PTRACE_SETOPTIONS, child, nullptr, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL);
+  int signal = 0;
+  for (int calls = 0;;)
+  {
+    ::ptrace(PTRACE_SYSCALL, child, nullptr, signal);
+    ::waitpid(child, &status, 0);
+    if (!WIFSTOPPED(status))
+    {
+      return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? Fate::finished : Fate::untraceable;
+    }
+    signal = WSTOPSIG(status) == (SIGTRAP | 0x80) ? 0 : WSTOPSIG(status);
+    if (signal != 0)
+    {
+      continue;
+    }
+    __ptrace_syscall_info info{};
+    if (::ptrace(static_cast<__ptrace_request>(PTRACE_GET_SYSCALL_INFO), child, sizeof(info), &info) <= 0)
+    {
+      ::kill(child, SIGKILL);
+      ::waitpid(child, &status, 0);
+      return Fate::untraceable;
+    }
+    if (info.op == PTRACE_SYSCALL_INFO_ENTRY && changes.count(info.entry.nr) > 0 &&
+        (info.entry.nr != __NR_openat || (info.entry.args[2] & O_CREAT) != 0) && ++calls == call)
+    {
+      ::kill(child, SIGKILL);
+      ::waitpid(child, &status, 0);
+      return Fate::killed;
+    }
+  }
+}
+
+/// Runs `work` in a child that is killed (SIGKILL) when it is about to make its `call`-th system call that changes files.
+inline Fate killedAtCall(int call, const std::function<void()>& work)
+{
+  return inThread<Fate>([&] { return forkedAndKilled(call, work); });
+}
+
+} // namespace cactus_testing
