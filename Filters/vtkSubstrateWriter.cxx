@@ -121,6 +121,10 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       {
         vtkWarningMacro(<< "the substrate in " << this->FolderName << " is not certified: " << written.certificate.verdict());
       }
+      for (const std::string& leftover : written.leftovers)
+      {
+        vtkWarningMacro(<< leftover);
+      }
       auto* table = vtkTable::GetData(outputs);
       fill(table, written.files);
       cactus::addProvenance(outer, table, "SubstrateWriter",

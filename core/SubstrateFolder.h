@@ -45,6 +45,8 @@ struct WrittenSubstrate
 {
   std::vector<SubstrateFile> files;
   SubstrateCertificate certificate; ///< of the surfaces as the files hold them
+  /// What writes that were killed have left beside the folder and is kept, as it holds what is the user's: a sentence for each.
+  std::vector<std::string> leftovers;
 };
 
 /// Writes a folder for simulators:
@@ -55,11 +57,12 @@ struct WrittenSubstrate
 ///   certificate.csv, certificate_fibres.csv   what certify() found on the surfaces as written
 ///   manifest.json, README.txt
 ///
-/// The folder appears whole or not at all: it is written beside its place and renamed. One that is there is replaced if it is a
-/// substrate folder without anything else in it, and refused otherwise, so that neither other data nor results of simulations are
-/// lost. Surfaces that meet or come too near are written, and their certificate says so. Throws InvalidInput (no surfaces, a
-/// surface that is not a closed outward 2-manifold, unless allowed; the message names the fibre), FileError, and Cancelled when
-/// stopped.
+/// The folder appears whole or not at all, and its name holds a whole folder, the former or the new one, at any time (see
+/// FolderReplacement). One that is there is replaced if it is a substrate folder in which all is as it was written, by the
+/// checksums in its manifest; it is refused, by name, where anything was added, changed or write-protected: results of
+/// simulations, an edited configuration, notes. Surfaces that meet or come too near are written, and their certificate says so.
+/// Throws InvalidInput (no surfaces, a surface that is not a closed outward 2-manifold, unless allowed; the message names the
+/// fibre), FileError, and Cancelled when stopped.
 WrittenSubstrate writeSubstrateFolder(
   const SubstrateFolderContents& contents, const std::string& folder, const Context& context = {});
 

@@ -2,6 +2,7 @@
 """The substrate folder, read again by a parser of its own: what is written is what went in, once, whole, or not at all."""
 
 import csv
+import hashlib
 import json
 import os
 
@@ -137,6 +138,72 @@ class Writer(CactusTestCase):
             self.assertEqual(paths, [f"{kind}/fibre_00003.ply", f"{kind}/fibre_00005.ply"])
             for path in paths:
                 self.assertTrue(os.path.isfile(os.path.join(self.target, path)))
+
+    def test_manifest_knows_every_file(self):
+        self.write(Fibres=produce(self.fibres))
+        with open(os.path.join(self.target, "manifest.json")) as file:
+            text = file.read()
+        manifest = json.loads(text)
+        found = {}
+        for folder, _, names in os.walk(self.target):
+            for name in names:
+                path = os.path.join(folder, name)
+                with open(path, "rb") as file:
+                    found[os.path.relpath(path, self.target)] = hashlib.sha256(file.read()).hexdigest()
+        del found["manifest.json"]
+        self.assertEqual(manifest["sha256"], found)
+        own = manifest["manifest_sha256"]
+        self.assertEqual(hashlib.sha256(text.replace(own, 64 * "0").encode()).hexdigest(), own)
+
+    def test_writing_again_keeps_what_is_the_users(self):
+        self.write()
+        with open(os.path.join(self.target, "mcdc", "intra.conf")) as file:
+            configuration = file.read()
+        for path in ("mcdc/intra.conf", "mcdc/pgse.scheme", "README.txt"):
+            with open(os.path.join(self.target, path), "a") as file:
+                file.write("edited")
+        for path in ("outer/mine.ply", "mcdc/output/intra_DWI.txt"):
+            with open(os.path.join(self.target, path), "w") as file:
+                file.write("precious")
+        with self.assertError(
+            r"results of simulations \(mcdc/output/intra_DWI\.txt\); other data \(outer/mine\.ply\); "
+            r"files that were changed .*\(README\.txt, mcdc/intra\.conf, mcdc/pgse\.scheme\): choose another FolderName"
+        ):
+            self.write()
+        with open(os.path.join(self.target, "mcdc", "intra.conf")) as file:
+            self.assertEqual(file.read(), configuration + "edited")
+        self.assertTrue(os.path.exists(os.path.join(self.target, "outer", "mine.ply")))
+        for path in ("mcdc/intra.conf", "mcdc/pgse.scheme", "README.txt", "outer/mine.ply", "mcdc/output/intra_DWI.txt"):
+            os.rename(os.path.join(self.target, path), os.path.join(self.folder, os.path.basename(path)))
+        self.write()
+        with open(os.path.join(self.target, "mcdc", "intra.conf")) as file:
+            self.assertEqual(file.read(), configuration)
+
+    def test_the_folder_it_runs_in(self):
+        self.addCleanup(os.chdir, os.getcwd())
+        os.mkdir(self.target)
+        os.chdir(self.target)
+        with self.assertError(r"the folder that this program runs in"):
+            self.write(FolderName=".")
+        self.write(FolderName="relative")
+        self.assertEqual(os.listdir("."), ["relative"])
+        os.chdir("relative")
+        with self.assertError(r"above the folder that this program runs in"):
+            self.write(FolderName="..")
+        os.chdir(self.target)
+        os.rename("relative", os.path.join(self.folder, "elsewhere"))
+        os.rmdir(self.target)
+        with self.assertError(r"cannot write folder relative: the folder that this program runs in is no more"):
+            self.write(FolderName="relative")
+
+    def test_links(self):
+        place = os.path.join(self.folder, "place")
+        os.symlink(place, self.target)
+        for _ in range(2):
+            self.write()
+            self.assertTrue(os.path.islink(self.target))
+            self.assertTrue(os.path.isfile(os.path.join(place, "manifest.json")))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["place", "substrate"])
 
     def test_without_inner_surfaces(self):
         writer = SubstrateWriter(Outer=produce(self.outer), FolderName=self.target)
