@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "Parallel.h"
+#include "RandomVariates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "GRatio.h"
 
 #include "Error.h"
-#include "Random.h"
+#include "RandomVariates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,11 @@
 
 #include "Error.h"
 #include "Limits.h"
-#include "Random.h"
+#include "RandomVariates.h"
 
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <random>
 #include <sstream>
 
 namespace cactus
@@ -21,14 +20,13 @@ constexpr double pi = 3.14159265358979323846;
 
 double draw(const RadiusDistributionOptions& options, RandomEngine& engine)
 {
-  // The distributions are made afresh for each stream: some keep a second value for their next call.
   if (options.model == RadiusModel::Gamma)
   {
-    return std::gamma_distribution<double>(options.gammaShape, options.gammaScale)(engine);
+    return gammaVariate(options.gammaShape, options.gammaScale, engine);
   }
   const double ratio = options.lognormalDeviation / options.lognormalMean;
   const double variance = std::log1p(ratio * ratio);
-  return std::lognormal_distribution<double>(std::log(options.lognormalMean) - 0.5 * variance, std::sqrt(variance))(engine);
+  return lognormalVariate(std::log(options.lognormalMean) - 0.5 * variance, std::sqrt(variance), engine);
 }
 
 /// Between limits so near each other, relative to the radius, the density of any distribution is as good as constant.

@@ -4,7 +4,6 @@
 #include <Random123/conventional/Engine.hpp>
 #include <Random123/philox.h>
 
-#include <cmath>
 #include <cstdint>
 
 namespace cactus
@@ -21,7 +20,8 @@ enum class RandomStage : std::uint32_t
   Optimiser = 6
 };
 
-/// A counter-based C++11 random engine (Random123, Philox4x32-10), for the distributions of <random>.
+/// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere; what is made of them is
+/// in RandomVariates.h, as the distributions of <random> are not.
 using RandomEngine = r123::Engine<r123::Philox4x32>;
 
 /// The stream that belongs to one seed, stage and item (a fibre, a bundle, a circle): the same numbers whatever thread or rank
@@ -42,14 +42,6 @@ inline double uniform(RandomEngine& engine)
   const std::uint64_t high = engine();
   const std::uint64_t bits = ((high << 32) | engine()) >> 12;
   return (static_cast<double>(bits) + 0.5) * 0x1p-52;
-}
-
-/// Normally distributed with mean 0 and variance 1 (Box and Muller 1958); written out, since std::normal_distribution differs
-/// from one library to the next.
-inline double normal(RandomEngine& engine)
-{
-  const double radius = std::sqrt(-2.0 * std::log(uniform(engine)));
-  return radius * std::cos(2.0 * 3.14159265358979323846 * uniform(engine));
 }
 
 } // namespace cactus
