@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VectorKernels.h"
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
 namespace cactus
 {
 
@@ -8,11 +12,25 @@ namespace cactus
 namespace
 {
 
-// Clang knows the levels by name from version 17 on; before, the features are asked for one by one.
-#if defined(__clang__) && __clang_major__ < 17
+// Feature by feature: g++ before 12 and clang before 18 do not know the levels of x86-64 by name, and clang not all features
+// either.
 bool supportsX86V3()
 {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+  unsigned int a = 0;
+  unsigned int b = 0;
+  unsigned int first = 0;
+  unsigned int extended = 0;
+  unsigned int d = 0;
+  if (__get_cpuid(1, &a, &b, &first, &d) == 0 || __get_cpuid(0x80000001u, &a, &b, &extended, &d) == 0)
+  {
+    return false;
+  }
+  const bool movbe = (first & (1u << 22u)) != 0;
+  const bool f16c = (first & (1u << 29u)) != 0;
+  const bool lzcnt = (extended & (1u << 5u)) != 0;
+  // These ask the operating system, too.
+  return movbe && f16c && lzcnt && __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("sse4.2") &&
+         __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
          __builtin_cpu_supports("fma");
 }
 
@@ -21,17 +39,6 @@ bool supportsX86V4()
   return supportsX86V3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
          __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
 }
-#else
-bool supportsX86V3()
-{
-  return __builtin_cpu_supports("x86-64-v3");
-}
-
-bool supportsX86V4()
-{
-  return __builtin_cpu_supports("x86-64-v4");
-}
-#endif
 
 } // namespace
 #endif

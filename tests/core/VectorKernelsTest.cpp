@@ -14,6 +14,15 @@
 #include <utility>
 #include <vector>
 
+#if defined(__x86_64__) && !defined(__clang__) && __GNUC__ >= 12
+// Guarantee: the level of x86-64 is told from single features as a compiler tells it that knows the levels by name.
+TEST(VectorKernels, KnowsTheLevelOfThisMachine)
+{
+  const std::size_t levels = (__builtin_cpu_supports("x86-64-v3") ? 1u : 0u) + (__builtin_cpu_supports("x86-64-v4") ? 1u : 0u);
+  EXPECT_EQ(cactus::runnableVectorKernels().size(), 1u + levels);
+}
+#endif
+
 // Guarantee: cost and gradient have the same bits on every vector unit, with radii that vary and with radii that do not, and
 // whether or not the caller knows that they do not.
 TEST(VectorKernels, SameBitsOnEveryVectorUnit)
