@@ -2,24 +2,31 @@
 """Draws a substrate: a cut across it in the colours of the paper's cross-sections, beside a view in three dimensions."""
 
 from paraview import servermanager, simple
-from vtkmodules.vtkFiltersGeneral import vtkContourTriangulator
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersGeneral import vtkContourTriangulator, vtkTransformPolyDataFilter
 
 MYELIN = [0.80, 0.20, 0.18]
 AXON = [0.26, 0.45, 0.80]
 EXTRA_AXONAL = [1.0, 1.0, 1.0]
 
 
-def _filled_cut(surface, height):
-    """The cross-section of closed surfaces at z = height, as filled polygons."""
+def _filled_cut(surface, height, lift=0.0):
+    """The cross-section of closed surfaces at z = height, as filled polygons, shown higher by `lift` (µm)."""
     cut = simple.Slice(Input=surface)
     cut.SliceType.Origin = [0.0, 0.0, height]
     cut.SliceType.Normal = [0.0, 0.0, 1.0]
     cut.UpdatePipeline()
     triangulator = vtkContourTriangulator()
     triangulator.SetInputData(servermanager.Fetch(cut))
-    triangulator.Update()
+    # Not the representation's property for this, which is Position up to ParaView 5.12, and Translation from 5.13 on.
+    transform = vtkTransform()
+    transform.Translate(0.0, 0.0, lift)
+    lifted = vtkTransformPolyDataFilter()
+    lifted.SetTransform(transform)
+    lifted.SetInputConnection(triangulator.GetOutputPort())
+    lifted.Update()
     filled = simple.TrivialProducer()
-    filled.GetClientSideObject().SetOutput(triangulator.GetOutput())
+    filled.GetClientSideObject().SetOutput(lifted.GetOutput())
     simple.Delete(cut)
     return filled
 
@@ -53,7 +60,7 @@ def draw_substrate(outer, inner, side, filename, pixels=900):
     cut = _view(pixels)
     _show(_filled_cut(outer, 0.0), cut, MYELIN, flat=True)
     # A little above, so that it covers.
-    _show(_filled_cut(inner, 0.0), cut, AXON, flat=True).Position = [0.0, 0.0, 0.01 * side]
+    _show(_filled_cut(inner, 0.0, lift=0.01 * side), cut, AXON, flat=True)
     cut.CameraParallelProjection = 1
     cut.CameraPosition = [0.0, 0.0, 2.0 * side]
     cut.CameraFocalPoint = [0.0, 0.0, 0.0]
