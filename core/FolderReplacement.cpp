@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "PartialName.h"
+#include "RunningPrograms.h"
 #include "Sha256.h"
 
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include <memory>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <utility>
 
 namespace cactus
 {
@@ -85,9 +87,27 @@ void requireElsewhere(const fs::path& place)
   }
 }
 
+/// Throws where a program runs in the folder, such as a simulation that has yet to write its results into it.
+void requireNobodyIn(const fs::path& place)
+{
+  const std::string program = programIn(place);
+  if (!program.empty())
+  {
+    throw FileError("folder " + place.string() + " is there already and " + program +
+                    " runs in it, whose results would be lost: end it (or leave the folder), or choose another FolderName");
+  }
+}
+
 std::string lockText(const fs::path& place)
 {
   return "CACTUS is writing a substrate folder here. Its name:\n" + place.filename().string();
+}
+
+/// What tells one file or folder of the disk from another; zeros for none.
+std::pair<dev_t, ino_t> identityOf(const fs::path& path)
+{
+  struct stat status;
+  return ::lstat(path.c_str(), &status) == 0 ? std::make_pair(status.st_dev, status.st_ino) : std::pair<dev_t, ino_t>();
 }
 
 bool isThere(const fs::path& path)
@@ -130,8 +150,7 @@ FolderReplacement::FolderReplacement(const std::string& folder, const Context& c
     this->recover();
     requireElsewhere(this->Place);
     context.report(0.0, "Comparing the folder that is there with its manifest");
-    this->Former = inspectFolder(this->Place, context);
-    this->requireReplaceable(this->Former);
+    this->inspectPlace(context);
     this->makeContainer();
   }
   catch (const fs::filesystem_error& error)
@@ -155,6 +174,33 @@ FolderReplacement::~FolderReplacement()
 void FolderReplacement::fail(const std::string& why) const
 {
   cannotWrite(this->Place.string(), why);
+}
+
+void FolderReplacement::inspectPlace(const Context& context)
+{
+  for (int attempt = 0; attempt < attempts; ++attempt)
+  {
+    const auto before = identityOf(this->Place);
+    try
+    {
+      const FolderInspection found = inspectFolder(this->Place, context, this->Former);
+      this->requireReplaceable(found);
+      this->Former = found;
+      break;
+    }
+    catch (const FileError&)
+    {
+      // While it was looked at, another writer may have put a new one there.
+      if (before == identityOf(this->Place) || attempt + 1 == attempts)
+      {
+        throw;
+      }
+    }
+  }
+  if (this->Former.exists)
+  {
+    requireNobodyIn(this->Place);
+  }
 }
 
 void FolderReplacement::requireReplaceable(const FolderInspection& found) const
@@ -438,8 +484,7 @@ void FolderReplacement::commit(const Context& context)
   try
   {
     this->synchroniseAll();
-    this->Former = inspectFolder(this->Place, context, this->Former);
-    this->requireReplaceable(this->Former);
+    this->inspectPlace(context);
     if (this->Former.exists)
     {
       this->makeAlike(this->Former);

@@ -57,6 +57,7 @@ private:
   [[noreturn]] void fail(const std::string& why) const;
   void makeContainer();
   void recover();
+  void inspectPlace(const Context& context);
   void requireReplaceable(const FolderInspection& found) const;
   void clean(const std::filesystem::path& container, const FolderInspection& earlier);
   void makeAlike(const FolderInspection& former) const;

@@ -15,6 +15,7 @@
 #include <map>
 #include <sstream>
 #include <sys/resource.h>
+#include <thread>
 
 namespace fs = std::filesystem;
 
@@ -346,6 +347,57 @@ TEST_F(FolderReplacement, LeavesTheFolderItRunsIn)
     EXPECT_TRUE(contains(found[i], "cannot write folder")) << found[i];
   }
   EXPECT_EQ(snapshot(here).count("absolute/manifest.json"), 1u);
+}
+
+// A simulation writes its results when it ends, into the folder that it was started in.
+TEST_F(FolderReplacement, LeavesAFolderInWhichAProgramRuns)
+{
+  ASSERT_EQ(write(this->Folder), "");
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t simulation = ::fork();
+  if (simulation == 0)
+  {
+    const bool moved = ::chdir((this->Folder / "mcdc").c_str()) == 0;
+    const bool told = ::write(ready[1], &moved, 1) == 1;
+    ::pause();
+    ::_exit(told ? 0 : 1);
+  }
+  bool moved = false;
+  EXPECT_EQ(::read(ready[0], &moved, 1), 1);
+  EXPECT_TRUE(moved);
+  this->expectRefused({ "(process " + std::to_string(simulation) + ") runs in it" });
+  EXPECT_EQ(write(this->Scratch / "s2"), "") << "another folder, whose name begins alike";
+  ::kill(simulation, SIGKILL);
+  ::waitpid(simulation, nullptr, 0);
+  ::close(ready[0]);
+  ::close(ready[1]);
+  EXPECT_EQ(write(this->Folder), "");
+}
+
+TEST_F(FolderReplacement, TakesSeveralWritersAtOnce)
+{
+  ASSERT_EQ(write(this->Folder), "");
+  std::vector<std::thread> writers;
+  std::vector<std::string> messages(4);
+  for (std::size_t i = 0; i < messages.size(); ++i)
+  {
+    writers.emplace_back(
+      [this, i, &messages]
+      {
+        for (int round = 0; round < 25 && messages[i].empty(); ++round)
+        {
+          messages[i] = write(this->Folder, 1.0 + static_cast<double>(i));
+        }
+      });
+  }
+  for (auto& writer : writers)
+  {
+    writer.join();
+  }
+  EXPECT_EQ(messages, std::vector<std::string>(4));
+  EXPECT_EQ(this->entries(), Names{ "s" });
+  EXPECT_EQ(write(this->Folder), "") << "it is whole";
 }
 
 TEST_F(FolderReplacement, LosesNothingWhereTheDiskIsFull)

@@ -70,7 +70,7 @@ class StrandFiles(CactusTestCase):
     def test_bad_values_name_the_line_or_the_fibre(self):
         for old, new, pattern in (
             ("0.1 0.123456789 0 0.75", "0.1 nan 0 0.75", r"line 5"),
-            ("0.1 0.123456789 0 0.75", "0.1 0 0 -0.75", r"fibre 1 .*control point 1 .*Radius"),
+            ("0.1 0.123456789 0 0.75", "0.1 0 0 -0.75", r"fibre 1 .*control point 1\b.*Radius"),
             ("0.1 0.123456789 0 0.75", "0 0 -15 0.75", r"fibre 1 .*control point 1 .*zero-length"),
             ("3 3 -15 0.25", "3 3 fifteen 0.25", r"line 8"),
             ("30\n", "-30\n", r"line 1: the side"),
@@ -95,11 +95,31 @@ class StrandFiles(CactusTestCase):
                 SaveData(os.path.join(self.folder, place, "x.strands"), proxy=reader)
         self.assertEqual(os.listdir(self.folder), ["some.strands"])
 
+    def test_special_places(self):
+        reader = StrandReader(FileName=self.write(STRANDS))
+        wanted = os.path.join(self.folder, "wanted.strands")
+        SaveData(wanted, proxy=reader)
+        with open(wanted) as file:
+            written = file.read()
+        os.mkdir(os.path.join(self.folder, "folder.strands"))
+        with self.assertError(r"cannot write .*folder\.strands: it is a folder"):
+            SaveData(os.path.join(self.folder, "folder.strands"), proxy=reader)
+        self.write("former", "real.strands")
+        os.chmod(os.path.join(self.folder, "real.strands"), 0o604)
+        for link, target in (("link.strands", "real.strands"), ("dangling.strands", "folder.strands/new")):
+            os.symlink(target, os.path.join(self.folder, link))
+            SaveData(os.path.join(self.folder, link), proxy=reader)
+            self.assertTrue(os.path.islink(os.path.join(self.folder, link)))
+            with open(os.path.join(self.folder, target)) as file:
+                self.assertEqual(file.read(), written)
+        self.assertEqual(os.stat(os.path.join(self.folder, "real.strands")).st_mode & 0o777, 0o604)
+        self.assertEqual(os.listdir(os.path.join(self.folder, "folder.strands")), ["new"])
+
     def test_failed_write_leaves_the_old_file_alone(self):
         bad = fetch(StrandReader(FileName=self.write(STRANDS)))
         bad.GetPointData().GetArray("Radius").SetValue(1, -1)
         old = self.write("precious", "old.strands")
-        with self.assertError(r"fibre 1 .*control point 1 .*Radius"):
+        with self.assertError(r"fibre 1 .*control point 1\b.*Radius"):
             SaveData(old, proxy=produce(bad))
         with open(old) as file:
             self.assertEqual(file.read(), "precious")
