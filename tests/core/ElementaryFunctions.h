@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "NumbersChecksum.h"
 #include "Random.h"
-#include "Sha256.h"
 
 #include <cmath>
 #include <string>
@@ -21,7 +21,7 @@ struct ElementaryFunction
   std::string digest() const
   {
     cactus::RandomEngine engine = cactus::randomStream(1, cactus::RandomStage::Radii);
-    Sha256 hash;
+    NumbersChecksum hash;
     for (int i = 0; i < 50000; ++i)
     {
       hash.add(this->value(this->from + (this->to - this->from) * cactus::uniform(engine)));

@@ -216,7 +216,7 @@ TEST_F(FolderReplacement, KeepsWhatTheUserChangesMeanwhile)
 TEST_F(FolderReplacement, KeepsWhatIsWriteProtected)
 {
   fs::permissions(this->Scratch, fs::perms::all);
-  const auto asUser = [this](const std::function<std::string()>& work) {
+  const auto asUser = [](const std::function<std::string()>& work) {
     return cactus_testing::inChild([&] { return cactus_testing::becomeOrdinaryUser() ? work() : std::string("no other user"); });
   };
   const auto refusal = [&](const std::string& path)
