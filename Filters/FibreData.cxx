@@ -2,6 +2,7 @@
 #include "FibreData.h"
 
 #include "Error.h"
+#include "InputBlocks.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -17,6 +18,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_set>
+#include <utility>
 
 namespace cactus
 {
@@ -35,14 +40,9 @@ vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
   return array;
 }
 
-} // namespace
-
-Fibres fibresFrom(vtkPolyData* input)
+/// Adds the fibres of one block.
+void addFibres(vtkPolyData* input, Fibres& fibres)
 {
-  if (input == nullptr || input->GetNumberOfCells() == 0)
-  {
-    throw InvalidInput("the input holds no fibres: connect a BundleInitializer, a reader or polylines with a Radius array");
-  }
   if (input->GetNumberOfLines() != input->GetNumberOfCells())
   {
     throw InvalidInput("the input holds cells that are not polylines: one polyline per fibre is expected");
@@ -56,7 +56,6 @@ Fibres fibresFrom(vtkPolyData* input)
   vtkDataArray* bundleId = scalars(input->GetCellData(), "BundleId", input->GetNumberOfCells());
   vtkDataArray* targetRadius = scalars(input->GetCellData(), "TargetRadius", input->GetNumberOfCells());
 
-  Fibres fibres;
   auto cells = vtk::TakeSmartPointer(input->GetLines()->NewIterator());
   vtkIdType cell = 0;
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell(), ++cell)
@@ -64,11 +63,15 @@ Fibres fibresFrom(vtkPolyData* input)
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     cells->GetCurrentCell(count, ids);
-    fibres.addFibre(fibreId ? static_cast<int>(fibreId->GetComponent(cell, 0)) : static_cast<int>(cell) + 1,
-      bundleId ? static_cast<int>(bundleId->GetComponent(cell, 0)) : 1, 1.0);
+    fibres.addFibre(fibreId ? idFrom(fibreId, cell) : static_cast<int>(cell) + 1, bundleId ? idFrom(bundleId, cell) : 1, 1.0);
     double sum = 0.0;
     for (vtkIdType i = 0; i < count; ++i)
     {
+      if (ids[i] < 0 || ids[i] >= input->GetNumberOfPoints())
+      {
+        throw InvalidInput("cell " + std::to_string(cell) + " names point " + std::to_string(ids[i]) + ", and there are " +
+                           std::to_string(input->GetNumberOfPoints()) + " points: the polylines are damaged");
+      }
       Eigen::Vector3d point;
       input->GetPoint(ids[i], point.data());
       fibres.addPoint(point, radius->GetComponent(ids[i], 0));
@@ -77,19 +80,146 @@ Fibres fibresFrom(vtkPolyData* input)
     fibres.targetRadii.back() =
       targetRadius ? targetRadius->GetComponent(cell, 0) : sum / static_cast<double>(std::max<vtkIdType>(count, 1));
   }
-  if (hasDomain(input))
+}
+
+Domain boundingBox(const Fibres& fibres)
+{
+  Domain box;
+  box.lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  box.upper = -box.lower;
+  for (const Eigen::Vector3d& point : fibres.points)
   {
-    fibres.domain = domainFrom(input);
+    box.lower = box.lower.cwiseMin(point);
+    box.upper = box.upper.cwiseMax(point);
   }
-  else
+  return box;
+}
+
+/// The ids of `added`, all moved above the largest of `taken` where one of them is in use.
+std::vector<int> freeIds(const std::vector<int>& taken, const std::vector<int>& added)
+{
+  const std::unordered_set<int> used(taken.begin(), taken.end());
+  const bool isFree = std::none_of(added.begin(), added.end(), [&](int id) { return used.count(id) > 0; });
+  const std::int64_t shift = isFree ? 0 : *std::max_element(taken.begin(), taken.end());
+  std::vector<int> ids;
+  for (const int id : added)
   {
-    double bounds[6];
-    input->GetBounds(bounds);
-    fibres.domain.lower = Eigen::Vector3d(bounds[0], bounds[2], bounds[4]);
-    fibres.domain.upper = Eigen::Vector3d(bounds[1], bounds[3], bounds[5]);
+    if (id + shift > std::numeric_limits<int>::max())
+    {
+      throw InvalidInput("id " + std::to_string(id) + " is in use by another input or block, and there is none free above " +
+                         std::to_string(shift) + ": give the fibres smaller ids");
+    }
+    ids.push_back(static_cast<int>(id + shift));
   }
+  return ids;
+}
+
+/// Adds fibres, with ids of their own.
+void append(const Fibres& added, Fibres& all)
+{
+  const std::vector<int> fibreIds = freeIds(all.fibreIds, added.fibreIds);
+  const std::vector<int> bundleIds = freeIds(all.bundleIds, added.bundleIds);
+  for (std::size_t f = 0; f < added.size(); ++f)
+  {
+    all.addFibre(fibreIds[f], bundleIds[f], added.targetRadii[f]);
+    for (std::size_t i = added.offsets[f]; i < added.offsets[f + 1]; ++i)
+    {
+      all.addPoint(added.points[i], added.radii[i]);
+    }
+  }
+}
+
+bool isSame(const Domain& a, const Domain& b)
+{
+  return (a.lower - b.lower).cwiseAbs().maxCoeff() <= 1e-9 && (a.upper - b.upper).cwiseAbs().maxCoeff() <= 1e-9;
+}
+
+Domain readDomain(vtkAbstractArray* array)
+{
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  if (numbers == nullptr || numbers->GetNumberOfValues() != 6)
+  {
+    throw InvalidInput("the input has no field data Domain with six numbers (xmin xmax ymin ymax zmin zmax, µm)");
+  }
+  Domain domain;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    domain.lower[axis] = numbers->GetVariantValue(2 * axis).ToDouble();
+    domain.upper[axis] = numbers->GetVariantValue(2 * axis + 1).ToDouble();
+  }
+  if (!domain.lower.allFinite() || !domain.upper.allFinite() || domain.size().minCoeff() <= 0.0)
+  {
+    throw InvalidInput("field data Domain is empty or not finite: give xmin < xmax, ymin < ymax, zmin < zmax in µm");
+  }
+  return domain;
+}
+
+} // namespace
+
+Fibres fibresFrom(vtkDataObject* input)
+{
+  const auto blocks = polyDataBlocks(
+    input, "fibres are polylines (vtkPolyData) with point data Radius; AppendGeometry, not AppendDatasets, joins them as such");
+  Fibres fibres;
+  for (const InputBlock& block : blocks)
+  {
+    Fibres part;
+    try
+    {
+      addFibres(block.data, part);
+    }
+    catch (const InvalidInput& error)
+    {
+      throw InvalidInput((block.name.empty() ? "" : block.name + ": ") + error.what());
+    }
+    if (fibres.size() == 0)
+    {
+      fibres = std::move(part);
+    }
+    else
+    {
+      append(part, fibres);
+    }
+  }
+  if (fibres.size() == 0)
+  {
+    throw InvalidInput("the input holds no fibres: connect a BundleInitializer, a reader or polylines with a Radius array");
+  }
+  fibres.domain = hasDomain(input) ? domainFrom(input) : boundingBox(fibres);
   validate(fibres);
   return fibres;
+}
+
+Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs)
+{
+  Fibres all;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    Fibres fibres = fibresFrom(inputs[i]);
+    if (i == 0)
+    {
+      all = std::move(fibres);
+      continue;
+    }
+    if (!isSame(fibres.domain, all.domain))
+    {
+      throw InvalidInput("input " + std::to_string(i + 1) + " has another Domain than the first: give all bundles the same Side");
+    }
+    append(fibres, all);
+  }
+  validate(all);
+  return all;
+}
+
+int idFrom(vtkDataArray* array, vtkIdType cell)
+{
+  const double value = array->GetComponent(cell, 0);
+  if (!(value >= 1.0 && value <= std::numeric_limits<int>::max()) || value != std::floor(value))
+  {
+    throw InvalidInput(text(array->GetName(), " of cell ", cell, " is ", value, ": ids count from 1, in whole numbers up to ",
+      std::numeric_limits<int>::max()));
+  }
+  return static_cast<int>(value);
 }
 
 void toPolyData(const Fibres& fibres, vtkPolyData* output)
@@ -143,25 +273,19 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
 
 bool hasDomain(vtkDataObject* data)
 {
-  return data->GetFieldData()->GetArray("Domain") != nullptr;
+  return fieldArray(data, "Domain") != nullptr;
 }
 
 Domain domainFrom(vtkDataObject* data)
 {
-  vtkDataArray* array = data->GetFieldData()->GetArray("Domain");
-  if (array == nullptr || array->GetNumberOfValues() != 6)
+  const Domain domain = readDomain(fieldArray(data, "Domain"));
+  for (vtkDataObject* leaf : leavesOf(data))
   {
-    throw InvalidInput("the input has no field data Domain with six numbers (xmin xmax ymin ymax zmin zmax, µm)");
-  }
-  Domain domain;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    domain.lower[axis] = array->GetVariantValue(2 * axis).ToDouble();
-    domain.upper[axis] = array->GetVariantValue(2 * axis + 1).ToDouble();
-  }
-  if (!domain.lower.allFinite() || !domain.upper.allFinite() || domain.size().minCoeff() <= 0.0)
-  {
-    throw InvalidInput("field data Domain is empty or not finite: give xmin < xmax, ymin < ymax, zmin < zmax in µm");
+    vtkAbstractArray* array = leaf->GetFieldData() != nullptr ? leaf->GetFieldData()->GetAbstractArray("Domain") : nullptr;
+    if (array != nullptr && !isSame(readDomain(array), domain))
+    {
+      throw InvalidInput("the blocks of the input have different Domains: group what belongs to one substrate");
+    }
   }
   return domain;
 }
@@ -183,12 +307,9 @@ void addProvenance(vtkDataObject* from, vtkDataObject* to, const std::string& st
 {
   vtkNew<vtkStringArray> lines;
   lines->SetName("Provenance");
-  if (from != nullptr)
+  if (auto* before = vtkStringArray::SafeDownCast(fieldArray(from, "Provenance")))
   {
-    if (auto* before = vtkStringArray::SafeDownCast(from->GetFieldData()->GetAbstractArray("Provenance")))
-    {
-      lines->DeepCopy(before);
-    }
+    lines->DeepCopy(before);
   }
   lines->InsertNextValue(stage + " " CACTUS_VERSION ": " + parameters);
   to->GetFieldData()->AddArray(lines);

@@ -5,8 +5,12 @@
 #include "Domain.h"
 #include "Fibres.h"
 
-#include <string>
+#include <vtkType.h>
 
+#include <string>
+#include <vector>
+
+class vtkDataArray;
 class vtkDataObject;
 class vtkPolyData;
 
@@ -14,17 +18,25 @@ namespace cactus
 {
 
 /// Polylines with point data `Radius`, cell data `FibreId`, `BundleId`, `TargetRadius` and field data `Domain`, as core fibres,
-/// validated.
+/// validated. Several blocks (a composite data set) are one substrate, and joined as several inputs are.
 ///
 /// Where the cell arrays are missing, ids count from 1 in cell order, the bundle is 1 and the target radius is the mean of
-/// the radii; without field data `Domain` the domain is the bounding box of the points. Throws InvalidInput for anything else.
-Fibres fibresFrom(vtkPolyData* input);
+/// the radii; without field data `Domain` the domain is the bounding box of the points. Throws InvalidInput for anything else,
+/// for ids that are not whole numbers from 1 to 2147483647, and where blocks have different domains.
+Fibres fibresFrom(vtkDataObject* input);
+
+/// The fibres of several inputs in their order. Ids stay where they are free; the bundles or fibres of an input or block that
+/// share one with an earlier one all move above the largest. Throws InvalidInput where the inputs have different domains.
+Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs);
+
+/// A whole number from 1 to 2147483647 out of an array of any type. Throws InvalidInput, naming array and cell, for any other.
+int idFrom(vtkDataArray* array, vtkIdType cell);
 
 /// The reverse; replaces everything in `output` but its field data, in which it sets `Domain`.
 void toPolyData(const Fibres& fibres, vtkPolyData* output);
 
-/// Field data `Domain` (xmin xmax ymin ymax zmin zmax, µm). Reading throws InvalidInput where it is missing or has not six finite
-/// numbers.
+/// Field data `Domain` (xmin xmax ymin ymax zmin zmax, µm) of a data set, or of the first block that has it. Reading throws
+/// InvalidInput where it is missing or has not six finite numbers, or where blocks differ in it.
 bool hasDomain(vtkDataObject* data);
 Domain domainFrom(vtkDataObject* data);
 void setDomain(vtkDataObject* data, const Domain& domain);

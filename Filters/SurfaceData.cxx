@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "FibreData.h"
+#include "InputBlocks.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -34,94 +35,144 @@ struct Run
   vtkIdType end;
 };
 
-vtkDataArray* cellScalars(vtkPolyData* input, const char* name, const std::string& port)
+/// The triangles of one block.
+struct Part
+{
+  vtkCellArray* triangles;
+  vtkPoints* points;
+};
+
+/// One fibre's triangles.
+struct Surface
+{
+  std::size_t part = 0;
+  int bundleId = 1;
+  std::vector<Run> runs; ///< most often one
+};
+
+vtkDataArray* cellScalars(vtkPolyData* input, const char* name)
 {
   vtkDataArray* array = input->GetCellData()->GetArray(name);
-  if (array != nullptr && array->GetNumberOfComponents() != 1)
+  if (array != nullptr && (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != input->GetNumberOfCells()))
   {
-    throw InvalidInput(port + ": cell data " + name + " must have one component");
+    throw InvalidInput(std::string("has cell data ") + name + " that must have one component and a value for each cell");
   }
   return array;
 }
 
-} // namespace
-
-FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surface)
+void requireTriangles(vtkPolyData* input)
 {
-  FibreSurfaces result;
-  if (input == nullptr || input->GetNumberOfCells() == 0)
-  {
-    return result;
-  }
   vtkCellArray* triangles = input->GetPolys();
   if (triangles->GetNumberOfCells() != input->GetNumberOfCells() || triangles->IsHomogeneous() != 3)
   {
-    throw InvalidInput(port + " holds cells that are not triangles: apply Triangulate first");
+    throw InvalidInput("holds cells that are not triangles: apply Triangulate first");
   }
-  vtkDataArray* fibreId = cellScalars(input, "FibreId", port);
-  vtkDataArray* bundleId = cellScalars(input, "BundleId", port);
-  vtkDataArray* kind = cellScalars(input, "Surface", port);
+  double range[2];
+  triangles->GetConnectivityArray()->GetRange(range);
+  if (range[0] < 0.0 || range[1] >= static_cast<double>(input->GetNumberOfPoints()))
+  {
+    throw InvalidInput("holds triangles with points that do not exist: the mesh is damaged");
+  }
+}
+
+/// Adds the surfaces of one block.
+void addSurfaces(vtkPolyData* input, std::size_t part, const std::string& port, int surface, std::map<int, Surface>& surfaces)
+{
+  requireTriangles(input);
+  vtkDataArray* fibreId = cellScalars(input, "FibreId");
+  vtkDataArray* bundleId = cellScalars(input, "BundleId");
+  vtkDataArray* kind = cellScalars(input, "Surface");
   if (fibreId == nullptr)
   {
-    throw InvalidInput(port + " has no cell data FibreId, which tells whose surface each triangle is");
+    throw InvalidInput("has no cell data FibreId, which tells whose surface each triangle is");
   }
-
-  std::map<int, std::vector<Run>> runsOf; // most often one for each
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
   {
-    if (kind != nullptr && static_cast<int>(kind->GetComponent(cell, 0)) != surface)
+    if (kind != nullptr && kind->GetComponent(cell, 0) != surface)
     {
-      const std::string other = surface == 0 ? "inner" : "outer";
-      throw InvalidInput(port + " holds " + other + " surfaces (cell data Surface): connect MyelinSurface's port " + port);
+      throw InvalidInput(text("holds ", surface == 0 ? "inner" : "outer", " surfaces (cell data Surface is ",
+        kind->GetComponent(cell, 0), " in cell ", cell, "): connect MyelinSurface's port ", port));
     }
-    std::vector<Run>& runs = runsOf[static_cast<int>(fibreId->GetComponent(cell, 0))];
-    if (runs.empty() || runs.back().end != cell)
+    const int id = idFrom(fibreId, cell);
+    Surface& mine = surfaces[id];
+    if (mine.runs.empty())
     {
-      runs.push_back({ cell, cell });
+      mine.part = part;
+      mine.bundleId = bundleId != nullptr ? idFrom(bundleId, cell) : 1;
     }
-    ++runs.back().end;
+    if (mine.part != part)
+    {
+      throw InvalidInput(text("holds FibreId ", id, ", and so does block ", mine.part + 1,
+        ": give each surface a FibreId of its own, or "
+        "merge the blocks where each holds a part of it"));
+    }
+    if (mine.runs.empty() || mine.runs.back().end != cell)
+    {
+      mine.runs.push_back({ cell, cell });
+    }
+    ++mine.runs.back().end;
   }
-  auto surfaces = std::make_shared<std::vector<std::vector<Run>>>();
-  for (auto& entry : runsOf)
+}
+
+/// A surface with points of its own.
+TriangleMesh meshOf(const Part& part, const Surface& surface)
+{
+  TriangleMesh mesh;
+  std::vector<vtkIdType> ids;
+  vtkNew<vtkIdList> corners; // with a list of its own, reading a cell is safe in several threads
+  for (const Run& run : surface.runs)
   {
-    if (entry.first < 1)
+    for (vtkIdType cell = run.begin; cell < run.end; ++cell)
     {
-      throw InvalidInput(port + " has a FibreId below 1 in cell " + std::to_string(entry.second[0].begin) + ": ids count from 1");
+      part.triangles->GetCellAtId(cell, corners);
+      ids.insert(ids.end(), { corners->GetId(0), corners->GetId(1), corners->GetId(2) });
     }
+  }
+  std::vector<vtkIdType> used = ids;
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  mesh.points.resize(used.size());
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    part.points->GetPoint(used[i], mesh.points[i].data());
+  }
+  mesh.triangles.resize(ids.size() / 3);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const auto place = std::lower_bound(used.begin(), used.end(), ids[i]) - used.begin();
+    mesh.triangles[i / 3][i % 3] = static_cast<std::int32_t>(place);
+  }
+  return mesh;
+}
+
+} // namespace
+
+FibreSurfaces surfacesFrom(vtkDataObject* input, const std::string& port, int surface)
+{
+  FibreSurfaces result;
+  const auto blocks = polyDataBlocks(input, port + " surfaces are triangles (vtkPolyData) with cell data FibreId");
+  std::vector<Part> parts;
+  std::map<int, Surface> surfaceOf;
+  for (const InputBlock& block : blocks)
+  {
+    try
+    {
+      addSurfaces(block.data, parts.size(), port, surface, surfaceOf);
+    }
+    catch (const InvalidInput& error)
+    {
+      throw InvalidInput(port + (block.name.empty() ? " " : ", " + block.name + " ") + error.what());
+    }
+    parts.push_back({ block.data->GetPolys(), block.data->GetPoints() });
+  }
+  auto surfaces = std::make_shared<std::vector<Surface>>();
+  for (auto& entry : surfaceOf)
+  {
     result.fibreIds.push_back(entry.first);
-    result.bundleIds.push_back(bundleId ? static_cast<int>(bundleId->GetComponent(entry.second[0].begin, 0)) : 1);
+    result.bundleIds.push_back(entry.second.bundleId);
     surfaces->push_back(std::move(entry.second));
   }
-
-  result.mesh = [surfaces, triangles, points = input->GetPoints()](std::size_t index)
-  {
-    TriangleMesh mesh;
-    std::vector<vtkIdType> ids;
-    vtkNew<vtkIdList> corners; // with a list of its own, reading a cell is safe in several threads
-    for (const Run& run : (*surfaces)[index])
-    {
-      for (vtkIdType cell = run.begin; cell < run.end; ++cell)
-      {
-        triangles->GetCellAtId(cell, corners);
-        ids.insert(ids.end(), { corners->GetId(0), corners->GetId(1), corners->GetId(2) });
-      }
-    }
-    std::vector<vtkIdType> used = ids;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    mesh.points.resize(used.size());
-    for (std::size_t i = 0; i < used.size(); ++i)
-    {
-      points->GetPoint(used[i], mesh.points[i].data());
-    }
-    mesh.triangles.resize(ids.size() / 3);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      const auto place = std::lower_bound(used.begin(), used.end(), ids[i]) - used.begin();
-      mesh.triangles[i / 3][i % 3] = static_cast<std::int32_t>(place);
-    }
-    return mesh;
-  };
+  result.mesh = [surfaces, parts](std::size_t index) { return meshOf(parts[(*surfaces)[index].part], (*surfaces)[index]); };
   return result;
 }
 
@@ -191,7 +242,7 @@ void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* ou
   }
 }
 
-void requireSameDomain(const Domain& domain, vtkPolyData* surfaces, const std::string& port)
+void requireSameDomain(const Domain& domain, vtkDataObject* surfaces, const std::string& port)
 {
   if (surfaces == nullptr || !hasDomain(surfaces))
   {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataObject;
 class vtkPolyData;
 
 namespace cactus
@@ -18,9 +19,10 @@ namespace cactus
 ///
 /// Each surface numbers its points anew in the order they have in `input`, so that surfaces can be told apart although they share
 /// one array of points; `input` has to stay as it is while the result is used. `port` names the input in messages, and `surface`
-/// is what the array `Surface` has to hold. An input without cells gives no surfaces. Throws InvalidInput where there are cells
-/// other than triangles, no FibreId, or the other kind of surface.
-FibreSurfaces surfacesFrom(vtkPolyData* input, const std::string& port, int surface);
+/// is what the array `Surface` has to hold. An input without cells gives no surfaces. The blocks of a composite data set are one
+/// substrate. Throws InvalidInput where there are cells other than triangles, no FibreId or one that is no whole number from 1,
+/// the other kind of surface, or two blocks with surfaces of the same FibreId.
+FibreSurfaces surfacesFrom(vtkDataObject* input, const std::string& port, int surface);
 
 /// A surface and whose it is.
 struct NamedSurface
@@ -36,6 +38,6 @@ struct NamedSurface
 void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output);
 
 /// Throws InvalidInput where `surfaces` has field data Domain, and another one than `domain` to 1e-6 µm. Null is no surfaces.
-void requireSameDomain(const Domain& domain, vtkPolyData* surfaces, const std::string& port);
+void requireSameDomain(const Domain& domain, vtkDataObject* surfaces, const std::string& port);
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 // For filters that need all of their input in one place, also where the pipeline runs on several ranks.
 #pragma once
 
+#include <vtkAlgorithm.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -22,6 +23,31 @@ inline void requestWholeInputs(vtkInformationVector** inputs, int ports)
       info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
       info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
       info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
+}
+
+/// Takes any data at an input port, so that a filter sees it as it is and says itself what it cannot work with. Were composite
+/// data not among it, ParaView's executive would run the filter block by block instead, information and data by turns.
+inline void acceptAnyData(vtkInformation* port)
+{
+  port->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+}
+
+/// Brings all of the inputs at port 0 up to date. For RequestInformation, where what there is to tell of the output is known from
+/// the data alone; what follows asks for it before the data.
+///
+/// This request has passed the inputs' producers when it comes here, and those further up: none of them is at work, and an update
+/// goes no other way than up. Whoever updated them before may have asked this process for another piece of them.
+inline void updateWholeInputs(vtkAlgorithm* self, vtkInformationVector** inputs)
+{
+  requestWholeInputs(inputs, 1);
+  for (int connection = 0; connection < self->GetNumberOfInputConnections(0); ++connection)
+  {
+    int port = 0;
+    if (vtkAlgorithm* producer = self->GetInputAlgorithm(0, connection, port))
+    {
+      producer->Update(port);
     }
   }
 }

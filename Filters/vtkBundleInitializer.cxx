@@ -2,6 +2,7 @@
 #include "vtkBundleInitializer.h"
 
 #include "BundleInitializer.h"
+#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 

@@ -3,9 +3,14 @@
 
 #include "CapsuleOptimizer.h"
 #include "Capsules.h"
+#include "Columns.h"
+#include "Context.h"
+#include "Error.h"
 #include "FibreData.h"
 #include "FibreShape.h"
 #include "FilterSupport.h"
+#include "InputBlocks.h"
+#include "Ranks.h"
 #include "TrimToDomain.h"
 #include "WholeData.h"
 
@@ -13,8 +18,6 @@
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -25,64 +28,31 @@
 #include <exception>
 #include <functional>
 #include <numeric>
-#include <set>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkCapsuleOptimizer);
 
 namespace
 {
 
-/// All inputs as one, with ids of their own for each.
-cactus::Fibres joined(vtkInformationVector* inputs)
+/// The data of all connections.
+std::vector<vtkDataObject*> dataOf(vtkInformationVector* inputs)
 {
-  cactus::Fibres all;
+  std::vector<vtkDataObject*> data;
   for (int connection = 0; connection < inputs->GetNumberOfInformationObjects(); ++connection)
   {
-    const cactus::Fibres fibres = cactus::fibresFrom(vtkPolyData::GetData(inputs, connection));
-    if (connection == 0)
-    {
-      all = fibres;
-      continue;
-    }
-    if ((fibres.domain.lower - all.domain.lower).cwiseAbs().maxCoeff() > 1e-9 ||
-        (fibres.domain.upper - all.domain.upper).cwiseAbs().maxCoeff() > 1e-9)
-    {
-      throw cactus::InvalidInput(
-        "input " + std::to_string(connection + 1) + " has another Domain than the first: give all bundles the same Side");
-    }
-    // Ids stay where they are free; a bundle or fibre that shares one with an earlier input moves above the largest.
-    const std::set<int> bundles(all.bundleIds.begin(), all.bundleIds.end());
-    const std::set<int> ids(all.fibreIds.begin(), all.fibreIds.end());
-    const auto taken = [](const std::set<int>& used, const std::vector<int>& wanted)
-    { return std::any_of(wanted.begin(), wanted.end(), [&](int id) { return used.count(id) > 0; }); };
-    const int bundleShift = taken(bundles, fibres.bundleIds) ? *bundles.rbegin() : 0;
-    const int fibreShift = taken(ids, fibres.fibreIds) ? *ids.rbegin() : 0;
-    for (std::size_t f = 0; f < fibres.size(); ++f)
-    {
-      all.addFibre(fibres.fibreIds[f] + fibreShift, fibres.bundleIds[f] + bundleShift, fibres.targetRadii[f]);
-      for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
-      {
-        all.addPoint(fibres.points[i], fibres.radii[i]);
-      }
-    }
+    data.push_back(vtkDataObject::GetData(inputs, connection));
   }
-  cactus::validate(all);
-  return all;
+  return data;
 }
 
 template <typename Value>
 void addColumn(
   vtkTable* table, const char* name, const std::vector<cactus::ConvergenceRow>& rows, Value cactus::ConvergenceRow::*member)
 {
-  vtkNew<vtkDoubleArray> column;
-  column->SetName(name);
-  column->SetNumberOfValues(static_cast<vtkIdType>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    column->SetValue(static_cast<vtkIdType>(i), static_cast<double>(rows[i].*member));
-  }
-  table->AddColumn(column);
+  cactus::addColumn<vtkDoubleArray>(table, name, rows.size(), [&](std::size_t row) { return rows[row].*member; });
 }
 
 void fillTable(const std::vector<cactus::ConvergenceRow>& rows, vtkTable* table)
@@ -99,29 +69,13 @@ void fillTable(const std::vector<cactus::ConvergenceRow>& rows, vtkTable* table)
   addColumn(table, "Seconds", rows, &Row::seconds);
 }
 
-void setNumber(vtkDataObject* data, const char* name, double value)
-{
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  data->GetFieldData()->AddArray(array);
-}
-
-void setCount(vtkDataObject* data, const char* name, int value)
-{
-  vtkNew<vtkIntArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  data->GetFieldData()->AddArray(array);
-}
-
 /// Newest change of any input.
 vtkMTimeType inputTime(vtkInformationVector* inputs)
 {
   vtkMTimeType newest = 0;
-  for (int connection = 0; connection < inputs->GetNumberOfInformationObjects(); ++connection)
+  for (vtkDataObject* data : dataOf(inputs))
   {
-    newest = std::max(newest, vtkPolyData::GetData(inputs, connection)->GetMTime());
+    newest = std::max(newest, cactus::changeTime(data));
   }
   return newest;
 }
@@ -150,6 +104,7 @@ struct vtkCapsuleOptimizer::Run
 {
   vtkMTimeType ParameterTime = 0;
   vtkMTimeType InputTime = 0;
+  std::exception_ptr Failure;              ///< what it threw instead of giving a result
   cactus::Fibres Fibres;                   ///< the result
   cactus::OptimisationResult Optimisation; ///< what is to be said of it
   cactus::FibreShape Before;
@@ -192,7 +147,7 @@ vtkCapsuleOptimizer::~vtkCapsuleOptimizer()
 
 int vtkCapsuleOptimizer::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  cactus::acceptAnyData(info);
   info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   return 1;
 }
@@ -214,7 +169,7 @@ void vtkCapsuleOptimizer::OfferTimes(vtkInformationVector* outputs) const
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputs->GetInformationObject(port);
-    if (!this->KeepHistory || !this->LastRun)
+    if (!this->KeepHistory || !this->LastRun || this->LastRun->Failure)
     {
       info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
       info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
@@ -232,50 +187,50 @@ int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVecto
   if (this->KeepHistory)
   {
     // Only the run itself says which times there are, and what follows asks for them here, not after RequestData.
-    cactus::requestWholeInputs(inputs, 1);
-    for (int connection = 0; connection < this->GetNumberOfInputConnections(0); ++connection)
-    {
-      int port = 0;
-      vtkAlgorithm* producer = this->GetInputAlgorithm(0, connection, port);
-      producer->Update(port);
-      if (vtkPolyData::GetData(inputs[0], connection) == nullptr)
+    cactus::RankAgreement agreement(this->TimeBudget > 0.0);
+    cactus::quietly(
+      [&]
       {
-        return 1; // whoever should have made it has said why
-      }
-    }
-    try
-    {
-      this->EnsureRun(inputs[0]);
-    }
-    catch (const std::exception&)
-    {
-      // RequestData fails in the same way and reports it.
-    }
+        cactus::updateWholeInputs(this, inputs);
+        this->EnsureRun(inputs[0], agreement);
+      });
   }
   this->OfferTimes(outputs);
   return 1;
 }
 
-void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs)
+void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs, cactus::RankAgreement& agreement)
 {
   const bool isKnown = this->KeepHistory && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
                        this->LastRun->InputTime == inputTime(inputs);
   if (!isKnown)
   {
     this->LastRun.reset();
-    this->LastRun = this->Optimise(inputs);
+    auto run = std::make_unique<Run>();
+    run->InputTime = inputTime(inputs);
+    try
+    {
+      this->Optimise(inputs, agreement, *run);
+    }
+    catch (...)
+    {
+      // Kept, so that RequestData says what has come of a run in RequestInformation without running it again.
+      run->Failure = std::current_exception();
+    }
+    run->ParameterTime = this->GetMTime(); // only now: being stopped modifies the filter
+    this->LastRun = std::move(run);
+  }
+  if (this->LastRun->Failure)
+  {
+    std::rethrow_exception(this->LastRun->Failure);
   }
 }
 
-std::unique_ptr<vtkCapsuleOptimizer::Run> vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs)
+cactus::CapsuleOptimizerOptions vtkCapsuleOptimizer::Options() const
 {
   if (this->Method != MOMENTUM && this->Method != ADAGRAD)
   {
     throw cactus::InvalidInput("Method must be Momentum (0) or Adagrad (1)");
-  }
-  if (this->NumberOfThreads < 0)
-  {
-    throw cactus::InvalidInput("NumberOfThreads must be 0 (all) or more");
   }
   if (this->HistoryInterval < 1)
   {
@@ -300,11 +255,17 @@ std::unique_ptr<vtkCapsuleOptimizer::Run> vtkCapsuleOptimizer::Optimise(vtkInfor
   options.resume = this->Resume;
   cactus::validate(options);
 
-  auto run = std::make_unique<Run>();
-  run->InputTime = inputTime(inputs);
-  run->Fibres = joined(inputs);
-  run->Before = cactus::measureShape(run->Fibres);
-  const cactus::Fibres before = run->Fibres;
+  return options;
+}
+
+void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgreement& agreement, Run& run)
+{
+  const cactus::CapsuleOptimizerOptions options = this->Options();
+  cactus::Context context = cactus::contextFor(this, this->NumberOfThreads);
+  context.agree = [&](bool wanted) { return agreement.decide(wanted); };
+  run.Fibres = cactus::joinedFibres(dataOf(inputs));
+  run.Before = cactus::measureShape(run.Fibres);
+  const cactus::Fibres before = run.Fibres;
   const auto keep = [&](int iteration, const cactus::Fibres& fibres)
   {
     if (iteration % this->HistoryInterval != 0)
@@ -322,22 +283,20 @@ std::unique_ptr<vtkCapsuleOptimizer::Run> vtkCapsuleOptimizer::Optimise(vtkInfor
     {
       state.Radii.assign(fibres.radii.begin(), fibres.radii.end());
     }
-    run->States.push_back(std::move(state));
+    run.States.push_back(std::move(state));
   };
   std::function<void(int, const cactus::Fibres&)> observe;
   if (this->KeepHistory)
   {
     observe = keep;
   }
-  run->Optimisation = cactus::optimise(run->Fibres, options, cactus::contextFor(this, this->NumberOfThreads), observe);
-  run->ParameterTime = this->GetMTime(); // only now: being stopped modifies the filter
-  run->RadiusDistance = cactus::radiusDistance(before, run->Fibres);
+  run.Optimisation = cactus::optimise(run.Fibres, options, context, observe);
+  run.RadiusDistance = cactus::radiusDistance(before, run.Fibres);
   // The result takes the place of the last state.
-  while (!run->States.empty() && run->States.back().Iteration >= run->lastIteration())
+  while (!run.States.empty() && run.States.back().Iteration >= run.lastIteration())
   {
-    run->States.pop_back();
+    run.States.pop_back();
   }
-  return run;
 }
 
 void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformationVector** inputs, vtkInformationVector* outputs)
@@ -357,7 +316,8 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
     {
       fibres.radii.assign(then.Radii.begin(), then.Radii.end());
     }
-    const cactus::OverlapReport report = cactus::measureOverlap(fibres, this->OverlapTolerance, this->NumberOfThreads);
+    const int threads = cactus::contextFor(this, this->NumberOfThreads).threadCount();
+    const cactus::OverlapReport report = cactus::measureOverlap(fibres, this->OverlapTolerance, threads);
     overlaps = report.perPoint;
     penetration = std::max(0.0, report.largestPenetration);
   }
@@ -375,27 +335,22 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
     throw cactus::InvalidInput("no fibre comes near the Domain: check its position, or switch TrimToDomain off");
   }
   cactus::toPolyData(fibres, output);
-  vtkNew<vtkDoubleArray> overlap;
-  overlap->SetName("Overlap");
-  overlap->SetNumberOfValues(static_cast<vtkIdType>(kept.size()));
-  for (std::size_t i = 0; i < kept.size(); ++i)
-  {
-    overlap->SetValue(static_cast<vtkIdType>(i), overlaps[kept[i]]);
-  }
-  output->GetPointData()->AddArray(overlap);
+  cactus::addColumn<vtkDoubleArray>(
+    output->GetPointData(), "Overlap", kept.size(), [&](std::size_t i) { return overlaps[kept[i]]; });
 
-  setCount(output, "Converged", penetration <= this->OverlapTolerance ? 1 : 0);
-  setNumber(output, "MaximumPenetration", penetration);
-  setNumber(output, "InitialMeanDispersion", run.Before.meanDispersion);
-  setNumber(output, "MeanDispersion", after.meanDispersion);
-  setNumber(output, "InitialTangentDispersion", run.Before.tangentDispersion);
-  setNumber(output, "TangentDispersion", after.tangentDispersion);
-  setNumber(output, "InitialCrossingAngle", run.Before.crossingAngle);
-  setNumber(output, "CrossingAngle", after.crossingAngle);
-  setNumber(output, "SmallestBendRadius", after.smallestBendRadius);
-  setNumber(output, "SmallestCurvatureRadius", after.smallestCurvatureRadius);
-  setNumber(output, "LengthIncrease", after.totalLength / run.Before.totalLength - 1.0);
-  setNumber(output, "RadiusDistance", run.RadiusDistance);
+  vtkFieldData* data = output->GetFieldData();
+  cactus::addCount(data, "Converged", penetration <= this->OverlapTolerance ? 1 : 0);
+  cactus::addNumber(data, "MaximumPenetration", penetration);
+  cactus::addNumber(data, "InitialMeanDispersion", run.Before.meanDispersion);
+  cactus::addNumber(data, "MeanDispersion", after.meanDispersion);
+  cactus::addNumber(data, "InitialTangentDispersion", run.Before.tangentDispersion);
+  cactus::addNumber(data, "TangentDispersion", after.tangentDispersion);
+  cactus::addNumber(data, "InitialCrossingAngle", run.Before.crossingAngle);
+  cactus::addNumber(data, "CrossingAngle", after.crossingAngle);
+  cactus::addNumber(data, "SmallestBendRadius", after.smallestBendRadius);
+  cactus::addNumber(data, "SmallestCurvatureRadius", after.smallestCurvatureRadius);
+  cactus::addNumber(data, "LengthIncrease", after.totalLength / run.Before.totalLength - 1.0);
+  cactus::addNumber(data, "RadiusDistance", run.RadiusDistance);
 
   std::ostringstream parameters;
   parameters.precision(15);
@@ -407,20 +362,22 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
              << " RadiusTolerance=" << this->RadiusTolerance << " TrimToDomain=" << this->TrimToDomain
              << " TimeBudget=" << this->TimeBudget << " (" << (isResult ? run.lastIteration() : run.States[state].Iteration)
              << " iterations, largest penetration " << penetration << ")";
-  cactus::addProvenance(vtkPolyData::GetData(inputs[0]), output, "CapsuleOptimizer", parameters.str());
+  cactus::addProvenance(vtkDataObject::GetData(inputs[0]), output, "CapsuleOptimizer", parameters.str());
   fillTable(run.Optimisation.convergence, vtkTable::GetData(outputs, 1));
 }
 
 int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!cactus::ownsWholeOutput(request, outputs))
-  {
-    return 1;
-  }
+  // Before anything else, on ranks that have nothing to give, too.
+  cactus::RankAgreement agreement(this->TimeBudget > 0.0);
   return cactus::guarded(this,
     [&]
     {
-      this->EnsureRun(inputs[0]);
+      if (!cactus::ownsWholeOutput(request, outputs))
+      {
+        return;
+      }
+      this->EnsureRun(inputs[0], agreement);
       Run& run = *this->LastRun;
       std::size_t state = run.States.size();
       double time = run.lastIteration();

@@ -29,6 +29,12 @@
 
 #include <memory>
 
+namespace cactus
+{
+struct CapsuleOptimizerOptions;
+class RankAgreement;
+} // namespace cactus
+
 class CACTUSFILTERS_EXPORT vtkCapsuleOptimizer : public vtkPolyDataAlgorithm
 {
 public:
@@ -181,10 +187,12 @@ private:
   vtkCapsuleOptimizer(const vtkCapsuleOptimizer&) = delete;
   void operator=(const vtkCapsuleOptimizer&) = delete;
 
-  /** Runs the optimisation unless LastRun holds it. */
-  void EnsureRun(vtkInformationVector* inputs);
+  /** The properties as core takes them; throws cactus::InvalidInput for one out of range. */
+  cactus::CapsuleOptimizerOptions Options() const;
+  /** Runs the optimisation unless LastRun holds it; throws what it throws, or threw. */
+  void EnsureRun(vtkInformationVector* inputs, cactus::RankAgreement& agreement);
   /** Runs the optimisation. */
-  std::unique_ptr<Run> Optimise(vtkInformationVector* inputs);
+  void Optimise(vtkInformationVector* inputs, cactus::RankAgreement& agreement, Run& run);
   /** Fills the outputs with a state of the run. */
   void Show(const Run& run, std::size_t state, vtkInformationVector** inputs, vtkInformationVector* outputs);
   /** Says which times there are. */

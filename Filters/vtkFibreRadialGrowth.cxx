@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFibreRadialGrowth.h"
 
+#include "Columns.h"
+#include "Error.h"
 #include "FibreData.h"
 #include "FibreRadialGrowth.h"
 #include "FilterSupport.h"
 #include "GrowthTarget.h"
+#include "InputBlocks.h"
 #include "Memory.h"
 #include "WholeData.h"
 
@@ -20,12 +23,13 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
+#include <algorithm>
 #include <memory>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkFibreRadialGrowth);
 
@@ -47,25 +51,50 @@ cactus::FibreRadialGrowthOptions optionsFrom(vtkFibreRadialGrowth* self)
   return options;
 }
 
-void addNumber(vtkFieldData* data, const char* name, double value)
+/// Whether the optimiser has left overlaps in the input, or in one of its blocks.
+bool stillOverlaps(vtkDataObject* input)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  data->AddArray(array);
+  std::vector<vtkDataObject*> places = cactus::leavesOf(input);
+  places.push_back(input);
+  return std::any_of(places.begin(), places.end(),
+    [](vtkDataObject* place)
+    {
+      vtkDataArray* converged = place->GetFieldData()->GetArray("Converged");
+      return converged != nullptr && converged->GetNumberOfTuples() > 0 && converged->GetComponent(0, 0) == 0.0;
+    });
 }
 
-template <typename Array, typename Values>
-void addColumn(vtkFieldData* data, const char* name, const Values& values)
+/// The part of the image that is asked for. Throws InvalidInput where it is one of an image that these fibres do not make, and
+/// OutOfMemory for more of it than the machine can hold.
+cactus::VoxelGrid requestedGrid(
+  const cactus::Domain& domain, const cactus::FibreRadialGrowthOptions& options, vtkInformation* info)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  for (std::size_t i = 0; i < values.size(); ++i)
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  cactus::VoxelGrid grid = cactus::growthGrid(domain, options);
+  int extent[6];
+  info->Get(Pipeline::WHOLE_EXTENT(), extent);
+  for (int axis = 0; axis < 3; ++axis)
   {
-    array->SetValue(static_cast<vtkIdType>(i), values[i]);
+    if (extent[2 * axis + 1] != grid.count[axis] - 1)
+    {
+      throw cactus::InvalidInput(
+        "the fibres' Domain has changed since the size of the image was asked for: it has to be the same "
+        "at all times");
+    }
   }
-  data->AddArray(array);
+  info->Get(Pipeline::UPDATE_EXTENT(), extent);
+  double voxels = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    grid.lower[axis] = extent[2 * axis];
+    grid.count[axis] = std::max(0, extent[2 * axis + 1] - extent[2 * axis] + 1);
+    voxels *= grid.count[axis];
+  }
+  std::ostringstream what;
+  what << "VoxelSize " << options.voxelSize << " makes an image of " << grid.count[0] << " x " << grid.count[1] << " x "
+       << grid.count[2] << " voxels, which";
+  cactus::requireMemory(8.0 * voxels, what.str(), "choose a larger VoxelSize or ask for a smaller extent");
+  return grid;
 }
 
 } // namespace
@@ -76,7 +105,7 @@ vtkFibreRadialGrowth::~vtkFibreRadialGrowth() = default;
 
 int vtkFibreRadialGrowth::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  cactus::acceptAnyData(info);
   return 1;
 }
 
@@ -89,35 +118,22 @@ int vtkFibreRadialGrowth::RequestInformation(vtkInformation*, vtkInformationVect
   int extent[6] = { 0, 0, 0, 0, 0, 0 };
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
 
-  // Only the fibres themselves say how large the domain is. Whoever updated them before may have asked this process for another
-  // piece of them, which holds nothing.
-  cactus::requestWholeInputs(inputs, 1);
-  int port = 0;
-  vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port);
-  producer->Update(port);
-  auto* input = vtkPolyData::GetData(inputs[0]);
-  if (input == nullptr || input->GetNumberOfPoints() == 0)
-  {
-    // Whoever made it has said why, or RequestData will.
-    return 1;
-  }
-  try
-  {
-    const cactus::VoxelGrid grid = cactus::growthGrid(cactus::fibresFrom(input).domain, optionsFrom(this));
-    const double spacing[3] = { grid.spacing, grid.spacing, grid.spacing };
-    for (int axis = 0; axis < 3; ++axis)
+  // Only the fibres themselves say how large the domain is.
+  cactus::quietly(
+    [&]
     {
-      extent[2 * axis + 1] = grid.count[axis] - 1;
-    }
-    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
-    info->Set(vtkDataObject::ORIGIN(), grid.origin.data(), 3);
-    info->Set(vtkDataObject::SPACING(), spacing, 3);
-  }
-  catch (const cactus::Error&)
-  {
-    // The same checks fail in RequestData, which reports them; an error here would be followed by the pipeline's own, which say
-    // less.
-  }
+      cactus::updateWholeInputs(this, inputs);
+      const cactus::Domain domain = cactus::fibresFrom(vtkDataObject::GetData(inputs[0])).domain;
+      const cactus::VoxelGrid grid = cactus::growthGrid(domain, optionsFrom(this));
+      const double spacing[3] = { grid.spacing, grid.spacing, grid.spacing };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        extent[2 * axis + 1] = grid.count[axis] - 1;
+      }
+      info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+      info->Set(vtkDataObject::ORIGIN(), grid.origin.data(), 3);
+      info->Set(vtkDataObject::SPACING(), spacing, 3);
+    });
   return 1;
 }
 
@@ -134,37 +150,22 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
     [&]
     {
       const auto options = optionsFrom(this);
-      auto* input = vtkPolyData::GetData(inputs[0]);
+      auto* input = vtkDataObject::GetData(inputs[0]);
       const cactus::Fibres fibres = cactus::fibresFrom(input);
       const cactus::Context context = cactus::contextFor(this, this->NumberOfThreads);
-
       vtkInformation* info = outputs->GetInformationObject(0);
-      int extent[6];
-      info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
-      cactus::VoxelGrid grid = cactus::growthGrid(fibres.domain, options);
-      double voxels = 1.0;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        grid.lower[axis] = extent[2 * axis];
-        grid.count[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-        voxels *= grid.count[axis];
-      }
+      const cactus::VoxelGrid grid = requestedGrid(fibres.domain, options, info);
       auto* output = vtkImageData::GetData(outputs);
-      if (grid.count[0] <= 0 || grid.count[1] <= 0 || grid.count[2] <= 0)
+      if (grid.size() == 0)
       {
         // A process with nothing to do: there are more of them than the image can be split for.
         output->Initialize();
         return;
       }
-      std::ostringstream what;
-      what << "VoxelSize " << this->VoxelSize << " makes an image of " << grid.count[0] << " x " << grid.count[1] << " x "
-           << grid.count[2] << " voxels, which";
-      cactus::requireMemory(8.0 * voxels, what.str(), "choose a larger VoxelSize or ask for a smaller extent");
 
-      if (this->GrowthParameterTime != this->GetMTime() || this->GrowthInputTime != input->GetMTime())
+      if (this->GrowthParameterTime != this->GetMTime() || this->GrowthInputTime != cactus::changeTime(input))
       {
-        vtkDataArray* converged = input->GetFieldData()->GetArray("Converged");
-        if (converged != nullptr && converged->GetNumberOfTuples() > 0 && converged->GetComponent(0, 0) == 0.0)
+        if (stillOverlaps(input))
         {
           vtkWarningMacro(<< "these fibres still overlap (Converged is 0) and take space from each other: let "
                              "CapsuleOptimizer run on or, where it keeps its history, go to the last time step");
@@ -176,18 +177,14 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
         this->Growth = cactus::growthFor(*aimed, options, context);
         this->Aimed = std::move(aimed);
         this->GrowthParameterTime = this->GetMTime();
-        this->GrowthInputTime = input->GetMTime();
+        this->GrowthInputTime = cactus::changeTime(input);
       }
 
-      vtkNew<vtkIntArray> fibreId;
-      fibreId->SetName("FibreId");
-      fibreId->SetNumberOfValues(static_cast<vtkIdType>(grid.size()));
-      vtkNew<vtkFloatArray> depth;
-      depth->SetName("Depth");
-      depth->SetNumberOfValues(static_cast<vtkIdType>(grid.size()));
+      auto fibreId = cactus::makeArray<vtkIntArray>("FibreId", grid.size());
+      auto depth = cactus::makeArray<vtkFloatArray>("Depth", grid.size());
       cactus::growFibres(*this->Aimed, options, this->Growth, grid, fibreId->GetPointer(0), depth->GetPointer(0), context);
 
-      output->SetExtent(extent);
+      output->SetExtent(info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
       output->SetOrigin(grid.origin.data());
       output->SetSpacing(grid.spacing, grid.spacing, grid.spacing);
       output->GetPointData()->AddArray(fibreId);
@@ -196,13 +193,16 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
 
       cactus::setDomain(output, fibres.domain);
       vtkFieldData* data = output->GetFieldData();
-      addNumber(data, "Growth", this->Growth);
-      addNumber(data, "MinimumGap", options.minimumGap);
-      addNumber(data, "SurfaceTolerance", options.surfaceTolerance);
-      addNumber(data, "VoxelSize", grid.spacing);
-      addColumn<vtkIntArray>(data, "FibreTable.FibreId", fibres.fibreIds);
-      addColumn<vtkIntArray>(data, "FibreTable.BundleId", fibres.bundleIds);
-      addColumn<vtkDoubleArray>(data, "FibreTable.TargetRadius", fibres.targetRadii);
+      cactus::addNumber(data, "Growth", this->Growth);
+      cactus::addNumber(data, "MinimumGap", options.minimumGap);
+      cactus::addNumber(data, "SurfaceTolerance", options.surfaceTolerance);
+      cactus::addNumber(data, "VoxelSize", grid.spacing);
+      cactus::addColumn<vtkIntArray>(
+        data, "FibreTable.FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
+      cactus::addColumn<vtkIntArray>(
+        data, "FibreTable.BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
+      cactus::addColumn<vtkDoubleArray>(
+        data, "FibreTable.TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
 
       std::ostringstream parameters;
       parameters.precision(15);

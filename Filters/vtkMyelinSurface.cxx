@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMyelinSurface.h"
 
+#include "Columns.h"
+#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "MyelinSurface.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 
+#include <vtkCompositeDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -15,7 +18,6 @@
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
 #include <vtkMatrix3x3.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -49,16 +51,43 @@ double fieldNumber(vtkImageData* image, const std::string& name)
   return fieldColumn(image, name)->GetComponent(0, 0);
 }
 
-template <typename Value>
-std::vector<Value> fieldValues(vtkImageData* image, const std::string& name)
+std::vector<double> fieldValues(vtkImageData* image, const std::string& name)
 {
   vtkDataArray* array = fieldColumn(image, name);
-  std::vector<Value> values;
+  std::vector<double> values;
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
-    values.push_back(static_cast<Value>(array->GetComponent(i, 0)));
+    values.push_back(array->GetComponent(i, 0));
   }
   return values;
+}
+
+std::vector<int> fieldIds(vtkImageData* image, const std::string& name)
+{
+  vtkDataArray* array = fieldColumn(image, name);
+  std::vector<int> ids;
+  for (vtkIdType row = 0; row < array->GetNumberOfTuples(); ++row)
+  {
+    ids.push_back(cactus::idFrom(array, row));
+  }
+  return ids;
+}
+
+/// The input as an image. Throws InvalidInput for anything else.
+vtkImageData* imageFrom(vtkDataObject* input)
+{
+  auto* image = vtkImageData::SafeDownCast(input);
+  if (input != nullptr && image == nullptr)
+  {
+    const bool isComposite = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
+    throw cactus::InvalidInput(std::string("the input is a ") + input->GetClassName() + ", and one label image is expected" +
+                               (isComposite ? ": group fibres before FibreRadialGrowth, not images after it" : advice));
+  }
+  if (image == nullptr || image->GetNumberOfPoints() == 0)
+  {
+    throw cactus::InvalidInput(std::string("the label image is empty") + advice);
+  }
+  return image;
 }
 
 /// The image's numbers where VTK keeps them.
@@ -77,6 +106,10 @@ cactus::LabelImageView viewOf(vtkImageData* image)
   }
   cactus::LabelImageView view;
   const double* spacing = image->GetSpacing();
+  if (!std::isfinite(spacing[0]) || spacing[0] <= 0.0 || !Eigen::Vector3d(image->GetOrigin()).allFinite())
+  {
+    throw cactus::InvalidInput("the label image's Spacing or Origin is no length in µm: give the output of FibreRadialGrowth");
+  }
   if (std::abs(spacing[1] - spacing[0]) > 1e-9 * spacing[0] || std::abs(spacing[2] - spacing[0]) > 1e-9 * spacing[0])
   {
     throw cactus::InvalidInput("the label image's voxels are no cubes: resample it, or use the output of FibreRadialGrowth");
@@ -102,25 +135,13 @@ cactus::LabelImageView viewOf(vtkImageData* image)
   return view;
 }
 
-template <typename Array, typename Value>
-void addColumn(vtkTable* table, const char* name, const std::vector<cactus::FibreSurfacePair>& fibres, Value&& value)
-{
-  vtkNew<Array> column;
-  column->SetName(name);
-  column->SetNumberOfValues(static_cast<vtkIdType>(fibres.size()));
-  for (std::size_t row = 0; row < fibres.size(); ++row)
-  {
-    column->SetValue(static_cast<vtkIdType>(row), static_cast<typename Array::ValueType>(value(fibres[row])));
-  }
-  table->AddColumn(column);
-}
-
 void fillTable(vtkTable* table, const std::vector<cactus::FibreSurfacePair>& fibres)
 {
   using Fibre = cactus::FibreSurfacePair;
   const auto number = [&](const char* name, double (*value)(const Fibre&))
-  { addColumn<vtkDoubleArray>(table, name, fibres, value); };
-  const auto integer = [&](const char* name, long (*value)(const Fibre&)) { addColumn<vtkIntArray>(table, name, fibres, value); };
+  { cactus::addColumn<vtkDoubleArray>(table, name, fibres.size(), [&](std::size_t row) { return value(fibres[row]); }); };
+  const auto integer = [&](const char* name, long (*value)(const Fibre&))
+  { cactus::addColumn<vtkIntArray>(table, name, fibres.size(), [&](std::size_t row) { return value(fibres[row]); }); };
   integer("FibreId", [](const Fibre& f) { return long(f.fibreId); });
   integer("BundleId", [](const Fibre& f) { return long(f.bundleId); });
   number("TargetRadius_um", [](const Fibre& f) { return f.targetRadius; });
@@ -171,7 +192,7 @@ vtkMyelinSurface::vtkMyelinSurface()
 
 int vtkMyelinSurface::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  cactus::acceptAnyData(info);
   return 1;
 }
 
@@ -187,8 +208,11 @@ int vtkMyelinSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector*
   cactus::requestWholeInputs(inputs, 1);
   vtkInformation* info = inputs[0]->GetInformationObject(0);
   int extent[6];
-  info->Get(Pipeline::WHOLE_EXTENT(), extent);
-  info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  if (info->Has(Pipeline::WHOLE_EXTENT()) != 0) // which data other than images have not
+  {
+    info->Get(Pipeline::WHOLE_EXTENT(), extent);
+    info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  }
   return 1;
 }
 
@@ -208,24 +232,23 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       options.clipToDomain = this->ClipToDomain;
       options.seed = cactus::seedFrom(this->Seed);
       cactus::validate(options);
+      auto* image = imageFrom(vtkDataObject::GetData(inputs[0]));
       if (!cactus::ownsWholeOutput(request, outputs))
       {
+        if (this->ReleaseInput)
+        {
+          releaseImage(this); // which this rank has grown, too
+        }
         return;
-      }
-
-      auto* image = vtkImageData::GetData(inputs[0]);
-      if (image == nullptr || image->GetNumberOfPoints() == 0)
-      {
-        throw cactus::InvalidInput(std::string("the label image is empty") + advice);
       }
       cactus::LabelImageView view = viewOf(image);
       cactus::LabelImageFacts facts;
       facts.domain = cactus::domainFrom(image);
       facts.minimumGap = fieldNumber(image, "MinimumGap");
       facts.surfaceTolerance = fieldNumber(image, "SurfaceTolerance");
-      facts.fibreIds = fieldValues<int>(image, "FibreTable.FibreId");
-      facts.bundleIds = fieldValues<int>(image, "FibreTable.BundleId");
-      facts.targetRadii = fieldValues<double>(image, "FibreTable.TargetRadius");
+      facts.fibreIds = fieldIds(image, "FibreTable.FibreId");
+      facts.bundleIds = fieldIds(image, "FibreTable.BundleId");
+      facts.targetRadii = fieldValues(image, "FibreTable.TargetRadius");
       view.gap = facts.minimumGap + 2.0 * facts.surfaceTolerance;
 
       auto fibres = cactus::myelinSurfaces(view, facts, options, context);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkStrandReader.h"
 
+#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StrandFile.h"

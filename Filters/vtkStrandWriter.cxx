@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkStrandWriter.h"
 
+#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StrandFile.h"
+#include "WholeData.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
-#include <vtkPolyData.h>
 
 vtkStandardNewMacro(vtkStrandWriter);
 
@@ -20,7 +21,7 @@ vtkStrandWriter::~vtkStrandWriter()
 
 int vtkStrandWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  cactus::acceptAnyData(info);
   return 1;
 }
 
@@ -32,16 +33,16 @@ void vtkStrandWriter::WriteData()
   {
     return;
   }
-  const int written = cactus::guarded(this,
+  const bool isWritten = cactus::attempt(this,
     [&]
     {
       if (this->FileName == nullptr || *this->FileName == '\0')
       {
         throw cactus::InvalidInput("FileName is empty: name the strand file to write");
       }
-      cactus::writeStrandFile(cactus::fibresFrom(vtkPolyData::SafeDownCast(this->GetInput())), this->FileName);
+      cactus::writeStrandFile(cactus::fibresFrom(this->GetInput()), this->FileName);
     });
-  if (written == 0)
+  if (!isWritten)
   {
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
   }

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSubstrateCertificate.h"
 
+#include "Columns.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "SubstrateCertificate.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 
+#include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 
 #include <sstream>
@@ -23,30 +23,18 @@ vtkStandardNewMacro(vtkSubstrateCertificate);
 namespace
 {
 
-template <typename Array>
-void addColumn(vtkTable* table, const cactus::CertificateColumn& column)
-{
-  vtkNew<Array> array;
-  array->SetName(column.name.c_str());
-  array->SetNumberOfValues(static_cast<vtkIdType>(column.values.size()));
-  for (std::size_t row = 0; row < column.values.size(); ++row)
-  {
-    array->SetValue(static_cast<vtkIdType>(row), static_cast<typename Array::ValueType>(column.values[row]));
-  }
-  table->AddColumn(array);
-}
-
 void fill(vtkTable* table, const std::vector<cactus::CertificateColumn>& columns)
 {
   for (const auto& column : columns)
   {
+    const auto value = [&](std::size_t row) { return column.values[row]; };
     if (column.whole)
     {
-      addColumn<vtkIdTypeArray>(table, column);
+      cactus::addColumn<vtkIdTypeArray>(table, column.name, column.values.size(), value);
     }
     else
     {
-      addColumn<vtkDoubleArray>(table, column);
+      cactus::addColumn<vtkDoubleArray>(table, column.name, column.values.size(), value);
     }
   }
 }
@@ -61,7 +49,7 @@ vtkSubstrateCertificate::vtkSubstrateCertificate()
 
 int vtkSubstrateCertificate::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  cactus::acceptAnyData(info);
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
   return 1;
 }
@@ -81,9 +69,9 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
       }
-      vtkPolyData* outer = vtkPolyData::GetData(inputs[0]);
-      vtkPolyData* inner = vtkPolyData::GetData(inputs[1]);
-      vtkPolyData* lines = vtkPolyData::GetData(inputs[2]);
+      vtkDataObject* outer = vtkDataObject::GetData(inputs[0]);
+      vtkDataObject* inner = vtkDataObject::GetData(inputs[1]);
+      vtkDataObject* lines = vtkDataObject::GetData(inputs[2]);
       const cactus::Domain domain = cactus::domainFrom(outer);
       cactus::requireSameDomain(domain, inner, "Inner");
       cactus::requireSameDomain(domain, lines, "Fibres");

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSubstrateStatistics.h"
 
+#include "Columns.h"
+#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "SubstrateStatistics.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 
+#include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 
 #include <algorithm>
@@ -24,18 +25,7 @@ vtkStandardNewMacro(vtkSubstrateStatistics);
 namespace
 {
 
-template <typename Array, typename Value>
-void addColumn(vtkTable* table, const char* name, std::size_t rows, Value&& value)
-{
-  vtkNew<Array> column;
-  column->SetName(name);
-  column->SetNumberOfValues(static_cast<vtkIdType>(rows));
-  for (std::size_t row = 0; row < rows; ++row)
-  {
-    column->SetValue(static_cast<vtkIdType>(row), static_cast<typename Array::ValueType>(value(row)));
-  }
-  table->AddColumn(column);
-}
+using cactus::addColumn;
 
 void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
 {
@@ -142,7 +132,7 @@ vtkSubstrateStatistics::vtkSubstrateStatistics()
 
 int vtkSubstrateStatistics::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  cactus::acceptAnyData(info);
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
   return 1;
 }
@@ -166,9 +156,9 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
       }
-      vtkPolyData* lines = vtkPolyData::GetData(inputs[0]);
-      vtkPolyData* outerData = vtkPolyData::GetData(inputs[1]);
-      vtkPolyData* innerData = vtkPolyData::GetData(inputs[2]);
+      vtkDataObject* lines = vtkDataObject::GetData(inputs[0]);
+      vtkDataObject* outerData = vtkDataObject::GetData(inputs[1]);
+      vtkDataObject* innerData = vtkDataObject::GetData(inputs[2]);
       const cactus::Fibres fibres = cactus::fibresFrom(lines);
       cactus::requireSameDomain(fibres.domain, outerData, "Outer");
       cactus::requireSameDomain(fibres.domain, innerData, "Inner");
@@ -184,7 +174,7 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       fillSubstrate(vtkTable::GetData(outputs, 0), statistics);
       fillFibres(vtkTable::GetData(outputs, 1), statistics.fibres);
       fillHistograms(vtkTable::GetData(outputs, 2), statistics.fibres, static_cast<std::size_t>(this->NumberOfBins));
-      vtkDataObject* last = outerData != nullptr ? static_cast<vtkDataObject*>(outerData) : lines;
+      vtkDataObject* last = outerData != nullptr ? outerData : lines;
       for (int port = 0; port < 3; ++port)
       {
         cactus::addProvenance(

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSubstrateWriter.h"
 
+#include "Columns.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "InputBlocks.h"
 #include "SubstrateFolder.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 
+#include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
@@ -24,36 +25,25 @@ vtkStandardNewMacro(vtkSubstrateWriter);
 namespace
 {
 
-template <typename Array, typename Value>
-void addColumn(vtkTable* table, const char* name, const std::vector<cactus::SubstrateFile>& files, Value&& value)
-{
-  vtkNew<Array> column;
-  column->SetName(name);
-  column->SetNumberOfValues(static_cast<vtkIdType>(files.size()));
-  for (std::size_t row = 0; row < files.size(); ++row)
-  {
-    column->SetValue(static_cast<vtkIdType>(row), value(files[row]));
-  }
-  table->AddColumn(column);
-}
-
 void fill(vtkTable* table, const std::vector<cactus::SubstrateFile>& files)
 {
   using File = cactus::SubstrateFile;
-  addColumn<vtkStringArray>(table, "Path", files, [](const File& f) { return f.path; });
-  addColumn<vtkIntArray>(table, "FibreId", files, [](const File& f) { return f.fibreId; });
-  addColumn<vtkIntArray>(table, "BundleId", files, [](const File& f) { return f.bundleId; });
-  addColumn<vtkIntArray>(table, "Surface", files, [](const File& f) { return f.surface == "outer" ? 0 : 1; });
-  addColumn<vtkIdTypeArray>(table, "Triangles", files, [](const File& f) { return static_cast<vtkIdType>(f.triangles); });
-  addColumn<vtkDoubleArray>(table, "Volume_um3", files, [](const File& f) { return f.volume; });
-  addColumn<vtkDoubleArray>(table, "Area_um2", files, [](const File& f) { return f.area; });
-  addColumn<vtkIntArray>(table, "Closed", files, [](const File& f) { return f.closed ? 1 : 0; });
+  const std::size_t rows = files.size();
+  const auto from = [&](auto value) { return [&files, value](std::size_t row) { return value(files[row]); }; };
+  cactus::addColumn<vtkStringArray>(table, "Path", rows, from([](const File& f) { return f.path; }));
+  cactus::addColumn<vtkIntArray>(table, "FibreId", rows, from([](const File& f) { return f.fibreId; }));
+  cactus::addColumn<vtkIntArray>(table, "BundleId", rows, from([](const File& f) { return f.bundleId; }));
+  cactus::addColumn<vtkIntArray>(table, "Surface", rows, from([](const File& f) { return f.surface == "outer" ? 0 : 1; }));
+  cactus::addColumn<vtkIdTypeArray>(table, "Triangles", rows, from([](const File& f) { return f.triangles; }));
+  cactus::addColumn<vtkDoubleArray>(table, "Volume_um3", rows, from([](const File& f) { return f.volume; }));
+  cactus::addColumn<vtkDoubleArray>(table, "Area_um2", rows, from([](const File& f) { return f.area; }));
+  cactus::addColumn<vtkIntArray>(table, "Closed", rows, from([](const File& f) { return f.closed ? 1 : 0; }));
 }
 
 std::vector<std::string> provenanceOf(vtkDataObject* data)
 {
   std::vector<std::string> lines;
-  if (auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("Provenance")))
+  if (auto* array = vtkStringArray::SafeDownCast(cactus::fieldArray(data, "Provenance")))
   {
     for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
     {
@@ -77,7 +67,7 @@ vtkSubstrateWriter::~vtkSubstrateWriter()
 
 int vtkSubstrateWriter::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  cactus::acceptAnyData(info);
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
   return 1;
 }
@@ -97,9 +87,9 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       {
         return;
       }
-      vtkPolyData* outer = vtkPolyData::GetData(inputs[0]);
-      vtkPolyData* inner = vtkPolyData::GetData(inputs[1]);
-      vtkPolyData* lines = vtkPolyData::GetData(inputs[2]);
+      vtkDataObject* outer = vtkDataObject::GetData(inputs[0]);
+      vtkDataObject* inner = vtkDataObject::GetData(inputs[1]);
+      vtkDataObject* lines = vtkDataObject::GetData(inputs[2]);
       cactus::SubstrateFolderContents contents;
       contents.domain = cactus::domainFrom(outer);
       cactus::requireSameDomain(contents.domain, inner, "Inner");

@@ -589,7 +589,7 @@ bool shouldStop(const Run& run, const ConvergenceRow& row, const CapsuleOptimize
     reason = StopReason::Stopped;
     return true;
   }
-  if (options.timeBudget > 0.0 && seconds >= options.timeBudget)
+  if (options.timeBudget > 0.0 && context.agreed(seconds >= options.timeBudget))
   {
     reason = StopReason::TimeBudget;
     return true;

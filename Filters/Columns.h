@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Arrays for outputs: the columns of tables and the tables in field data.
+#pragma once
+
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkSmartPointer.h>
+#include <vtkTable.h>
+
+#include <cstddef>
+#include <string>
+#include <type_traits>
+
+namespace cactus
+{
+
+/// An array of `count` values that have yet to be set. Throws std::bad_alloc where there is no room for them, and says nothing:
+/// VTK's own allocation reports an error besides.
+template <typename Array>
+vtkSmartPointer<Array> makeArray(const std::string& name, std::size_t count)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name.c_str());
+  if constexpr (std::is_base_of_v<vtkDataArray, Array>)
+  {
+    using Value = typename Array::ValueType;
+    array->SetArray(new Value[count], static_cast<vtkIdType>(count), 0, vtkAbstractArray::VTK_DATA_ARRAY_DELETE);
+  }
+  else
+  {
+    array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  }
+  return array;
+}
+
+inline void store(vtkTable* table, vtkAbstractArray* column)
+{
+  table->AddColumn(column);
+}
+
+inline void store(vtkFieldData* data, vtkAbstractArray* column)
+{
+  data->AddArray(column);
+}
+
+/// Adds a column to a table, or to field data, whose values are value(0), …, value(rows - 1).
+template <typename Array, typename Target, typename Value>
+void addColumn(Target* target, const std::string& name, std::size_t rows, Value&& value)
+{
+  auto column = makeArray<Array>(name, rows);
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    if constexpr (std::is_base_of_v<vtkDataArray, Array>)
+    {
+      column->SetValue(static_cast<vtkIdType>(row), static_cast<typename Array::ValueType>(value(row)));
+    }
+    else
+    {
+      column->SetValue(static_cast<vtkIdType>(row), value(row)); // text
+    }
+  }
+  store(target, column);
+}
+
+/// One number as field data.
+inline void addNumber(vtkFieldData* data, const std::string& name, double value)
+{
+  addColumn<vtkDoubleArray>(data, name, 1, [value](std::size_t) { return value; });
+}
+
+/// One whole number as field data.
+inline void addCount(vtkFieldData* data, const std::string& name, int value)
+{
+  addColumn<vtkIntArray>(data, name, 1, [value](std::size_t) { return value; });
+}
+
+} // namespace cactus

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FilterSupport.h"
+
+#include "Error.h"
+#include "InputBlocks.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationIntegerKey.h>
+#include <vtkInformationStringKey.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkSetGet.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <sstream>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr const char* errorName = "Error"; ///< field data array of what could not be made
+
+/// What an algorithm keeps, in its own information, of a run that failed or was stopped.
+vtkInformationStringKey* failedRunKey()
+{
+  static vtkInformationStringKey* const key = vtkInformationStringKey::MakeKey("FAILED_RUN", "cactus");
+  return key;
+}
+
+vtkInformationStringKey* failureKey()
+{
+  static vtkInformationStringKey* const key = vtkInformationStringKey::MakeKey("FAILURE", "cactus");
+  return key;
+}
+
+vtkInformationIntegerKey* stoppedKey()
+{
+  static vtkInformationIntegerKey* const key = vtkInformationIntegerKey::MakeKey("STOPPED", "cactus");
+  return key;
+}
+
+/// Calls `visit` with each data object that comes in.
+template <typename Visit>
+void forEachInput(vtkAlgorithm* self, Visit&& visit)
+{
+  for (int port = 0; port < self->GetNumberOfInputPorts(); ++port)
+  {
+    for (int connection = 0; connection < self->GetNumberOfInputConnections(port); ++connection)
+    {
+      if (vtkDataObject* data = self->GetInputDataObject(port, connection))
+      {
+        visit(data);
+      }
+    }
+  }
+}
+
+/// All that a run depends on: two runs that have this in common end alike.
+std::string runOf(vtkAlgorithm* self)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  std::ostringstream run;
+  run << self->GetMTime();
+  forEachInput(self, [&](vtkDataObject* data) { run << ' ' << changeTime(data); });
+  vtkInformationVector* outputs = self->GetExecutive()->GetOutputInformation();
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkInformation* info = outputs->GetInformationObject(port);
+    run << " | " << info->Get(Pipeline::UPDATE_PIECE_NUMBER()) << '/' << info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+    for (int i = 0; i < 6 && info->Has(Pipeline::UPDATE_EXTENT()) != 0; ++i)
+    {
+      run << ' ' << info->Get(Pipeline::UPDATE_EXTENT(), i);
+    }
+  }
+  return run.str();
+}
+
+/// Empties all outputs and marks them with a message.
+void leaveEmpty(vtkAlgorithm* self, const std::string& message)
+{
+  for (int port = 0; port < self->GetNumberOfOutputPorts(); ++port)
+  {
+    if (vtkDataObject* output = self->GetOutputDataObject(port))
+    {
+      output->Initialize();
+      vtkNew<vtkStringArray> mark;
+      mark->SetName(errorName);
+      mark->InsertNextValue(message);
+      output->GetFieldData()->AddArray(mark);
+    }
+  }
+}
+
+/// Keeps what happened for the next request of the same.
+void remember(vtkAlgorithm* self, const std::string& message, bool isStop)
+{
+  vtkInformation* info = self->GetInformation();
+  info->Set(failedRunKey(), runOf(self).c_str());
+  info->Set(failureKey(), message.c_str());
+  info->Set(stoppedKey(), isStop ? 1 : 0);
+}
+
+void forget(vtkAlgorithm* self)
+{
+  vtkInformation* info = self->GetInformation();
+  info->Remove(failedRunKey());
+  info->Remove(failureKey());
+  info->Remove(stoppedKey());
+}
+
+/// Has the pipeline ask again at the next update, although nothing has changed.
+void askAgain(vtkAlgorithm* self)
+{
+  vtkInformationVector* outputs = self->GetExecutive()->GetOutputInformation();
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    outputs->GetInformationObject(port)->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
+  }
+}
+
+void fail(vtkAlgorithm* self, const std::string& message)
+{
+  vtkErrorWithObjectMacro(self, << message);
+  leaveEmpty(self, message);
+  remember(self, message, false);
+}
+
+/// Leaves the outputs empty where that is already known to be all that there can be.
+bool isKnownToFail(vtkAlgorithm* self)
+{
+  std::string upstream;
+  forEachInput(self, [&](vtkDataObject* data) { upstream = upstream.empty() ? errorOf(data) : upstream; });
+  if (!upstream.empty())
+  {
+    leaveEmpty(self, upstream);
+    return true;
+  }
+  vtkInformation* info = self->GetInformation();
+  if (info->Has(failedRunKey()) == 0 || runOf(self) != info->Get(failedRunKey()))
+  {
+    return false;
+  }
+  leaveEmpty(self, info->Get(failureKey()));
+  if (info->Get(stoppedKey()) != 0)
+  {
+    vtkWarningWithObjectMacro(self, << info->Get(failureKey()));
+    askAgain(self);
+  }
+  return true;
+}
+
+} // namespace
+
+Context contextFor(vtkAlgorithm* algorithm, int threads)
+{
+  if (threads < 0)
+  {
+    throw InvalidInput("NumberOfThreads is " + std::to_string(threads) + ": give 0 for all, or how many");
+  }
+  Context context;
+  context.threads = threads;
+  context.progress = [algorithm](double fraction, const std::string& message)
+  {
+    algorithm->SetProgressText(message.c_str());
+    algorithm->UpdateProgress(fraction);
+  };
+  // The flag is taken back here and once it is noticed. VTK leaves it set, which would stop the next run at its start; and
+  // cleared by others after this run, it would mark the filter as modified and have it run again.
+  algorithm->SetAbortExecute(0);
+  // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
+  context.cancelled = [algorithm, stopped = std::make_shared<bool>(false)]
+  {
+    if (algorithm->GetAbortExecute() != 0)
+    {
+      *stopped = true;
+      algorithm->SetAbortExecute(0);
+    }
+    return *stopped;
+  };
+  return context;
+}
+
+std::uint64_t seedFrom(int seed)
+{
+  if (seed < 0)
+  {
+    throw InvalidInput("Seed is " + std::to_string(seed) + ": give a number that is not negative");
+  }
+  return static_cast<std::uint64_t>(seed);
+}
+
+bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
+{
+  if (isKnownToFail(self))
+  {
+    return false;
+  }
+  forget(self);
+  try
+  {
+    work();
+    return true;
+  }
+  catch (const Cancelled&)
+  {
+    const std::string message = "stopped by the user, and nothing is kept: to run it again change a property, or call Modified()";
+    vtkWarningWithObjectMacro(self, << message);
+    leaveEmpty(self, message);
+    remember(self, message, true);
+    askAgain(self);
+  }
+  catch (const Error& error)
+  {
+    fail(self, error.what());
+  }
+  catch (const std::bad_alloc&)
+  {
+    fail(self, "out of memory: choose a smaller Side or a larger VoxelSize");
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    fail(self, error.what());
+  }
+  catch (const std::exception& error)
+  {
+    fail(self, std::string("this could not be worked out (") + error.what() +
+                 "): look for a property or an input of an unusual size, and please report it with them");
+  }
+  catch (...)
+  {
+    fail(
+      self, "this could not be worked out, for a reason that is not known: please report it with the properties and the input");
+  }
+  return false;
+}
+
+int guarded(vtkAlgorithm* self, const std::function<void()>& work)
+{
+  attempt(self, work);
+  return 1;
+}
+
+void quietly(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+  }
+  catch (...)
+  {
+    return;
+  }
+}
+
+std::string errorOf(vtkDataObject* data)
+{
+  std::vector<vtkDataObject*> places = leavesOf(data);
+  places.push_back(data);
+  for (vtkDataObject* place : places)
+  {
+    auto* mark = vtkStringArray::SafeDownCast(
+      place != nullptr && place->GetFieldData() != nullptr ? place->GetFieldData()->GetAbstractArray(errorName) : nullptr);
+    if (mark != nullptr && mark->GetNumberOfValues() > 0)
+    {
+      return mark->GetValue(0).empty() ? "an unknown error" : std::string(mark->GetValue(0));
+    }
+  }
+  return "";
+}
+
+} // namespace cactus
