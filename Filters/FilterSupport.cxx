@@ -6,10 +6,10 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
-#include <vtkDemandDrivenPipeline.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
+#include <vtkInformationDoubleKey.h>
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationStringKey.h>
 #include <vtkInformationVector.h>
@@ -17,8 +17,9 @@
 #include <vtkSetGet.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
+#include <vtkTimeStamp.h>
 
-#include <algorithm>
+#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -50,6 +51,13 @@ vtkInformationStringKey* failureKey()
 vtkInformationIntegerKey* stoppedKey()
 {
   static vtkInformationIntegerKey* const key = vtkInformationIntegerKey::MakeKey("STOPPED", "cactus");
+  return key;
+}
+
+/// When it was last said that the run was stopped, in seconds of a steady clock.
+vtkInformationDoubleKey* saidKey()
+{
+  static vtkInformationDoubleKey* const key = vtkInformationDoubleKey::MakeKey("SAID", "cactus");
   return key;
 }
 
@@ -120,16 +128,7 @@ void forget(vtkAlgorithm* self)
   info->Remove(failedRunKey());
   info->Remove(failureKey());
   info->Remove(stoppedKey());
-}
-
-/// Has the pipeline ask again at the next update, although nothing has changed.
-void askAgain(vtkAlgorithm* self)
-{
-  vtkInformationVector* outputs = self->GetExecutive()->GetOutputInformation();
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-  {
-    outputs->GetInformationObject(port)->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
-  }
+  info->Remove(saidKey());
 }
 
 void fail(vtkAlgorithm* self, const std::string& message)
@@ -137,6 +136,18 @@ void fail(vtkAlgorithm* self, const std::string& message)
   vtkErrorWithObjectMacro(self, << message);
   leaveEmpty(self, message);
   remember(self, message, false);
+}
+
+/// Says that the run was stopped, once for what asks at one time: an update asks port after port, and some filters ask ahead.
+void sayStopped(vtkAlgorithm* self)
+{
+  vtkInformation* info = self->GetInformation();
+  const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  if (info->Has(saidKey()) == 0 || now - info->Get(saidKey()) > 1.0)
+  {
+    vtkWarningWithObjectMacro(self, << info->Get(failureKey()));
+  }
+  info->Set(saidKey(), now);
 }
 
 /// Leaves the outputs empty where that is already known to be all that there can be.
@@ -157,8 +168,7 @@ bool isKnownToFail(vtkAlgorithm* self)
   leaveEmpty(self, info->Get(failureKey()));
   if (info->Get(stoppedKey()) != 0)
   {
-    vtkWarningWithObjectMacro(self, << info->Get(failureKey()));
-    askAgain(self);
+    sayStopped(self);
   }
   return true;
 }
@@ -217,11 +227,10 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
   }
   catch (const Cancelled&)
   {
-    const std::string message = "stopped by the user, and nothing is kept: to run it again change a property, or call Modified()";
-    vtkWarningWithObjectMacro(self, << message);
+    const std::string message = "stopped by the user, and nothing is kept: change a property to run it again";
     leaveEmpty(self, message);
     remember(self, message, true);
-    askAgain(self);
+    sayStopped(self);
   }
   catch (const Error& error)
   {
@@ -246,6 +255,18 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
       self, "this could not be worked out, for a reason that is not known: please report it with the properties and the input");
   }
   return false;
+}
+
+int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time)
+{
+  *time = self->GetMTime();
+  if (self->GetInformation()->Get(stoppedKey()) != 0)
+  {
+    vtkTimeStamp now;
+    now.Modified();
+    *time = now.GetMTime();
+  }
+  return 1;
 }
 
 int guarded(vtkAlgorithm* self, const std::function<void()>& work)

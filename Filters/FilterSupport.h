@@ -4,6 +4,8 @@
 
 #include "Context.h"
 
+#include <vtkType.h>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -33,6 +35,10 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work);
 /// The same for RequestData: always 1. After a 0 ParaView's pipeline does not execute again for the next good value, and a server
 /// and its client wait for each other.
 int guarded(vtkAlgorithm* self, const std::function<void()>& work);
+
+/// The same as vtkAlgorithm::ComputePipelineMTime, but for a filter that was stopped: it counts as changed until it has run, so
+/// that whatever asks for its output gets the warning. What follows in the pipeline would not ask again.
+int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time);
 
 /// Runs `work` for RequestInformation and RequestUpdateExtent, which say nothing of what it throws: RequestData fails in the same
 /// way, and reports it.

@@ -44,6 +44,12 @@ vtkBundleInitializer::~vtkBundleInitializer()
   this->SetRadiusTableFile(nullptr);
 }
 
+int vtkBundleInitializer::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
 int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,

@@ -167,6 +167,9 @@ public:
   vtkGetMacro(Seed, int);
   ///@}
 
+  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+
 protected:
   vtkBundleInitializer();
   ~vtkBundleInitializer() override;

@@ -144,6 +144,12 @@ int vtkFibreRadialGrowth::RequestUpdateExtent(vtkInformation*, vtkInformationVec
   return 1;
 }
 
+int vtkFibreRadialGrowth::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
 int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,

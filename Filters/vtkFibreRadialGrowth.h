@@ -101,6 +101,9 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+
 protected:
   vtkFibreRadialGrowth();
   ~vtkFibreRadialGrowth() override;

@@ -216,6 +216,12 @@ int vtkMyelinSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector*
   return 1;
 }
 
+int vtkMyelinSurface::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
 int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,

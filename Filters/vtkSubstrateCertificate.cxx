@@ -60,6 +60,12 @@ int vtkSubstrateCertificate::RequestUpdateExtent(vtkInformation*, vtkInformation
   return 1;
 }
 
+int vtkSubstrateCertificate::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
 int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -72,6 +78,8 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       vtkDataObject* outer = vtkDataObject::GetData(inputs[0]);
       vtkDataObject* inner = vtkDataObject::GetData(inputs[1]);
       vtkDataObject* lines = vtkDataObject::GetData(inputs[2]);
+      const cactus::FibreSurfaces outerSurfaces = cactus::surfacesFrom(outer, "Outer", 0);
+      const cactus::FibreSurfaces innerSurfaces = cactus::surfacesFrom(inner, "Inner", 1);
       const cactus::Domain domain = cactus::domainFrom(outer);
       cactus::requireSameDomain(domain, inner, "Inner");
       cactus::requireSameDomain(domain, lines, "Fibres");
@@ -83,9 +91,8 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       cactus::SubstrateCertificateOptions options;
       options.minimumGap = this->MinimumGap;
       options.cutSpacing = this->CutSpacing;
-      const auto certificate =
-        cactus::certify(domain, cactus::surfacesFrom(outer, "Outer", 0), cactus::surfacesFrom(inner, "Inner", 1),
-          lines != nullptr ? &fibres : nullptr, options, cactus::contextFor(this, this->NumberOfThreads));
+      const auto certificate = cactus::certify(domain, outerSurfaces, innerSurfaces, lines != nullptr ? &fibres : nullptr,
+        options, cactus::contextFor(this, this->NumberOfThreads));
       if (!certificate.certified())
       {
         vtkWarningMacro(<< "the substrate is not certified: " << certificate.verdict());

@@ -143,6 +143,12 @@ int vtkSubstrateStatistics::RequestUpdateExtent(vtkInformation*, vtkInformationV
   return 1;
 }
 
+int vtkSubstrateStatistics::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
 int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,

@@ -78,6 +78,12 @@ int vtkSubstrateWriter::RequestUpdateExtent(vtkInformation*, vtkInformationVecto
   return 1;
 }
 
+int vtkSubstrateWriter::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
 int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -91,11 +97,11 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       vtkDataObject* inner = vtkDataObject::GetData(inputs[1]);
       vtkDataObject* lines = vtkDataObject::GetData(inputs[2]);
       cactus::SubstrateFolderContents contents;
+      contents.outer = cactus::surfacesFrom(outer, "Outer", 0);
+      contents.inner = cactus::surfacesFrom(inner, "Inner", 1);
       contents.domain = cactus::domainFrom(outer);
       cactus::requireSameDomain(contents.domain, inner, "Inner");
       cactus::requireSameDomain(contents.domain, lines, "Fibres");
-      contents.outer = cactus::surfacesFrom(outer, "Outer", 0);
-      contents.inner = cactus::surfacesFrom(inner, "Inner", 1);
       cactus::Fibres fibres;
       if (lines != nullptr)
       {
