@@ -17,17 +17,19 @@
 namespace cactus
 {
 
-/// An array of `count` values that have yet to be set. Throws std::bad_alloc where there is no room for them, and says nothing:
-/// VTK's own allocation reports an error besides.
+/// An array of `count` tuples whose values have yet to be set. Throws std::bad_alloc where there is no room for them, and says
+/// nothing: VTK's own allocation reports an error besides, or ends the program (Debian builds it with assertions).
 template <typename Array>
-vtkSmartPointer<Array> makeArray(const std::string& name, std::size_t count)
+vtkSmartPointer<Array> makeArray(const std::string& name, std::size_t count, int components = 1)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name.c_str());
   if constexpr (std::is_base_of_v<vtkDataArray, Array>)
   {
     using Value = typename Array::ValueType;
-    array->SetArray(new Value[count], static_cast<vtkIdType>(count), 0, vtkAbstractArray::VTK_DATA_ARRAY_DELETE);
+    const std::size_t values = count * static_cast<std::size_t>(components);
+    array->SetNumberOfComponents(components);
+    array->SetArray(new Value[values], static_cast<vtkIdType>(values), 0, vtkAbstractArray::VTK_DATA_ARRAY_DELETE);
   }
   else
   {

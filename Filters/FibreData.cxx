@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FibreData.h"
 
+#include "Columns.h"
 #include "Error.h"
 #include "InputBlocks.h"
+#include "Limits.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -15,11 +17,13 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkTypeInt64Array.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <unordered_set>
 #include <utility>
 
@@ -147,10 +151,7 @@ Domain readDomain(vtkAbstractArray* array)
     domain.lower[axis] = numbers->GetVariantValue(2 * axis).ToDouble();
     domain.upper[axis] = numbers->GetVariantValue(2 * axis + 1).ToDouble();
   }
-  if (!domain.lower.allFinite() || !domain.upper.allFinite() || domain.size().minCoeff() <= 0.0)
-  {
-    throw InvalidInput("field data Domain is empty or not finite: give xmin < xmax, ymin < ymax, zmin < zmax in µm");
-  }
+  validate(domain);
   return domain;
 }
 
@@ -214,7 +215,7 @@ Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs)
 int idFrom(vtkDataArray* array, vtkIdType cell)
 {
   const double value = array->GetComponent(cell, 0);
-  if (!(value >= 1.0 && value <= std::numeric_limits<int>::max()) || value != std::floor(value))
+  if (!limits::id.holds(value) || value != std::floor(value))
   {
     throw InvalidInput(text(array->GetName(), " of cell ", cell, " is ", value, ": ids count from 1, in whole numbers up to ",
       std::numeric_limits<int>::max()));
@@ -224,48 +225,33 @@ int idFrom(vtkDataArray* array, vtkIdType cell)
 
 void toPolyData(const Fibres& fibres, vtkPolyData* output)
 {
+  const std::size_t pointCount = fibres.points.size();
+  auto coordinates = makeArray<vtkDoubleArray>("Points", pointCount, 3);
+  for (std::size_t i = 0; i < pointCount; ++i)
+  {
+    coordinates->SetTypedTuple(static_cast<vtkIdType>(i), fibres.points[i].data());
+  }
   vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(fibres.points.size()));
-  vtkNew<vtkDoubleArray> radius;
-  radius->SetName("Radius");
-  radius->SetNumberOfValues(static_cast<vtkIdType>(fibres.points.size()));
-  for (std::size_t i = 0; i < fibres.points.size(); ++i)
+  points->SetData(coordinates);
+  auto offsets = makeArray<vtkTypeInt64Array>("", fibres.size() + 1);
+  for (std::size_t f = 0; f <= fibres.size(); ++f)
   {
-    points->SetPoint(static_cast<vtkIdType>(i), fibres.points[i].data());
-    radius->SetValue(static_cast<vtkIdType>(i), fibres.radii[i]);
+    offsets->SetValue(static_cast<vtkIdType>(f), static_cast<vtkTypeInt64>(fibres.offsets[f]));
   }
-  const auto fibreCount = static_cast<vtkIdType>(fibres.size());
+  auto corners = makeArray<vtkTypeInt64Array>("", pointCount);
+  std::iota(corners->GetPointer(0), corners->GetPointer(0) + pointCount, vtkTypeInt64(0));
   vtkNew<vtkCellArray> lines;
-  vtkNew<vtkIntArray> fibreId;
-  fibreId->SetName("FibreId");
-  fibreId->SetNumberOfValues(fibreCount);
-  vtkNew<vtkIntArray> bundleId;
-  bundleId->SetName("BundleId");
-  bundleId->SetNumberOfValues(fibreCount);
-  vtkNew<vtkDoubleArray> targetRadius;
-  targetRadius->SetName("TargetRadius");
-  targetRadius->SetNumberOfValues(fibreCount);
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    const auto id = static_cast<vtkIdType>(f);
-    lines->InsertNextCell(static_cast<int>(fibres.pointCount(f)));
-    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
-    {
-      lines->InsertCellPoint(static_cast<vtkIdType>(i));
-    }
-    fibreId->SetValue(id, fibres.fibreIds[f]);
-    bundleId->SetValue(id, fibres.bundleIds[f]);
-    targetRadius->SetValue(id, fibres.targetRadii[f]);
-  }
+  lines->SetData(offsets, corners);
+
   vtkNew<vtkPolyData> fresh;
   fresh->SetPoints(points);
   fresh->SetLines(lines);
-  fresh->GetPointData()->AddArray(radius);
+  addColumn<vtkDoubleArray>(fresh->GetPointData(), "Radius", pointCount, [&](std::size_t i) { return fibres.radii[i]; });
   fresh->GetPointData()->SetActiveScalars("Radius");
-  fresh->GetCellData()->AddArray(fibreId);
-  fresh->GetCellData()->AddArray(bundleId);
-  fresh->GetCellData()->AddArray(targetRadius);
+  vtkCellData* cells = fresh->GetCellData();
+  addColumn<vtkIntArray>(cells, "FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
+  addColumn<vtkIntArray>(cells, "BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
+  addColumn<vtkDoubleArray>(cells, "TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
   fresh->SetFieldData(output->GetFieldData());
   output->ShallowCopy(fresh);
   setDomain(output, fibres.domain);

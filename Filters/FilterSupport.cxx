@@ -3,6 +3,8 @@
 
 #include "Error.h"
 #include "InputBlocks.h"
+#include "Memory.h"
+#include "Ranks.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
@@ -220,6 +222,7 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
     return false;
   }
   forget(self);
+  setProcessesSharingMemory(processesOnThisMachine());
   try
   {
     work();

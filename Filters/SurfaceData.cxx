@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceData.h"
 
+#include "Columns.h"
 #include "Error.h"
 #include "FibreData.h"
 #include "InputBlocks.h"
@@ -191,21 +192,14 @@ void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* ou
                       " triangles are more than one surface can hold: choose a larger VoxelSize or "
                       "DecimationError, or a smaller domain");
   }
+  auto place = makeArray<vtkDoubleArray>("Points", pointCount, 3);
   vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(pointCount));
-  auto* coordinates = static_cast<double*>(points->GetVoidPointer(0));
-  vtkNew<vtkTypeInt32Array> offsets;
-  offsets->SetNumberOfValues(static_cast<vtkIdType>(triangleCount + 1));
-  vtkNew<vtkTypeInt32Array> corners;
-  corners->SetNumberOfValues(static_cast<vtkIdType>(3 * triangleCount));
-  const char* names[] = { "FibreId", "BundleId", "Surface" };
-  vtkNew<vtkIntArray> columns[3];
-  for (int column = 0; column < 3; ++column)
-  {
-    columns[column]->SetName(names[column]);
-    columns[column]->SetNumberOfValues(static_cast<vtkIdType>(triangleCount));
-  }
+  points->SetData(place);
+  double* coordinates = place->GetPointer(0);
+  auto offsets = makeArray<vtkTypeInt32Array>("", triangleCount + 1);
+  auto corners = makeArray<vtkTypeInt32Array>("", 3 * triangleCount);
+  const vtkSmartPointer<vtkIntArray> columns[3] = { makeArray<vtkIntArray>("FibreId", triangleCount),
+    makeArray<vtkIntArray>("BundleId", triangleCount), makeArray<vtkIntArray>("Surface", triangleCount) };
   vtkIdType point = 0;
   vtkIdType triangle = 0;
   for (NamedSurface& named : surfaces)

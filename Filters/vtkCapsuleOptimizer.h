@@ -3,8 +3,8 @@
  * @class vtkCapsuleOptimizer
  * @brief Bends fibres until no two of them overlap (CACTUS 2023, "Joint fibre optimisation").
  *
- * Input: fibres (polylines with point data `Radius`), from one connection or several; bundles and fibres that share ids are
- * renumbered in the order of the connections. All inputs have to have the same `Domain`.
+ * Input: fibres (polylines with point data `Radius`), from one connection or several, each with one block or several; bundles and
+ * fibres that share ids are renumbered in the order of the connections. All inputs have to have the same `Domain`.
  *
  * Output 0 `Fibres`: the fibres, with point data `Overlap` (largest relative penetration D = 1 - d / (rp + rq) of the capsules at
  * a control point; 0 where nothing is touched) and field data `Converged` (1 or 0) and `MaximumPenetration`; and, of the whole

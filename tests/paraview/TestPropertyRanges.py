@@ -16,14 +16,20 @@ def numbers(element):
 
 
 def bad_values(one):
-    """Below the least value, beside the choices, and not a number. The largest value in the XML is a convenience of the panel."""
+    """Just outside the range in the XML, beside the choices, and not a number."""
+    whole = one.tag == "IntVectorProperty"
     for domain in one:
-        if domain.tag in ("DoubleRangeDomain", "IntRangeDomain") and domain.get("min") is not None:
-            yield float(domain.get("min")) - 1
+        if domain.tag in ("DoubleRangeDomain", "IntRangeDomain"):
+            least, most = (float(domain.get(name)) if domain.get(name) is not None else None for name in ("min", "max"))
+            if least is not None:
+                yield least - 1
+                yield from () if whole or least == 0 else (least * 0.9,)
+            if most is not None:
+                yield most + 1 if whole else most * 1.001
         elif domain.tag == "EnumerationDomain":
             values = [int(entry.get("value")) for entry in domain.findall("Entry")]
             yield from (min(values) - 1, max(values) + 1)
-    if one.tag == "DoubleVectorProperty":
+    if not whole:
         yield from (float("nan"), float("inf"))
 
 
