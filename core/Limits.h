@@ -106,6 +106,11 @@ inline constexpr Range growthIterations{ 0.0, 1e3 };
 inline constexpr Range surfaceRoughness{ 0.0, 0.5 };
 inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 
+// MyelinSurface.
+
+/// Of an axon's diameter to its fibre's.
+inline constexpr Range gRatio{ 0.05, 0.99 };
+
 } // namespace limits
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 #include "MyelinSurface.h"
 
 #include "Error.h"
+#include "Limits.h"
 #include "FibreMesher.h"
 #include "Parallel.h"
 #include "SurfaceSpacing.h"
@@ -115,7 +116,7 @@ void validate(const MyelinSurfaceOptions& options)
   require(model >= 0 && model <= 3, "GRatioModel must be Constant, LogLinear, Distributed or TargetAxonVolumeFraction");
   if (options.model == GRatioModel::Constant)
   {
-    require(options.gRatio > 0.0 && options.gRatio < 1.0, "GRatio must be between 0 and 1");
+    requireWithin("GRatio", options.gRatio, limits::gRatio);
   }
   if (options.model == GRatioModel::Distributed)
   {

@@ -28,10 +28,10 @@ self.GetOutputDataObject(0).AddColumn(column)
 
 class Ranks(CactusTestCase):
     def grown(self, first, **properties):
-        """The provenance of each rank's part of an image of fibres that cannot be parted, so that only the clock ends the run."""
-        bundle = BundleInitializer(Side=10, MeanDispersion=20, DispersionModel="Watson", FibreVolumeFraction=0.7)
+        """The provenance of each rank's part of an image of more fibres than are parted in a second."""
+        bundle = BundleInitializer(Side=30, MeanDispersion=20, DispersionModel="Watson", FibreVolumeFraction=0.7)
         optimizer = CapsuleOptimizer(Input=bundle, TimeBudget=1, OverlapTolerance=1e-9, MaximumIterations=1000000, **properties)
-        growth = FibreRadialGrowth(Input=OutputPort(optimizer, 0), VoxelSize=0.5)
+        growth = FibreRadialGrowth(Input=OutputPort(optimizer, 0), VoxelSize=2)
         if first:
             optimizer.UpdatePipeline()  # which asks all ranks but the first for nothing
         SaveData(os.path.join(self.folder, "parts.pvti"), proxy=growth, DataMode="Ascii")

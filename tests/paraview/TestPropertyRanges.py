@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 400
 """A property out of its range, or not a number, gets one error that names the property, from every source and filter."""
 
 from cactus_testing import CactusTestCase, fetch, main, make, proxies
