@@ -2,8 +2,8 @@
 #include "MyelinSurface.h"
 
 #include "Error.h"
-#include "Limits.h"
 #include "FibreMesher.h"
+#include "Limits.h"
 #include "Parallel.h"
 #include "SurfaceSpacing.h"
 
