@@ -13,6 +13,7 @@ namespace cactus
 Capsules capsulesOf(const Fibres& fibres)
 {
   Capsules capsules;
+  capsules.fibreIds = fibres.fibreIds;
   capsules.bodies.reserve(fibres.points.size());
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {

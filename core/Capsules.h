@@ -24,6 +24,7 @@ struct Capsules
   std::vector<Capsule> bodies;
   std::vector<std::uint32_t> first;
   std::vector<std::uint32_t> fibre; ///< index of the fibre in its Fibres, not FibreId
+  std::vector<int> fibreIds;        ///< FibreId of each fibre, by index
 
   std::size_t size() const { return bodies.size(); }
 };

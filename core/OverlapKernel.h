@@ -78,7 +78,7 @@ inline __attribute__((always_inline)) void addLanes(
   const Vector lengths = lengthP * lengthQ;
   const Vector scale = lengths * rp * rq;
   const Vector byLength = D * D * lengthQ * rp * rq * (one / lengthP); // ∂F/∂|p0−p1| / |p0−p1|
-  // Concentric capsules have no direction to part in: no push, the next step of their neighbours breaks the tie.
+  // Where the axes meet there is no direction to part in: no push from here, see partCoincident().
   const Vector push = -2.0 * D * scale * inverseSum / select(distance > 1e-12, distance, one);
   const Vector byRp = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rq;
   const Vector byRq = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rp;
