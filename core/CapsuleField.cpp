@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <numeric>
 
 namespace cactus
@@ -468,6 +469,19 @@ void CapsuleField::Data::fillBins()
       }
     }
   };
+  double entries = 0.0;
+  for (const Piece& piece : pieces)
+  {
+    const Eigen::AlignedBox3d box = boundingBox(piece.cone);
+    entries += (binOf(box.max()) - binOf(box.min()) + 1).cast<double>().prod();
+  }
+  if (entries > std::numeric_limits<std::uint32_t>::max())
+  {
+    throw OutOfMemory("seeding fibres of so uneven calibre takes more entries than can be counted: leave out the thickest or the "
+                      "thinnest fibres");
+  }
+  requireMemory(8.0 * static_cast<double>(bins) + 4.0 * entries, "seeding fibres of uneven calibre",
+    "leave out the thickest or the thinnest fibres");
   for (const Piece& piece : pieces)
   {
     eachBin(piece, [&](std::size_t bin) { ++binOffsets[bin + 1]; });

@@ -7,6 +7,7 @@
 #include "Error.h"
 #include "FibreOrder.h"
 #include "Limits.h"
+#include "Memory.h"
 #include "NeighbourSearch.h"
 #include "OverlapCost.h"
 
@@ -41,6 +42,9 @@ constexpr double fastest = 0.065;
 constexpr int patience = 200;
 constexpr double progressShare = 0.01;
 
+/// What a descent takes for a control point, with some fifty neighbours.
+constexpr double bytesPerPoint = 1000.0;
+
 /// The state of one descent: positions, radii, velocities and the neighbour lists that go with them.
 class Descent
 {
@@ -55,6 +59,7 @@ public:
     , Gradient(fibres.points.size())
     , RadiusGradient(fibres.points.size())
     , Stiffness(fibres.points.size())
+    , Upper(options.method == DescentMethod::Momentum ? fibres.points.size() : 0)
     , Velocity(fibres.points.size(), Eigen::Vector3d::Zero())
     , RadiusVelocity(options.radiusTolerance > 0.0 ? fibres.points.size() : 0, 0.0)
     , Speed(fibres.points.size(), 0.0f)
@@ -313,7 +318,7 @@ private:
   {
     const std::size_t begin = this->State.offsets[f];
     const std::size_t end = this->State.offsets[f + 1];
-    std::vector<double> upper(end - begin, 0.0);
+    double* upper = this->Upper.data() + begin;
     for (std::size_t i = begin; i < end; ++i)
     {
       const double before = i > begin ? this->thread(i - 1) : 0.0;
@@ -411,6 +416,7 @@ private:
   std::vector<Eigen::Vector3d> Gradient;
   std::vector<double> RadiusGradient;
   std::vector<double> Stiffness;
+  std::vector<double> Upper;             ///< room for the elimination in smoothGradient
   std::vector<Eigen::Vector3d> Velocity; ///< for Adagrad the sums of squared gradients
   std::vector<double> RadiusVelocity;
   double Relaxation = 1.0;
@@ -628,6 +634,9 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
 {
   validate(options);
   validate(fibres);
+  requireMemory(bytesPerPoint * static_cast<double>(fibres.points.size()),
+    text("an optimisation of ", fibres.size(), " fibres with ", fibres.points.size(), " control points"),
+    "use fewer fibres, or a larger spacing of their control points");
   const Clock::time_point start = Clock::now();
   const int threads = context.threadCount();
   const std::string& path = options.checkpointFile;

@@ -105,7 +105,7 @@ struct OptimisationResult
 /// tolerance, or until iterations, time or patience run out; then `fibres` holds the state with the smallest largest penetration.
 /// End points slide in the plane across their bundle's axis. Same bits on any number of threads. `observe`, where given, is
 /// called with each iteration's state, the first included. Throws InvalidInput (fibres, options, a checkpoint of something else)
-/// and FileError (the checkpoint).
+/// and FileError (the checkpoint), OutOfMemory.
 OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
   const std::function<void(int iteration, const Fibres&)>& observe = {});
 

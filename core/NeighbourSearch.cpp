@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NeighbourSearch.h"
 
+#include "Error.h"
+#include "Memory.h"
+#include "Parallel.h"
 #include "VectorKernels.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 namespace cactus
 {
@@ -233,6 +238,12 @@ public:
       entry = sum;
     }
     const std::size_t padded = sum + width;
+    constexpr std::size_t many = 1000000;
+    if (sum > many)
+    {
+      requireMemory(static_cast<double>(padded) * (6 * sizeof(float) + 2 * sizeof(std::uint32_t)), "the search for neighbours",
+        "use segments of more even length");
+    }
     this->Keys.reset(new std::uint32_t[padded]);
     this->Cells.reset(new std::int32_t[padded]);
     for (auto& column : this->Numbers)
@@ -311,17 +322,44 @@ private:
   std::vector<float> Numbers;
 };
 
+/// Counts what all threads find, and ends the search once it could not be held: where very many fibres lie in one place, their
+/// pairs grow with the square of their number.
+class Bound
+{
+public:
+  Bound()
+    : Most(availableMemory() / bytesPerPair)
+  {
+  }
+
+  void add(std::size_t pairs)
+  {
+    if ((this->Found += pairs) > this->Most)
+    {
+      throw OutOfMemory("so many capsules lie within reach of each other that their pairs do not fit into memory: are fibres "
+                        "there several times, or radii in another unit than coordinates?");
+    }
+  }
+
+private:
+  /// As it is found, with room for as much again, and joined.
+  static constexpr std::size_t bytesPerPair = 4 * sizeof(std::uint32_t);
+  const std::size_t Most;
+  std::atomic<std::size_t> Found{ 0 };
+};
+
 /// Finds the neighbours of the capsules of one run after the other.
 class RunSearch
 {
 public:
-  RunSearch(
-    const Capsules& capsules, const std::vector<float>& reach, const Runs& runs, const CellGrid& grid, const CellEntries& entries)
+  RunSearch(const Capsules& capsules, const std::vector<float>& reach, const Runs& runs, const CellGrid& grid,
+    const CellEntries& entries, Bound& bound)
     : Bodies(capsules)
     , Reach(reach)
     , AllRuns(runs)
     , Grid(grid)
     , Entries(entries)
+    , Pairs(bound)
   {
   }
 
@@ -354,6 +392,7 @@ public:
       const std::uint32_t* end = this->Kernels.selectNeighbours(near, this->Candidates.data(), count, numbers, begin);
       counts[mine[l]] = static_cast<std::size_t>(end - begin);
       this->Size += counts[mine[l]];
+      this->Pairs.add(counts[mine[l]]);
     }
   }
 
@@ -434,6 +473,7 @@ private:
   const Runs& AllRuns;
   const CellGrid& Grid;
   const CellEntries& Entries;
+  Bound& Pairs;
   const VectorKernels& Kernels = vectorKernels();
   std::size_t FibreBegin = 0; ///< runs of the present fibre
   std::size_t FibreEnd = 0;
@@ -464,20 +504,32 @@ void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, i
   {
     const CellGrid grid(runs.boxes);
     const CellEntries entries(runs.boxes, grid, threads);
+    Bound bound;
+    Carrier carrier;
 #pragma omp parallel num_threads(threads)
     {
-      RunSearch search(capsules, reach, runs, grid, entries);
+      std::optional<RunSearch> search;
+      carrier.run([&] { search.emplace(capsules, reach, runs, grid, entries, bound); });
 #pragma omp for schedule(dynamic, 1)
       for (std::size_t block = 0; block < blocks; ++block)
       {
-        const std::size_t end = std::min(runs.size(), (block + 1) * blockSize);
-        for (std::size_t i = block * blockSize; i < end; ++i)
+        if (carrier.failed())
         {
-          search.find(i, list.offsets.data() + 1);
+          continue;
         }
-        found[block] = search.take();
+        carrier.run(
+          [&]
+          {
+            const std::size_t end = std::min(runs.size(), (block + 1) * blockSize);
+            for (std::size_t i = block * blockSize; i < end; ++i)
+            {
+              search->find(i, list.offsets.data() + 1);
+            }
+            found[block] = search->take();
+          });
       }
     }
+    carrier.rethrow();
     runs.blocks.reset();
   }
   for (std::size_t k = 0; k < count; ++k)

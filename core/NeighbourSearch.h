@@ -24,7 +24,7 @@ struct NeighbourList
 /// Cells of fixed size (Turau 1991, as the paper) hold short runs of consecutive capsules of a fibre, which have most of their
 /// neighbours in common; a run is entered wherever its bounding box reaches, so that thick and thin fibres can be mixed. Of the
 /// runs that meet a run, those capsules are compared with each of its own whose bounding boxes meet its; and of these, those
-/// exactly whose bounding balls meet. Same result on any number of threads.
+/// exactly whose bounding balls meet. Same result on any number of threads. Throws OutOfMemory where the pairs do not fit.
 void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, int threads, NeighbourList& list);
 
 /// The same with distance < rp + rq + reach for all.

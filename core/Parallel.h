@@ -12,6 +12,59 @@
 namespace cactus
 {
 
+/// Carries what is thrown inside of a parallel region out of it, since an exception must not leave the region by itself: of
+/// several the one that came first.
+///
+///     Carrier carrier;
+///     #pragma omp parallel
+///     {
+///       carrier.run([&] { … });
+///     }
+///     carrier.rethrow();
+class Carrier
+{
+public:
+  /// Runs `work` and keeps what it throws.
+  template <typename Work>
+  void run(Work&& work) noexcept
+  {
+    try
+    {
+      work();
+    }
+    catch (...)
+    {
+#pragma omp critical(cactusCarrier)
+      {
+        if (!this->Failure)
+        {
+          this->Failure = std::current_exception();
+        }
+      }
+      this->Failed = true;
+    }
+  }
+
+  /// Whether anything has been thrown so far: then there is no use in going on.
+  bool failed() const
+  {
+    return this->Failed;
+  }
+
+  /// Throws it again, after the region.
+  void rethrow() const
+  {
+    if (this->Failure)
+    {
+      std::rethrow_exception(this->Failure);
+    }
+  }
+
+private:
+  std::exception_ptr Failure;
+  std::atomic<bool> Failed{ false };
+};
+
 /// Runs body(i) for i in [0, count), dynamically shared among the context's threads, for bodies that write to slots of their own.
 /// What a body throws ends the loop and is rethrown in the caller's thread, the one of the smallest index that threw; throws
 /// Cancelled where the caller wants to stop, before, during or right after the loop. Progress runs from `from` to `to`.

@@ -182,10 +182,14 @@ TEST(CoincidentFibres, PushEachOtherAcrossTheirAxes)
   }
   for (const int segments : { 9, 10 })
   {
-    for (const Vector3d& g : gradientOf(crossing(Vector3d::Zero(), 2, segments)))
+    // Across both is along z.
+    const std::vector<Vector3d> gradient = gradientOf(crossing(Vector3d::Zero(), 2, segments));
+    double up = 0.0;
+    for (std::size_t i = 0; i < gradient.size() / 2; ++i)
     {
-      EXPECT_NEAR(g.head<2>().norm(), 0.0, 2e-2) << "along them only what shortening does";
+      up += gradient[i].z();
     }
+    EXPECT_GT(std::abs(up), 0.5);
   }
 }
 
