@@ -19,7 +19,9 @@ struct NeighbourList
 };
 
 /// Finds all pairs of capsules of different fibres with distance < rp + rq + reach[p] + reach[q] (µm, one per capsule; radii
-/// taken at their larger end). Nothing is missed; a pair beyond that limit by less than a relative 10⁻⁴ may be listed too.
+/// taken at their larger end). Nothing is missed. In single precision, a pair a little beyond that limit L may be listed too: one
+/// whose distance d has d² < L² + 1.2·10⁻⁵ (L² + |p0 − p1|² + |q0 − q1|²), which for capsules not much longer than L is a
+/// relative 10⁻⁴, and more for thin and long ones.
 ///
 /// Cells of fixed size (Turau 1991, as the paper) hold short runs of consecutive capsules of a fibre, which have most of their
 /// neighbours in common; a run is entered wherever its bounding box reaches, so that thick and thin fibres can be mixed. Of the

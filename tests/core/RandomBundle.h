@@ -12,18 +12,28 @@ inline cactus::Fibres randomBundle(unsigned seed, int fibres, int points, double
 {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  // One after the other: in what order arguments are evaluated is the compiler's choice.
+  const auto draw = [&](int numbers)
+  {
+    Eigen::Vector3d drawn = Eigen::Vector3d::Zero();
+    for (int axis = numbers - 1; axis >= 0; --axis)
+    {
+      drawn[axis] = uniform(engine);
+    }
+    return drawn;
+  };
   cactus::Fibres bundle;
   bundle.domain = cactus::Domain::cube(side);
   for (int f = 0; f < fibres; ++f)
   {
     const double radius = 0.2 + 0.6 * std::abs(uniform(engine));
     bundle.addFibre(f + 1, 1, radius);
-    const Eigen::Vector3d from(side * uniform(engine), side * uniform(engine), 0.0);
-    const Eigen::Vector3d to = from + Eigen::Vector3d(0.3 * side * uniform(engine), 0.3 * side * uniform(engine), 0.0);
+    const Eigen::Vector3d from = side * draw(2);
+    const Eigen::Vector3d to = from + 0.3 * side * draw(2);
     for (int i = 0; i < points; ++i)
     {
       const double t = double(i) / (points - 1);
-      Eigen::Vector3d p = (1.0 - t) * from + t * to + bend * Eigen::Vector3d(uniform(engine), uniform(engine), uniform(engine));
+      Eigen::Vector3d p = (1.0 - t) * from + t * to + bend * draw(3);
       p[2] += side * (t - 0.5);
       bundle.addPoint(p, radius * (1.0 + bend * uniform(engine)));
     }
