@@ -14,29 +14,35 @@ namespace cactus
 namespace
 {
 
-/// Widens the box laterally until the bundle's capsules fill no more of it than `packingLimit`.
-void expandToDensity(const Fibres& fibres, int bundle, double packingLimit, BundleBox& box)
+/// What a bundle holds, for its density.
+struct BundleContent
 {
   double volume = 0.0;
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (std::size_t f = 0; f < fibres.size(); ++f)
+  double lowest = std::numeric_limits<double>::infinity(); ///< along the axis
+  double highest = -std::numeric_limits<double>::infinity();
+  double thickest = 0.0; ///< radius
+
+  void add(const Fibres& fibres, std::size_t f, const Eigen::Vector3d& axis)
   {
-    if (fibres.bundleIds[f] != bundle)
-    {
-      continue;
-    }
-    volume += chainVolume(fibres, f);
+    this->volume += chainVolume(fibres, f);
     for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
     {
-      const double height = fibres.points[i].dot(box.axis);
-      lowest = std::min(lowest, height);
-      highest = std::max(highest, height);
+      const double height = fibres.points[i].dot(axis);
+      this->lowest = std::min(this->lowest, height);
+      this->highest = std::max(this->highest, height);
+      this->thickest = std::max(this->thickest, fibres.radii[i]);
     }
   }
+};
+
+/// Widens the box laterally until the bundle's capsules fill no more of it than `packingLimit`.
+void expandToDensity(const BundleContent& content, double packingLimit, BundleBox& box)
+{
   const double width = box.upperU - box.lowerU;
   const double depth = box.upperV - box.lowerV;
-  const double density = volume / (width * depth * (highest - lowest));
+  // Fibres that all lie across the axis, as flat loops do, are at least as high as the thickest of them.
+  const double height = std::max(content.highest - content.lowest, 2.0 * content.thickest);
+  const double density = content.volume / (width * depth * height);
   const double growth = 0.5 * (std::sqrt(std::max(1.0, density / packingLimit)) - 1.0);
   box.lowerU -= growth * width;
   box.upperU += growth * width;
@@ -48,14 +54,16 @@ void expandToDensity(const Fibres& fibres, int bundle, double packingLimit, Bund
 
 std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
 {
+  const std::map<int, Eigen::Vector3d> axes = bundleAxes(fibres);
   std::map<int, BundleBox> boxes;
+  std::map<int, BundleContent> contents;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     auto found = boxes.find(fibres.bundleIds[f]);
     if (found == boxes.end())
     {
       BundleBox box;
-      box.axis = bundleAxis(fibres, fibres.bundleIds[f]);
+      box.axis = axes.at(fibres.bundleIds[f]);
       int lateral = 0;
       box.axis.cwiseAbs().minCoeff(&lateral);
       box.v = Eigen::Vector3d::Unit(lateral);
@@ -66,6 +74,7 @@ std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
       found = boxes.emplace(fibres.bundleIds[f], box).first;
     }
     BundleBox& box = found->second;
+    contents[fibres.bundleIds[f]].add(fibres, f, box.axis);
     for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
     {
       const double u = fibres.points[i].dot(box.u);
@@ -79,7 +88,7 @@ std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
   }
   for (auto& entry : boxes)
   {
-    expandToDensity(fibres, entry.first, packingLimit, entry.second);
+    expandToDensity(contents.at(entry.first), packingLimit, entry.second);
   }
   std::vector<BundleBox> perFibre;
   for (const int bundle : fibres.bundleIds)

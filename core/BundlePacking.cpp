@@ -257,6 +257,11 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const C
     else
     {
       jammed.reset();
+      // Another flow may lead a little farther, but not as far as this.
+      if (isCoherent(options) && dispersion < 0.5 * options.meanDispersion)
+      {
+        break;
+      }
     }
   }
   if (jammed)

@@ -4,6 +4,7 @@
 #include "Context.h"
 #include "NeighbourSearch.h"
 #include "OverlapCost.h"
+#include "Random.h"
 
 #include <algorithm>
 
@@ -13,7 +14,14 @@ namespace cactus
 Capsules capsulesOf(const Fibres& fibres)
 {
   Capsules capsules;
-  capsules.fibreIds = fibres.fibreIds;
+  capsules.places.reserve(fibres.size());
+  for (const int id : fibres.fibreIds)
+  {
+    RandomEngine engine = randomStream(0, RandomStage::Optimiser, static_cast<std::uint64_t>(id));
+    const double x = normal(engine);
+    const double y = normal(engine);
+    capsules.places.emplace_back(x, y, normal(engine));
+  }
   capsules.bodies.reserve(fibres.points.size());
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {

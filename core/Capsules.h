@@ -24,7 +24,8 @@ struct Capsules
   std::vector<Capsule> bodies;
   std::vector<std::uint32_t> first;
   std::vector<std::uint32_t> fibre; ///< index of the fibre in its Fibres, not FibreId
-  std::vector<int> fibreIds;        ///< FibreId of each fibre, by index
+  std::vector<Eigen::Vector3d>
+    places; ///< per fibre, where it belongs beside others that lie in the same place: random, by FibreId
 
   std::size_t size() const { return bodies.size(); }
 };

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <vector>
 
 namespace cactus
@@ -20,9 +19,9 @@ double largestCrossingAngle(const Fibres& fibres)
 {
   constexpr double degrees = 180.0 / 3.14159265358979323846;
   std::vector<Eigen::Vector3d> axes;
-  for (const int bundle : std::set<int>(fibres.bundleIds.begin(), fibres.bundleIds.end()))
+  for (const auto& entry : bundleAxes(fibres))
   {
-    axes.push_back(bundleAxis(fibres, bundle));
+    axes.push_back(entry.second);
   }
   double largest = 0.0;
   for (std::size_t a = 0; a < axes.size(); ++a)

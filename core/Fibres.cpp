@@ -39,31 +39,6 @@ Eigen::Vector3d endToEnd(const Fibres& fibres, std::size_t fibre)
   return length > 0.0 ? Eigen::Vector3d(chord / length) : Eigen::Vector3d::Zero();
 }
 
-std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)
-{
-  std::map<int, Eigen::Vector3d> axes;
-  std::map<int, Eigen::Vector3d> sense;
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    const Eigen::Vector3d direction = endToEnd(fibres, f);
-    const int bundle = fibres.bundleIds[f];
-    if (sense.count(bundle) == 0 && direction.squaredNorm() > 0.0)
-    {
-      sense[bundle] = direction;
-      axes[bundle].setZero();
-    }
-    if (sense.count(bundle) > 0)
-    {
-      axes[bundle] += direction.dot(sense[bundle]) < 0.0 ? Eigen::Vector3d(-direction) : direction;
-    }
-  }
-  for (auto& entry : axes)
-  {
-    entry.second.normalize();
-  }
-  return axes;
-}
-
 void validateControlPoint(const Fibres& fibres, std::size_t fibre, std::size_t i, const std::string& name)
 {
   const auto where = [&] { return name + ", control point " + std::to_string(i - fibres.offsets[fibre]); };
@@ -188,6 +163,36 @@ double capsuleVolumeInDomain(const Fibres& fibres)
     }
   }
   return volume;
+}
+
+std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)
+{
+  std::map<int, Eigen::Vector3d> axes;
+  std::map<int, Eigen::Vector3d> sense;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const Eigen::Vector3d direction = endToEnd(fibres, f);
+    const int bundle = fibres.bundleIds[f];
+    if (sense.count(bundle) == 0 && direction.squaredNorm() > 0.0)
+    {
+      sense[bundle] = direction;
+      axes[bundle].setZero();
+    }
+    if (sense.count(bundle) > 0)
+    {
+      axes[bundle] += direction.dot(sense[bundle]) < 0.0 ? Eigen::Vector3d(-direction) : direction;
+    }
+  }
+  for (auto& entry : axes)
+  {
+    entry.second.normalize();
+  }
+  // Fibres that all end where they begin have no direction.
+  for (const int bundle : fibres.bundleIds)
+  {
+    axes.emplace(bundle, Eigen::Vector3d::UnitZ());
+  }
+  return axes;
 }
 
 Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId)

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 namespace cactus
@@ -54,7 +55,10 @@ double meanDispersion(const Fibres& fibres, int bundleId = 0);
 double meanTangentDispersion(const Fibres& fibres, int bundleId = 0);
 
 /// The axis (unit vector) of a bundle: the normalised sum of its fibres' end-to-end unit directions, each counted in the
-/// sense that agrees with the first fibre's.
+/// sense that agrees with the first fibre's; +z where all of them end where they begin.
 Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId);
+
+/// The axes of all bundles, by BundleId.
+std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres);
 
 } // namespace cactus

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlapCost.h"
 
-#include "Random.h"
 #include "SegmentDistance.h"
 #include "VectorKernels.h"
 
@@ -20,35 +19,28 @@ namespace
 /// Axes count as meeting where their distance is less than this share of the sum of the radii.
 constexpr double meeting = 1e-9;
 
-/// Where the fibre of this id belongs beside others that lie in the same place: a random point.
-Eigen::Vector3d placeOf(int fibreId)
-{
-  RandomEngine engine = randomStream(0, RandomStage::Optimiser, static_cast<std::uint64_t>(fibreId));
-  const double x = normal(engine);
-  const double y = normal(engine);
-  return { x, y, normal(engine) };
-}
-
 /// The direction (a unit vector) in which the axis u of one fibre leaves the axis v of another that it meets: across both, and
 /// towards the place that belongs to it. The opposite for the other fibre, and the same wherever the two meet at a like angle.
-Eigen::Vector3d partingDirection(const Eigen::Vector3d& u, const Eigen::Vector3d& v, int fibreId, int otherId)
+Eigen::Vector3d partingDirection(
+  const Eigen::Vector3d& u, const Eigen::Vector3d& v, const Eigen::Vector3d& place, const Eigen::Vector3d& otherPlace)
 {
   constexpr double parallel = 1e-6; // sine of the angle
-  const Eigen::Vector3d wish = placeOf(fibreId) - placeOf(otherId);
+  const Eigen::Vector3d wish = place - otherPlace;
   const Eigen::Vector3d across = u.cross(v);
   if (across.norm() > parallel * u.norm() * v.norm())
   {
     return across.dot(wish) < 0.0 ? Eigen::Vector3d(-across.normalized()) : Eigen::Vector3d(across.normalized());
   }
-  // From either side the same, whichever of the two axes has the lower id.
-  const Eigen::Vector3d along = (fibreId < otherId ? u : v).normalized();
+  // The same from either side.
+  const bool first = place.x() < otherPlace.x();
+  const Eigen::Vector3d along = (first ? u : v).normalized();
   const Eigen::Vector3d sideways = wish - wish.dot(along) * along;
   if (sideways.norm() > parallel * wish.norm())
   {
     return sideways.normalized();
   }
   const Eigen::Vector3d any = along.unitOrthogonal();
-  return fibreId < otherId ? any : Eigen::Vector3d(-any);
+  return first ? any : Eigen::Vector3d(-any);
 }
 
 /// Adds to the gradient of capsule k what it lacks where its axis meets those of others, and the cost, which is largest there,
@@ -73,7 +65,7 @@ void partCoincident(const Capsules& capsules, std::size_t k, const std::uint32_t
     }
     const Eigen::Vector3d apart = vector(p.p0) + pair.s * u - vector(q.p0) - pair.t * v;
     const Eigen::Vector3d direction =
-      partingDirection(u, v, capsules.fibreIds[capsules.fibre[k]], capsules.fibreIds[capsules.fibre[neighbours[n]]]);
+      partingDirection(u, v, capsules.places[capsules.fibre[k]], capsules.places[capsules.fibre[neighbours[n]]]);
     // A little apart in that direction, or its opposite, they part by themselves; apart along themselves they do not.
     constexpr double noise = 1e-12;
     if (pair.distance > noise && std::abs(apart.dot(direction)) > 0.5 * pair.distance)

@@ -103,6 +103,22 @@ Fibres weave()
   return fibres;
 }
 
+/// Two rings, one a little above the other: they have no direction from end to end.
+Fibres rings()
+{
+  Fibres fibres = none();
+  for (int f = 0; f < 2; ++f)
+  {
+    fibres.addFibre(f + 1, 1, 0.5);
+    for (int i = 0; i <= 32; ++i)
+    {
+      const double angle = (i % 32) * 3.14159265358979323846 / 16.0;
+      fibres.addPoint({ 3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.3 * f }, 0.5);
+    }
+  }
+  return fibres;
+}
+
 struct Case
 {
   const char* name;
@@ -161,6 +177,12 @@ TEST(CoincidentFibres, ComeApart)
     EXPECT_LE(cactus::measureOverlap(result).largestPenetration, 1e-3);
     EXPECT_EQ(result.points, optimised(one.fibres, 3).points);
   }
+}
+
+// Fibres that end where they begin give their bundle no direction: +z then.
+TEST(CoincidentFibres, ClosedOnesComeApartToo)
+{
+  EXPECT_LE(cactus::measureOverlap(optimised(rings(), 2)).largestPenetration, 1e-3);
 }
 
 // What two fibres do to each other is equal and opposite, and goes across both.
