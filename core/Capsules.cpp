@@ -18,9 +18,9 @@ Capsules capsulesOf(const Fibres& fibres)
   for (const int id : fibres.fibreIds)
   {
     RandomEngine engine = randomStream(0, RandomStage::Optimiser, static_cast<std::uint64_t>(id));
-    const double x = normal(engine);
-    const double y = normal(engine);
-    capsules.places.emplace_back(x, y, normal(engine));
+    const double x = uniform(engine);
+    const double y = uniform(engine);
+    capsules.places.emplace_back(x, y, uniform(engine));
   }
   capsules.bodies.reserve(fibres.points.size());
   for (std::size_t f = 0; f < fibres.size(); ++f)
