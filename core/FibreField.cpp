@@ -22,6 +22,10 @@ constexpr double thinnestCell = 0.3;
 constexpr double sparedRadius = 2.0;
 constexpr double smoothedRadius = 4.0;
 
+/// Up to so many passes each block is smoothed by itself; with more, cubes of so many blocks along each edge are.
+constexpr int fewPasses = 4;
+constexpr int blocksTogether = 4;
+
 typedef float Four __attribute__((vector_size(16)));
 
 /// From a sample to one of the 26 around it.
@@ -441,59 +445,87 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::v
   Places.assign(std::size_t(Count[0]) * std::size_t(Count[1]) * std::size_t(Count[2]), -1);
   Values.resize(size);
   Unsmoothed.resize(size);
-  std::size_t place = 0;
-  std::vector<float> buffer;
-  std::vector<float> before;
-  std::vector<float> part;
+  // Blocks that are smoothed together share the nodes around them, which many passes need many of.
+  const int edge = passes > fewPasses ? blocksTogether : 1;
+  std::map<Index, std::vector<Piece>> groups;
+  std::ptrdiff_t place = 0;
   for (std::size_t b = 0; b < Blocks.size(); ++b)
   {
-    NodeRange range = nodesOfBlock(Lattice, Blocks[b]);
+    Piece piece{ nodesOfBlock(Lattice, Blocks[b]), place };
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      range.first[axis] -= 1 + passes;
-      range.count[axis] += 2 * (1 + passes);
+      piece.range.first[axis] -= 1;
+      piece.range.count[axis] += 2;
     }
-    buffer.resize(range.size());
-    field.atNodes(fibre, range, buffer.data());
-    // Each pass leaves one node less on every side. Strides stay.
-    const std::array<std::size_t, 3> stride{ { 1, std::size_t(range.count[0]),
-      std::size_t(range.count[0]) * std::size_t(range.count[1]) } };
-    const std::size_t all = range.size();
-    const auto keep = [&](std::vector<float>& held)
-    {
-      float* out = held.data() + place;
-      for (int k = passes; k + passes < range.count[2]; ++k)
-      {
-        for (int j = passes; j + passes < range.count[1]; ++j)
-        {
-          const float* row = buffer.data() + std::size_t(passes) + stride[1] * std::size_t(j) + stride[2] * std::size_t(k);
-          out = std::copy(row, row + range.count[0] - 2 * passes, out);
-        }
-      }
-    };
-    keep(Unsmoothed);
-    const bool isUniform = passes == 0 || !field.smoothingAt(range, (part.resize(range.size()), part.data()));
-    for (int pass = 0; pass < passes; ++pass)
-    {
-      for (const std::size_t step : stride)
-      {
-        // Values at the rim become wrong, and are not used.
-        before = buffer;
-        for (std::size_t n = step; n + step < all; ++n)
-        {
-          buffer[n] = 0.5f * before[n] + 0.25f * (before[n - step] + before[n + step]);
-        }
-        for (std::size_t n = step; !isUniform && n + step < all; ++n)
-        {
-          buffer[n] = (1.0f - part[n]) * before[n] + part[n] * buffer[n]; // with 1 the very same bits
-        }
-      }
-    }
-    keep(Values);
-    Places[std::size_t(placeOf(at[b]))] = std::ptrdiff_t(place);
-    place += std::size_t(range.count[0] - 2 * passes) * std::size_t(range.count[1] - 2 * passes) *
-             std::size_t(range.count[2] - 2 * passes);
+    groups[{ { at[b][0] / edge, at[b][1] / edge, at[b][2] / edge } }].push_back(piece);
+    Places[std::size_t(placeOf(at[b]))] = place;
+    place += std::ptrdiff_t(piece.range.size());
   }
+  for (const auto& group : groups)
+  {
+    this->smooth(field, fibre, group.second, passes);
+  }
+}
+
+void SmoothedField::smooth(const FibreField& field, std::int32_t fibre, const std::vector<Piece>& pieces, int passes)
+{
+  NodeRange range;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    int first = std::numeric_limits<int>::max();
+    int end = std::numeric_limits<int>::min();
+    for (const Piece& piece : pieces)
+    {
+      first = std::min(first, piece.range.first[axis]);
+      end = std::max(end, piece.range.first[axis] + piece.range.count[axis]);
+    }
+    range.first[axis] = first - passes;
+    range.count[axis] = end - first + 2 * passes;
+  }
+  std::vector<float> buffer(range.size());
+  std::vector<float> before;
+  std::vector<float> part;
+  field.atNodes(fibre, range, buffer.data());
+  // Each pass leaves one node less on every side. Strides stay.
+  const std::array<std::size_t, 3> stride{ { 1, std::size_t(range.count[0]),
+    std::size_t(range.count[0]) * std::size_t(range.count[1]) } };
+  const std::size_t all = range.size();
+  const auto keep = [&](std::vector<float>& held)
+  {
+    for (const Piece& piece : pieces)
+    {
+      float* out = held.data() + piece.place;
+      for (int k = 0; k < piece.range.count[2]; ++k)
+      {
+        for (int j = 0; j < piece.range.count[1]; ++j)
+        {
+          const float* row = buffer.data() + std::size_t(piece.range.first[0] - range.first[0]) +
+                             stride[1] * std::size_t(piece.range.first[1] - range.first[1] + j) +
+                             stride[2] * std::size_t(piece.range.first[2] - range.first[2] + k);
+          out = std::copy(row, row + piece.range.count[0], out);
+        }
+      }
+    }
+  };
+  keep(this->Unsmoothed);
+  const bool isUniform = passes == 0 || !field.smoothingAt(range, (part.resize(range.size()), part.data()));
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    for (const std::size_t step : stride)
+    {
+      // Values at the rim become wrong, and are not used.
+      before = buffer;
+      for (std::size_t n = step; n + step < all; ++n)
+      {
+        buffer[n] = 0.5f * before[n] + 0.25f * (before[n - step] + before[n + step]);
+      }
+      for (std::size_t n = step; !isUniform && n + step < all; ++n)
+      {
+        buffer[n] = (1.0f - part[n]) * before[n] + part[n] * buffer[n]; // with 1 the very same bits
+      }
+    }
+  }
+  keep(this->Values);
 }
 
 std::ptrdiff_t SmoothedField::placeOf(const Index& block) const

@@ -104,6 +104,15 @@ public:
 private:
   using Index = std::array<int, 3>; ///< a block by its place along each axis, or a cell
 
+  /// The nodes held of a block, and where in Values they begin.
+  struct Piece
+  {
+    NodeRange range;
+    std::ptrdiff_t place;
+  };
+  /// Fills Values and Unsmoothed for some blocks.
+  void smooth(const FibreField& field, std::int32_t fibre, const std::vector<Piece>& pieces, int passes);
+
   /// Number of a block in Places; none where it lies outside the box of the blocks held.
   std::ptrdiff_t placeOf(const Index& block) const;
   /// Copies what is held of a block, less `level` and kept off 0.
