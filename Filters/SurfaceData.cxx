@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "FibreData.h"
 #include "InputBlocks.h"
+#include "SurfaceFacts.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -151,6 +152,7 @@ TriangleMesh meshOf(const Part& part, const Surface& surface)
 FibreSurfaces surfacesFrom(vtkDataObject* input, const std::string& port, int surface)
 {
   FibreSurfaces result;
+  readSurfaceFacts(input, result);
   const auto blocks = polyDataBlocks(input, port + " surfaces are triangles (vtkPolyData) with cell data FibreId");
   std::vector<Part> parts;
   std::map<int, Surface> surfaceOf;

@@ -9,6 +9,7 @@
 #include "GrowthTarget.h"
 #include "InputBlocks.h"
 #include "Memory.h"
+#include "SubstrateStatistics.h"
 #include "WholeData.h"
 
 #include <vtkDataArray.h>
@@ -209,6 +210,9 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
         data, "FibreTable.BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
       cactus::addColumn<vtkDoubleArray>(
         data, "FibreTable.TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
+      // 0 for one that only passes by outside.
+      cactus::addColumn<vtkDoubleArray>(
+        data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });
 
       std::ostringstream parameters;
       parameters.precision(15);

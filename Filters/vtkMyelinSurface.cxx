@@ -7,6 +7,7 @@
 #include "FilterSupport.h"
 #include "MyelinSurface.h"
 #include "SurfaceData.h"
+#include "SurfaceFacts.h"
 #include "WholeData.h"
 
 #include <vtkCompositeDataSet.h>
@@ -255,6 +256,10 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       facts.fibreIds = fieldIds(image, "FibreTable.FibreId");
       facts.bundleIds = fieldIds(image, "FibreTable.BundleId");
       facts.targetRadii = fieldValues(image, "FibreTable.TargetRadius");
+      if (image->GetFieldData()->HasArray("FibreTable.LengthInDomain"))
+      {
+        facts.lengths = fieldValues(image, "FibreTable.LengthInDomain");
+      }
       view.gap = facts.minimumGap + 2.0 * facts.surfaceTolerance;
 
       auto fibres = cactus::myelinSurfaces(view, facts, options, context);
@@ -270,6 +275,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
         cactus::setDomain(output, facts.domain);
         cactus::addProvenance(image, output, "MyelinSurface", parameters.str());
       }
+      const std::string remarks = cactus::notAsAsked(fibres, view, facts);
       if (this->ReleaseInput)
       {
         releaseImage(this);
@@ -278,28 +284,23 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       fillTable(vtkTable::GetData(outputs, 2), fibres);
       std::vector<cactus::NamedSurface> outer;
       std::vector<cactus::NamedSurface> inner;
-      std::size_t incomplete = 0;
-      std::size_t flawed = 0;
+      std::vector<int> wanted;
       for (auto& fibre : fibres)
       {
         outer.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.outer) });
         inner.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.inner) });
-        flawed += fibre.isFlawed ? 1 : 0;
-        incomplete += fibre.state == cactus::MyelinState::NoAxon ? 1 : 0; // NoFibre: it only passes by outside
+        if (fibre.isWanted)
+        {
+          wanted.push_back(fibre.fibreId);
+        }
       }
       cactus::toPolyData(std::move(outer), 0, vtkPolyData::GetData(outputs, 0));
       cactus::toPolyData(std::move(inner), 1, vtkPolyData::GetData(outputs, 1));
-      if (incomplete > 0)
+      cactus::setSurfaceFacts(outputs->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT()), wanted, facts.minimumGap);
+      cactus::setSurfaceFacts(outputs->GetInformationObject(1)->Get(vtkDataObject::DATA_OBJECT()), {}, facts.minimumGap);
+      if (!remarks.empty())
       {
-        vtkWarningMacro(<< incomplete << " of " << fibres.size()
-                        << " fibres are too thin in the image to hold an axon: see column Myelin of Fibre statistics");
-      }
-      if (flawed > 0)
-      {
-        vtkWarningMacro(<< flawed << " of " << fibres.size()
-                        << " fibres have a surface that meets itself or is nearer than MinimumGap to another fibre, see "
-                           "column Flawed of Fibre statistics: choose a smaller VoxelSize or raise SurfaceTolerance in "
-                           "FibreRadialGrowth, or choose a smaller DecimationError here");
+        vtkWarningMacro(<< remarks);
       }
     });
 }

@@ -13,7 +13,9 @@
  *
  * The column `Myelin` tells how a fibre came out: 0 as asked; 1 thinner than asked, since the axon would break; 2
  * thicker than asked, since myelin is at least MinimumGap thick; 3 without an inner surface, since the fibre is too thin for
- * both; 4 no voxel of the image belongs to the fibre, which has neither surface.
+ * both; 4 too few voxels of the image, or none, belong to the fibre, which has neither surface. `Flawed` is 1 where a fault could
+ * not be mended. One warning counts what did not come out as asked. Field data `WantedFibres` of output 0, the ids of the fibres
+ * that were to have a surface, and `MinimumGap` of both (µm) let a certificate tell what is missing.
  *
  * All of the image is needed at once. Where the pipeline runs on several ranks, the first one gives the result.
  */

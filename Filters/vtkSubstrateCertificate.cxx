@@ -97,6 +97,10 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       {
         vtkWarningMacro(<< "the substrate is not certified: " << certificate.verdict());
       }
+      else if (!certificate.remarks.empty())
+      {
+        vtkWarningMacro(<< certificate.remarks.front());
+      }
       fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
       fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
       std::ostringstream parameters;

@@ -154,9 +154,9 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
   return cactus::guarded(this,
     [&]
     {
-      if (this->NumberOfBins < 1)
+      if (this->NumberOfBins < 1 || static_cast<std::size_t>(this->NumberOfBins) > cactus::mostBins)
       {
-        throw cactus::InvalidInput("NumberOfBins must be at least 1");
+        throw cactus::InvalidInput(cactus::text("NumberOfBins is ", this->NumberOfBins, ": give 1 to ", cactus::mostBins));
       }
       if (!cactus::ownsWholeOutput(request, outputs))
       {
@@ -170,8 +170,10 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       cactus::requireSameDomain(fibres.domain, innerData, "Inner");
       cactus::SubstrateStatisticsOptions options;
       options.cutSpacing = this->CutSpacing;
-      const auto statistics = cactus::measureSubstrate(fibres, cactus::surfacesFrom(outerData, "Outer", 0),
-        cactus::surfacesFrom(innerData, "Inner", 1), options, cactus::contextFor(this, this->NumberOfThreads));
+      const cactus::FibreSurfaces outer = cactus::surfacesFrom(outerData, "Outer", 0);
+      const cactus::FibreSurfaces inner = cactus::surfacesFrom(innerData, "Inner", 1);
+      const auto statistics =
+        cactus::measureSubstrate(fibres, outer, inner, options, cactus::contextFor(this, this->NumberOfThreads));
       if (statistics.outerOpen + statistics.innerOpen > 0)
       {
         vtkWarningMacro(<< statistics.outerOpen << " outer and " << statistics.innerOpen

@@ -3,6 +3,7 @@
 
 #include "Error.h"
 #include "SurfaceDecimation.h"
+#include "SurfaceDistance.h"
 #include "SurfaceIntersection.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,8 +12,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
-#include <sstream>
 #include <utility>
 
 namespace cactus
@@ -39,22 +38,68 @@ constexpr double samplingDistance = 6.0;
 constexpr double largestSquaredEdgeRatio = 800.0;
 /// How often a surface is made again with less coarsening where something was wrong with it.
 constexpr int repairs = 4;
+/// µm that a distance may lose where points are written in single precision.
+constexpr double rounding = 5e-5;
 
 bool sound(const SurfaceReport& report)
 {
   return report.closedManifold() && report.outward();
 }
 
-void requireSound(const SurfaceReport& report, int fibreId)
+/// Leaves the pieces of a surface that enclose a positive volume, or nothing where it is no closed manifold, and measures what is
+/// left. Adds what goes (µm³) to `dropped`.
+SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
 {
-  if (!sound(report))
+  const SurfaceReport report = checkSurface(mesh);
+  if (sound(report) || mesh.triangles.empty())
   {
-    std::ostringstream message;
-    message << "a surface of fibre " << fibreId << " is not a closed, outward 2-manifold (" << report.openEdges << " open, "
-            << report.crowdedEdges << " crowded edges, " << report.pinchedPoints << " pinched points, " << report.inwardComponents
-            << " inward pieces): choose another VoxelSize in FibreRadialGrowth, and report this as a fault";
-    throw Error(message.str());
+    return report;
   }
+  TriangleMesh kept;
+  if (report.closedManifold())
+  {
+    std::vector<std::uint32_t> pieceOf;
+    std::vector<double> volumes(checkSurface(mesh, &pieceOf).pieces.size(), 0.0);
+    for (std::size_t t = 0; t < pieceOf.size(); ++t)
+    {
+      // About a point of the same piece, as checkSurface() does.
+      const Eigen::Vector3d& origin = mesh.points[std::size_t(report.pieces[pieceOf[t]])];
+      const auto corner = [&](std::size_t i) -> Eigen::Vector3d
+      { return mesh.points[std::size_t(mesh.triangles[t][i])] - origin; };
+      volumes[pieceOf[t]] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
+    }
+    std::vector<std::int32_t> number(mesh.points.size(), -1);
+    for (std::size_t t = 0; t < pieceOf.size(); ++t)
+    {
+      if (!(volumes[pieceOf[t]] > 0.0))
+      {
+        continue;
+      }
+      kept.triangles.push_back(mesh.triangles[t]);
+      for (std::int32_t& p : kept.triangles.back())
+      {
+        std::int32_t& place = number[std::size_t(p)];
+        if (place < 0)
+        {
+          place = static_cast<std::int32_t>(kept.points.size());
+          kept.points.push_back(mesh.points[std::size_t(p)]);
+        }
+        p = place;
+      }
+    }
+    for (const double volume : volumes)
+    {
+      dropped += volume > 0.0 ? 0.0 : -volume;
+    }
+  }
+  mesh = std::move(kept);
+  const SurfaceReport rest = checkSurface(mesh);
+  if (!sound(rest))
+  {
+    mesh = TriangleMesh();
+    return SurfaceReport();
+  }
+  return rest;
 }
 
 Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
@@ -103,7 +148,8 @@ FibreMesher::FibreMesher(
   , OuterLattice(Field.lattice())
   , InnerLattice(Field.lattice(Inset))
   , Nudge(std::min(0.02 * Spacing, 0.2 * std::max(facts.surfaceTolerance, 1e-3 * Spacing)))
-  , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing }))
+  , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
+  , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + rounding)
 {
   if (options.smoothingIterations > 0)
   {
@@ -151,13 +197,17 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair, 
   pair.isFlawed = pair.isFlawed || !isSound;
   pair.outer = packed(std::move(surface.mesh));
   pair.outerLevel = level;
-  pair.state = MyelinState::NoAxon;
+  pair.state = pair.outer.triangles.empty() ? MyelinState::NoFibre : MyelinState::NoAxon;
 }
 
 std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) const
 {
-  pair.outerReport = checkSurface(pair.outer);
-  requireSound(pair.outerReport, pair.fibreId);
+  pair.outerReport = keepSoundPieces(pair.outer, pair.droppedVolume);
+  if (pair.outer.triangles.empty())
+  {
+    pair.state = MyelinState::NoFibre;
+    return {};
+  }
   return faults(pair.outer, nullptr);
 }
 
@@ -214,19 +264,33 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   {
     return;
   }
-  bool isSound = this->finish(field, best.surface, best.level, state == MyelinState::AsAsked ? wanted : best.volume, &pair.outer,
-    {}, pair.innerReport, pair);
-  while (!isSound)
+  const TriangleTree outer(pair.outer);
+  const TriangleTree wall(pair.outer, this->wallOf(pair.outer));
+  double leastStep = 0.1 * this->ThinnestMyelin;
+  while (true)
   {
+    const double volume = state == MyelinState::AsAsked ? wanted : best.volume;
+    const bool isSound = this->finish(field, best.surface, best.level, volume, &outer, {}, pair.innerReport, pair);
+    const TriangleMesh& inner = best.surface.mesh;
+    if (isSound && inner.triangles.empty())
+    {
+      return;
+    }
+    const SurfaceGap gap = isSound ? smallestGap(TriangleTree(inner), wall, this->PromisedMyelin) : SurfaceGap();
+    if (isSound && !gap.found())
+    {
+      break;
+    }
     // The outer surface lies further in than the field tells, where voxels do not resolve a crease or a neighbour has pushed it.
     state = MyelinState::Thicker;
-    best = this->innerAt(field, best.level + this->ThinnestMyelin);
+    const double step = isSound ? std::max(this->PromisedMyelin - gap.distance, leastStep) : this->ThinnestMyelin;
+    leastStep = isSound ? 2.0 * leastStep : leastStep;
+    best = this->innerAt(field, best.level + step);
     if (best.level > upper || !best.onePiece)
     {
       pair.innerReport = SurfaceReport();
       return;
     }
-    isSound = this->finish(field, best.surface, best.level, best.volume, &pair.outer, {}, pair.innerReport, pair);
   }
   pair.inner = packed(std::move(best.surface.mesh));
   // By how much the volume was off before it was moved to what is wanted, was the level.
@@ -313,16 +377,12 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
 }
 
 /// Coarsens a surface, gives it its volume, and checks what comes out. Where something is wrong with it, it is made again with
-/// less coarsening around there; what cannot be mended like that stays as contoured. Returns whether nothing is wrong with it.
+/// less coarsening around there; what cannot be mended like that stays as contoured, without pieces that enclose nothing, which
+/// may leave an empty mesh. Returns whether nothing is wrong with it.
 bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
-  const TriangleMesh* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
+  const TriangleTree* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
 {
   const double error = this->Options.decimationError;
-  std::unique_ptr<TriangleTree> containerTree;
-  if (container != nullptr)
-  {
-    containerTree = std::make_unique<TriangleTree>(*container);
-  }
   SurfaceDecimationOptions decimation;
   decimation.calm = calm;
   decimation.level = level;
@@ -336,7 +396,7 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     moveToVolume(trial, volume, error);
     splitNeedles(trial, largestSquaredEdgeRatio);
     report = checkSurface(trial.mesh);
-    const std::vector<Eigen::Vector3d> places = faults(trial.mesh, containerTree.get());
+    const std::vector<Eigen::Vector3d> places = faults(trial.mesh, container);
     if (places.empty() && report.degenerateTriangles == 0 && sound(report))
     {
       pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, level));
@@ -354,9 +414,34 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
   {
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
-  report = checkSurface(surface.mesh);
-  requireSound(report, pair.fibreId);
-  return error == 0.0 || faults(surface.mesh, containerTree.get()).empty();
+  report = keepSoundPieces(surface.mesh, pair.droppedVolume);
+  surface.faces.clear(); // they count the points of before
+  return faults(surface.mesh, container).empty();
+}
+
+/// The triangles of an outer surface that are no caps on the faces of the box.
+std::vector<std::uint32_t> FibreMesher::wallOf(const TriangleMesh& outer) const
+{
+  const Domain& box = this->Field.box();
+  std::vector<std::uint32_t> wall;
+  for (std::size_t i = 0; i < outer.triangles.size(); ++i)
+  {
+    bool isCap = false;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      const auto isOn = [&](double face)
+      {
+        return std::all_of(outer.triangles[i].begin(), outer.triangles[i].end(),
+          [&](std::int32_t p) { return outer.points[std::size_t(p)][axis] == face; });
+      };
+      isCap = isCap || isOn(box.lower[axis]) || isOn(box.upper[axis]);
+    }
+    if (!isCap)
+    {
+      wall.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return wall;
 }
 
 /// The largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps
@@ -448,6 +533,10 @@ double FibreMesher::length(const SmoothedField& field) const
       mean += p;
       square += p * p.transpose();
     });
+  if (!(count > 0.0))
+  {
+    return this->Spacing; // less than a sample
+  }
   mean /= count;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(square / count - mean * mean.transpose());
   const Eigen::Vector3d axis = solver.eigenvectors().col(2);

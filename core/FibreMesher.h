@@ -4,6 +4,7 @@
 #include "FibreField.h"
 #include "MyelinSurface.h"
 #include "SurfaceDecimation.h"
+#include "TriangleTree.h"
 
 #include <Eigen/Core>
 
@@ -31,8 +32,8 @@ public:
   /// NoAxon.
   void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm = {}) const;
 
-  /// Measures the outer surface again after it has been changed, and says where it now meets itself. Throws Error where it is no
-  /// surface any more.
+  /// Measures the outer surface again after it has been changed, and says where it now meets itself. Pieces that have been turned
+  /// inside out go; where nothing is left, the pair's state is NoFibre.
   std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
 
   /// What has to be coarsened less where something went wrong at some places, for the first time (0) or once more.
@@ -41,8 +42,8 @@ public:
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const;
 
-  /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin where it would leave it, and
-  /// without an axon where no thickness prevents that.
+  /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin where it would leave it or
+  /// come nearer to its wall than promised, and without an axon where no thickness prevents that.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
 private:
@@ -51,8 +52,9 @@ private:
   CappedSurface contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const;
   Inner innerAt(const SmoothedField& field, double level) const;
   MyelinState solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const;
-  bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleMesh* container,
+  bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleTree* container,
     const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
+  std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
   template <typename Visit>
@@ -71,6 +73,7 @@ private:
   NodeLattice InnerLattice;
   double Nudge;          ///< least distance of the field from its level at a sample
   double ThinnestMyelin; ///< µm; inner and outer surfaces keep apart even where both move
+  double PromisedMyelin; ///< µm, least distance of inner surfaces to the walls of outer ones
 };
 
 } // namespace cactus

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -28,7 +29,8 @@ constexpr int remakes = 3;
 
 std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const std::map<std::int32_t, Blocks>& blocksOf)
 {
-  require(facts.bundleIds.size() == facts.fibreIds.size() && facts.targetRadii.size() == facts.fibreIds.size(),
+  require(facts.bundleIds.size() == facts.fibreIds.size() && facts.targetRadii.size() == facts.fibreIds.size() &&
+            (facts.lengths.empty() || facts.lengths.size() == facts.fibreIds.size()),
     "the columns of the label image's FibreTable differ in length");
   std::vector<FibreSurfacePair> pairs(facts.fibreIds.size());
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -36,6 +38,7 @@ std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const std::
     pairs[i].fibreId = facts.fibreIds[i];
     pairs[i].bundleId = facts.bundleIds[i];
     pairs[i].targetRadius = facts.targetRadii[i];
+    pairs[i].isWanted = facts.lengths.empty() || !(facts.lengths[i] <= 0.0);
   }
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.fibreId < b.fibreId; });
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -72,17 +75,18 @@ void spaceOut(
   const Domain& box = mesher.field().box();
   std::vector<std::size_t> made(pairs.size());
   std::iota(made.begin(), made.end(), std::size_t(0));
+  std::vector<std::size_t> tooNear; // as far as is known, increasing
   std::map<std::size_t, std::vector<CalmPlace>> calm;
   for (int attempt = 0; !made.empty(); ++attempt)
   {
+    // What was too near is looked at again, since the other one of the pair may be new.
+    std::vector<std::size_t> changed;
+    std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
     const SpacingReport spacing =
-      keepApart(outer, made, gap, Eigen::AlignedBox3d(box.lower, box.upper), context, attempt == 0 ? 0.45 : 0.54, 0.55);
+      keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), context, attempt == 0 ? 0.45 : 0.54, 0.55);
+    tooNear = spacing.tooNear;
     std::vector<std::vector<Eigen::Vector3d>> faults(spacing.moved.size());
     parallelFor(faults.size(), context, [&](std::size_t i) { faults[i] = mesher.checkOuter(pairs[spacing.moved[i]]); });
-    for (const std::size_t i : spacing.tooNear)
-    {
-      pairs[i].isFlawed = true;
-    }
     made.clear();
     for (std::size_t i = 0; i < faults.size(); ++i)
     {
@@ -95,7 +99,7 @@ void spaceOut(
       }
       else
       {
-        pairs[spacing.moved[i]].isFlawed = pairs[spacing.moved[i]].isFlawed || !faults[i].empty();
+        pairs[spacing.moved[i]].isFlawed = !faults[i].empty();
       }
     }
     parallelFor(made.size(), context,
@@ -105,6 +109,10 @@ void spaceOut(
         pair.isFlawed = false; // of the surface that goes
         mesher.makeOuter(mesher.smoothed(blocks(pair), pair.fibreId), pair, calm.at(made[i]));
       });
+  }
+  for (const std::size_t i : tooNear)
+  {
+    pairs[i].isFlawed = true;
   }
 }
 
@@ -127,8 +135,11 @@ void validate(const MyelinSurfaceOptions& options)
     require(options.targetAxonVolumeFraction > 0.0 && options.targetAxonVolumeFraction < 1.0,
       "TargetAxonVolumeFraction must be between 0 and 1 where GRatioModel is TargetAxonVolumeFraction");
   }
-  require(
-    options.smoothingIterations >= 0 && options.smoothingIterations <= 1000, "SmoothingIterations must be between 0 and 1000");
+  if (options.smoothingIterations < 0 || options.smoothingIterations > mostSmoothingIterations)
+  {
+    throw InvalidInput(text("SmoothingIterations is ", options.smoothingIterations, ": give 0 to ", mostSmoothingIterations,
+      "; more would blur fibres of few voxels away"));
+  }
   require(std::isfinite(options.decimationError) && options.decimationError >= 0.0,
     "DecimationError must be a number of µm, 0 or more");
 }
@@ -183,7 +194,7 @@ std::vector<FibreSurfacePair> myelinSurfaces(
     },
     "making outer surfaces", 0.05, 0.45);
 
-  spaceOut(mesher, blocks, facts.minimumGap, pairs, context);
+  spaceOut(mesher, blocks, std::max(facts.minimumGap, leastSeparation), pairs, context);
 
   const auto makeInner = [&]
   {
@@ -241,6 +252,41 @@ std::vector<FibreSurfacePair> myelinSurfaces(
   throw Infeasible(text("TargetAxonVolumeFraction ", options.targetAxonVolumeFraction, " cannot be reached: the fibres fill ",
     fibreFraction, " of the box, and with the thinnest myelin allowed their axons fill ", reached / mesher.field().box().volume(),
     ". Ask for another fraction, or grow the fibres further"));
+}
+
+std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts)
+{
+  const auto count = [&](auto&& is) { return std::count_if(pairs.begin(), pairs.end(), is); };
+  const auto in = [&](MyelinState state)
+  { return count([state](const FibreSurfacePair& pair) { return pair.state == state && pair.isWanted; }); };
+  const auto wanted = count([](const FibreSurfacePair& pair) { return pair.isWanted; });
+  const auto bad =
+    count([](const FibreSurfacePair& pair) { return pair.isFlawed || (pair.isWanted && pair.state != MyelinState::AsAsked); });
+  if (bad == 0)
+  {
+    return {};
+  }
+  double thinnest = std::numeric_limits<double>::infinity();
+  double thickest = 0.0;
+  for (const FibreSurfacePair& pair : pairs)
+  {
+    thinnest = std::min(thinnest, pair.targetRadius);
+    thickest = std::max(thickest, pair.targetRadius);
+  }
+  std::string ways;
+  const auto add = [&ways](std::ptrdiff_t number, const char* what)
+  { ways += number > 0 ? text(ways.empty() ? "" : ", ", number, " ", what) : std::string(); };
+  add(in(MyelinState::NoFibre), "without any surface (Myelin 4)");
+  add(in(MyelinState::NoAxon), "without an axon (3)");
+  add(in(MyelinState::Thicker), "with thicker myelin (2)");
+  add(in(MyelinState::Thinner), "with thinner myelin (1)");
+  add(count([](const FibreSurfacePair& pair) { return pair.isFlawed; }),
+    "with a surface that meets itself or is nearer than MinimumGap to another fibre (Flawed)");
+  return text(bad, " of ", wanted, " fibres are not as asked: ", ways, "; see Fibre statistics. Fibres of radii ", thinnest,
+    " to ", thickest, " µm have voxels of ", image.grid.spacing, " µm, and keep MinimumGap ", facts.minimumGap,
+    " and SurfaceTolerance ", facts.surfaceTolerance,
+    " µm: choose a smaller VoxelSize, or other values of these two, in FibreRadialGrowth; or a smaller GRatio or DecimationError "
+    "here");
 }
 
 } // namespace cactus

@@ -9,10 +9,18 @@
 #include "TriangleMesh.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace cactus
 {
+
+/// Most passes of smoothing. They blur by the square root of half their number, 3.2 voxels, and take on average passes · spacing²
+/// / (4 r) off a round fibre of radius r: more than half the volume of the thinnest ones that are smoothed in full.
+constexpr int mostSmoothingIterations = 20;
+/// µm that surfaces of two fibres keep from each other, and inner surfaces from outer ones, however little is asked for: a
+/// simulator's walls have that thickness (MC/DC: 1 nm).
+constexpr double leastSeparation = 0.001;
 
 /// Parameters of the surfaces; lengths in µm.
 struct MyelinSurfaceOptions
@@ -24,7 +32,7 @@ struct MyelinSurfaceOptions
   double gRatioDeviation = 0.04;
   /// Fraction of the box that the axons are to fill (TargetAxonVolumeFraction), in (0, 1).
   double targetAxonVolumeFraction = 0.0;
-  /// Passes of smoothing of the fields before they are contoured (see SmoothedField); 0: none.
+  /// Passes of smoothing of the fields before they are contoured (see SmoothedField), at most mostSmoothingIterations; 0: none.
   int smoothingIterations = 2;
   /// Distance by which coarsening may move a surface, at most the tolerance that growth kept, as an aim and no strict bound (see
   /// myelinSurfaces()); 0: surfaces stay as contoured.
@@ -46,6 +54,8 @@ struct LabelImageFacts
   std::vector<int> fibreIds;       ///< all fibres, unique, in any order
   std::vector<int> bundleIds;      ///< one per fibre
   std::vector<double> targetRadii; ///< one per fibre
+  /// µm of each fibre's centre line inside the domain: one of 0 only passes by outside. Empty where that is not known.
+  std::vector<double> lengths;
 };
 
 /// How a fibre's myelin came out.
@@ -53,9 +63,9 @@ enum class MyelinState
 {
   AsAsked = 0,
   Thinner = 1, ///< than asked: else the axon would break within the box
-  Thicker = 2, ///< than asked: myelin is at least MinimumGap thick, and the axon does not leave it
+  Thicker = 2, ///< than asked: myelin is at least MinimumGap (and leastSeparation) thick, and the axon does not leave it
   NoAxon = 3,  ///< the fibre is too thin to hold an unbroken axon inside myelin of that thickness: no inner surface
-  NoFibre = 4  ///< no voxel of the image belongs to the fibre: neither surface
+  NoFibre = 4  ///< the fibre has no voxel of the image, or too few for a closed surface: neither surface
 };
 
 /// The surfaces of one fibre and what was measured on them.
@@ -74,8 +84,9 @@ struct FibreSurfacePair
   double targetGRatio = 0.0;
   double gRatio = 0.0;        ///< reached: sqrt(inner volume / outer volume); 0 without an axon
   double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
-  /// A surface has a fault that could not be mended: it meets itself or the other one, or is nearer than MinimumGap
-  /// to another fibre.
+  bool isWanted = true;       ///< false only where the centre line is known to pass by outside the domain
+  /// A surface has a fault that could not be mended: it meets itself or the other one, or is nearer than MinimumGap (and
+  /// leastSeparation) to another fibre.
   bool isFlawed = false;
   double largestMove = 0.0; ///< µm, the largest |field - level| found on the final surfaces away from caps
 };
@@ -94,13 +105,20 @@ struct FibreSurfacePair
 /// outward 2-manifold that does not meet itself (exact predicates), nor its outer surface; where it fails it is made
 /// again with less coarsening around that place, at last with none. Triangles whose squared edges have a ratio above 800 are
 /// split. Then outer surfaces are moved inwards, by nanometres, where two of them are nearer than MinimumGap (see keepApart());
-/// one that then meets itself is made again with less coarsening.
-/// What still is not as it should be is marked (isFlawed).
+/// one that then meets itself is made again with less coarsening. Inner surfaces keep as much from the walls of the outer ones:
+/// where coarsening or creases bring them nearer, the myelin gets thicker (Thicker), or there is no axon. All that is looked for
+/// without coarsening, too.
+/// What still is not as it should be is marked (isFlawed). A piece of a surface that encloses no positive volume, as of a fibre
+/// of a voxel or two, is left out.
 ///
 /// A fibre that leaves the box through a face and comes back has a piece for each stay; of other pieces the largest is kept (see
 /// keepMainPart()). Throws InvalidInput (options; an image that is not valid; a fibre in the image that
 /// is not in the table; decimationError above the tolerance), Infeasible (a target fraction that cannot be met), Cancelled.
 std::vector<FibreSurfacePair> myelinSurfaces(
   const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context = {});
+
+/// How many fibres did not come out as asked, in what way, and what to do about it, in one sentence; empty where all did. Fibres
+/// that pass by outside the domain are not missed.
+std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts);
 
 } // namespace cactus

@@ -22,6 +22,8 @@ namespace
 
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Of a fibre of which only the id is known; behind all others.
+constexpr int unknownBundle = std::numeric_limits<int>::max();
 /// µm that a surface may reach out of the domain, as the rounding of a clip does.
 constexpr double clipTolerance = 0.1;
 /// µm. Triangles as near as this to a face of the domain with all corners are a cap's.
@@ -106,6 +108,20 @@ private:
         found.emplace_back(surfaces->fibreIds[i], surfaces->bundleIds[i]);
       }
     }
+    for (const FibreSurfaces* surfaces : { &this->Outer, &this->Inner })
+    {
+      for (const int id : surfaces->wantedIds)
+      {
+        found.emplace_back(id, unknownBundle);
+      }
+    }
+    for (std::size_t f = 0; this->Lines != nullptr && f < this->Lines->size(); ++f)
+    {
+      if (lengthInDomain(*this->Lines, f) > 0.0)
+      {
+        found.emplace_back(this->Lines->fibreIds[f], this->Lines->bundleIds[f]);
+      }
+    }
     std::sort(found.begin(), found.end());
     for (const auto& entry : found)
     {
@@ -113,7 +129,7 @@ private:
       {
         this->Result.fibres.emplace_back();
         this->Result.fibres.back().fibreId = entry.first;
-        this->Result.fibres.back().bundleId = entry.second;
+        this->Result.fibres.back().bundleId = entry.second == unknownBundle ? 0 : entry.second;
       }
     }
     this->Trees.resize(this->Result.fibres.size());
@@ -142,7 +158,7 @@ private:
       fibre.innerLeaves = !fibre.hasOuter || this->leaves(*innerTree, fibre.inner, *this->Trees[f], fibre.outer);
       if (fibre.hasOuter)
       {
-        fibre.gRatio = std::sqrt(fibre.inner.volume / fibre.outer.volume);
+        fibre.gRatio = gRatioOf(fibre.inner.volume, fibre.outer.volume);
         const TriangleTree wall(this->Trees[f]->mesh, this->wallOf(this->Trees[f]->mesh));
         const SurfaceGap gap = smallestGap(innerTree->tree, wall);
         fibre.myelinThickness = gap.found() ? gap.distance : notANumber;
@@ -350,6 +366,8 @@ private:
     all.outerSurfaces = this->Outer.size();
     all.innerSurfaces = this->Inner.size();
     all.requiredGap = this->Options.minimumGap;
+    all.promisedGap = this->Inner.promisedGap;
+    all.wantedFibres = all.fibres.size();
     all.smallestMyelin = all.smallestFeature = all.largestAspect = all.largestSquaredEdgeRatio = notANumber;
     double outerVolume = 0.0;
     double innerVolume = 0.0;
@@ -361,6 +379,9 @@ private:
       this->add(fibre.hasInner, fibre.inner, fibre.innerSelfIntersections);
       all.selfNested += (fibre.outerSelfNested ? 1 : 0) + (fibre.innerSelfNested ? 1 : 0);
       all.leavingInner += fibre.innerLeaves ? 1 : 0;
+      all.withoutOuter += fibre.hasOuter ? 0 : 1;
+      all.withoutInner += fibre.hasOuter && !fibre.hasInner ? 1 : 0;
+      all.thinMyelin += fibre.myelinThickness < this->Inner.promisedGap ? 1 : 0;
       all.reach = std::max(all.reach, this->Reach[f]);
       outerVolume += fibre.outer.volume;
       innerVolume += fibre.inner.volume;
@@ -371,13 +392,19 @@ private:
         all.myelinFibre = fibre.fibreId;
       }
     }
-    const bool hasOuter = all.outerSurfaces > 0 && all.reach <= clipTolerance;
-    const bool hasInner = all.innerSurfaces > 0 && all.reach <= clipTolerance;
+    const bool hasOuter = this->Outer.given() && all.reach <= clipTolerance;
+    const bool hasInner = this->Inner.given() && all.reach <= clipTolerance;
     const double volume = this->Box.volume();
     all.fibreVolumeFraction = hasOuter ? outerVolume / volume : notANumber;
     all.axonVolumeFraction = hasInner ? innerVolume / volume : notANumber;
     all.myelinVolumeFraction = hasOuter && hasInner ? (outerVolume - innerVolume) / volume : notANumber;
-    all.aggregateGRatio = hasOuter && hasInner ? std::sqrt(innerVolume / outerVolume) : notANumber;
+    all.aggregateGRatio = hasOuter && hasInner ? gRatioOf(innerVolume, outerVolume) : notANumber;
+    if (all.reach > clipTolerance)
+    {
+      all.remarks.push_back("surfaces reach " + std::to_string(all.reach) +
+                            " µm out of the domain, so that their volumes are no fractions of it and none are given: turn on "
+                            "ClipToDomain in MyelinSurface to have them");
+    }
     all.trianglesPerArea = area > 0.0 ? static_cast<double>(all.triangles) / area : notANumber;
   }
 
@@ -417,7 +444,8 @@ private:
         all.faults.push_back(std::to_string(count) + " " + what);
       }
     };
-    fault(all.outerSurfaces == 0 ? all.innerSurfaces : 0, "inner surfaces without any outer one");
+    fault(all.withoutOuter, "of " + std::to_string(all.wantedFibres) + " fibres have no outer surface" +
+                              this->first([](const Fibre& f) { return !f.hasOuter; }));
     fault(all.notClosed,
       "surfaces are not closed" +
         this->first([](const Fibre& f) { return (f.hasOuter && !f.outer.closed()) || (f.hasInner && !f.inner.closed()); }));
@@ -441,6 +469,8 @@ private:
     fault(all.nestedPairs,
       "pairs of fibres lie inside one another" + this->first([](const Fibre& f) { return f.meetingFibres > 0 && f.gap != 0.0; }));
     fault(all.leavingInner, "inner surfaces leave their outer ones" + this->first([](const Fibre& f) { return f.innerLeaves; }));
+    fault(all.thinMyelin, "fibres have myelin thinner than the " + std::to_string(all.promisedGap) + " µm that it was made with" +
+                            this->first([&all](const Fibre& f) { return f.myelinThickness < all.promisedGap; }));
     if (all.smallestGap < all.requiredGap && all.meetingPairs == 0)
     {
       all.faults.push_back("fibres " + std::to_string(all.gapFibreA) + " and " + std::to_string(all.gapFibreB) +
@@ -505,14 +535,11 @@ private:
 
 void SubstrateCertificateOptions::validate() const
 {
-  if (!std::isfinite(minimumGap) || minimumGap < 0.0)
+  if (!(minimumGap >= 0.0 && minimumGap <= largestGap))
   {
-    throw InvalidInput("MinimumGap must be a length in µm that is not negative");
+    throw InvalidInput(text("MinimumGap is ", minimumGap, ": give a length in µm from 0 to ", largestGap));
   }
-  if (!std::isfinite(cutSpacing) || cutSpacing <= 0.0)
-  {
-    throw InvalidInput("CutSpacing must be a positive length in µm");
-  }
+  requireCutSpacing(cutSpacing);
 }
 
 std::string SubstrateCertificate::verdict() const
@@ -533,7 +560,7 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
   {
     validate(*fibres);
   }
-  if (outer.size() + inner.size() == 0)
+  if (outer.size() + inner.size() + outer.wantedIds.size() + inner.wantedIds.size() == 0)
   {
     throw InvalidInput("there are no surfaces to certify: connect MyelinSurface's Outer and Inner");
   }
@@ -556,6 +583,10 @@ std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& cert
   columns.count("OuterPairsMeeting", [](const All* c) { return c->meetingPairs; });
   columns.count("OuterPairsNested", [](const All* c) { return c->nestedPairs; });
   columns.count("InnerLeaving", [](const All* c) { return c->leavingInner; });
+  columns.count("Fibres", [](const All* c) { return c->wantedFibres; });
+  columns.count("WithoutOuter", [](const All* c) { return c->withoutOuter; });
+  columns.count("WithoutInner", [](const All* c) { return c->withoutInner; });
+  columns.count("ThinMyelin", [](const All* c) { return c->thinMyelin; });
   columns.number("SmallestGap_um", [](const All* c) { return c->smallestGap; });
   columns.count("SmallestGapFibreA", [](const All* c) { return c->gapFibreA; });
   columns.count("SmallestGapFibreB", [](const All* c) { return c->gapFibreB; });
@@ -565,6 +596,7 @@ std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& cert
   columns.number("SmallestFeature_um", [](const All* c) { return c->smallestFeature; });
   columns.number("LargestAspect", [](const All* c) { return c->largestAspect; });
   columns.number("LargestSquaredEdgeRatio", [](const All* c) { return c->largestSquaredEdgeRatio; });
+  columns.number("Reach_um", [](const All* c) { return c->reach; });
   columns.number("FVF", [](const All* c) { return c->fibreVolumeFraction; });
   columns.number("AVF", [](const All* c) { return c->axonVolumeFraction; });
   columns.number("MVF", [](const All* c) { return c->myelinVolumeFraction; });
@@ -581,6 +613,8 @@ std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certific
   const auto sound = [](const SurfaceReport& report) { return report.closedManifold() && report.outward() ? 1 : 0; };
   columns.count("FibreId", [](const Fibre& f) { return f.fibreId; });
   columns.count("BundleId", [](const Fibre& f) { return f.bundleId; });
+  columns.count("HasOuter", [](const Fibre& f) { return f.hasOuter ? 1 : 0; });
+  columns.count("HasInner", [](const Fibre& f) { return f.hasInner ? 1 : 0; });
   columns.count("OuterSound", [&](const Fibre& f) { return sound(f.outer); });
   columns.count("InnerSound", [&](const Fibre& f) { return sound(f.inner); });
   columns.count("OuterSelfIntersections", [](const Fibre& f) { return f.outerSelfIntersections; });

@@ -15,12 +15,16 @@
 namespace cactus
 {
 
+/// µm, the most that may be asked for between two fibres.
+constexpr double largestGap = 10.0;
+
 /// What a substrate is certified for.
 struct SubstrateCertificateOptions
 {
-  /// µm that the outer surfaces of any two fibres have to keep from each other; not negative. 0 asks only that they do not meet.
+  /// µm that the outer surfaces of any two fibres have to keep from each other, 0 to largestGap. 0 asks only that they do not
+  /// meet.
   double minimumGap = 0.02;
-  /// µm between two cross-sections along a fibre's centre line; positive.
+  /// µm between two cross-sections along a fibre's centre line; from smallestCutSpacing to largestCutSpacing.
   double cutSpacing = 1.0;
 
   /// Throws InvalidInput naming the property.
@@ -63,6 +67,11 @@ struct SubstrateCertificate
   std::size_t meetingPairs = 0;     ///< pairs of fibres whose outer surfaces cut or touch each other
   std::size_t nestedPairs = 0;      ///< pairs of fibres of which one has a piece inside the other
   std::size_t leavingInner = 0;     ///< inner surfaces that do not lie strictly inside their outer ones
+  std::size_t wantedFibres = 0;     ///< fibres with a surface, or that were to have one
+  std::size_t withoutOuter = 0;     ///< of these, without an outer surface
+  std::size_t withoutInner = 0;     ///< with an outer surface, and no inner one: myelin throughout; no fault
+  std::size_t thinMyelin = 0;       ///< fibres whose myelin is thinner than their maker promised
+  double promisedGap = 0.0;         ///< µm, what was promised; 0 where nothing was
   double requiredGap = 0.0;         ///< µm, minimumGap
   double smallestGap = 0.0;         ///< µm, between the outer surfaces of two fibres; NaN for a single one
   int gapFibreA = 0;
@@ -72,7 +81,7 @@ struct SubstrateCertificate
   double smallestFeature = 0.0; ///< µm, smallest altitude of a triangle; no edge is shorter
   double largestAspect = 0.0;   ///< of a triangle: longest edge over the altitude on it
   double largestSquaredEdgeRatio = 0.0;
-  double reach = 0.0; ///< µm by which surfaces reach out of the domain; fractions are NaN above 0.1
+  double reach = 0.0; ///< µm by which surfaces reach out of the domain; above 0.1 fractions are NaN, and a remark says so
   double fibreVolumeFraction = 0.0;
   double axonVolumeFraction = 0.0;
   double myelinVolumeFraction = 0.0;
@@ -80,16 +89,20 @@ struct SubstrateCertificate
   std::size_t triangles = 0;
   double trianglesPerArea = 0.0;        ///< µm⁻²
   std::vector<std::string> faults;      ///< what keeps it from being certified, a sentence each
-  std::vector<FibreCertificate> fibres; ///< of every fibre with a surface, by increasing id
+  std::vector<std::string> remarks;     ///< what could not be measured and why, a sentence each; no part of the verdict
+  std::vector<FibreCertificate> fibres; ///< of every fibre with a surface, or that was to have one, by increasing id
 
   /// Every surface is a closed, outward 2-manifold that neither meets nor holds a part of itself, no two outer surfaces meet or
-  /// lie inside one another, every inner surface lies strictly inside its outer one, and fibres keep the required gap.
+  /// lie inside one another, every inner surface lies strictly inside its outer one, and fibres keep the required gap. No fibre
+  /// that was to have an outer surface is without one, and myelin is as thick as its maker promised.
   bool certified() const { return this->faults.empty(); }
   /// The faults in one sentence; "certified" without any.
   std::string verdict() const;
 };
 
-/// Looks at all surfaces of a substrate. `fibres` may be null, and then radii along the fibres are NaN.
+/// Looks at all surfaces of a substrate. `fibres` may be null, and then radii along the fibres are NaN. Fibres that were to have
+/// a surface are those whose centre lines run through the domain, and those that the surfaces themselves name (wantedIds).
+/// Fractions of no surfaces are 0, those of surfaces that are not given NaN.
 ///
 /// Outer surfaces are held in memory at once, with about 100 bytes a triangle; inner ones one per thread. Pairs of fibres are
 /// sorted out by their boxes, and triangles by trees of boxes. The result does not depend on the number of threads. Throws

@@ -92,12 +92,23 @@ double meanOver(const std::vector<FibreStatistics>& fibres, Value&& value)
 
 } // namespace
 
+void requireCutSpacing(double spacing)
+{
+  if (!(spacing >= smallestCutSpacing && spacing <= largestCutSpacing))
+  {
+    throw InvalidInput(
+      text("CutSpacing is ", spacing, ": give a length in µm from ", smallestCutSpacing, " to ", largestCutSpacing));
+  }
+}
+
+double gRatioOf(double innerVolume, double outerVolume)
+{
+  return innerVolume > 0.0 && outerVolume > 0.0 ? std::sqrt(innerVolume / outerVolume) : 0.0;
+}
+
 void SubstrateStatisticsOptions::validate() const
 {
-  if (!std::isfinite(cutSpacing) || cutSpacing <= 0.0)
-  {
-    throw InvalidInput("CutSpacing must be a positive length in µm");
-  }
+  requireCutSpacing(cutSpacing);
   if (!std::isfinite(clipTolerance) || clipTolerance < 0.0)
   {
     throw InvalidInput("the clip tolerance must be a length in µm that is not negative");
@@ -121,6 +132,12 @@ RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const
   for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
   {
     arc.push_back(arc.back() + (fibres.points[i + 1] - fibres.points[i]).norm());
+  }
+  requireCutSpacing(spacing);
+  if (!(arc.back() / spacing <= mostCuts))
+  {
+    throw InvalidInput(text("CutSpacing ", spacing, " µm makes more than ", mostCuts, " cross-sections of fibre ",
+      fibres.fibreIds[fibre], ", whose centre line is ", arc.back(), " µm long: choose a larger CutSpacing"));
   }
   const CrossSections sections(surface);
   std::vector<double> radii;
@@ -212,7 +229,7 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
       };
       measure(outer, outerIndex, fibre.hasOuter, fibre.outer, fibre.outerRadius, "outer");
       measure(inner, innerIndex, fibre.hasInner, fibre.inner, fibre.innerRadius, "inner");
-      fibre.gRatio = fibre.hasOuter && fibre.hasInner ? std::sqrt(fibre.inner.volume / fibre.outer.volume) : notANumber;
+      fibre.gRatio = fibre.hasOuter && fibre.hasInner ? gRatioOf(fibre.inner.volume, fibre.outer.volume) : notANumber;
     },
     "Measuring surfaces");
 
@@ -242,12 +259,15 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
     }
   }
   const double domainVolume = fibres.domain.volume();
-  const bool hasOuter = outer.size() > 0;
-  const bool hasBoth = hasOuter && inner.size() > 0;
+  const bool hasOuter = outer.given();
+  const bool hasBoth = hasOuter && inner.given();
   result.fibreVolumeFraction = hasOuter ? outerVolume / domainVolume : notANumber;
-  result.axonVolumeFraction = inner.size() > 0 ? innerVolume / domainVolume : notANumber;
+  result.axonVolumeFraction = inner.given() ? innerVolume / domainVolume : notANumber;
   result.myelinVolumeFraction = hasBoth ? (outerVolume - innerVolume) / domainVolume : notANumber;
-  result.aggregateGRatio = hasBoth ? std::sqrt(1.0 - result.myelinVolumeFraction / result.fibreVolumeFraction) : notANumber;
+  result.aggregateGRatio = !hasBoth ? notANumber
+                           : outerVolume > 0.0
+                             ? std::sqrt(std::max(0.0, 1.0 - result.myelinVolumeFraction / result.fibreVolumeFraction))
+                             : 0.0;
   result.capsuleVolumeFraction = capsuleVolumeInDomain(fibres) / domainVolume;
   result.largestPenetration = measureOverlap(fibres, 0.0, context.threadCount()).largestPenetration;
   result.meanDispersion = meanDispersion(fibres);
@@ -261,12 +281,17 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
 
 std::vector<std::size_t> histogram(const std::vector<double>& values, double lower, double upper, std::size_t bins)
 {
+  if (bins < 1 || bins > mostBins)
+  {
+    throw InvalidInput(text("NumberOfBins is ", bins, ": give 1 to ", mostBins));
+  }
   std::vector<std::size_t> counts(bins, 0);
   for (const double value : values)
   {
     if (value >= lower && value <= upper)
     {
-      const auto bin = static_cast<std::size_t>((value - lower) / (upper - lower) * static_cast<double>(bins));
+      const double part = upper > lower ? (value - lower) / (upper - lower) : 1.0;
+      const auto bin = static_cast<std::size_t>(part * static_cast<double>(bins));
       ++counts[std::min(bin, bins - 1)];
     }
   }

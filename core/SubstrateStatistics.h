@@ -12,10 +12,22 @@
 namespace cactus
 {
 
+/// µm between two cross-sections along a fibre's centre line: the least, a tenth of the finest voxels in use, and the most.
+constexpr double smallestCutSpacing = 0.01;
+constexpr double largestCutSpacing = 1000.0;
+/// Most cross-sections of one surface: 10 mm of the finest.
+constexpr double mostCuts = 1e6;
+/// Most bins of a histogram.
+constexpr std::size_t mostBins = 10000;
+
+/// Throws InvalidInput for a CutSpacing out of range.
+void requireCutSpacing(double spacing);
+
 /// How a substrate is measured.
 struct SubstrateStatisticsOptions
 {
-  /// µm between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm); positive.
+  /// µm between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm); from smallestCutSpacing to
+  /// largestCutSpacing.
   double cutSpacing = 1.0;
   /// µm that a surface may reach out of the domain, as the rounding of a clip does; not negative.
   double clipTolerance = 0.1;
@@ -46,17 +58,20 @@ struct FibreStatistics
   SurfaceReport inner;
   RadiusAlongFibre outerRadius;
   RadiusAlongFibre innerRadius;
-  double gRatio = 0.0; ///< sqrt(inner volume / outer volume), NaN without both surfaces
+  double gRatio = 0.0; ///< gRatioOf() the two volumes, NaN without both surfaces
 };
 
+/// sqrt(inner / outer volume); 0 unless both are positive, as those of closed, outward surfaces are.
+double gRatioOf(double innerVolume, double outerVolume);
+
 /// What is measured on the whole. Fractions are volumes of the surfaces, which have to be clipped to the domain, over the
-/// domain's. What needs surfaces that are not there is NaN.
+/// domain's. What needs a set of surfaces that is not given (see FibreSurfaces) is NaN; of a set without a surface it is 0.
 struct SubstrateStatistics
 {
   double fibreVolumeFraction = 0.0;   ///< outer surfaces
   double axonVolumeFraction = 0.0;    ///< inner surfaces
   double myelinVolumeFraction = 0.0;  ///< the difference: a fibre without an inner surface is myelin throughout
-  double aggregateGRatio = 0.0;       ///< sqrt(1 - MVF / FVF), Stikov 2015
+  double aggregateGRatio = 0.0;       ///< sqrt(1 - MVF / FVF), Stikov 2015; 0 without fibres
   double capsuleVolumeFraction = 0.0; ///< of the capsules, overlaps twice
   double largestPenetration = 0.0;    ///< D = 1 - d / (rp + rq) over all pairs of capsules of different fibres; 0 without overlap
   double meanDispersion = 0.0;        ///< degrees, end to end
@@ -85,14 +100,14 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
 
 /// Equivalent radius and circularity of the surface at every `spacing` µm along fibre number `fibre`'s centre line, from cuts
 /// orthogonal to it. Cuts that reach the domain's boundary, or around a point that lies outside the surface, do not count.
-/// `spacing` is positive.
+/// Throws InvalidInput for a spacing out of range, or with which there would be more than mostCuts cuts.
 RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing);
 
 /// Length (µm) of fibre number `fibre`'s centre line inside the domain.
 double lengthInDomain(const Fibres& fibres, std::size_t fibre);
 
 /// How many of the values lie in each of `bins` equal parts of [lower, upper]; the last part holds `upper` too. NaN and values
-/// outside count nowhere.
+/// outside count nowhere. Throws InvalidInput, naming NumberOfBins, unless there are 1 to mostBins.
 std::vector<std::size_t> histogram(const std::vector<double>& values, double lower, double upper, std::size_t bins);
 
 } // namespace cactus

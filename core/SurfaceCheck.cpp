@@ -90,6 +90,12 @@ void checkIndices(const TriangleMesh& mesh)
         throw InvalidInput("point " + std::to_string(point) + " of triangle " + std::to_string(t) +
                            " has a coordinate that is not finite (NaN or infinite)");
       }
+      if (mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff() > largestCoordinate)
+      {
+        throw InvalidInput(
+          text("point ", point, " of triangle ", t, " lies ", mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff(),
+            " µm from 0 along an axis, beyond the ", largestCoordinate, " µm that coordinates may have: give the surface in µm"));
+      }
     }
   }
 }

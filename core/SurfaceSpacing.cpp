@@ -25,6 +25,9 @@ using Eigen::Vector3d;
 
 /// A pair is moved a little farther apart than it has to be, µm: rounding, and corners that move askew, take some of it back.
 constexpr double extra = 0.0002;
+/// What meets is moved as if it were to keep this distance (µm), or the gap where that is larger: it has to get out of each other
+/// first.
+constexpr double roomToPart = 0.005;
 /// µm that a distance may lose where points are written in single precision; extra is more.
 constexpr double rounding = 5e-5;
 /// Most pairs take one or two; corners whose normals point askew, as on a face that cuts a fibre at a small angle, get apart
@@ -250,9 +253,10 @@ void measureSlab(double lower, double upper, const std::vector<TriangleMesh*>& s
       const SurfaceGap nearest = smallestGap(*pair.one->tree, *pair.other->tree, gap);
       if (nearest.found())
       {
-        pair.missing = gap - nearest.distance;
-        pair.trianglesOfOne = trianglesNear(*pair.one->tree, *pair.other->tree, gap);
-        pair.trianglesOfOther = trianglesNear(*pair.other->tree, *pair.one->tree, gap);
+        const double wanted = nearest.distance == 0.0 ? std::max(gap, roomToPart) : gap;
+        pair.missing = wanted - nearest.distance;
+        pair.trianglesOfOne = trianglesNear(*pair.one->tree, *pair.other->tree, wanted);
+        pair.trianglesOfOther = trianglesNear(*pair.other->tree, *pair.one->tree, wanted);
       }
     });
   for (const Pair& pair : pairs)

@@ -21,7 +21,8 @@ struct SpacingReport
 
 /// Moves points of closed, outward surfaces inwards, a nanometre or so at a time, until any two surfaces are at least `gap` (µm)
 /// apart: those of the triangles that come nearer. Meant for surfaces that keep the gap but for what coarsening has cost; it
-/// gives up on pairs that some fifty rounds do not part. Distances are those of the triangles (see smallestGap()), no samples.
+/// gives up on pairs that some fifty rounds do not part. Surfaces that meet are moved a few nanometres at a time. Distances are
+/// those of the triangles (see smallestGap()), no samples.
 ///
 /// "At least" is meant for files, too, that hold points in single precision: what is nearer than 0.00005 µm more than the gap is
 /// moved. Points on a face of `box` stay on it, so that flat caps stay flat; what else a surface may run into, such as a cap that

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantees: two smoothed fields sum to at most -gap everywhere on the grid; thin fibres stay what they are; models give the
-// g-ratios that they state; fibres are the gap apart even where growth left less.
+// g-ratios that they state; fibres are the gap apart, and myelin as thick, even where growth left less, voxels are coarse or
+// nothing is coarsened; what is not as asked is counted.
 #include "MyelinSurface.h"
 #include "BundleInitializer.h"
 #include "CapsuleOptimizer.h"
@@ -152,6 +153,37 @@ TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
   }
 }
 
+// With many passes blocks are smoothed together; what comes out does not depend on which are asked for.
+TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
+{
+  FibreRadialGrowthOptions options;
+  options.voxelSize = 0.06;
+  const LabelImage image = meeting(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  const NodeLattice lattice = field.lattice();
+  std::vector<std::uint32_t> all(lattice.blockCount());
+  std::iota(all.begin(), all.end(), 0u);
+  ASSERT_GT(all.size(), 27u);
+  for (const int passes : { 2, 9 })
+  {
+    const SmoothedField together(field, 1, all, passes);
+    for (const std::uint32_t block : { 0u, 21u, all.back() })
+    {
+      NodeRange range = nodesOfBlock(lattice, block);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        range.first[axis] -= 1;
+        range.count[axis] += 2;
+      }
+      std::vector<float> a(range.size());
+      std::vector<float> b(range.size());
+      together.values(0.0, 0.0, range, a.data());
+      SmoothedField(field, 1, { block }, passes).values(0.0, 0.0, range, b.data());
+      EXPECT_EQ(a, b);
+    }
+  }
+}
+
 TEST(SmoothedField, InterpolatesTheSamples)
 {
   FibreRadialGrowthOptions options;
@@ -290,6 +322,161 @@ TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
       EXPECT_FALSE(smallestGap(tree, other, 0.06).found()) << pairs[i].fibreId << ", " << pairs[j].fibreId;
     }
   }
+}
+
+/// Surfaces of three fibres that meet, and how far growth kept them apart.
+struct Meeting
+{
+  FibreRadialGrowthOptions growth;
+  MyelinSurfaceOptions options;
+  LabelImageFacts facts;
+  LabelImage image;
+
+  std::vector<FibreSurfacePair> surfaces()
+  {
+    this->image = meeting(this->growth);
+    this->facts.domain = Domain::cube(3.0);
+    this->facts.minimumGap = this->growth.minimumGap;
+    this->facts.surfaceTolerance = this->growth.surfaceTolerance;
+    this->facts.fibreIds = { 1, 2, 3 };
+    this->facts.bundleIds = { 1, 1, 1 };
+    this->facts.targetRadii = { 0.5, 0.5, 0.5 };
+    return myelinSurfaces(this->view(), this->facts, this->options);
+  }
+
+  LabelImageView view() const
+  {
+    return { this->image.grid, this->image.fibreId.data(), this->image.depth.data(), this->growth.gap() };
+  }
+};
+
+/// That surfaces are sound and keep `gap` from each other, as axons do from the walls of their fibres.
+void expectSound(const std::vector<FibreSurfacePair>& pairs, double gap)
+{
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    SCOPED_TRACE(pairs[i].fibreId);
+    EXPECT_FALSE(pairs[i].isFlawed);
+    const TriangleTree outer(pairs[i].outer);
+    EXPECT_TRUE(selfIntersections(outer).empty());
+    for (std::size_t j = i + 1; j < pairs.size(); ++j)
+    {
+      EXPECT_FALSE(smallestGap(outer, TriangleTree(pairs[j].outer), gap).found()) << pairs[j].fibreId;
+    }
+    if (pairs[i].inner.triangles.empty())
+    {
+      EXPECT_EQ(pairs[i].state, MyelinState::NoAxon);
+      continue;
+    }
+    const TriangleTree inner(pairs[i].inner);
+    EXPECT_TRUE(selfIntersections(inner).empty());
+    EXPECT_FALSE(surfacesMeet(inner, outer));
+    std::vector<std::uint32_t> wall;
+    for (std::size_t t = 0; t < pairs[i].outer.triangles.size(); ++t)
+    {
+      const auto& triangle = pairs[i].outer.triangles[t];
+      bool isCap = false;
+      for (Eigen::Index face = 0; face < 6; ++face)
+      {
+        isCap = isCap || std::all_of(triangle.begin(), triangle.end(),
+                           [&](std::int32_t p)
+                           { return pairs[i].outer.points[std::size_t(p)][face / 2] == (face % 2 == 0 ? -1.5 : 1.5); });
+      }
+      if (!isCap)
+      {
+        wall.push_back(static_cast<std::uint32_t>(t));
+      }
+    }
+    EXPECT_FALSE(smallestGap(inner, TriangleTree(pairs[i].outer, wall), gap).found());
+  }
+}
+
+TEST(MyelinSurfaces, FibresThatMayTouchDoNotMeet)
+{
+  Meeting without;
+  without.growth.minimumGap = 0.0;
+  without.growth.surfaceTolerance = 0.0;
+  without.options.decimationError = 0.0;
+  for (const double voxelSize : { 0.1, 0.25 })
+  {
+    without.growth.voxelSize = voxelSize;
+    expectSound(without.surfaces(), leastSeparation);
+  }
+}
+
+TEST(MyelinSurfaces, ThinMyelinOnCoarseVoxelsIsAsThickAsPromised)
+{
+  Meeting thin;
+  thin.options.gRatio = 0.95;
+  for (const double error : { 0.0, 0.005 })
+  {
+    for (const double voxelSize : { 0.2, 0.3 })
+    {
+      thin.growth.voxelSize = voxelSize;
+      thin.options.decimationError = error;
+      const auto pairs = thin.surfaces();
+      expectSound(pairs, thin.growth.minimumGap);
+      for (const FibreSurfacePair& pair : pairs)
+      {
+        EXPECT_TRUE(
+          pair.state == MyelinState::Thicker || pair.state == MyelinState::NoAxon || pair.state == MyelinState::AsAsked);
+      }
+    }
+  }
+}
+
+TEST(MyelinSurfaces, VoxelsOfAnySizeGiveSoundSurfacesOrNone)
+{
+  Meeting coarse;
+  for (const double voxelSize : { 0.5, 0.75, 1.0, 1.5, 3.0 })
+  {
+    for (const double error : { 0.0, 0.005 })
+    {
+      SCOPED_TRACE(voxelSize);
+      coarse.growth.voxelSize = voxelSize;
+      coarse.options.decimationError = error;
+      const auto pairs = coarse.surfaces();
+      for (const FibreSurfacePair& pair : pairs)
+      {
+        const bool isNone = pair.state == MyelinState::NoFibre;
+        EXPECT_EQ(isNone, pair.outer.triangles.empty());
+        EXPECT_TRUE(isNone || (pair.outerReport.closedManifold() && pair.outerReport.outward()));
+        EXPECT_EQ(isNone || pair.state == MyelinState::NoAxon, pair.inner.triangles.empty());
+        EXPECT_TRUE(pair.inner.triangles.empty() || (pair.innerReport.closedManifold() && pair.innerReport.outward()));
+      }
+    }
+  }
+}
+
+TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
+{
+  Meeting lost;
+  EXPECT_EQ(notAsAsked(lost.surfaces(), lost.view(), lost.facts), "");
+  lost.facts.lengths = { 3.0, 3.0, 0.0 };
+  auto pairs = lost.surfaces();
+  pairs[2].state = MyelinState::NoFibre; // passes by outside
+  EXPECT_EQ(notAsAsked(pairs, lost.view(), lost.facts), "");
+  pairs[1].state = MyelinState::NoFibre;
+  const std::string one = notAsAsked(pairs, lost.view(), lost.facts);
+  EXPECT_EQ(one.find("1 of 2 fibres are not as asked: 1 without any surface (Myelin 4); "), 0u) << one;
+  pairs[0].isFlawed = true;
+  pairs[0].state = MyelinState::Thicker;
+  const std::string two = notAsAsked(pairs, lost.view(), lost.facts);
+  EXPECT_EQ(two.find("2 of 2 fibres are not as asked: 1 without any surface (Myelin 4), 1 with thicker myelin (2), 1 with a"), 0u)
+    << two;
+  EXPECT_NE(two.find("voxels of 0.1 µm"), std::string::npos) << two;
+}
+
+TEST(MyelinSurfaces, RefusesMoreSmoothingThanFibresBear)
+{
+  MyelinSurfaceOptions options;
+  for (const int passes : { -1, mostSmoothingIterations + 1, 1000 })
+  {
+    options.smoothingIterations = passes;
+    EXPECT_THROW(validate(options), InvalidInput);
+  }
+  options.smoothingIterations = mostSmoothingIterations;
+  validate(options);
 }
 
 } // namespace

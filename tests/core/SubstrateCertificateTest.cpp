@@ -220,6 +220,119 @@ TEST(SubstrateCertificate, SaysNoFractionOfWhatIsNotClipped)
   EXPECT_THROW(damaged(), cactus::InvalidInput);
 }
 
+TEST(SubstrateCertificate, RemarksOnSurfacesThatReachOutOfTheDomain)
+{
+  EXPECT_TRUE(Substrate().certificate().remarks.empty());
+  Substrate longer;
+  longer.outer[1] = tube(-1.55, 0.0, 0.5, -halfSide, halfSide + 0.5);
+  const auto certificate = longer.certificate();
+  ASSERT_EQ(certificate.remarks.size(), 1u);
+  EXPECT_NE(certificate.remarks[0].find("reach 0.5"), std::string::npos) << certificate.remarks[0];
+}
+
+// What was asked for and is not there is told, by what the surfaces say of themselves or by the fibres.
+TEST(SubstrateCertificate, TellsWhichFibresAreMissing)
+{
+  const Substrate all;
+  const auto domain = cactus::Domain::cube(2 * halfSide);
+  cactus::FibreSurfaces outer = surfaces(all.outer);
+  cactus::FibreSurfaces inner = surfaces(all.inner);
+  outer.wantedIds = { 1, 2, 3, 4, 5, 8, 9 };
+  auto certificate = cactus::certify(domain, outer, inner, nullptr);
+  EXPECT_EQ(certificate.wantedFibres, 7u);
+  EXPECT_EQ(certificate.withoutOuter, 2u);
+  EXPECT_EQ(certificate.verdict(), "2 of 7 fibres have no outer surface (fibre 8 first)");
+  EXPECT_EQ(certificate.fibres[5].fibreId, 8);
+  EXPECT_FALSE(certificate.fibres[5].hasOuter);
+
+  cactus::Fibres fibres;
+  fibres.domain = domain;
+  for (const double x : { 0.0, 1.0, 9.0 }) // the last one passes by outside
+  {
+    fibres.addFibre(5 + static_cast<int>(x), 2, 0.1);
+    fibres.addPoint({ x, 0.0, -3.0 }, 0.1);
+    fibres.addPoint({ x, 0.0, 3.0 }, 0.1);
+  }
+  outer.wantedIds.clear();
+  certificate = cactus::certify(domain, outer, inner, &fibres);
+  EXPECT_EQ(certificate.verdict(), "1 of 6 fibres have no outer surface (fibre 6 first)");
+  EXPECT_EQ(certificate.fibres[5].bundleId, 2);
+
+  // All of them lost is a verdict, too, and what they fill is 0.
+  cactus::FibreSurfaces nothing;
+  nothing.isGiven = true;
+  nothing.wantedIds = { 1, 2 };
+  certificate = cactus::certify(domain, nothing, nothing, nullptr);
+  EXPECT_EQ(certificate.verdict(), "2 of 2 fibres have no outer surface (fibre 1 first)");
+  EXPECT_EQ(certificate.fibreVolumeFraction, 0.0);
+  EXPECT_EQ(certificate.aggregateGRatio, 0.0);
+}
+
+TEST(SubstrateCertificate, TellsMissingAxonsAndThinMyelin)
+{
+  Substrate some;
+  some.inner.erase(2);
+  const auto domain = cactus::Domain::cube(2 * halfSide);
+  cactus::FibreSurfaces inner = surfaces(some.inner);
+  auto certificate = cactus::certify(domain, surfaces(some.outer), inner, nullptr);
+  EXPECT_TRUE(certificate.certified()) << certificate.verdict(); // myelin throughout
+  EXPECT_EQ(certificate.withoutInner, 1u);
+  inner.promisedGap = certificate.smallestMyelin;
+  EXPECT_TRUE(cactus::certify(domain, surfaces(some.outer), inner, nullptr).certified());
+  inner.promisedGap = 2.0 * certificate.smallestMyelin;
+  certificate = cactus::certify(domain, surfaces(some.outer), inner, nullptr);
+  EXPECT_GT(certificate.thinMyelin, 0u);
+  EXPECT_NE(certificate.verdict().find("have myelin thinner than"), std::string::npos) << certificate.verdict();
+}
+
+// Damaged surfaces get a verdict or one clear error.
+TEST(SubstrateCertificate, TakesWhatIsNoSurface)
+{
+  const TriangleMesh whole = tube(0.0, 0.0, 0.5, -1.0, 1.0);
+  const auto verdictOf = [](const TriangleMesh& mesh)
+  {
+    try
+    {
+      return certified({ { 7, mesh } }, {}).verdict();
+    }
+    catch (const cactus::InvalidInput& error)
+    {
+      return std::string(error.what());
+    }
+  };
+  const auto expect = [&](const TriangleMesh& mesh, const std::string& wanted)
+  { EXPECT_NE(verdictOf(mesh).find(wanted), std::string::npos) << verdictOf(mesh); };
+  const auto spoilt = [&](auto&& spoil)
+  {
+    TriangleMesh mesh = whole;
+    spoil(mesh);
+    return mesh;
+  };
+  expect(spoilt([](TriangleMesh& m) { m.points[3][0] = 1e40; }), "1e+40 µm from 0");
+  expect(spoilt([](TriangleMesh& m) { m.points[3][0] = -1e300; }), "fibre 7");
+  expect(spoilt([](TriangleMesh& m) { m.points[3][0] = std::numeric_limits<double>::infinity(); }), "not finite");
+  expect(spoilt([](TriangleMesh& m) { m.triangles[5][1] = 100000; }), "uses point 100000");
+  expect(spoilt([](TriangleMesh& m) { m.triangles[5][1] = -1; }), "uses point -1");
+  expect(spoilt([](TriangleMesh& m) { m.triangles[5][1] = m.triangles[5][0]; }), "not closed");
+  expect(spoilt([](TriangleMesh& m) { m.points[3] = m.points[4]; }), "cut or touch themselves");
+  expect(spoilt([](TriangleMesh& m) { m.triangles.resize(1); }), "not closed");
+  expect(spoilt([](TriangleMesh& m) { m.points.assign(m.points.size(), Eigen::Vector3d::Zero()); }), "cut or touch themselves");
+  expect(TriangleMesh(), "not closed");
+  cactus::SubstrateCertificateOptions options;
+  for (const double value : { std::nan(""), std::numeric_limits<double>::infinity(), -1.0, 1e300 })
+  {
+    options.minimumGap = value;
+    EXPECT_THROW(options.validate(), cactus::InvalidInput) << value;
+    options.minimumGap = 0.0;
+    options.cutSpacing = value;
+    EXPECT_THROW(options.validate(), cactus::InvalidInput) << value;
+    options.cutSpacing = 1.0;
+  }
+  options.validate();
+  options.cutSpacing = 1e-9;
+  EXPECT_THROW(options.validate(), cactus::InvalidInput);
+}
+
 // Gaps against all pairs of fibres, and the same bits on any number of threads.
 TEST(SubstrateCertificate, GapsAreThoseOfAllPairsOnAnyNumberOfThreads)
 {

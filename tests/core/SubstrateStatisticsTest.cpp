@@ -52,6 +52,9 @@ cactus::Fibres twoFibres()
     }
   }
   return fibres;
+  EXPECT_EQ(cactus::histogram({ 0.0, 0.0 }, 0.0, 0.0, 2), (std::vector<std::size_t>{ 0, 2 })); // all values the same
+  EXPECT_THROW(cactus::histogram({ 1.0 }, 0.0, 1.0, 0), cactus::InvalidInput);
+  EXPECT_THROW(cactus::histogram({ 1.0 }, 0.0, 1.0, cactus::mostBins + 1), cactus::InvalidInput);
 }
 
 } // namespace
@@ -209,8 +212,35 @@ TEST(SubstrateStatistics, SaysWhatIsWrong)
   cactus::SubstrateStatisticsOptions options;
   options.cutSpacing = 0.0;
   EXPECT_NE(messageOf({}, options).find("CutSpacing"), std::string::npos);
-  options.cutSpacing = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(messageOf({}, options).find("CutSpacing"), std::string::npos);
+  for (const double spacing :
+    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0, 1e-9, 1e300 })
+  {
+    options.cutSpacing = spacing;
+    EXPECT_NE(messageOf({}, options).find("CutSpacing"), std::string::npos) << spacing;
+  }
+  // The least spacing on a centre line that is far too long for it.
+  options.cutSpacing = cactus::smallestCutSpacing;
+  auto winding = twoFibres();
+  winding.points.back()[2] += 2.0 * cactus::smallestCutSpacing * cactus::mostCuts;
+  EXPECT_THROW(cactus::measureSubstrate(winding, surfacesOf({ 5 }, { tube(2, 0, 1, 5) }), {}, options), cactus::InvalidInput);
+}
+
+// A set of surfaces that has none fills nothing; one that is not given has no fraction.
+TEST(SubstrateStatistics, FractionsOverNothing)
+{
+  cactus::FibreSurfaces empty;
+  empty.isGiven = true;
+  const auto none = cactus::measureSubstrate(twoFibres(), empty, empty);
+  EXPECT_EQ(none.fibreVolumeFraction, 0.0);
+  EXPECT_EQ(none.axonVolumeFraction, 0.0);
+  EXPECT_EQ(none.myelinVolumeFraction, 0.0);
+  EXPECT_EQ(none.aggregateGRatio, 0.0);
+  const auto solid = cactus::measureSubstrate(twoFibres(), surfacesOf({ 3 }, { tube(-2, 0, 1, 5) }), empty);
+  EXPECT_EQ(solid.axonVolumeFraction, 0.0);
+  EXPECT_EQ(solid.myelinVolumeFraction, solid.fibreVolumeFraction);
+  EXPECT_EQ(solid.aggregateGRatio, 0.0);
+  EXPECT_EQ(cactus::gRatioOf(1.0, 0.0), 0.0);
+  EXPECT_EQ(cactus::gRatioOf(-1.0, 2.0), 0.0);
 }
 
 TEST(SubstrateStatistics, LargestPenetration)
