@@ -23,7 +23,7 @@ constexpr double sparedRadius = 2.0;
 constexpr double smoothedRadius = 4.0;
 
 /// Up to so many passes each block is smoothed by itself; with more, cubes of so many blocks along each edge are.
-constexpr int fewPasses = 4;
+constexpr int fewPasses = 8;
 constexpr int blocksTogether = 4;
 
 typedef float Four __attribute__((vector_size(16)));
@@ -479,8 +479,10 @@ void SmoothedField::smooth(const FibreField& field, std::int32_t fibre, const st
       first = std::min(first, piece.range.first[axis]);
       end = std::max(end, piece.range.first[axis] + piece.range.count[axis]);
     }
-    range.first[axis] = first - passes;
-    range.count[axis] = end - first + 2 * passes;
+    // How much of a pass the outermost nodes get is not known right (see smoothingAt()).
+    const int reach = passes > fewPasses ? passes + 1 : passes;
+    range.first[axis] = first - reach;
+    range.count[axis] = end - first + 2 * reach;
   }
   std::vector<float> buffer(range.size());
   std::vector<float> before;

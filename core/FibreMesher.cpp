@@ -38,6 +38,9 @@ constexpr double samplingDistance = 6.0;
 constexpr double largestSquaredEdgeRatio = 800.0;
 /// How often a surface is made again with less coarsening where something was wrong with it.
 constexpr int repairs = 4;
+/// µm that growth has to have left between two fibres, so that contours, which are not quite the zeros of the fields, keep off
+/// each other.
+constexpr double leastRoom = 0.01;
 /// µm that a distance may lose where points are written in single precision.
 constexpr double rounding = 5e-5;
 
@@ -147,6 +150,7 @@ FibreMesher::FibreMesher(
   , Inset(std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing))
   , OuterLattice(Field.lattice())
   , InnerLattice(Field.lattice(Inset))
+  , Withdrawal(0.5 * std::max(0.0, leastRoom - image.gap))
   , Nudge(std::min(0.02 * Spacing, 0.2 * std::max(facts.surfaceTolerance, 1e-3 * Spacing)))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
   , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + rounding)
@@ -162,11 +166,13 @@ SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, in
   return SmoothedField(this->Field, fibreId, blocks, this->Options.smoothingIterations);
 }
 
-void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm) const
+void FibreMesher::makeOuter(
+  const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm, double deeper) const
 {
   // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre held before.
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
-  double level = -usualPart * furthest;
+  const double highest = this->Withdrawal + deeper;
+  double level = highest - usualPart * furthest;
   CappedSurface surface = this->contourAt(this->OuterLattice, field, level);
   pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
   if (surface.mesh.triangles.empty())
@@ -181,7 +187,7 @@ void FibreMesher::makeOuter(const SmoothedField& field, FibreSurfacePair& pair, 
       [&](const NodeRange& around, float* out) { field.unsmoothedValues(this->Nudge, around, out); });
     keepMainPart(before, this->smallestPiece());
     volume = measure(before).volume;
-    const double right = std::clamp(level - (volume - now.volume) / now.freeArea, -furthest, 0.0);
+    const double right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
     // The rest is left to the move after coarsening.
     const double rest = restPart * furthest;
     if (std::abs(right - level) > rest)

@@ -28,9 +28,10 @@ public:
   /// The field of a fibre, from the blocks that findFibres() found for it.
   SmoothedField smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const;
 
-  /// Makes the outer surface, with less coarsening in `calm`; leaves the pair's state at NoFibre where there is none, else at
-  /// NoAxon.
-  void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm = {}) const;
+  /// Makes the outer surface, with less coarsening in `calm`, and `deeper` (µm) than it might be; leaves the pair's state at
+  /// NoFibre where there is none, else at NoAxon.
+  void makeOuter(
+    const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm = {}, double deeper = 0.0) const;
 
   /// Measures the outer surface again after it has been changed, and says where it now meets itself. Pieces that have been turned
   /// inside out go; where nothing is left, the pair's state is NoFibre.
@@ -71,6 +72,7 @@ private:
   double Inset; ///< of the inner surfaces' caps
   NodeLattice OuterLattice;
   NodeLattice InnerLattice;
+  double Withdrawal;     ///< µm; outer surfaces lie so deep where growth has left next to no room between fibres
   double Nudge;          ///< least distance of the field from its level at a sample
   double ThinnestMyelin; ///< µm; inner and outer surfaces keep apart even where both move
   double PromisedMyelin; ///< µm, least distance of inner surfaces to the walls of outer ones

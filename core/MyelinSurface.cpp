@@ -24,6 +24,10 @@ using Blocks = std::vector<std::uint32_t>;
 
 /// Relative error of the axons' common volume that is good enough.
 constexpr double volumeTolerance = 2e-3;
+/// Size of a voxel, in radii of the thinnest fibre, above which it is the first thing to change.
+constexpr double coarsestVoxel = 0.5;
+/// µm by which those that are not coarsened, and so cannot be coarsened less, then lie deeper each time.
+constexpr double deeperEachTime = 0.005;
 /// How often outer surfaces that went wrong when they were moved are made again.
 constexpr int remakes = 3;
 
@@ -62,10 +66,10 @@ std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const std::
 }
 
 /// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again with
-/// less coarsening there.
+/// less coarsening there, or deeper where nothing is coarsened (`coarsens`).
 template <typename BlocksOf>
-void spaceOut(
-  const FibreMesher& mesher, const BlocksOf& blocks, double gap, std::vector<FibreSurfacePair>& pairs, const Context& context)
+void spaceOut(const FibreMesher& mesher, const BlocksOf& blocks, double gap, bool coarsens, std::vector<FibreSurfacePair>& pairs,
+  const Context& context)
 {
   std::vector<TriangleMesh*> outer;
   for (FibreSurfacePair& pair : pairs)
@@ -107,7 +111,8 @@ void spaceOut(
       {
         FibreSurfacePair& pair = pairs[made[i]];
         pair.isFlawed = false; // of the surface that goes
-        mesher.makeOuter(mesher.smoothed(blocks(pair), pair.fibreId), pair, calm.at(made[i]));
+        mesher.makeOuter(
+          mesher.smoothed(blocks(pair), pair.fibreId), pair, calm.at(made[i]), coarsens ? 0.0 : deeperEachTime * (attempt + 1));
       });
   }
   for (const std::size_t i : tooNear)
@@ -194,7 +199,7 @@ std::vector<FibreSurfacePair> myelinSurfaces(
     },
     "making outer surfaces", 0.05, 0.45);
 
-  spaceOut(mesher, blocks, std::max(facts.minimumGap, leastSeparation), pairs, context);
+  spaceOut(mesher, blocks, std::max(facts.minimumGap, leastSeparation), options.decimationError > 0.0, pairs, context);
 
   const auto makeInner = [&]
   {
@@ -282,11 +287,24 @@ std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, const LabelIm
   add(in(MyelinState::Thinner), "with thinner myelin (1)");
   add(count([](const FibreSurfacePair& pair) { return pair.isFlawed; }),
     "with a surface that meets itself or is nearer than MinimumGap to another fibre (Flawed)");
-  return text(bad, " of ", wanted, " fibres are not as asked: ", ways, "; see Fibre statistics. Fibres of radii ", thinnest,
-    " to ", thickest, " µm have voxels of ", image.grid.spacing, " µm, and keep MinimumGap ", facts.minimumGap,
-    " and SurfaceTolerance ", facts.surfaceTolerance,
-    " µm: choose a smaller VoxelSize, or other values of these two, in FibreRadialGrowth; or a smaller GRatio or DecimationError "
-    "here");
+  std::string advice;
+  const std::string radii = text(" for fibres of radii ", thinnest, " to ", thickest, " µm");
+  if (image.grid.spacing > coarsestVoxel * thinnest)
+  {
+    advice = text("VoxelSize ", image.grid.spacing, " µm is coarse", radii, ": choose ", coarsestVoxel * thinnest,
+      " or less in FibreRadialGrowth");
+  }
+  if (2.0 * (facts.minimumGap + facts.surfaceTolerance) > thinnest)
+  {
+    advice += text(advice.empty() ? "" : "; ", "MinimumGap ", facts.minimumGap, " and SurfaceTolerance ", facts.surfaceTolerance,
+      " µm are large", radii, ": choose smaller ones in FibreRadialGrowth");
+  }
+  if (advice.empty())
+  {
+    advice = text("choose a smaller VoxelSize (it is ", image.grid.spacing, " µm", radii,
+      ") in FibreRadialGrowth, or a smaller GRatio or DecimationError here");
+  }
+  return text(bad, " of ", wanted, " fibres are not as asked, see Fibre statistics: ", ways, "; ", advice);
 }
 
 } // namespace cactus

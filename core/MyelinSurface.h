@@ -105,11 +105,11 @@ struct FibreSurfacePair
 /// outward 2-manifold that does not meet itself (exact predicates), nor its outer surface; where it fails it is made
 /// again with less coarsening around that place, at last with none. Triangles whose squared edges have a ratio above 800 are
 /// split. Then outer surfaces are moved inwards, by nanometres, where two of them are nearer than MinimumGap (see keepApart());
-/// one that then meets itself is made again with less coarsening. Inner surfaces keep as much from the walls of the outer ones:
-/// where coarsening or creases bring them nearer, the myelin gets thicker (Thicker), or there is no axon. All that is looked for
-/// without coarsening, too.
-/// What still is not as it should be is marked (isFlawed). A piece of a surface that encloses no positive volume, as of a fibre
-/// of a voxel or two, is left out.
+/// one that then meets itself is made again with less coarsening, or deeper where nothing is coarsened. Where growth has left
+/// less than 0.01 µm between two fibres, outer surfaces lie deeper by half of what is missing of that. Inner surfaces keep as
+/// much from the walls of the outer ones: where coarsening or creases bring them nearer, the myelin gets thicker (Thicker), or
+/// there is no axon. All that is looked for without coarsening, too. What still is not as it should be is marked (isFlawed). A
+/// piece of a surface that encloses no positive volume, as of a fibre of a voxel or two, is left out.
 ///
 /// A fibre that leaves the box through a face and comes back has a piece for each stay; of other pieces the largest is kept (see
 /// keepMainPart()). Throws InvalidInput (options; an image that is not valid; a fibre in the image that

@@ -164,7 +164,7 @@ TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
   std::vector<std::uint32_t> all(lattice.blockCount());
   std::iota(all.begin(), all.end(), 0u);
   ASSERT_GT(all.size(), 27u);
-  for (const int passes : { 2, 9 })
+  for (const int passes : { 2, 9, 20 })
   {
     const SmoothedField together(field, 1, all, passes);
     for (const std::uint32_t block : { 0u, 21u, all.back() })
@@ -458,13 +458,23 @@ TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
   EXPECT_EQ(notAsAsked(pairs, lost.view(), lost.facts), "");
   pairs[1].state = MyelinState::NoFibre;
   const std::string one = notAsAsked(pairs, lost.view(), lost.facts);
-  EXPECT_EQ(one.find("1 of 2 fibres are not as asked: 1 without any surface (Myelin 4); "), 0u) << one;
+  EXPECT_EQ(one.find("1 of 2 fibres are not as asked, see Fibre statistics: 1 without any surface (Myelin 4); choose a smaller "
+                     "VoxelSize (it is 0.1 µm"),
+    0u)
+    << one;
   pairs[0].isFlawed = true;
   pairs[0].state = MyelinState::Thicker;
   const std::string two = notAsAsked(pairs, lost.view(), lost.facts);
-  EXPECT_EQ(two.find("2 of 2 fibres are not as asked: 1 without any surface (Myelin 4), 1 with thicker myelin (2), 1 with a"), 0u)
+  EXPECT_EQ(two.find("2 of 2 fibres are not as asked, see Fibre statistics: 1 without any surface (Myelin 4), 1 with thicker "
+                     "myelin (2), 1 with a"),
+    0u)
     << two;
-  EXPECT_NE(two.find("voxels of 0.1 µm"), std::string::npos) << two;
+  lost.facts.minimumGap = 0.3;
+  lost.image.grid.spacing = 0.3;
+  const std::string three = notAsAsked(pairs, lost.view(), lost.facts);
+  EXPECT_NE(three.find("VoxelSize 0.3 µm is coarse for fibres of radii 0.5 to 0.5 µm: choose 0.25 or less"), std::string::npos)
+    << three;
+  EXPECT_NE(three.find("MinimumGap 0.3"), std::string::npos) << three;
 }
 
 TEST(MyelinSurfaces, RefusesMoreSmoothingThanFibresBear)

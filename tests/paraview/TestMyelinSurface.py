@@ -8,7 +8,7 @@ import os
 
 import numpy
 from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
-from paraview.simple import FibreRadialGrowth, MyelinSurface, StrandReader
+from paraview.simple import FibreRadialGrowth, MyelinSurface, OutputPort, StrandReader, SubstrateCertificate, SubstrateStatistics
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference, vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStaticCellLocator
@@ -219,6 +219,83 @@ class MyelinSurfaceTest(CactusTestCase):
             self.assertAlmostEqual(inner[fibre][0][:, 2].max(), 1.5 - 0.05 * 0.1, places=6)
             self.assertLess(len(inner[fibre][1]), 2 * len(outer[fibre][1]))
 
+    def myelin(self, outer, inner, side):
+        """Smallest distance of the inner surfaces to the walls of the outer ones, by the oracle; caps are left out."""
+        walls = {}
+        for fibre, (points, triangles) in outer.items():
+            on_face = numpy.abs(points[triangles]) == side / 2
+            walls[fibre] = (points, triangles[~on_face.all(axis=1).any(axis=1)])
+        smallest = math.inf
+        for fibre, part in inner.items():
+            found = self.judge({"inner": part, "wall": walls[fibre]}, "--gap", "0.2")
+            smallest = min([smallest] + [pair["distance"] for pair in found["pairs"] if pair["distance"] is not None])
+        return smallest
+
+    def test_fibres_that_may_touch_do_not_meet(self):
+        # Neither gap nor tolerance: contours of neighbours cross each other until they are moved apart.
+        growth = self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.95, MinimumGap=0, SurfaceTolerance=0)
+        surface = MyelinSurface(Input=growth, DecimationError=0)
+        outer, inner = (parts(fetch(surface, port)) for port in (0, 1))
+        self.assertGreater(len(outer), 6)
+        self.assertSound(outer, inner, 0.001)
+        self.assertEqual(set(column(fetch(surface, 2), "Flawed")), {0})
+
+    def test_faults_are_looked_for_without_coarsening(self):
+        growth = self.growth(hexagonal(), TargetFibreVolumeFraction=0.9, VoxelSize=0.3)
+        surface = MyelinSurface(Input=growth, DecimationError=0, GRatio=0.93)
+        with self.assertError(r"fibres are not as asked.*with thicker myelin \(2\)"):
+            surface.UpdatePipeline()
+        outer, inner = (parts(fetch(surface, port)) for port in (0, 1))
+        self.assertSound(outer, inner, 0.02)
+        self.assertGreaterEqual(self.myelin(outer, inner, 4), 0.02)
+
+    def test_myelin_is_as_thick_as_promised(self):
+        growth = self.growth(hexagonal(), TargetFibreVolumeFraction=0.9, VoxelSize=0.2)
+        surface = MyelinSurface(Input=growth, GRatio=0.95)
+        with self.assertError(r"fibres are not as asked.*with thicker myelin \(2\)"):
+            surface.UpdatePipeline()
+        outer, inner = (parts(fetch(surface, port)) for port in (0, 1))
+        self.assertGreaterEqual(self.myelin(outer, inner, 4), 0.02)
+        whole = fetch(SubstrateCertificate(Outer=OutputPort(surface, 0), Inner=OutputPort(surface, 1)))
+        self.assertEqual((column(whole, "Certified")[0], column(whole, "ThinMyelin")[0]), (1, 0))
+        self.assertGreaterEqual(column(whole, "SmallestMyelin_um")[0], 0.02)
+
+    def test_fibres_that_vanish_are_counted(self):
+        text = strands(6, [(1.2, [(-1, 0, -9), (-1, 0, 9)]), (0.3, [(1.5, 0, -9), (1.5, 0, 9)]), (0.5, [(9, 0, -9), (9, 0, 9)])])
+        for gap, fraction, verdict in ((1.5, None, "1 of 2"), (6, 0.0, "2 of 2")):
+            growth = self.growth(text, GrowthIterations=0, MinimumGap=gap, VoxelSize=0.2)
+            surface = MyelinSurface(Input=growth)
+            with self.assertError(rf"{verdict} fibres are not as asked.*without any surface \(Myelin 4\).*VoxelSize"):
+                surface.UpdatePipeline()
+            lost = column(fetch(surface, 2), "Myelin") == 4
+            self.assertEqual(lost.sum(), int(verdict[0]) + 1)  # and the one that passes by outside
+            certificate = SubstrateCertificate(Outer=OutputPort(surface, 0), Inner=OutputPort(surface, 1))
+            with self.assertError(rf"not certified: {verdict} fibres have no outer surface"):
+                whole = fetch(certificate)
+            self.assertEqual((column(whole, "Fibres")[0], column(whole, "WithoutOuter")[0]), (2, int(verdict[0])))
+            statistics = SubstrateStatistics(Fibres=growth.Input, Outer=OutputPort(surface, 0), Inner=OutputPort(surface, 1))
+            row = fetch(statistics)
+            values = [column(row, name)[0] for name in ("FVF", "AVF", "MVF", "AggregateGRatio")]
+            self.assertTrue(numpy.isfinite(values).all(), values)
+            if fraction is not None:
+                self.assertEqual(values, [0, 0, 0, 0])
+
+    def test_coarse_voxels_give_what_they_can(self):
+        for size in (0.75, 1.0, 1.5, 2.0, 4.0):
+            growth = self.growth(hexagonal(6.0, 1.3, 0.55), TargetFibreVolumeFraction=0.9, VoxelSize=size)
+            surface = MyelinSurface(Input=growth)
+            with self.assertError(rf"fibres are not as asked.*VoxelSize {size:g} µm is coarse for fibres of radii"):
+                surface.UpdatePipeline()
+            table = fetch(surface, 2)
+            has_outer, has_inner = column(table, "OuterTriangles") > 0, column(table, "InnerTriangles") > 0
+            self.assertTrue((column(table, "OuterClosed") == has_outer).all())
+            self.assertTrue((column(table, "InnerClosed") == has_inner).all())
+            self.assertTrue((has_outer == (column(table, "Myelin") != 4)).all())
+
+    def test_much_smoothing(self):
+        surface = MyelinSurface(Input=self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.8), SmoothingIterations=20)
+        self.assertSound(*(parts(fetch(surface, port)) for port in (0, 1)), 0.02)
+
     def test_models(self):
         growth = self.growth(hexagonal(), TargetFibreVolumeFraction=0.8)
         surface = MyelinSurface(Input=growth, GRatioModel="Distributed", GRatio=0.65, GRatioDeviation=0.06)
@@ -310,6 +387,7 @@ class MyelinSurfaceTest(CactusTestCase):
             ("GRatio", 1.0),
             ("GRatio", float("nan")),
             ("SmoothingIterations", -1),
+            ("SmoothingIterations", 21),
             ("DecimationError", -0.1),
             ("DecimationError", 0.008),
             ("NumberOfThreads", -1),

@@ -9,6 +9,7 @@ from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
 from paraview.simple import SubstrateCertificate
 from surfaces import EQUIVALENT, SIDES, surfaces, tube, two_tubes, without
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 
@@ -169,6 +170,82 @@ class Certificate(CactusTestCase):
         self.assertTrue(any(verdict["SelfIntersecting"] == 0 for verdict in verdicts))
         self.assertTrue(any(verdict["SelfIntersecting"] > 0 for verdict in verdicts))
         self.assertTrue(any(verdict["OuterPairsMeeting"] > 0 for verdict in verdicts))
+
+    def test_fibres_without_surfaces(self):
+        one = surfaces({3: tube(-2, 0, 1.0, 10)}, 0, 10)
+        with self.assertError(r"not certified: 1 of 2 fibres have no outer surface \(fibre 5 first\)"):
+            whole, fibres = self.certify(one, Fibres=produce(self.fibres))
+        self.assertEqual([whole[name] for name in ("Certified", "Fibres", "WithoutOuter", "WithoutInner")], [0, 2, 1, 1])
+        self.assertEqual([(row["FibreId"], row["HasOuter"], row["HasInner"]) for row in fibres], [(3, 1, 0), (5, 0, 0)])
+        # The surfaces may say so themselves; then nothing else has to be connected.
+        self.assertEqual(self.certify(surfaces({3: tube(-2, 0, 1.0, 10)}, 0, 10))[0]["Certified"], 1)
+        wanted = vtkIntArray()
+        wanted.SetName("WantedFibres")
+        for fibre in (3, 7, 8):
+            wanted.InsertNextValue(fibre)
+        one.GetFieldData().AddArray(wanted)
+        with self.assertError(r"not certified: 2 of 3 fibres have no outer surface \(fibre 7 first\)"):
+            self.certify(one)
+
+    def test_myelin_thinner_than_promised(self):
+        gap = vtkDoubleArray()
+        gap.SetName("MinimumGap")
+        gap.InsertNextValue(0.4)
+        self.inner.GetFieldData().AddArray(gap)
+        with self.assertError(r"not certified: 1 fibres have myelin thinner than the 0\.4"):
+            whole, _ = self.certify(self.outer, self.inner)
+        self.assertEqual(whole["ThinMyelin"], 1)
+
+    def test_surfaces_that_were_not_clipped(self):
+        with self.assertError(r"reach 0\.5\d* µm out of the domain.*ClipToDomain"):
+            whole, _ = self.certify(surfaces({3: tube(-2, 0, 1, 11)}, 0, 10))
+        self.assertEqual(whole["Certified"], 1)
+        self.assertTrue(np.isnan(whole["FVF"]))
+        self.assertAlmostEqual(whole["Reach_um"], 0.5)
+
+    def test_damaged_surfaces_get_a_verdict_or_one_error(self):
+        def spoilt(spoil):
+            data = copy(self.outer)
+            spoil(data)
+            return data
+
+        def corner(triangle, value):
+            return lambda data: data.GetPolys().GetConnectivityArray().SetComponent(3 * triangle, 0, value)
+
+        def use_twice(data):
+            corners = data.GetPolys().GetConnectivityArray()
+            corners.SetComponent(30, 0, corners.GetComponent(31, 0))
+
+        def keep_one(data):
+            for cell in range(1, data.GetNumberOfCells()):
+                data.DeleteCell(cell)
+            data.RemoveDeletedCells()
+
+        for spoil, message in (
+            (lambda data: data.GetPoints().SetPoint(7, float("nan"), 0, 0), r"fibre 3.*not finite"),
+            (lambda data: data.GetPoints().SetPoint(7, float("inf"), 0, 0), r"fibre 3.*not finite"),
+            (lambda data: data.GetPoints().SetPoint(7, 1e38, 0, 0), r"fibre 3.*1e\+38 µm from 0"),
+            (lambda data: data.GetPoints().SetPoint(7, *data.GetPoint(8)), r"not certified"),
+            (use_twice, r"not certified: 1 surfaces are not closed"),
+            (corner(5, 10**9), r"Outer.*(triangles with points that do not exist|uses point)"),
+            (corner(5, -3), r"Outer.*(triangles with points that do not exist|uses point)"),
+            (keep_one, r"not certified: 1 surfaces are not closed"),
+        ):
+            with self.assertError(message):
+                self.certify(spoilt(spoil))
+        for name, value in (
+            ("MinimumGap", float("nan")),
+            ("MinimumGap", float("inf")),
+            ("MinimumGap", -1),
+            ("MinimumGap", 1e300),
+            ("CutSpacing", 1e-9),
+            ("CutSpacing", 1e300),
+        ):
+            certificate = SubstrateCertificate(Outer=produce(self.outer))
+            with self.assertError(name):
+                certificate.SMProxy.GetProperty(name).SetElement(0, value)
+                certificate.SMProxy.UpdateVTKObjects()
+                certificate.UpdatePipeline()
 
     def test_wrong_inputs(self):
         with self.assertError(r"Outer holds inner surfaces"):

@@ -6,6 +6,7 @@ import math
 from cactus_testing import CactusTestCase, fetch, main, produce
 from paraview.simple import SubstrateStatistics
 from surfaces import EQUIVALENT, POLYGON, set_domain, surfaces, tube, two_tubes
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 
 def columns(table):
@@ -74,6 +75,21 @@ class Statistics(CactusTestCase):
         self.assertTrue(math.isnan(table["GRatio"][0]) and math.isnan(table["InnerRadius_um"][0]))
         self.assertEqual(table["InnerTriangles"][0], 0)
         self.assertAlmostEqual(table["GRatio"][1], 0.6, places=5)
+
+    def test_empty_surfaces_fill_nothing(self):
+        empty = vtkPolyData()
+        set_domain(empty, 10)
+        statistics = self.measure(Outer=produce(empty), Inner=produce(empty))
+        row = {name: values[0] for name, values in columns(fetch(statistics)).items()}
+        self.assertEqual([row[name] for name in ("FVF", "AVF", "MVF", "AggregateGRatio")], [0, 0, 0, 0])
+
+    def test_bounds(self):
+        for name, value in (("CutSpacing", 1e-9), ("CutSpacing", 1e300), ("NumberOfBins", 0), ("NumberOfBins", 2**31 - 1)):
+            statistics = self.measure()
+            with self.assertError(name):
+                statistics.SMProxy.GetProperty(name).SetElement(0, value)
+                statistics.SMProxy.UpdateVTKObjects()
+                statistics.UpdatePipeline()
 
     def test_surface_that_was_not_clipped(self):
         tall = surfaces({3: tube(-2, 0, 1, 11)}, 0, 10)
