@@ -5,6 +5,7 @@
 #include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "Limits.h"
 #include "SubstrateStatistics.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
@@ -154,10 +155,7 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
   return cactus::guarded(this,
     [&]
     {
-      if (this->NumberOfBins < 1 || static_cast<std::size_t>(this->NumberOfBins) > cactus::mostBins)
-      {
-        throw cactus::InvalidInput(cactus::text("NumberOfBins is ", this->NumberOfBins, ": give 1 to ", cactus::mostBins));
-      }
+      cactus::requireWithin("NumberOfBins", this->NumberOfBins, cactus::limits::bins);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat

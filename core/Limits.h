@@ -110,6 +110,19 @@ inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 
 /// Of an axon's diameter to its fibre's.
 inline constexpr Range gRatio{ 0.05, 0.99 };
+/// Of the axons in the domain.
+inline constexpr Range targetAxonFraction{ 1e-4, 0.999 };
+/// Passes blur by the square root of half their number, at most 3.2 voxels, and take on average passes · spacing² / (4 r) off a
+/// round fibre of radius r: more than half the volume of the thinnest ones that are smoothed in full.
+inline constexpr Range smoothingIterations{ 0.0, 20.0 };
+
+// SubstrateStatistics and SubstrateCertificate.
+
+/// Between two cross-sections along a centre line: from a tenth of usual voxels.
+inline constexpr Range cutSpacing{ 1e-2, 1e3, " µm" };
+/// Of one surface: 10 mm of the finest.
+inline constexpr double cuts = 1e6;
+inline constexpr Range bins{ 1.0, 1e4 };
 
 } // namespace limits
 

@@ -137,25 +137,20 @@ void validate(const MyelinSurfaceOptions& options)
   }
   if (options.model == GRatioModel::TargetAxonVolumeFraction)
   {
-    require(options.targetAxonVolumeFraction > 0.0 && options.targetAxonVolumeFraction < 1.0,
-      "TargetAxonVolumeFraction must be between 0 and 1 where GRatioModel is TargetAxonVolumeFraction");
+    requireWithin("TargetAxonVolumeFraction", options.targetAxonVolumeFraction, limits::targetAxonFraction,
+      " where GRatioModel is TargetAxonVolumeFraction");
   }
-  if (options.smoothingIterations < 0 || options.smoothingIterations > mostSmoothingIterations)
-  {
-    throw InvalidInput(text("SmoothingIterations is ", options.smoothingIterations, ": give 0 to ", mostSmoothingIterations,
-      "; more would blur fibres of few voxels away"));
-  }
-  require(std::isfinite(options.decimationError) && options.decimationError >= 0.0,
-    "DecimationError must be a number of µm, 0 or more");
+  requireWithin("SmoothingIterations", options.smoothingIterations, limits::smoothingIterations,
+    "; more would blur fibres of few voxels away");
+  requireWithin("DecimationError", options.decimationError, limits::surfaceTolerance);
 }
 
 std::vector<FibreSurfacePair> myelinSurfaces(
   const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context)
 {
   validate(options);
-  require(std::isfinite(facts.minimumGap) && facts.minimumGap >= 0.0 && std::isfinite(facts.surfaceTolerance) &&
-            facts.surfaceTolerance >= 0.0,
-    "MinimumGap and SurfaceTolerance of the label image must be 0 or more");
+  requireWithin("MinimumGap of the label image", facts.minimumGap, limits::gap);
+  requireWithin("SurfaceTolerance of the label image", facts.surfaceTolerance, limits::surfaceTolerance);
   if (options.decimationError > facts.surfaceTolerance * (1.0 + 1e-9))
   {
     throw InvalidInput(text("DecimationError ", options.decimationError, " is more than the room of ", facts.surfaceTolerance,

@@ -15,9 +15,6 @@
 namespace cactus
 {
 
-/// Most passes of smoothing. They blur by the square root of half their number, 3.2 voxels, and take on average passes · spacing²
-/// / (4 r) off a round fibre of radius r: more than half the volume of the thinnest ones that are smoothed in full.
-constexpr int mostSmoothingIterations = 20;
 /// µm that surfaces of two fibres keep from each other, and inner surfaces from outer ones, however little is asked for: a
 /// simulator's walls have that thickness (MC/DC: 1 nm).
 constexpr double leastSeparation = 0.001;
@@ -26,13 +23,13 @@ constexpr double leastSeparation = 0.001;
 struct MyelinSurfaceOptions
 {
   GRatioModel model = GRatioModel::Constant;
-  /// The ratio of inner to outer diameter (Constant), or its mean (Distributed), in (0, 1).
+  /// The ratio of inner to outer diameter (Constant, 0.05 to 0.99), or its mean (Distributed, 0.3 to 0.95).
   double gRatio = 0.7;
   /// Standard deviation of the g-ratio (Distributed), in [0, 0.3].
   double gRatioDeviation = 0.04;
-  /// Fraction of the box that the axons are to fill (TargetAxonVolumeFraction), in (0, 1).
+  /// Fraction of the box that the axons are to fill (TargetAxonVolumeFraction), 0.0001 to 0.999.
   double targetAxonVolumeFraction = 0.0;
-  /// Passes of smoothing of the fields before they are contoured (see SmoothedField), at most mostSmoothingIterations; 0: none.
+  /// Passes of smoothing of the fields before they are contoured (see SmoothedField), 0 to 20 (see Limits.h); 0: none.
   int smoothingIterations = 2;
   /// Distance by which coarsening may move a surface, at most the tolerance that growth kept, as an aim and no strict bound (see
   /// myelinSurfaces()); 0: surfaces stay as contoured.

@@ -2,6 +2,7 @@
 #include "SubstrateCertificate.h"
 
 #include "Error.h"
+#include "Limits.h"
 #include "Parallel.h"
 #include "SurfaceDistance.h"
 #include "SurfaceIntersection.h"
@@ -535,11 +536,8 @@ private:
 
 void SubstrateCertificateOptions::validate() const
 {
-  if (!(minimumGap >= 0.0 && minimumGap <= largestGap))
-  {
-    throw InvalidInput(text("MinimumGap is ", minimumGap, ": give a length in µm from 0 to ", largestGap));
-  }
-  requireCutSpacing(cutSpacing);
+  requireWithin("MinimumGap", minimumGap, limits::gap);
+  requireWithin("CutSpacing", cutSpacing, limits::cutSpacing);
 }
 
 std::string SubstrateCertificate::verdict() const

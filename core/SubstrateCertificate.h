@@ -15,16 +15,13 @@
 namespace cactus
 {
 
-/// µm, the most that may be asked for between two fibres.
-constexpr double largestGap = 10.0;
-
 /// What a substrate is certified for.
 struct SubstrateCertificateOptions
 {
-  /// µm that the outer surfaces of any two fibres have to keep from each other, 0 to largestGap. 0 asks only that they do not
+  /// µm that the outer surfaces of any two fibres have to keep from each other, 0 to 10. 0 asks only that they do not
   /// meet.
   double minimumGap = 0.02;
-  /// µm between two cross-sections along a fibre's centre line; from smallestCutSpacing to largestCutSpacing.
+  /// µm between two cross-sections along a fibre's centre line; 0.01 to 1000 (see Limits.h).
   double cutSpacing = 1.0;
 
   /// Throws InvalidInput naming the property.

@@ -4,6 +4,7 @@
 #include "Capsules.h"
 #include "CrossSection.h"
 #include "Error.h"
+#include "Limits.h"
 #include "Parallel.h"
 
 #include <algorithm>
@@ -92,15 +93,6 @@ double meanOver(const std::vector<FibreStatistics>& fibres, Value&& value)
 
 } // namespace
 
-void requireCutSpacing(double spacing)
-{
-  if (!(spacing >= smallestCutSpacing && spacing <= largestCutSpacing))
-  {
-    throw InvalidInput(
-      text("CutSpacing is ", spacing, ": give a length in µm from ", smallestCutSpacing, " to ", largestCutSpacing));
-  }
-}
-
 double gRatioOf(double innerVolume, double outerVolume)
 {
   return innerVolume > 0.0 && outerVolume > 0.0 ? std::sqrt(innerVolume / outerVolume) : 0.0;
@@ -108,7 +100,7 @@ double gRatioOf(double innerVolume, double outerVolume)
 
 void SubstrateStatisticsOptions::validate() const
 {
-  requireCutSpacing(cutSpacing);
+  requireWithin("CutSpacing", cutSpacing, limits::cutSpacing);
   if (!std::isfinite(clipTolerance) || clipTolerance < 0.0)
   {
     throw InvalidInput("the clip tolerance must be a length in µm that is not negative");
@@ -133,10 +125,10 @@ RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const
   {
     arc.push_back(arc.back() + (fibres.points[i + 1] - fibres.points[i]).norm());
   }
-  requireCutSpacing(spacing);
-  if (!(arc.back() / spacing <= mostCuts))
+  requireWithin("CutSpacing", spacing, limits::cutSpacing);
+  if (!(arc.back() / spacing <= limits::cuts))
   {
-    throw InvalidInput(text("CutSpacing ", spacing, " µm makes more than ", mostCuts, " cross-sections of fibre ",
+    throw InvalidInput(text("CutSpacing ", spacing, " µm makes more than ", limits::cuts, " cross-sections of fibre ",
       fibres.fibreIds[fibre], ", whose centre line is ", arc.back(), " µm long: choose a larger CutSpacing"));
   }
   const CrossSections sections(surface);
@@ -281,10 +273,7 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
 
 std::vector<std::size_t> histogram(const std::vector<double>& values, double lower, double upper, std::size_t bins)
 {
-  if (bins < 1 || bins > mostBins)
-  {
-    throw InvalidInput(text("NumberOfBins is ", bins, ": give 1 to ", mostBins));
-  }
+  requireWithin("NumberOfBins", static_cast<double>(bins), limits::bins);
   std::vector<std::size_t> counts(bins, 0);
   for (const double value : values)
   {

@@ -12,22 +12,11 @@
 namespace cactus
 {
 
-/// µm between two cross-sections along a fibre's centre line: the least, a tenth of the finest voxels in use, and the most.
-constexpr double smallestCutSpacing = 0.01;
-constexpr double largestCutSpacing = 1000.0;
-/// Most cross-sections of one surface: 10 mm of the finest.
-constexpr double mostCuts = 1e6;
-/// Most bins of a histogram.
-constexpr std::size_t mostBins = 10000;
-
-/// Throws InvalidInput for a CutSpacing out of range.
-void requireCutSpacing(double spacing);
-
 /// How a substrate is measured.
 struct SubstrateStatisticsOptions
 {
-  /// µm between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm); from smallestCutSpacing to
-  /// largestCutSpacing.
+  /// µm between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm); 0.01 to 1000 (see
+  /// Limits.h).
   double cutSpacing = 1.0;
   /// µm that a surface may reach out of the domain, as the rounding of a clip does; not negative.
   double clipTolerance = 0.1;
@@ -100,14 +89,14 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
 
 /// Equivalent radius and circularity of the surface at every `spacing` µm along fibre number `fibre`'s centre line, from cuts
 /// orthogonal to it. Cuts that reach the domain's boundary, or around a point that lies outside the surface, do not count.
-/// Throws InvalidInput for a spacing out of range, or with which there would be more than mostCuts cuts.
+/// Throws InvalidInput for a spacing out of range, or with which there would be more than limits::cuts cuts.
 RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing);
 
 /// Length (µm) of fibre number `fibre`'s centre line inside the domain.
 double lengthInDomain(const Fibres& fibres, std::size_t fibre);
 
 /// How many of the values lie in each of `bins` equal parts of [lower, upper]; the last part holds `upper` too. NaN and values
-/// outside count nowhere. Throws InvalidInput, naming NumberOfBins, unless there are 1 to mostBins.
+/// outside count nowhere. Throws InvalidInput, naming NumberOfBins, unless there are 1 to 10000.
 std::vector<std::size_t> histogram(const std::vector<double>& values, double lower, double upper, std::size_t bins);
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 #include "SurfaceCheck.h"
 
 #include "Error.h"
+#include "Limits.h"
 
 #include <Eigen/Geometry>
 
@@ -90,11 +91,11 @@ void checkIndices(const TriangleMesh& mesh)
         throw InvalidInput("point " + std::to_string(point) + " of triangle " + std::to_string(t) +
                            " has a coordinate that is not finite (NaN or infinite)");
       }
-      if (mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff() > largestCoordinate)
+      if (mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff() > limits::coordinate.highest)
       {
-        throw InvalidInput(
-          text("point ", point, " of triangle ", t, " lies ", mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff(),
-            " µm from 0 along an axis, beyond the ", largestCoordinate, " µm that coordinates may have: give the surface in µm"));
+        throw InvalidInput(text("point ", point, " of triangle ", t, " lies ",
+          mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff(), " µm from 0 along an axis, beyond the ",
+          limits::coordinate.highest, " µm that coordinates may have: give the surface in µm"));
       }
     }
   }

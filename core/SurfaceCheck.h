@@ -10,9 +10,6 @@
 namespace cactus
 {
 
-/// µm to either side of 0, beyond which coordinates are refused: a wrong unit, or a damaged file.
-constexpr double largestCoordinate = 1e5;
-
 /// What a simulator has to be able to rely on, measured on one surface. Points that no triangle uses do not count.
 struct SurfaceReport
 {
@@ -44,7 +41,7 @@ struct SurfaceReport
 
 /// Measures one surface in time linear in its triangles. Volume by the divergence theorem about a point of the surface, so that a
 /// small surface far from the origin loses no digits. An empty surface gives a report of zeros, which is not closed. Throws
-/// InvalidInput where a triangle names a point that is not there or a used coordinate is not finite or beyond largestCoordinate.
+/// InvalidInput where a triangle names a point that is not there or a used coordinate is not finite or beyond limits::coordinate.
 /// `componentOf`, where given, gets the number of each triangle's component, counted as in `pieces`.
 SurfaceReport checkSurface(const TriangleMesh& mesh, std::vector<std::uint32_t>* componentOf = nullptr);
 

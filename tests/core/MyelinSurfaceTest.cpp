@@ -480,12 +480,12 @@ TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
 TEST(MyelinSurfaces, RefusesMoreSmoothingThanFibresBear)
 {
   MyelinSurfaceOptions options;
-  for (const int passes : { -1, mostSmoothingIterations + 1, 1000 })
+  for (const int passes : { -1, 21, 1000 })
   {
     options.smoothingIterations = passes;
     EXPECT_THROW(validate(options), InvalidInput);
   }
-  options.smoothingIterations = mostSmoothingIterations;
+  options.smoothingIterations = 20;
   validate(options);
 }
 

@@ -3,6 +3,7 @@
 #include "CrossSection.h"
 #include "Error.h"
 #include "ExampleSurfaces.h"
+#include "Limits.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ cactus::Fibres twoFibres()
   return fibres;
   EXPECT_EQ(cactus::histogram({ 0.0, 0.0 }, 0.0, 0.0, 2), (std::vector<std::size_t>{ 0, 2 })); // all values the same
   EXPECT_THROW(cactus::histogram({ 1.0 }, 0.0, 1.0, 0), cactus::InvalidInput);
-  EXPECT_THROW(cactus::histogram({ 1.0 }, 0.0, 1.0, cactus::mostBins + 1), cactus::InvalidInput);
+  EXPECT_THROW(cactus::histogram({ 1.0 }, 0.0, 1.0, 10001), cactus::InvalidInput);
 }
 
 } // namespace
@@ -219,9 +220,9 @@ TEST(SubstrateStatistics, SaysWhatIsWrong)
     EXPECT_NE(messageOf({}, options).find("CutSpacing"), std::string::npos) << spacing;
   }
   // The least spacing on a centre line that is far too long for it.
-  options.cutSpacing = cactus::smallestCutSpacing;
+  options.cutSpacing = cactus::limits::cutSpacing.lowest;
   auto winding = twoFibres();
-  winding.points.back()[2] += 2.0 * cactus::smallestCutSpacing * cactus::mostCuts;
+  winding.points.back()[2] += 2.0 * cactus::limits::cutSpacing.lowest * cactus::limits::cuts;
   EXPECT_THROW(cactus::measureSubstrate(winding, surfacesOf({ 5 }, { tube(2, 0, 1, 5) }), {}, options), cactus::InvalidInput);
 }
 
