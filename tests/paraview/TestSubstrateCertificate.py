@@ -214,6 +214,7 @@ class Certificate(CactusTestCase):
             corners.SetComponent(30, 0, corners.GetComponent(31, 0))
 
         def keep_one(data):
+            data.BuildCells()
             for cell in range(1, data.GetNumberOfCells()):
                 data.DeleteCell(cell)
             data.RemoveDeletedCells()
