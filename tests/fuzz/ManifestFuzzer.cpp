@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Any bytes as the manifest of a folder: no fault, and only what the program itself wrote counts as written so; with the
+// manifest's own checksum put right, too.
+#include "SubstrateManifest.h"
+
+#include "Fuzzing.h"
+#include "Sha256.h"
+
+namespace
+{
+
+const std::string blank(64, '0');
+
+std::string own;
+
+} // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
+{
+  cactus::SubstrateFolderContents contents;
+  contents.domain = cactus::Domain::cube(5.0);
+  contents.provenance = { "BundleInitializer 0.1.0: Side=5", "a \"name\" \\ of \xff any kind" };
+  cactus::WrittenSubstrate substrate;
+  substrate.files.emplace_back();
+  substrate.files.back().path = "outer/fibre_00001.ply";
+  substrate.files.back().surface = "outer";
+  cactus::WrittenFiles written;
+  written.checksums = { { "outer/fibre_00001.ply", std::string(64, 'a') }, { "README.txt", std::string(64, '7') } };
+  written.folders = { "outer", "mcdc/output" };
+  own = cactus::manifestText(contents, substrate, written);
+  std::string unsealed = own;
+  const std::size_t place = unsealed.rfind("manifest_sha256\": \"") + 19;
+  unsealed.replace(place, blank.size(), blank);
+  writeSeeds(*argc, *argv,
+    { own, unsealed, "{\"format\": \"CACTUS substrate folder\", \"version\": \"0.1.0\"}", "[[[[{\"a\":[1e400,-0]}]]]]" });
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  std::string text(reinterpret_cast<const char*>(data), size);
+  const bool asIs = text.rfind(blank) == std::string::npos;
+  if (!asIs)
+  {
+    text.replace(text.rfind(blank), blank.size(), cactus::sha256(text));
+  }
+  const auto manifest = cactus::readManifest(text);
+  promise(
+    text != own || (manifest && manifest->asWritten && manifest->written.checksums.size() == 2), "our own manifest is read");
+  promise(!asIs || text == own || !manifest || !manifest->asWritten, "a manifest with any change is not as it was written");
+  return 0;
+}
