@@ -15,9 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace cactus
@@ -150,7 +148,7 @@ public:
     file.put(this->EvaluationSeconds);
     file.put(this->SearchSeconds);
     // The order of a list decides how its sums are rounded.
-    file.put(this->searchDue());
+    file.put(static_cast<std::uint8_t>(this->searchDue()));
     if (!this->searchDue())
     {
       file.putAll(this->Neighbours.offsets);
@@ -176,7 +174,10 @@ public:
     file.get(this->Searches);
     file.get(this->EvaluationSeconds);
     file.get(this->SearchSeconds);
-    file.get(this->Exceeded);
+    std::uint8_t exceeded = 0;
+    file.get(exceeded);
+    file.require(exceeded <= 1);
+    this->Exceeded = exceeded == 1;
     if (!this->Exceeded)
     {
       file.getAll(this->Neighbours.offsets, static_cast<std::int64_t>(this->Bodies.size()) + 1);
@@ -184,13 +185,72 @@ public:
       file.getAll(this->Displacement, count);
       file.getAll(this->Allowance, count);
     }
+    file.require(this->isSound());
     for (std::size_t f = 0; f < this->State.size(); ++f)
     {
       this->copyToCapsules(f);
     }
   }
 
+  /// Whether a descent from the fibres that came in can have made these positions and radii.
+  bool couldBe(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const
+  {
+    constexpr double farthest = 10.0 * limits::coordinate.highest; // from where fibres may start, no run gets so far
+    const double tolerance = this->Options.radiusTolerance * (1.0 + 1e-9);
+    bool good = true;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      // Written so that it does not hold for NaN.
+      good = good && points[i].cwiseAbs().maxCoeff() <= farthest && points[i].allFinite() &&
+             std::abs(radii[i] - this->ReferenceRadii[i]) <= tolerance * this->ReferenceRadii[i];
+    }
+    for (const std::uint32_t i : this->Bodies.first)
+    {
+      good = good && (points[i + 1] - points[i]).squaredNorm() > 0.0;
+    }
+    return good;
+  }
+
 private:
+  /// Whether what was loaded is a state that a descent can be in: nothing in it leads out of an array or to no number.
+  bool isSound() const
+  {
+    const auto isLength = [](float value) { return value >= 0.0f && std::isfinite(value); };
+    const auto isFinite = [](double value) { return std::isfinite(value); };
+    const auto all = [](const auto& values, const auto& good) { return std::all_of(values.begin(), values.end(), good); };
+    const bool adagrad = this->Options.method == DescentMethod::Adagrad;
+    return this->couldBe(this->State.points, this->State.radii) &&
+           all(this->Velocity, [&](const auto& v) { return v.allFinite() && (!adagrad || v.minCoeff() >= 0.0); }) &&
+           all(this->RadiusVelocity, [&](double v) { return isFinite(v) && (!adagrad || v >= 0.0); }) &&
+           all(this->Speed, isLength) && all(this->Push, [](float value) { return value >= 0.0f; }) && this->Relaxation > 0.0 &&
+           this->Relaxation <= 1.0 && this->Slack >= 0.02 && this->Slack <= 0.6 && this->StepsSinceSearch >= 0 &&
+           this->Searches >= 0 && isFinite(this->PairEvaluations) && isFinite(this->EvaluationSeconds) &&
+           isFinite(this->SearchSeconds) &&
+           (this->Exceeded || (all(this->Displacement, [](const auto& d) { return d.allFinite(); }) &&
+                                all(this->Allowance, isLength) && this->areNeighboursSound()));
+  }
+
+  bool areNeighboursSound() const
+  {
+    const std::vector<std::size_t>& offsets = this->Neighbours.offsets;
+    const std::vector<std::uint32_t>& indices = this->Neighbours.indices;
+    if (offsets.front() != 0 || offsets.back() != indices.size() || !std::is_sorted(offsets.begin(), offsets.end()))
+    {
+      return false;
+    }
+    for (std::size_t k = 0; k < this->Bodies.size(); ++k)
+    {
+      for (std::size_t n = offsets[k]; n < offsets[k + 1]; ++n)
+      {
+        if (indices[n] >= this->Bodies.size() || this->Bodies.fibre[indices[n]] == this->Bodies.fibre[k])
+        {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
   /// The lists reach a little further than contact and hold until something could have come further than foreseen.
   void refreshNeighbours()
   {
@@ -435,7 +495,7 @@ private:
 
 std::string describe(const ConvergenceRow& row)
 {
-  std::ostringstream text;
+  TextStream text;
   text.precision(3);
   text << "iteration " << row.iteration << ": largest penetration " << row.maximumPenetration << ", " << row.overlappingPairs
        << " pairs overlap";
@@ -464,6 +524,7 @@ std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions&
   print.add(static_cast<int>(options.method));
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
+    print.add(fibres.fibreIds[f]);
     print.add(fibres.bundleIds[f]);
     print.add(fibres.offsets[f + 1]);
   }
@@ -509,14 +570,16 @@ struct Run
 
   void save(const std::string& path, std::uint64_t fingerprint) const
   {
-    CheckpointWriter file(path, fingerprint);
-    file.put(this->Iteration);
+    CheckpointWriter file(path, { fingerprint, this->Iteration });
     file.put(this->Seconds);
     file.put(this->BestCost);
     file.put(this->LowestCost);
     file.put(this->LowestPenetration);
     file.put(this->LastProgress);
-    file.putAll(this->Rows);
+    for (const ConvergenceRow& row : this->Rows)
+    {
+      visit(row, [&](const auto& value) { file.put(value); });
+    }
     file.putAll(this->BestPoints);
     file.putAll(this->BestRadii);
     this->Path.save(file);
@@ -527,17 +590,42 @@ struct Run
   {
     const auto count = static_cast<std::int64_t>(this->State.points.size());
     CheckpointReader file(path, fingerprint);
-    file.get(this->Iteration);
+    file.require(file.header().iteration >= 0 && file.header().iteration <= std::numeric_limits<int>::max());
+    this->Iteration = static_cast<int>(file.header().iteration);
     file.get(this->Seconds);
     file.get(this->BestCost);
     file.get(this->LowestCost);
     file.get(this->LowestPenetration);
     file.get(this->LastProgress);
-    file.getAll(this->Rows);
+    file.require(std::isfinite(this->Seconds) && this->BestCost >= 0.0 && this->LowestCost >= 0.0 &&
+                 this->LowestPenetration >= 0.0 && this->LastProgress >= 0 && this->LastProgress <= this->Iteration);
+    for (int i = 0; i < this->Iteration; ++i)
+    {
+      ConvergenceRow row;
+      visit(row, [&](auto& value) { file.get(value); });
+      file.require(row.iteration == i && std::isfinite(row.overlapCost) && row.maximumPenetration >= 0.0);
+      this->Rows.push_back(row);
+    }
     file.getAll(this->BestPoints, count);
     file.getAll(this->BestRadii, count);
+    file.require(this->Path.couldBe(this->BestPoints, this->BestRadii));
     this->Path.load(file);
     file.finish();
+  }
+
+  /// One by one: a row as a whole has a gap.
+  template <typename Row, typename Visitor>
+  static void visit(Row& row, const Visitor& visitor)
+  {
+    visitor(row.iteration);
+    visitor(row.overlapCost);
+    visitor(row.maximumPenetration);
+    visitor(row.overlappingPairs);
+    visitor(row.curvatureCost);
+    visitor(row.lengthCost);
+    visitor(row.radiusCost);
+    visitor(row.compactnessCost);
+    visitor(row.seconds);
   }
 
   Fibres& State;
@@ -553,23 +641,69 @@ struct Run
   int LastProgress = 0;
 };
 
-/// Writes a checkpoint. That a later one cannot be written is no reason to give up a long run: it is noted.
-void writeCheckpoint(const Run& run, const std::string& path, std::uint64_t fingerprint, bool first, OptimisationResult& result)
+/// Where a run is written down every now and then, and what is there already.
+class Checkpoints
 {
-  try
+public:
+  /// Throws where the file is there and not a checkpoint of this run, and where it cannot be written.
+  Checkpoints(const Fibres& fibres, const CapsuleOptimizerOptions& options)
+    : Path(options.checkpointFile)
+    , Interval(options.checkpointInterval)
+    , Latest(Clock::now())
   {
-    run.save(path, fingerprint);
-    result.checkpointFailure.clear();
-  }
-  catch (const FileError& error)
-  {
-    if (first)
+    if (!this->Path.empty())
     {
-      throw;
+      this->Print = fingerprintOf(fibres, options);
+      const auto found = findCheckpoint(this->Path, this->Print);
+      this->Reached = found ? found->iteration : -1;
+      // Goes away again unless it is committed.
+      const CheckpointWriter attempt(this->Path, { this->Print, 0 });
     }
-    result.checkpointFailure = error.what();
   }
-}
+
+  bool found() const { return this->Reached >= 0; }
+
+  void load(Run& run) const { run.load(this->Path, this->Print); }
+
+  bool due(const Run& run) const
+  {
+    return !this->Path.empty() &&
+           ((!this->found() && !this->Written) || (run.Path.searchDue() && secondsSince(this->Latest) >= this->Interval));
+  }
+
+  /// Writes the run down, unless what is there has come further (the same run, from the beginning once more). That a later
+  /// checkpoint cannot be written is no reason to give up a long run: it is noted.
+  void write(const Run& run, OptimisationResult& result)
+  {
+    this->Latest = Clock::now();
+    if (this->Path.empty() || run.Iteration < this->Reached)
+    {
+      return;
+    }
+    try
+    {
+      run.save(this->Path, this->Print);
+      result.checkpointFailure.clear();
+    }
+    catch (const Error& error)
+    {
+      if (!this->Written && !this->found())
+      {
+        throw;
+      }
+      result.checkpointFailure = error.what();
+    }
+    this->Written = true;
+  }
+
+private:
+  std::string Path;
+  double Interval;
+  Clock::time_point Latest;
+  std::uint64_t Print = 0;
+  std::int64_t Reached = -1; ///< iteration of the checkpoint that was there; −1 for none
+  bool Written = false;
+};
 
 /// Whether the state that was just measured is the last one, and why.
 bool shouldStop(const Run& run, const ConvergenceRow& row, const CapsuleOptimizerOptions& options, const Context& context,
@@ -639,8 +773,7 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
     "use fewer fibres, or a larger spacing of their control points");
   const Clock::time_point start = Clock::now();
   const int threads = context.threadCount();
-  const std::string& path = options.checkpointFile;
-  const std::uint64_t fingerprint = path.empty() ? 0 : fingerprintOf(fibres, options);
+  Checkpoints checkpoints(fibres, options);
   OptimisationResult result;
   const FibreOrder order(fibres);
   Fibres state = order.ordered(fibres);
@@ -652,18 +785,16 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
   }
   {
     Run run(state, options, threads);
-    if (options.resume && std::ifstream(path).is_open())
+    if (options.resume && checkpoints.found())
     {
-      run.load(path, fingerprint);
+      checkpoints.load(run);
     }
-    Clock::time_point lastCheckpoint = start;
     double progress = 0.0;
-    for (bool first = true;; ++run.Iteration, first = false)
+    for (;; ++run.Iteration)
     {
-      if (!path.empty() && (first || (run.Path.searchDue() && secondsSince(lastCheckpoint) >= options.checkpointInterval)))
+      if (checkpoints.due(run))
       {
-        writeCheckpoint(run, path, fingerprint, first, result);
-        lastCheckpoint = Clock::now();
+        checkpoints.write(run, result);
       }
       ConvergenceRow row = run.Path.evaluate();
       row.iteration = run.Iteration;
@@ -682,11 +813,11 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
         context.report(progress, describe(row));
       }
       const bool last = shouldStop(run, row, options, context, secondsSince(start), result.reason);
-      if (last && !path.empty())
+      if (last)
       {
         // Before this row is added: a run that goes on from here measures this state again.
         run.Seconds = row.seconds;
-        writeCheckpoint(run, path, fingerprint, false, result);
+        checkpoints.write(run, result);
       }
       run.Rows.push_back(row);
       if (last)

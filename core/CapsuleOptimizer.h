@@ -49,12 +49,14 @@ struct CapsuleOptimizerOptions
   double radiusTolerance = 0.0;
   /// Stop after this many seconds and keep the best state; 0 for no limit.
   double timeBudget = 0.0;
-  /// Where to write down the state of the run every now and then, and when it ends; empty for nowhere.
+  /// Where to write down the state of the run every now and then, and when it ends; empty for nowhere. A file that is there must
+  /// be a checkpoint of this run (see resume): anything else is kept, and refused before the run begins.
   std::string checkpointFile;
   /// Seconds between two checkpoints at least; 0 for one at every neighbour search.
   double checkpointInterval = 600.0;
   /// Go on from checkpointFile where there is one. It must have been written for the same fibres and the same parameters, but for
-  /// maximumIterations and timeBudget. The result has the same bits as that of a run that was never interrupted.
+  /// maximumIterations and timeBudget. The result has the same bits as that of a run that was never interrupted. Where it is off,
+  /// the run starts from the beginning, and replaces its own checkpoint from before once it has come as far.
   bool resume = false;
 };
 
