@@ -9,7 +9,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 
-#include <sstream>
 
 vtkStandardNewMacro(vtkBundleInitializer);
 
@@ -87,7 +86,7 @@ int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, v
       const cactus::Fibres fibres = cactus::initialiseBundles(options, cactus::contextFor(this), &report);
       auto* output = vtkPolyData::GetData(outputs);
       cactus::toPolyData(fibres, output);
-      std::ostringstream parameters;
+      cactus::TextStream parameters;
       parameters.precision(6);
       parameters << options.describe() << " reached: Fibres=" << fibres.size()
                  << " FibreVolumeFraction=" << report.fibreVolumeFraction << " MeanDispersion=" << report.meanDispersion;

@@ -28,7 +28,6 @@
 #include <exception>
 #include <functional>
 #include <numeric>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -352,7 +351,7 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   cactus::addNumber(data, "LengthIncrease", after.totalLength / run.Before.totalLength - 1.0);
   cactus::addNumber(data, "RadiusDistance", run.RadiusDistance);
 
-  std::ostringstream parameters;
+  cactus::TextStream parameters;
   parameters.precision(15);
   parameters << "MaximumIterations=" << this->MaximumIterations << " OverlapTolerance=" << this->OverlapTolerance
              << " Method=" << (this->Method == MOMENTUM ? "Momentum" : "Adagrad") << " OverlapWeight=" << this->OverlapWeight
@@ -411,7 +410,7 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
       {
         vtkWarningMacro(<< "overlaps remain: " << reasonText(result.reason) << " after " << run.lastIteration()
                         << " iterations with " << result.overlappingPairs << " capsule pairs above OverlapTolerance "
-                        << this->OverlapTolerance << ", the largest penetration being " << result.maximumPenetration
+                        << cactus::text(this->OverlapTolerance, ", the largest penetration being ", result.maximumPenetration)
                         << ". The best state is kept. Allow more iterations or time, or ask for a lower density.");
       }
       run.WasReported = true;

@@ -28,7 +28,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -91,7 +90,7 @@ cactus::VoxelGrid requestedGrid(
     grid.count[axis] = std::max(0, extent[2 * axis + 1] - extent[2 * axis] + 1);
     voxels *= grid.count[axis];
   }
-  std::ostringstream what;
+  cactus::TextStream what;
   what << "VoxelSize " << options.voxelSize << " makes an image of " << grid.count[0] << " x " << grid.count[1] << " x "
        << grid.count[2] << " voxels, which";
   cactus::requireMemory(8.0 * voxels, what.str(), "choose a larger VoxelSize or ask for a smaller extent");
@@ -214,7 +213,7 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       cactus::addColumn<vtkDoubleArray>(
         data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });
 
-      std::ostringstream parameters;
+      cactus::TextStream parameters;
       parameters.precision(15);
       parameters << "VoxelSize=" << options.voxelSize << " TargetFibreVolumeFraction=" << options.targetFibreVolumeFraction
                  << " GrowthIterations=" << options.growthIterations << " MinimumGap=" << options.minimumGap

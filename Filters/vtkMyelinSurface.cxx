@@ -27,7 +27,6 @@
 #include <vtkTable.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 vtkStandardNewMacro(vtkMyelinSurface);
@@ -263,7 +262,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       view.gap = facts.minimumGap + 2.0 * facts.surfaceTolerance;
 
       auto fibres = cactus::myelinSurfaces(view, facts, options, context);
-      std::ostringstream parameters;
+      cactus::TextStream parameters;
       parameters.precision(15);
       parameters << "GRatioModel=" << this->GRatioModel << " GRatio=" << this->GRatio
                  << " GRatioDeviation=" << this->GRatioDeviation << " TargetAxonVolumeFraction=" << this->TargetAxonVolumeFraction

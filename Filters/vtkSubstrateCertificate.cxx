@@ -16,7 +16,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkTable.h>
 
-#include <sstream>
 
 vtkStandardNewMacro(vtkSubstrateCertificate);
 
@@ -103,7 +102,7 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       }
       fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
       fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
-      std::ostringstream parameters;
+      cactus::TextStream parameters;
       parameters << "MinimumGap=" << this->MinimumGap << " CutSpacing=" << this->CutSpacing;
       for (int port = 0; port < 2; ++port)
       {

@@ -184,7 +184,7 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       for (int port = 0; port < 3; ++port)
       {
         cactus::addProvenance(
-          last, vtkTable::GetData(outputs, port), "SubstrateStatistics", "CutSpacing=" + std::to_string(this->CutSpacing));
+          last, vtkTable::GetData(outputs, port), "SubstrateStatistics", "CutSpacing=" + cactus::exactText(this->CutSpacing));
       }
     });
 }

@@ -125,7 +125,7 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       fill(table, written.files);
       cactus::addProvenance(outer, table, "SubstrateWriter",
         std::string("AllowOpenSurfaces=") + (this->AllowOpenSurfaces ? "1" : "0") +
-          " MinimumGap=" + std::to_string(this->MinimumGap));
+          " MinimumGap=" + cactus::exactText(this->MinimumGap));
     });
 }
 

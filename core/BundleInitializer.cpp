@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 namespace cactus
 {
@@ -128,7 +127,7 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
   }
   if (std::abs(report.fibreVolumeFraction - asked) > 0.05 * asked)
   {
-    std::ostringstream message;
+    TextStream message;
     message.precision(3);
     message << "FibreVolumeFraction " << asked << " cannot be reached with whole fibres of these radii: the nearest is "
             << report.fibreVolumeFraction << ". Enlarge Side, or lower MaximumRadius";
@@ -144,7 +143,7 @@ void requireMemoryFor(const BundleInitializerOptions& options)
   const double turned = options.numberOfBundles == 2 ? std::sqrt(2.0) : 1.0;
   const double fibreCount = options.fibreVolumeFraction * side * side * turned / meanCircleArea(options.radius);
   const double points = fibreCount * (2.0 + side * turned / options.minimumSpacing);
-  std::ostringstream what;
+  TextStream what;
   what.precision(3);
   what << "Side " << options.side << " µm with " << fibreCount << " fibres";
   requireMemory(fibreCount * 600.0 + points * 160.0, what.str(), "choose a smaller Side, a smaller Margin or larger radii");
@@ -197,7 +196,7 @@ double BundleInitializerOptions::thinning() const
 
 std::string BundleInitializerOptions::describe() const
 {
-  std::ostringstream text;
+  TextStream text;
   text.precision(12);
   text << "Side=" << side << " FibreVolumeFraction=" << fibreVolumeFraction
        << " GrownFibreVolumeFraction=" << grownFibreVolumeFraction;

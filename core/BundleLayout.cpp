@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 namespace cactus
 {
@@ -36,7 +35,7 @@ void requireFit(const Circles& circles, const char* property)
   {
     if (2.0 * circles.radii[i] > circles.frame(i).size().minCoeff())
     {
-      std::ostringstream message;
+      TextStream message;
       message << property << " gives a face or layer only " << circles.frame(i).size().minCoeff()
               << " µm wide, and a fibre of radius " << circles.radii[i] << " µm does not fit into it: enlarge " << property
               << " or lower MaximumRadius";

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 namespace cactus
 {
@@ -44,7 +43,7 @@ double reachableDensity(Circles circles, const Context& context)
 [[noreturn]] void throwDensity(
   const BundleInitializerOptions& options, const Bundle& bundle, const Circles& jammed, const char* face, const Context& context)
 {
-  std::ostringstream message;
+  TextStream message;
   message.precision(3);
   // In proportion: for crossing bundles the faces' density is not the domain's.
   const double reachable = reachableDensity(jammed, context) * options.fibreVolumeFraction / bundle.density;
@@ -229,7 +228,7 @@ TopFace packTop(Bundle& bundle, const BundleInitializerOptions& options, int att
 /// Packs both faces of a bundle whose bottom holds radii and frames.
 void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const Context& context, double begin, double end)
 {
-  std::ostringstream what;
+  TextStream what;
   what << "Packing the faces of bundle " << bundle.id << " (" << bundle.bottom.size() << " fibres)";
   std::optional<Circles> jammed;
   const char* jammedFace = "first";
@@ -268,7 +267,7 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const C
   {
     throwDensity(options, bundle, *jammed, jammedFace, context);
   }
-  std::ostringstream message;
+  TextStream message;
   message.precision(3);
   message << "MeanDispersion " << options.meanDispersion << "° cannot be met: fibres that start and end within the faces came to "
           << dispersion << "°. Lower MeanDispersion, or enlarge Margin";
@@ -286,7 +285,7 @@ void requireDensity(const std::vector<Bundle>& bundles, const BundleInitializerO
     const double density = bundle.bottom.density();
     if (std::abs(density - bundle.density) > 0.05 * bundle.density)
     {
-      std::ostringstream message;
+      TextStream message;
       message.precision(3);
       message << "FibreVolumeFraction " << options.fibreVolumeFraction
               << " cannot be reached with whole fibres of these radii: the nearest is "

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace cactus
 {
@@ -50,7 +49,7 @@ DirectionDistribution::DirectionDistribution(DispersionModel model, double meanA
 {
   if (!(meanAngle > 0.0 && meanAngle <= 45.0))
   {
-    std::ostringstream message;
+    TextStream message;
     message << "MeanDispersion is " << meanAngle << "°: give an angle above 0 and at most 45";
     throw InvalidInput(message.str());
   }

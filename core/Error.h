@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sstream>
+#include "Numbers.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -50,11 +51,11 @@ public:
   using Error::Error;
 };
 
-/// The parts of a message one after the other, numbers with four significant digits.
+/// The parts of a message one after the other, numbers with four significant digits, whatever the locale.
 template <typename... Parts>
 std::string text(const Parts&... parts)
 {
-  std::ostringstream out;
+  TextStream out;
   out.precision(4);
   (out << ... << parts);
   return out.str();

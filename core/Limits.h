@@ -4,8 +4,6 @@
 #include "Error.h"
 
 #include <cmath>
-#include <locale>
-#include <sstream>
 
 namespace cactus
 {
@@ -32,8 +30,7 @@ inline void requireWithin(const char* name, double value, const Range& range, co
   {
     return;
   }
-  std::ostringstream message;
-  message.imbue(std::locale::classic());
+  TextStream message;
   message.precision(9);
   message << name << " is " << value << ": give " << (range.orZero ? "0 or " : "") << range.lowest << " to " << range.highest
           << range.unit << advice;

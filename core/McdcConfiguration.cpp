@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "McdcConfiguration.h"
 
+#include "Numbers.h"
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace cactus
 {
@@ -35,7 +36,7 @@ std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, 
 {
   const Eigen::Vector3d margin = (0.25 * domain.size()).cwiseMin(options.displacement());
   const Eigen::Vector3d room = Eigen::Vector3d::Constant(10.0 * options.displacement());
-  std::ostringstream out;
+  TextStream out;
   out.precision(9);
   out << "N " << options.walkers << '\n'
       << "T " << options.steps << '\n'
@@ -64,7 +65,7 @@ std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, 
 
 std::string mcdcScheme(const McdcOptions& options)
 {
-  std::ostringstream out;
+  TextStream out;
   out.precision(9);
   const auto line = [&](const Eigen::Vector3d& direction, double gradient)
   {

@@ -11,8 +11,6 @@
 #include <fstream>
 #include <iomanip>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 namespace cactus
 {
@@ -163,8 +161,7 @@ void requireMemory(double bytes, const std::string& what, const std::string& adv
   {
     return;
   }
-  std::ostringstream message;
-  message.imbue(std::locale::classic());
+  TextStream message;
   message << std::setprecision(3) << what << " needs " << bytes / 1e9 << " GB of memory, and " << available / 1e9
           << " GB are available: " << advice;
   throw OutOfMemory(message.str());

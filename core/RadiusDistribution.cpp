@@ -3,12 +3,14 @@
 
 #include "Error.h"
 #include "Limits.h"
+#include "Numbers.h"
 #include "RandomVariates.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
-#include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace cactus
 {
@@ -49,7 +51,7 @@ void RadiusDistributionOptions::validate() const
 {
   requireWithin("MinimumRadius", minimum, limits::radius);
   requireWithin("MaximumRadius", maximum, limits::radius);
-  std::ostringstream message;
+  TextStream message;
   if (minimum > maximum)
   {
     message << "MinimumRadius " << minimum << " is larger than MaximumRadius " << maximum << ": exchange them";
@@ -187,27 +189,83 @@ void requireShareWithinLimits(const RadiusDistributionOptions& options)
   throwHardlyAny(options);
 }
 
+namespace
+{
+
+/// Appends the numbers of a text; returns false and leaves `text` at the word that is no number where there is one.
+bool appendRadii(std::string_view& text, std::vector<double>& table)
+{
+  constexpr std::string_view separators = " \t\r\n\v\f,;";
+  for (;;)
+  {
+    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+    if (text.empty())
+    {
+      return true;
+    }
+    const std::string_view word = text;
+    double value = 0.0;
+    if (!takeNumber(text, value) || (!text.empty() && separators.find(text.front()) == std::string_view::npos))
+    {
+      text = word.substr(0, word.find_first_of(separators));
+      return false;
+    }
+    table.push_back(value);
+  }
+}
+
+const std::string hint = ", which is no number: list radii in µm, for example \"0.4 0.5 0.7\"";
+
+} // namespace
+
 std::vector<double> parseRadiusTable(const std::string& text)
 {
-  std::string spaced = text;
-  for (char& c : spaced)
+  std::vector<double> table;
+  std::string_view rest = text;
+  if (!appendRadii(rest, table))
   {
-    if (c == ',' || c == ';')
+    throw InvalidInput("RadiusTable holds \"" + excerpt(rest) + "\"" + hint);
+  }
+  return table;
+}
+
+std::vector<double> readRadiusTable(std::istream& stream, const std::string& name)
+{
+  std::string text;
+  constexpr std::size_t chunk = 1 << 16;
+  constexpr std::size_t longest = std::size_t(1) << 26;
+  try
+  {
+    for (std::size_t got = chunk; got == chunk && text.size() <= longest;)
     {
-      c = ' ';
+      const std::size_t before = text.size();
+      text.resize(before + chunk);
+      got = static_cast<std::size_t>(stream.rdbuf()->sgetn(&text[before], chunk));
+      text.resize(before + got);
     }
   }
-  std::vector<double> table;
-  std::istringstream stream(spaced);
-  std::string word;
-  while (stream >> word)
+  catch (const std::ios_base::failure& error) // a folder, a broken disk
   {
-    char* end = nullptr;
-    table.push_back(std::strtod(word.c_str(), &end));
-    if (end == word.c_str() || *end != '\0')
-    {
-      throw InvalidInput("RadiusTable holds \"" + word + "\", which is no number: list radii in µm, for example \"0.4 0.5 0.7\"");
-    }
+    throw FileError("RadiusTableFile " + name + " cannot be read: " + error.what());
+  }
+  if (text.size() > longest)
+  {
+    throw FileError("RadiusTableFile " + name + " is longer than 64 MB: this is no text file of radii");
+  }
+  std::string_view rest = text;
+  if (rest.substr(0, 3) == "\xef\xbb\xbf")
+  {
+    rest.remove_prefix(3); // the mark that some editors put before UTF-8
+  }
+  std::vector<double> table;
+  if (!appendRadii(rest, table))
+  {
+    const auto line = 1 + std::count(std::as_const(text).data(), rest.data(), '\n');
+    throw FileError("RadiusTableFile " + name + ", line " + std::to_string(line) + ", holds \"" + excerpt(rest) + "\"" + hint);
+  }
+  if (table.empty())
+  {
+    throw FileError("RadiusTableFile " + name + " is empty: list at least one radius in µm");
   }
   return table;
 }
@@ -215,12 +273,11 @@ std::vector<double> parseRadiusTable(const std::string& text)
 std::vector<double> readRadiusTable(const std::string& path)
 {
   std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
+  if (!file)
   {
-    throw FileError("RadiusTableFile " + path + " cannot be read, or is empty: name a text file of radii in µm");
+    throw FileError("RadiusTableFile " + path + " cannot be read: name a text file of radii in µm");
   }
-  return parseRadiusTable(text.str());
+  return readRadiusTable(file, path);
 }
 
 } // namespace cactus

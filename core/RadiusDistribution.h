@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -53,11 +54,15 @@ void requireShareWithinLimits(const RadiusDistributionOptions& options);
 /// Mean area (µm²) of a circle of the distribution, to within some per cent. Throws as requireShareWithinLimits() does.
 double meanCircleArea(const RadiusDistributionOptions& options);
 
-/// The numbers of a text, separated by white space, commas or semicolons. Throws InvalidInput, naming RadiusTable and the word
-/// that is no number.
+/// The numbers of a text (see takeNumber()), separated by white space, commas or semicolons. Throws InvalidInput, naming
+/// RadiusTable and the word that is no number.
 std::vector<double> parseRadiusTable(const std::string& text);
 
-/// The same for a file's content; throws FileError where it cannot be read.
+/// The same for a file's content, at least one number; throws FileError, naming the line, where that is something else, and where
+/// the file cannot be read.
 std::vector<double> readRadiusTable(const std::string& path);
+
+/// The same from a stream; `name` is what messages call it.
+std::vector<double> readRadiusTable(std::istream& stream, const std::string& name);
 
 } // namespace cactus

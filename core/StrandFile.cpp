@@ -3,11 +3,15 @@
 
 #include "AtomicFile.h"
 #include "Error.h"
+#include "Limits.h"
+#include "Numbers.h"
 
+#include <cerrno>
 #include <cmath>
-#include <cstdlib>
+#include <cstring>
 #include <fstream>
-#include <sstream>
+#include <limits>
+#include <string_view>
 
 namespace cactus
 {
@@ -15,111 +19,226 @@ namespace cactus
 namespace
 {
 
-/// Reads numbers and remembers the line it is on.
-class NumberReader
+/// Reads numbers line by line, and knows which line it is on.
+class LineReader
 {
 public:
-  NumberReader(const std::string& path)
-    : Path(path)
-    , File(path)
+  LineReader(std::istream& stream, const std::string& name)
+    : Buffer(*stream.rdbuf())
+    , Name(name)
   {
-    if (!this->File)
-    {
-      throw FileError("cannot open strand file " + path);
-    }
   }
 
-  double number(const std::string& meaning)
+  /// The one number of the next line.
+  double only(const std::string& meaning)
   {
-    while (this->Cursor == nullptr || this->skipBlanks())
-    {
-      if (!std::getline(this->File, this->Text))
-      {
-        throw FileError(this->Path + ": the file ends after line " + std::to_string(this->Line) + ", where " + meaning +
-                        " was expected: it is truncated");
-      }
-      ++this->Line;
-      this->Cursor = this->Text.c_str();
-    }
-    char* end = nullptr;
-    const double value = std::strtod(this->Cursor, &end);
-    if (end == this->Cursor || !std::isfinite(value))
-    {
-      this->fail(meaning);
-    }
-    this->Cursor = end;
+    this->begin(meaning);
+    const double value = this->number(meaning);
+    this->end(meaning + " and nothing else");
     return value;
   }
 
   std::size_t count(const std::string& meaning)
   {
-    const double value = this->number(meaning);
-    if (value < 0.0 || value != std::floor(value) || value > 1e12)
+    const double value = this->only(meaning);
+    if (value < 0.0 || value != std::floor(value) || value > std::numeric_limits<int>::max())
     {
-      this->fail(meaning);
+      this->expected(meaning + " (a whole number)");
     }
     return static_cast<std::size_t>(value);
   }
 
-private:
-  bool skipBlanks()
+  /// The four numbers of the next line.
+  void four(const std::string& meaning, double (&values)[4])
   {
-    while (*this->Cursor == ' ' || *this->Cursor == '\t' || *this->Cursor == '\r')
+    this->begin(meaning);
+    for (double& value : values)
     {
-      ++this->Cursor;
+      value = this->number(meaning);
     }
-    return *this->Cursor == '\0';
+    this->end(meaning + " and nothing else");
   }
 
-  [[noreturn]] void fail(const std::string& meaning) const
+  /// Throws unless only blank lines are left.
+  void finish(const std::string& after)
   {
-    throw FileError(this->Path + ", line " + std::to_string(this->Line) + ": expected " + meaning + ", found '" +
-                    this->Text.substr(0, 60) + "'");
+    if (this->next())
+    {
+      this->fail("expected the end of the file after " + after + ", found '" + excerpt(this->Rest) + "': correct the number");
+    }
   }
 
-  std::string Path;
-  std::ifstream File;
+  [[noreturn]] void fail(const std::string& what) const
+  {
+    throw FileError(this->Name + ", line " + std::to_string(this->Line) + ": " + what);
+  }
+
+private:
+  /// Goes to the next line that is not blank; false where there is none.
+  bool next()
+  {
+    do
+    {
+      if (!this->readLine())
+      {
+        return false;
+      }
+      this->Rest = this->Text;
+      skipBlanks(this->Rest);
+    } while (this->Rest.empty());
+    return true;
+  }
+
+  /// The next line, whether it ends as under Unix, Windows or the old Mac; false at the end of the file.
+  bool readLine()
+  {
+    constexpr std::size_t longest = 4096;
+    constexpr int none = std::char_traits<char>::eof();
+    this->Text.clear();
+    try
+    {
+      int c = this->Buffer.sbumpc();
+      if (c == none)
+      {
+        return false;
+      }
+      ++this->Line;
+      for (; c != none && c != '\n' && c != '\r'; c = this->Buffer.sbumpc())
+      {
+        if (this->Text.size() == longest)
+        {
+          this->fail("the line is longer than " + std::to_string(longest) + " characters: this is no strand file");
+        }
+        this->Text += static_cast<char>(c);
+      }
+      if (c == '\r' && this->Buffer.sgetc() == '\n')
+      {
+        this->Buffer.sbumpc();
+      }
+    }
+    catch (const std::ios_base::failure& error) // a folder, a broken disk
+    {
+      throw FileError("cannot read " + this->Name + " after line " + std::to_string(this->Line) + ": " + error.what());
+    }
+    if (this->Line == 1 && this->Text.compare(0, 3, "\xef\xbb\xbf") == 0)
+    {
+      this->Text.erase(0, 3); // the mark that some editors put before UTF-8
+    }
+    return true;
+  }
+
+  void begin(const std::string& meaning)
+  {
+    if (!this->next())
+    {
+      throw FileError(this->Name + ": the file ends after line " + std::to_string(this->Line) + ", where " + meaning +
+                      " was expected: it is truncated, or the numbers of strands and control points in it are wrong");
+    }
+  }
+
+  double number(const std::string& meaning)
+  {
+    double value = 0.0;
+    if (!takeNumber(this->Rest, value))
+    {
+      this->expected(meaning);
+    }
+    const std::size_t before = this->Rest.size();
+    skipBlanks(this->Rest);
+    if (!this->Rest.empty() && this->Rest.size() == before)
+    {
+      this->expected(meaning);
+    }
+    return value;
+  }
+
+  void end(const std::string& meaning)
+  {
+    if (!this->Rest.empty())
+    {
+      this->expected(meaning);
+    }
+  }
+
+  [[noreturn]] void expected(const std::string& meaning) const
+  {
+    this->fail("expected " + meaning + ", found '" + excerpt(this->Text) + "'");
+  }
+
+  std::streambuf& Buffer;
+  std::string Name;
   std::string Text;
-  const char* Cursor = nullptr;
+  std::string_view Rest; ///< of Text
   std::size_t Line = 0;
 };
 
+void readStrand(LineReader& reader, std::size_t number, std::size_t strands, Fibres& fibres)
+{
+  const std::string strand = "strand " + std::to_string(number) + " of " + std::to_string(strands);
+  const std::size_t points = reader.count("the number of control points of " + strand);
+  if (points < 2)
+  {
+    reader.fail(strand + " has " + std::to_string(points) + " control point(s): a fibre needs at least two");
+  }
+  fibres.addFibre(static_cast<int>(number), 1, 1.0);
+  double radiusSum = 0.0;
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    double values[4];
+    reader.four("x y z r of control point " + std::to_string(i + 1) + " of " + strand, values);
+    fibres.addPoint({ values[0], values[1], values[2] }, values[3]);
+    radiusSum += values[3];
+  }
+  double& mean = fibres.targetRadii.back();
+  mean = radiusSum / static_cast<double>(points);
+  for (const double limit : { limits::radius.lowest, limits::radius.highest })
+  {
+    // The mean of radii at a limit is not beyond it, however their sum was rounded.
+    mean = std::abs(mean - limit) <= 1e-9 * limit ? limit : mean;
+  }
+}
+
 } // namespace
 
-Fibres readStrandFile(const std::string& path)
+Fibres readStrandFile(std::istream& stream, const std::string& name)
 {
-  NumberReader reader(path);
+  LineReader reader(stream, name);
   Fibres fibres;
-  const double side = reader.number("the side of the cube");
+  const double side = reader.only("the side of the cube");
   if (side <= 0.0)
   {
-    throw FileError(path + ", line 1: the side of the cube is " + std::to_string(side) + ", not a positive length");
+    reader.fail(text("the side of the cube is ", side, ", not a positive length"));
   }
   fibres.domain = Domain::cube(side);
   const std::size_t strands = reader.count("the number of strands");
+  if (strands == 0)
+  {
+    reader.fail("the number of strands is 0: there is nothing to read");
+  }
   for (std::size_t s = 0; s < strands; ++s)
   {
-    const std::string strand = "strand " + std::to_string(s + 1);
-    const std::size_t points = reader.count("the number of control points of " + strand);
-    fibres.addFibre(static_cast<int>(s + 1), 1, 1.0);
-    double radiusSum = 0.0;
-    for (std::size_t i = 0; i < points; ++i)
-    {
-      const std::string meaning = "x y z r of control point " + std::to_string(i + 1) + " of " + strand;
-      const double x = reader.number(meaning);
-      const double y = reader.number(meaning);
-      const double z = reader.number(meaning);
-      const double r = reader.number(meaning);
-      fibres.addPoint({ x, y, z }, r);
-      radiusSum += r;
-    }
-    if (points > 0)
-    {
-      fibres.targetRadii.back() = radiusSum / static_cast<double>(points);
-    }
+    readStrand(reader, s + 1, strands, fibres);
   }
-  validate(fibres);
+  reader.finish("the last of " + std::to_string(strands) + " strand(s)");
+  try
+  {
+    validate(fibres);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput(name + ": " + error.what());
+  }
   return fibres;
+}
+
+Fibres readStrandFile(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file)
+  {
+    throw FileError("cannot open strand file " + path + ": " + std::strerror(errno));
+  }
+  return readStrandFile(file, path);
 }
 
 void writeStrandFile(const Fibres& fibres, const std::string& path)
@@ -133,17 +252,26 @@ void writeStrandFile(const Fibres& fibres, const std::string& path)
     throw InvalidInput(
       "a strand file can only hold a cube centred on the origin, and the Domain is something else: write .vtp instead");
   }
+  constexpr int digits = 9;
   AtomicFile file(path);
-  file.stream().precision(9);
-  file.stream() << side << '\n' << fibres.size() << '\n';
+  std::string part;
+  appendNumber(part, side, digits);
+  part += '\n' + std::to_string(fibres.size()) + '\n';
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    file.stream() << fibres.pointCount(f) << '\n';
+    part += std::to_string(fibres.pointCount(f)) + '\n';
     for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
     {
-      const Eigen::Vector3d& p = fibres.points[i];
-      file.stream() << p[0] << ' ' << p[1] << ' ' << p[2] << ' ' << fibres.radii[i] << '\n';
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        appendNumber(part, fibres.points[i][axis], digits);
+        part += ' ';
+      }
+      appendNumber(part, fibres.radii[i], digits);
+      part += '\n';
     }
+    file.stream().write(part.data(), static_cast<std::streamsize>(part.size()));
+    part.clear();
   }
   file.commit();
 }

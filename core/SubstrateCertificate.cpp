@@ -475,8 +475,8 @@ private:
     if (all.smallestGap < all.requiredGap && all.meetingPairs == 0)
     {
       all.faults.push_back("fibres " + std::to_string(all.gapFibreA) + " and " + std::to_string(all.gapFibreB) +
-                           " come as near as " + std::to_string(all.smallestGap) + " µm, less than MinimumGap " +
-                           std::to_string(all.requiredGap) + " µm");
+                           " come as near as " + text(all.smallestGap) + " µm, less than MinimumGap " +
+                           text(all.requiredGap) + " µm");
     }
   }
 

@@ -67,7 +67,7 @@ void requireClipped(const TriangleMesh& mesh, const Domain& domain, double toler
   {
     if (domain.depth(point) < -tolerance)
     {
-      throw InvalidInput(what + " reaches " + std::to_string(-domain.depth(point)) +
+      throw InvalidInput(what + " reaches " + text(-domain.depth(point)) +
                          " µm out of the domain, so that its volume is no fraction of it: turn on ClipToDomain in MyelinSurface, "
                          "or clip it with closed caps first");
     }

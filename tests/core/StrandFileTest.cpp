@@ -68,6 +68,96 @@ TEST(StrandFile, NamesWhatIsWrongAndWhere)
   EXPECT_THROW(cactus::readStrandFile(scratch("missing.strands")), cactus::FileError);
 }
 
+// Guarantee: what a file has too much, too little or in the wrong place is an error that names the line, never fewer fibres.
+TEST(StrandFile, TakesAllOfAFileOrRefusesIt)
+{
+  const auto strands = [](const std::string& header, int count)
+  {
+    std::string text = header;
+    for (int s = 0; s < count; ++s)
+    {
+      const std::string x = std::to_string(s);
+      text += "3\n" + x + " 0 0 0.5\n" + x + " 0 1 0.5\n" + x + " 0 2 0.5\n";
+    }
+    return text;
+  };
+  const auto expectAt = [](const std::string& line, const std::string& text)
+  { EXPECT_NE(messageOf(text).find("line " + line + ":"), std::string::npos) << messageOf(text); };
+  EXPECT_EQ(messageOf(strands("30\n23\n", 23)), "");
+  // Counts that say less, or more, than there is.
+  expectAt("23", strands("30\n5\n", 23));
+  EXPECT_NE(messageOf(strands("30\n24\n", 23)).find("after line 94"), std::string::npos);
+  // The first two lines exchanged, with sides below and above the number.
+  expectAt("15", strands("23\n3\n", 23));
+  EXPECT_NE(messageOf(strands("23\n30\n", 23)).find("after line 94"), std::string::npos);
+  expectAt("2", strands("23\n30.5\n", 23));
+  // Text after the end.
+  expectAt("95", strands("30\n23\n", 23) + "and so on\n");
+  expectAt("97", strands("30\n23\n", 23) + "\n \t\r\n3\n");
+  EXPECT_EQ(messageOf(strands("30\n23\n", 23) + "\n \t\r\n\n"), "");
+  // Counts that are no whole numbers, or beyond reason: none is believed.
+  for (const std::string count : { "2.5", "-1", "0", "nan", "inf", "1e300", "99999999999", "two", "2 2", "2x" })
+  {
+    expectAt("2", "30\n" + count + "\n2\n0 0 0 1\n0 0 1 1\n");
+    expectAt("3", "30\n1\n" + count + "\n0 0 0 1\n0 0 1 1\n");
+  }
+  expectAt("3", "30\n1\n1\n0 0 0 1\n");
+  EXPECT_NE(messageOf("30\n2000000000\n2\n0 0 0 1\n0 0 1 1\n").find("after line 5"), std::string::npos);
+  EXPECT_NE(messageOf("30\n1\n2000000000\n0 0 0 1\n0 0 1 1\n").find("after line 5"), std::string::npos);
+  // A value missing, or one too many: the line where it is, not where the numbers run out.
+  expectAt("4", "30\n1\n2\n0 0 0\n0 0 1 1\n1");
+  expectAt("5", "30\n1\n2\n0 0 0 1\n0 0 1 1 1\n");
+  expectAt("1", "30 1\n2\n0 0 0 1\n0 0 1 1\n");
+  for (const char* bad : { "0 0 1.2.3 1", "0 0 1-2 1", "0 0 1 1mm", "0 0 0,5 1", "0 0 1 0x", "0;0;1;1", "0 0 1e400 1" })
+  {
+    expectAt("5", std::string("30\n1\n2\n0 0 0 1\n") + bad + "\n");
+  }
+  expectAt("1", "0\n1\n2\n0 0 0 1\n0 0 1 1\n");
+}
+
+// Guarantee: a file is read whatever its line ends, with tabs, a byte order mark, and numbers in every usual form.
+TEST(StrandFile, ReadsWhatEditorsMakeOfIt)
+{
+  const std::string path = scratch("edited.strands");
+  for (const std::string end : { "\n", "\r\n", "\r", "  \n\n" })
+  {
+    for (const bool last : { true, false })
+    {
+      std::ofstream(path, std::ios::binary) << "\xef\xbb\xbf+30." << end << "1.0" << end << "\t2" << end << "1e-3\t+1.5 -.5\t1."
+                                            << end << "  .25 2E0 0x1p0 5e-1" << (last ? end : "");
+      const cactus::Fibres fibres = cactus::readStrandFile(path);
+      ASSERT_EQ(fibres.points.size(), 2u);
+      EXPECT_EQ(fibres.points[0], Eigen::Vector3d(1e-3, 1.5, -0.5));
+      EXPECT_EQ(fibres.points[1], Eigen::Vector3d(0.25, 2.0, 1.0));
+      EXPECT_EQ(fibres.radii, (std::vector<double>{ 1.0, 0.5 }));
+      EXPECT_EQ(fibres.domain.size()[0], 30.0);
+    }
+  }
+  std::filesystem::remove(path);
+}
+
+// Guarantee: what is no text file at all ends soon, with an error.
+TEST(StrandFile, RefusesWhatIsNoTextFile)
+{
+  const auto message = [](const std::string& path)
+  {
+    try
+    {
+      cactus::readStrandFile(path);
+    }
+    catch (const cactus::FileError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(::testing::TempDir()).find("cannot read"), std::string::npos) << message(::testing::TempDir());
+  if (std::filesystem::exists("/dev/zero"))
+  {
+    EXPECT_NE(message("/dev/zero").find("line 1"), std::string::npos);
+  }
+}
+
 // Guarantee: nothing half-written is left behind.
 TEST(StrandFile, LeavesNothingBehindWhereItCannotWrite)
 {
