@@ -4,6 +4,7 @@
 #include "Columns.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "Numbers.h"
 #include "InputBlocks.h"
 #include "SubstrateFolder.h"
 #include "SurfaceData.h"
