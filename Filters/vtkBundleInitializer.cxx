@@ -5,10 +5,10 @@
 #include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "Numbers.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
-
 
 vtkStandardNewMacro(vtkBundleInitializer);
 

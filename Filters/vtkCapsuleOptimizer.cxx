@@ -10,6 +10,7 @@
 #include "FibreShape.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
+#include "Numbers.h"
 #include "Ranks.h"
 #include "TrimToDomain.h"
 #include "WholeData.h"

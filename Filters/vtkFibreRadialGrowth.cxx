@@ -9,6 +9,7 @@
 #include "GrowthTarget.h"
 #include "InputBlocks.h"
 #include "Memory.h"
+#include "Numbers.h"
 #include "SubstrateStatistics.h"
 #include "WholeData.h"
 

@@ -6,6 +6,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "MyelinSurface.h"
+#include "Numbers.h"
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
 #include "WholeData.h"

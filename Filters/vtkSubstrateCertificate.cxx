@@ -17,7 +17,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkTable.h>
 
-
 vtkStandardNewMacro(vtkSubstrateCertificate);
 
 namespace

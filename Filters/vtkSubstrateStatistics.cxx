@@ -6,6 +6,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "Limits.h"
+#include "Numbers.h"
 #include "SubstrateStatistics.h"
 #include "SurfaceData.h"
 #include "WholeData.h"

@@ -6,6 +6,7 @@
 #include "FilterSupport.h"
 #include "Numbers.h"
 #include "InputBlocks.h"
+#include "Numbers.h"
 #include "SubstrateFolder.h"
 #include "SurfaceData.h"
 #include "WholeData.h"

@@ -470,13 +470,13 @@ private:
     fault(all.nestedPairs,
       "pairs of fibres lie inside one another" + this->first([](const Fibre& f) { return f.meetingFibres > 0 && f.gap != 0.0; }));
     fault(all.leavingInner, "inner surfaces leave their outer ones" + this->first([](const Fibre& f) { return f.innerLeaves; }));
-    fault(all.thinMyelin, "fibres have myelin thinner than the " + std::to_string(all.promisedGap) + " µm that it was made with" +
+    fault(all.thinMyelin, "fibres have myelin thinner than the " + text(all.promisedGap) + " µm that it was made with" +
                             this->first([&all](const Fibre& f) { return f.myelinThickness < all.promisedGap; }));
     if (all.smallestGap < all.requiredGap && all.meetingPairs == 0)
     {
       all.faults.push_back("fibres " + std::to_string(all.gapFibreA) + " and " + std::to_string(all.gapFibreB) +
-                           " come as near as " + text(all.smallestGap) + " µm, less than MinimumGap " +
-                           text(all.requiredGap) + " µm");
+                           " come as near as " + text(all.smallestGap) + " µm, less than MinimumGap " + text(all.requiredGap) +
+                           " µm");
     }
   }
 
