@@ -178,7 +178,8 @@ void readStrand(LineReader& reader, std::size_t number, std::size_t strands, Fib
   const std::size_t points = reader.count("the number of control points of " + strand);
   if (points < 2)
   {
-    reader.fail(strand + " has " + std::to_string(points) + " control point(s): a fibre needs at least two");
+    reader.fail("fibre " + std::to_string(number) + " (" + strand + ") has " + std::to_string(points) +
+                " control point(s): a fibre needs at least two");
   }
   fibres.addFibre(static_cast<int>(number), 1, 1.0);
   double radiusSum = 0.0;
@@ -213,7 +214,7 @@ Fibres readStrandFile(std::istream& stream, const std::string& name)
   const std::size_t strands = reader.count("the number of strands");
   if (strands == 0)
   {
-    reader.fail("the number of strands is 0: there is nothing to read");
+    reader.fail("the number of strands is 0: there are no fibres to read");
   }
   for (std::size_t s = 0; s < strands; ++s)
   {
