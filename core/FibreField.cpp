@@ -390,6 +390,7 @@ std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(int re
 std::vector<int> FibreField::columnsOf(const NodeRange& range) const
 {
   std::vector<int> columns;
+  columns.reserve(static_cast<std::size_t>(range.count[0]));
   for (int i = 0; i < range.count[0]; ++i)
   {
     columns.push_back(this->sampleOf(0, range.first[0] + i) - this->First[0]);
