@@ -93,7 +93,7 @@ class BundleInitializerTest(CactusTestCase):
             (r"MeanDispersion 45.* came to [34]\d", {"Side": 15, "MeanDispersion": 45}),
             (r"Side is -1", {"Side": -1}),
             (r"Side is nan", {"Side": float("nan")}),
-            (r"Side 1e\+07 .* GB", {"Side": 1e7}),
+            (r"Side 1e\+05 .* GB", {"Side": 1e5}),
             (r"Side gives", {"Side": 0.5}),
             (r"FibreVolumeFraction is 1", {"FibreVolumeFraction": 1}),
             (r"FibreVolumeFraction is 0", {"FibreVolumeFraction": 0}),
@@ -116,7 +116,7 @@ class BundleInitializerTest(CactusTestCase):
             (r"Margin is -1", {"Margin": -1}),
             (r"SpacingFactor is 0", {"SpacingFactor": 0}),
             (r"MinimumSpacing is 0", {"MinimumSpacing": 0}),
-            (r"MaximumSpacing is 0\.5", {"MaximumSpacing": 0.5}),
+            (r"MaximumSpacing 0\.5 is below", {"MaximumSpacing": 0.5}),
             (r"Seed is -1", {"Seed": -1}),
         ):
             with self.subTest(values=values):

@@ -155,8 +155,8 @@ class FibreRadialGrowthTest(CactusTestCase):
             growth.UpdatePipeline()
 
     def test_an_image_beyond_memory(self):
-        growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.0001)
-        with self.assertError(r"VoxelSize 0\.0001 .*GB"):
+        growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.001)
+        with self.assertError(r"VoxelSize 0\.001 .*GB"):
             growth.UpdatePipeline()
 
 

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run by the ParaView window when it starts: writes down, for every update of a stage, its name and how many points it has then."""
+
+import os
+
+from paraview import servermanager
+
+watched = {}
+
+
+def watch(*_):
+    session = servermanager.vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
+    for index in range(session.GetNumberOfProxies("sources")):
+        proxy = session.GetProxy("sources", session.GetProxyName("sources", index))
+        if proxy is None or proxy.GetGlobalID() in watched:
+            continue
+        watched[proxy.GetGlobalID()] = proxy
+
+        def note(*_, proxy=proxy):
+            algorithm = proxy.GetClientSideObject()
+            if algorithm:
+                with open(os.environ["CACTUS_WINDOW_NOTES"], "a") as file:
+                    file.write(f"{proxy.GetXMLName()} {algorithm.GetOutputDataObject(0).GetNumberOfPoints()}\n")
+
+        proxy.AddObserver("UpdateDataEvent", note)
+
+
+servermanager.vtkSMProxyManager.GetProxyManager().AddObserver("RegisterEvent", watch)
