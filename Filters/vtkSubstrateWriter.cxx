@@ -4,7 +4,6 @@
 #include "Columns.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
-#include "Numbers.h"
 #include "InputBlocks.h"
 #include "Numbers.h"
 #include "SubstrateFolder.h"
