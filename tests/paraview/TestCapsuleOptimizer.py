@@ -192,6 +192,25 @@ class Optimizer(CactusTestCase):
             self.assertEqual([iterations.GetValue(i) for i in range(25)], list(range(25)))
             with self.assertError("was written for other fibres or other parameters"):
                 fetch(CapsuleOptimizer(Input=bundle(Seed=2), CheckpointFile=path, Resume=1), 0)
+            # What is there is kept, whether a run is to go on from it or not: another run's, and what is no checkpoint at all.
+            with open(path, "rb") as file:
+                kept = file.read()
+            with self.assertError("was written for other fibres or other parameters, and is kept"):
+                fetch(CapsuleOptimizer(Input=bundle(Seed=2), CheckpointFile=path), 0)
+            with open(path, "rb") as file:
+                self.assertEqual(file.read(), kept)
+            with open(path, "wb") as file:
+                file.write(kept[:500] + b"x" + kept[501:])
+            with self.assertError("CheckpointFile .*run.checkpoint is damaged: remove it"):
+                fetch(CapsuleOptimizer(Input=bundle(), CheckpointFile=path, Resume=1), 0)
+            other = os.path.join(folder, "thesis.txt")
+            with open(other, "w") as file:
+                file.write("chapter 1")
+            with self.assertError("thesis.txt is not a checkpoint of this program, and is kept"):
+                fetch(CapsuleOptimizer(Input=bundle(), CheckpointFile=other), 0)
+            with open(other) as file:
+                self.assertEqual(file.read(), "chapter 1")
+            self.assertEqual(sorted(os.listdir(folder)), ["run.checkpoint", "thesis.txt"])
 
 
 if __name__ == "__main__":
