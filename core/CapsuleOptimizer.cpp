@@ -543,73 +543,73 @@ std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions&
 struct Run
 {
   Run(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads)
-    : State(fibres)
-    , Path(fibres, options, threads)
-    , BestPoints(fibres.points)
-    , BestRadii(fibres.radii)
+    : state(fibres)
+    , descent(fibres, options, threads)
+    , bestPoints(fibres.points)
+    , bestRadii(fibres.radii)
   {
   }
 
   /// Notes the state that was just measured.
   void note(const ConvergenceRow& row, double tolerance)
   {
-    if (row.overlapCost < this->BestCost || row.maximumPenetration <= tolerance)
+    if (row.overlapCost < this->bestCost || row.maximumPenetration <= tolerance)
     {
-      this->BestCost = row.overlapCost;
-      this->BestPoints = this->State.points;
-      this->BestRadii = this->State.radii;
+      this->bestCost = row.overlapCost;
+      this->bestPoints = this->state.points;
+      this->bestRadii = this->state.radii;
     }
     constexpr double share = 1.0 - progressShare;
-    if (row.overlapCost < share * this->LowestCost || row.maximumPenetration < share * this->LowestPenetration)
+    if (row.overlapCost < share * this->lowestCost || row.maximumPenetration < share * this->lowestPenetration)
     {
-      this->LastProgress = row.iteration;
-      this->LowestCost = std::min(this->LowestCost, row.overlapCost);
-      this->LowestPenetration = std::min(this->LowestPenetration, row.maximumPenetration);
+      this->lastProgress = row.iteration;
+      this->lowestCost = std::min(this->lowestCost, row.overlapCost);
+      this->lowestPenetration = std::min(this->lowestPenetration, row.maximumPenetration);
     }
   }
 
   void save(const std::string& path, std::uint64_t fingerprint) const
   {
-    CheckpointWriter file(path, { fingerprint, this->Iteration });
-    file.put(this->Seconds);
-    file.put(this->BestCost);
-    file.put(this->LowestCost);
-    file.put(this->LowestPenetration);
-    file.put(this->LastProgress);
-    for (const ConvergenceRow& row : this->Rows)
+    CheckpointWriter file(path, { fingerprint, this->iteration });
+    file.put(this->seconds);
+    file.put(this->bestCost);
+    file.put(this->lowestCost);
+    file.put(this->lowestPenetration);
+    file.put(this->lastProgress);
+    for (const ConvergenceRow& row : this->rows)
     {
       visit(row, [&](const auto& value) { file.put(value); });
     }
-    file.putAll(this->BestPoints);
-    file.putAll(this->BestRadii);
-    this->Path.save(file);
+    file.putAll(this->bestPoints);
+    file.putAll(this->bestRadii);
+    this->descent.save(file);
     file.commit();
   }
 
   void load(const std::string& path, std::uint64_t fingerprint)
   {
-    const auto count = static_cast<std::int64_t>(this->State.points.size());
+    const auto count = static_cast<std::int64_t>(this->state.points.size());
     CheckpointReader file(path, fingerprint);
     file.require(file.header().iteration >= 0 && file.header().iteration <= std::numeric_limits<int>::max());
-    this->Iteration = static_cast<int>(file.header().iteration);
-    file.get(this->Seconds);
-    file.get(this->BestCost);
-    file.get(this->LowestCost);
-    file.get(this->LowestPenetration);
-    file.get(this->LastProgress);
-    file.require(std::isfinite(this->Seconds) && this->BestCost >= 0.0 && this->LowestCost >= 0.0 &&
-                 this->LowestPenetration >= 0.0 && this->LastProgress >= 0 && this->LastProgress <= this->Iteration);
-    for (int i = 0; i < this->Iteration; ++i)
+    this->iteration = static_cast<int>(file.header().iteration);
+    file.get(this->seconds);
+    file.get(this->bestCost);
+    file.get(this->lowestCost);
+    file.get(this->lowestPenetration);
+    file.get(this->lastProgress);
+    file.require(std::isfinite(this->seconds) && this->bestCost >= 0.0 && this->lowestCost >= 0.0 &&
+                 this->lowestPenetration >= 0.0 && this->lastProgress >= 0 && this->lastProgress <= this->iteration);
+    for (int i = 0; i < this->iteration; ++i)
     {
       ConvergenceRow row;
       visit(row, [&](auto& value) { file.get(value); });
       file.require(row.iteration == i && std::isfinite(row.overlapCost) && row.maximumPenetration >= 0.0);
-      this->Rows.push_back(row);
+      this->rows.push_back(row);
     }
-    file.getAll(this->BestPoints, count);
-    file.getAll(this->BestRadii, count);
-    file.require(this->Path.couldBe(this->BestPoints, this->BestRadii));
-    this->Path.load(file);
+    file.getAll(this->bestPoints, count);
+    file.getAll(this->bestRadii, count);
+    file.require(this->descent.couldBe(this->bestPoints, this->bestRadii));
+    this->descent.load(file);
     file.finish();
   }
 
@@ -628,17 +628,17 @@ struct Run
     visitor(row.seconds);
   }
 
-  Fibres& State;
-  Descent Path;
-  int Iteration = 0;    ///< the next one
-  double Seconds = 0.0; ///< before this run
-  std::vector<ConvergenceRow> Rows;
-  std::vector<Eigen::Vector3d> BestPoints;
-  std::vector<double> BestRadii;
-  double BestCost = std::numeric_limits<double>::infinity();
-  double LowestCost = std::numeric_limits<double>::infinity(); ///< at the last step forward
-  double LowestPenetration = std::numeric_limits<double>::infinity();
-  int LastProgress = 0;
+  Fibres& state;
+  Descent descent;
+  int iteration = 0;    ///< the next one
+  double seconds = 0.0; ///< before this run
+  std::vector<ConvergenceRow> rows;
+  std::vector<Eigen::Vector3d> bestPoints;
+  std::vector<double> bestRadii;
+  double bestCost = std::numeric_limits<double>::infinity();
+  double lowestCost = std::numeric_limits<double>::infinity(); ///< at the last step forward
+  double lowestPenetration = std::numeric_limits<double>::infinity();
+  int lastProgress = 0;
 };
 
 /// Where a run is written down every now and then, and what is there already.
@@ -668,7 +668,7 @@ public:
   bool due(const Run& run) const
   {
     return !this->Path.empty() &&
-           ((!this->found() && !this->Written) || (run.Path.searchDue() && secondsSince(this->Latest) >= this->Interval));
+           ((!this->found() && !this->Written) || (run.descent.searchDue() && secondsSince(this->Latest) >= this->Interval));
   }
 
   /// Writes the run down, unless what is there has come further (the same run, from the beginning once more). That a later
@@ -676,7 +676,7 @@ public:
   void write(const Run& run, OptimisationResult& result)
   {
     this->Latest = Clock::now();
-    if (this->Path.empty() || run.Iteration < this->Reached)
+    if (this->Path.empty() || run.iteration < this->Reached)
     {
       return;
     }
@@ -719,7 +719,7 @@ bool shouldStop(const Run& run, const ConvergenceRow& row, const CapsuleOptimize
     reason = StopReason::MaximumIterations;
     return true;
   }
-  if (row.iteration - run.LastProgress >= patience)
+  if (row.iteration - run.lastProgress >= patience)
   {
     reason = StopReason::Stagnated;
     return true;
@@ -790,25 +790,25 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
       checkpoints.load(run);
     }
     double progress = 0.0;
-    for (;; ++run.Iteration)
+    for (;; ++run.iteration)
     {
       if (checkpoints.due(run))
       {
         checkpoints.write(run, result);
       }
-      ConvergenceRow row = run.Path.evaluate();
-      row.iteration = run.Iteration;
-      row.seconds = run.Seconds + secondsSince(start);
+      ConvergenceRow row = run.descent.evaluate();
+      row.iteration = run.iteration;
+      row.seconds = run.seconds + secondsSince(start);
       run.note(row, options.overlapTolerance);
       if (observe)
       {
         order.restore(state.points, fibres.points);
         order.restore(state.radii, fibres.radii);
-        observe(run.Iteration, fibres);
+        observe(run.iteration, fibres);
       }
-      if (run.Iteration % 10 == 0)
+      if (run.iteration % 10 == 0)
       {
-        const double first = run.Rows.empty() ? row.maximumPenetration : run.Rows.front().maximumPenetration;
+        const double first = run.rows.empty() ? row.maximumPenetration : run.rows.front().maximumPenetration;
         progress = std::max(progress, progressOf(row, first, options));
         context.report(progress, describe(row));
       }
@@ -816,20 +816,20 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
       if (last)
       {
         // Before this row is added: a run that goes on from here measures this state again.
-        run.Seconds = row.seconds;
+        run.seconds = row.seconds;
         checkpoints.write(run, result);
       }
-      run.Rows.push_back(row);
+      run.rows.push_back(row);
       if (last)
       {
         break;
       }
-      run.Path.step();
+      run.descent.step();
     }
-    run.Path.account(result);
-    result.convergence = std::move(run.Rows);
-    state.points = std::move(run.BestPoints);
-    state.radii = std::move(run.BestRadii);
+    run.descent.account(result);
+    result.convergence = std::move(run.rows);
+    state.points = std::move(run.bestPoints);
+    state.radii = std::move(run.bestRadii);
   }
   // The lists above reach only as far as the descent needs: what is handed back is measured afresh.
   const OverlapReport report = measureOverlap(state, options.overlapTolerance, threads);
