@@ -2,7 +2,6 @@
 #include "vtkCapsuleOptimizer.h"
 
 #include "CapsuleOptimizer.h"
-#include "Capsules.h"
 #include "Columns.h"
 #include "Context.h"
 #include "Error.h"
@@ -11,6 +10,7 @@
 #include "FilterSupport.h"
 #include "InputBlocks.h"
 #include "Numbers.h"
+#include "OverlapReport.h"
 #include "Ranks.h"
 #include "TrimToDomain.h"
 #include "WholeData.h"

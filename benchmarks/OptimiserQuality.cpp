@@ -8,8 +8,8 @@
 // optimiser in lower case (relaxation, momentum, smoothing, step, curvature, length, compactness, packing, margin, radius).
 #include "BundleInitializer.h"
 #include "CapsuleOptimizer.h"
-#include "Capsules.h"
 #include "FibreShape.h"
+#include "OverlapReport.h"
 #include "StrandFile.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BundleInitializer.h"
+#include "BundleInitializerOptions.h"
 #include "CirclePacking.h"
 
 #include <cstddef>

@@ -297,11 +297,6 @@ void requireDensity(const std::vector<Bundle>& bundles, const BundleInitializerO
 
 } // namespace
 
-bool isCoherent(const BundleInitializerOptions& options)
-{
-  return options.dispersionModel == DispersionModel::Coherent && options.numberOfBundles == 1;
-}
-
 Orientation orientationOf(const Bundle& bundle)
 {
   double angles = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "BundleInitializer.h"
+#include "BundleInitializerOptions.h"
 #include "BundleLayout.h"
 #include "Context.h"
 
@@ -11,9 +11,6 @@
 
 namespace cactus
 {
-
-/// Whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
-bool isCoherent(const BundleInitializerOptions& options);
 
 /// How a bundle's fibres lie to its nominal axis.
 struct Orientation

@@ -10,6 +10,7 @@
 #include "Memory.h"
 #include "NeighbourSearch.h"
 #include "OverlapCost.h"
+#include "OverlapReport.h"
 
 #include <algorithm>
 #include <chrono>

@@ -2,7 +2,7 @@
 // VectorKernels::evaluateCapsule for one vector unit. For VectorKernelsBody.h alone.
 #pragma once
 
-#include "OverlapCost.h"
+#include "CapsuleOverlap.h"
 #include "SegmentDistance.h"
 #include "VectorUnit.h"
 

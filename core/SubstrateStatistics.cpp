@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SubstrateStatistics.h"
 
-#include "Capsules.h"
 #include "CrossSection.h"
 #include "Error.h"
 #include "Limits.h"
+#include "OverlapReport.h"
 #include "Parallel.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "CapsuleOverlap.h"
 #include "Capsules.h"
-#include "OverlapCost.h"
 
 #include <cstddef>
 #include <cstdint>

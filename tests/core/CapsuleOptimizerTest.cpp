@@ -3,8 +3,8 @@
 
 #include "BundleBox.h"
 #include "BundleInitializer.h"
-#include "Capsules.h"
 #include "Error.h"
+#include "OverlapReport.h"
 #include "RandomBundle.h"
 #include "SegmentDistance.h"
 #include "TrimToDomain.h"

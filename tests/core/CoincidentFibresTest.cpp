@@ -4,6 +4,7 @@
 #include "Capsules.h"
 #include "NeighbourSearch.h"
 #include "OverlapCost.h"
+#include "OverlapReport.h"
 
 #include <gtest/gtest.h>
 
