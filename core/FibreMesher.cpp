@@ -49,6 +49,50 @@ bool sound(const SurfaceReport& report)
   return report.closedManifold() && report.outward();
 }
 
+/// Leaves the pieces of a surface that are to be kept, by their numbers, and of `faces`, where given, what belongs to their
+/// points.
+void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std::vector<std::uint32_t>& pieceOf,
+  const std::vector<char>& isKept)
+{
+  std::vector<std::array<std::int32_t, 3>> kept;
+  std::vector<std::int32_t> number(mesh.points.size(), -1);
+  for (std::size_t t = 0; t < pieceOf.size(); ++t)
+  {
+    if (isKept[pieceOf[t]])
+    {
+      kept.push_back(mesh.triangles[t]);
+      for (const std::int32_t p : mesh.triangles[t])
+      {
+        number[std::size_t(p)] = 0;
+      }
+    }
+  }
+  std::int32_t used = 0;
+  for (std::size_t p = 0; p < number.size(); ++p)
+  {
+    if (number[p] == 0)
+    {
+      number[p] = used;
+      mesh.points[std::size_t(used)] = mesh.points[p];
+      if (faces != nullptr)
+      {
+        (*faces)[std::size_t(used)] = (*faces)[p];
+      }
+      ++used;
+    }
+  }
+  mesh.points.resize(std::size_t(used));
+  if (faces != nullptr)
+  {
+    faces->resize(std::size_t(used));
+  }
+  for (auto& t : kept)
+  {
+    t = { { number[std::size_t(t[0])], number[std::size_t(t[1])], number[std::size_t(t[2])] } };
+  }
+  mesh.triangles = std::move(kept);
+}
+
 /// Leaves the pieces of a surface that enclose a positive volume, or nothing where it is no closed manifold, and measures what is
 /// left. Adds what goes (µm³) to `dropped`.
 SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
@@ -58,44 +102,22 @@ SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
   {
     return report;
   }
-  TriangleMesh kept;
-  if (report.closedManifold())
+  std::vector<std::uint32_t> pieceOf;
+  std::vector<double> volumes(checkSurface(mesh, &pieceOf).pieces.size(), 0.0);
+  for (std::size_t t = 0; report.closedManifold() && t < pieceOf.size(); ++t)
   {
-    std::vector<std::uint32_t> pieceOf;
-    std::vector<double> volumes(checkSurface(mesh, &pieceOf).pieces.size(), 0.0);
-    for (std::size_t t = 0; t < pieceOf.size(); ++t)
-    {
-      // About a point of the same piece, as checkSurface() does.
-      const Eigen::Vector3d& origin = mesh.points[std::size_t(report.pieces[pieceOf[t]])];
-      const auto corner = [&](std::size_t i) -> Eigen::Vector3d
-      { return mesh.points[std::size_t(mesh.triangles[t][i])] - origin; };
-      volumes[pieceOf[t]] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
-    }
-    std::vector<std::int32_t> number(mesh.points.size(), -1);
-    for (std::size_t t = 0; t < pieceOf.size(); ++t)
-    {
-      if (!(volumes[pieceOf[t]] > 0.0))
-      {
-        continue;
-      }
-      kept.triangles.push_back(mesh.triangles[t]);
-      for (std::int32_t& p : kept.triangles.back())
-      {
-        std::int32_t& place = number[std::size_t(p)];
-        if (place < 0)
-        {
-          place = static_cast<std::int32_t>(kept.points.size());
-          kept.points.push_back(mesh.points[std::size_t(p)]);
-        }
-        p = place;
-      }
-    }
-    for (const double volume : volumes)
-    {
-      dropped += volume > 0.0 ? 0.0 : -volume;
-    }
+    // About a point of the same piece, as checkSurface() does.
+    const Eigen::Vector3d& origin = mesh.points[std::size_t(report.pieces[pieceOf[t]])];
+    const auto corner = [&](std::size_t i) -> Eigen::Vector3d { return mesh.points[std::size_t(mesh.triangles[t][i])] - origin; };
+    volumes[pieceOf[t]] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
   }
-  mesh = std::move(kept);
+  std::vector<char> isKept;
+  for (const double volume : volumes)
+  {
+    isKept.push_back(volume > 0.0);
+    dropped += volume > 0.0 ? 0.0 : -volume;
+  }
+  keepPieces(mesh, nullptr, pieceOf, isKept);
   const SurfaceReport rest = checkSurface(mesh);
   if (!sound(rest))
   {
@@ -103,6 +125,25 @@ SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
     return SurfaceReport();
   }
   return rest;
+}
+
+/// Leaves the pieces of a surface that do not begin outside of another one.
+void keepInside(CappedSurface& surface, const TriangleTree& around)
+{
+  std::vector<std::uint32_t> pieceOf;
+  std::vector<char> isKept;
+  for (const std::int32_t point : checkSurface(surface.mesh, &pieceOf).pieces)
+  {
+    isKept.push_back(sideOf(around, surface.mesh.points[std::size_t(point)]) == Side::Inside);
+  }
+  keepPieces(surface.mesh, &surface.faces, pieceOf, isKept);
+}
+
+/// Whether all pieces of a surface that does not meet another one lie inside that.
+bool liesInside(const TriangleMesh& mesh, const SurfaceReport& report, const TriangleTree& around)
+{
+  return std::all_of(report.pieces.begin(), report.pieces.end(),
+    [&](std::int32_t point) { return sideOf(around, mesh.points[std::size_t(point)]) == Side::Inside; });
 }
 
 Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
@@ -264,23 +305,28 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   const double guess = std::max(double(depths[rank]), this->ThinnestMyelin);
   depths = {};
 
-  Inner best;
-  MyelinState state = this->solve(field, wanted, upper, guess, best);
-  if (state == MyelinState::NoAxon)
-  {
-    return;
-  }
   const TriangleTree outer(pair.outer);
+  const TriangleTree* within = nullptr;
+  Inner best;
+  MyelinState state = this->solve(field, wanted, upper, guess, within, best);
   const TriangleTree wall(pair.outer, this->wallOf(pair.outer));
   double leastStep = 0.1 * this->ThinnestMyelin;
-  while (true)
+  while (state != MyelinState::NoAxon)
   {
     const double volume = state == MyelinState::AsAsked ? wanted : best.volume;
     const bool isSound = this->finish(field, best.surface, best.level, volume, &outer, {}, pair.innerReport, pair);
     const TriangleMesh& inner = best.surface.mesh;
-    if (isSound && inner.triangles.empty())
+    if (isSound && (inner.triangles.empty() || (within != nullptr && !liesInside(inner, pair.innerReport, outer))))
     {
-      return;
+      state = MyelinState::NoAxon;
+      break;
+    }
+    if (isSound && !liesInside(inner, pair.innerReport, outer))
+    {
+      // The largest part of the axon lies in a part of the fibre that is not the largest, and was left out.
+      within = &outer;
+      state = this->solve(field, wanted, upper, guess, within, best);
+      continue;
     }
     const SurfaceGap gap = isSound ? smallestGap(TriangleTree(inner), wall, this->PromisedMyelin) : SurfaceGap();
     if (isSound && !gap.found())
@@ -291,12 +337,16 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
     state = MyelinState::Thicker;
     const double step = isSound ? std::max(this->PromisedMyelin - gap.distance, leastStep) : this->ThinnestMyelin;
     leastStep = isSound ? 2.0 * leastStep : leastStep;
-    best = this->innerAt(field, best.level + step);
+    best = this->innerAt(field, best.level + step, within);
     if (best.level > upper || !best.onePiece)
     {
-      pair.innerReport = SurfaceReport();
-      return;
+      state = MyelinState::NoAxon;
     }
+  }
+  if (state == MyelinState::NoAxon)
+  {
+    pair.innerReport = SurfaceReport();
+    return;
   }
   pair.inner = packed(std::move(best.surface.mesh));
   // By how much the volume was off before it was moved to what is wanted, was the level.
@@ -311,11 +361,15 @@ CappedSurface FibreMesher::contourAt(const NodeLattice& lattice, const SmoothedF
     lattice, field.blocks(), [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
 }
 
-FibreMesher::Inner FibreMesher::innerAt(const SmoothedField& field, double level) const
+FibreMesher::Inner FibreMesher::innerAt(const SmoothedField& field, double level, const TriangleTree* within) const
 {
   Inner inner;
   inner.level = level;
   inner.surface = this->contourAt(this->InnerLattice, field, level);
+  if (within != nullptr)
+  {
+    keepInside(inner.surface, *within);
+  }
   const double dropped = keepMainPart(inner.surface, this->smallestPiece());
   const SurfaceMeasure measured = measure(inner.surface);
   inner.volume = measured.volume;
@@ -324,8 +378,9 @@ FibreMesher::Inner FibreMesher::innerAt(const SmoothedField& field, double level
   return inner;
 }
 
-/// Looks for the level at which the axon has the wanted volume, from a first guess.
-MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const
+/// Looks for the level at which the axon, or what of it begins inside `within`, has the wanted volume, from a first guess.
+MyelinState FibreMesher::solve(
+  const SmoothedField& field, double wanted, double deepest, double guess, const TriangleTree* within, Inner& best) const
 {
   double lower = this->ThinnestMyelin; // here the axon is too large, or as large as may be
   double upper = deepest;              // here it is too small, or in pieces
@@ -336,7 +391,7 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
   // Newton's method: the volume falls by the area of the surface as the level rises; else bisection.
   for (int step = 0; step < 40; ++step)
   {
-    Inner inner = this->innerAt(field, level);
+    Inner inner = this->innerAt(field, level, within);
     const double error = inner.volume - wanted;
     // What is off by little, moveToVolume() makes up for; without coarsening it is not called.
     const double slack = this->Options.decimationError > 0.0 ? nearEnough * this->Spacing * inner.area : 0.0;
@@ -366,7 +421,7 @@ MyelinState FibreMesher::solve(const SmoothedField& field, double wanted, double
       // Squeezed in between a level that is too thin and one at which the axon breaks.
       if (!found && lower <= this->ThinnestMyelin)
       {
-        best = this->innerAt(field, lower);
+        best = this->innerAt(field, lower, within);
         found = best.onePiece;
       }
       state = broken ? MyelinState::Thinner : MyelinState::AsAsked;

@@ -51,8 +51,9 @@ private:
   struct Inner;
 
   CappedSurface contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const;
-  Inner innerAt(const SmoothedField& field, double level) const;
-  MyelinState solve(const SmoothedField& field, double wanted, double deepest, double guess, Inner& best) const;
+  Inner innerAt(const SmoothedField& field, double level, const TriangleTree* within) const;
+  MyelinState solve(
+    const SmoothedField& field, double wanted, double deepest, double guess, const TriangleTree* within, Inner& best) const;
   bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleTree* container,
     const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
   std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;

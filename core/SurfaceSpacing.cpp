@@ -318,6 +318,7 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
     {
       moving.push_back(entry.first);
       watch.isChanged[entry.first] = isMoved[entry.first] = 1;
+      watch.isGiven[entry.first] = 1; // large triangles may come nearer to a third one as they turn
     }
     parallelFor(moving.size(), context, [&](std::size_t m) { moveInwards(*surfaces[moving[m]], moves.at(moving[m]), box, gap); });
   }

@@ -31,7 +31,8 @@ struct SpacingReport
 /// It looks at one slab of `box` after the other, 10 µm thick along z, and holds search trees over that slab alone. How far a
 /// place is moved depends on what is missing of the gap within its slab.
 ///
-/// Only pairs with a surface among those in `changed` (increasing) are looked at: the others are taken to be apart, and stay so.
+/// Only pairs with a surface among those in `changed` (increasing), or one that is moved, are looked at: the others are taken to
+/// be apart.
 /// Progress runs from `from` to `to`. Throws Cancelled.
 SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double gap,
   const Eigen::AlignedBox3d& box, const Context& context = {}, double from = 0.0, double to = 1.0);

@@ -448,6 +448,90 @@ TEST(MyelinSurfaces, VoxelsOfAnySizeGiveSoundSurfacesOrNone)
   }
 }
 
+/// A small bundle and voxels about as large as its fibres.
+struct CoarseBundle
+{
+  double side;
+  std::uint64_t seed;
+  double dispersion;
+  DispersionModel model;
+  double voxelSize;
+  double gRatio;
+  int smoothing;
+  bool clips;
+};
+
+std::vector<FibreSurfacePair> surfacesOf(const CoarseBundle& coarse, double gap)
+{
+  BundleInitializerOptions bundle;
+  bundle.side = coarse.side;
+  bundle.seed = coarse.seed;
+  bundle.fibreVolumeFraction = 0.5;
+  bundle.meanDispersion = coarse.dispersion;
+  bundle.dispersionModel = coarse.model;
+  Fibres fibres = initialiseBundles(bundle);
+  optimise(fibres, {}, {});
+  fibres = trimToDomain(fibres);
+  FibreRadialGrowthOptions growth;
+  growth.voxelSize = coarse.voxelSize;
+  growth.targetFibreVolumeFraction = 0.9;
+  growth.minimumGap = gap;
+  growth.surfaceTolerance = 0.02;
+  fibres = aimAtTargetRadii(fibres, growth);
+  const LabelImage image = growFibres(fibres, growth, growthFor(fibres, growth), growthGrid(fibres.domain, growth));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = gap;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  MyelinSurfaceOptions options;
+  options.gRatio = coarse.gRatio;
+  options.decimationError = 0.0;
+  options.smoothingIterations = coarse.smoothing;
+  options.clipToDomain = coarse.clips;
+  return myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, options);
+}
+
+// What is not marked keeps to all that is promised. In the first bundle an axon's largest part lies in a part of its fibre that
+// is left out; in the second, surfaces that are moved apart come nearer to a third one.
+TEST(MyelinSurfaces, CoarseBundlesAreSoundOrMarked)
+{
+  constexpr double gap = 0.02;
+  const CoarseBundle bundles[] = { { 6.0, 28, 10.0, DispersionModel::Coherent, 1.5, 0.5, 9, false },
+    { 4.0, 14, 5.0, DispersionModel::Watson, 1.0, 0.9, 1, true } };
+  for (const CoarseBundle& bundle : bundles)
+  {
+    const auto pairs = surfacesOf(bundle, gap);
+    std::size_t unmarked = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+    {
+      SCOPED_TRACE(pairs[i].fibreId);
+      if (pairs[i].isFlawed || pairs[i].outer.triangles.empty())
+      {
+        continue;
+      }
+      ++unmarked;
+      const TriangleTree outer(pairs[i].outer);
+      EXPECT_TRUE(selfIntersections(outer).empty());
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        EXPECT_FALSE(smallestGap(outer, TriangleTree(pairs[j].outer), gap).found()) << pairs[j].fibreId;
+      }
+      if (!pairs[i].inner.triangles.empty())
+      {
+        EXPECT_FALSE(surfacesMeet(TriangleTree(pairs[i].inner), outer));
+        for (const std::int32_t point : pairs[i].innerReport.pieces)
+        {
+          EXPECT_EQ(sideOf(outer, pairs[i].inner.points[std::size_t(point)]), Side::Inside);
+        }
+      }
+    }
+    EXPECT_GT(unmarked, 3u);
+  }
+}
+
 TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
 {
   Meeting lost;
