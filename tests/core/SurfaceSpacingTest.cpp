@@ -171,16 +171,22 @@ TEST(SurfaceSpacing, SameBitsOnAnyNumberOfThreadsAndStops)
   EXPECT_THROW(keepApart({ &left, &right }, 0.02, box, context), Cancelled);
 }
 
-TEST(SurfaceSpacing, LooksOnlyAtWhatHasChanged)
+TEST(SurfaceSpacing, LooksOnlyAtWhatHasChangedOrIsMoved)
 {
+  TriangleMesh far = tube(-1.71, 0.2);
+  TriangleMesh near = tube(-1.3, 0.2);
   TriangleMesh left = tube(-0.5, 0.49);
   TriangleMesh middle = tube(0.5, 0.495);
   TriangleMesh right = tube(1.5, 0.49);
+  const std::vector<TriangleMesh*> all{ &far, &near, &left, &middle, &right };
+  const TriangleMesh oldFar = far;
   const TriangleMesh oldLeft = left;
-  const SpacingReport report = keepApart({ &left, &middle, &right }, { 2 }, 0.02, box);
-  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 1, 2 })) << "0 and 1 are too near, too, but none has changed";
-  EXPECT_EQ(left.points, oldLeft.points);
-  EXPECT_EQ(keepApart({ &left, &middle, &right }, { 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
+  EXPECT_EQ(keepApart(all, { 1 }, 0.005, box).moved, std::vector<std::size_t>{});
+  const SpacingReport report = keepApart(all, { 4 }, 0.02, box);
+  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 2, 3, 4 })) << "0 and 1 are too near, too, but neither has changed";
+  EXPECT_EQ(far.points, oldFar.points);
+  EXPECT_NE(left.points, oldLeft.points) << "3 has moved, and is too near to 2";
+  EXPECT_EQ(keepApart(all, { 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
 }
 
 /// The mesh with its axes moved on: what was along z lies along x.

@@ -209,6 +209,9 @@ class Certificate(CactusTestCase):
             spoil(data)
             return data
 
+        def corner(triangle, value):
+            return lambda data: data.GetPolys().GetConnectivityArray().SetComponent(3 * triangle, 0, value)
+
         def use_twice(data):
             corners = data.GetPolys().GetConnectivityArray()
             corners.SetComponent(30, 0, corners.GetComponent(31, 0))
@@ -226,6 +229,8 @@ class Certificate(CactusTestCase):
             (lambda data: data.GetPoints().SetPoint(7, *data.GetPoint(8)), r"not certified"),
             (use_twice, r"not certified: 1 surfaces are not closed"),
             (keep_one, r"not certified: 1 surfaces are not closed"),
+            (corner(5, 10**6), r"Outer.*points that do not exist"),
+            (corner(5, -3), r"Outer.*points that do not exist"),
         ):
             with self.assertError(message):
                 SubstrateCertificate(Outer=produce(spoilt(spoil))).UpdatePipeline()
