@@ -10,6 +10,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -62,6 +63,29 @@ vtkDataArray* cellScalars(vtkPolyData* input, const char* name)
   return array;
 }
 
+/// FibreId or BundleId of a block's cells: cell data or, for a block that is one fibre's surface (see vtkFibreField), one number
+/// in its field data.
+struct Ids
+{
+  vtkDataArray* perCell = nullptr;
+  vtkDataArray* ofBlock = nullptr;
+
+  bool isGiven() const { return this->perCell != nullptr || this->ofBlock != nullptr; }
+  int at(vtkIdType cell) const { return this->perCell != nullptr ? idFrom(this->perCell, cell) : idFrom(this->ofBlock, 0); }
+};
+
+Ids idsOf(vtkPolyData* input, const char* name)
+{
+  Ids ids;
+  ids.perCell = cellScalars(input, name);
+  vtkDataArray* array = input->GetFieldData()->GetArray(name);
+  if (array != nullptr && array->GetNumberOfTuples() == 1 && array->GetNumberOfComponents() == 1)
+  {
+    ids.ofBlock = array;
+  }
+  return ids;
+}
+
 void requireTriangles(vtkPolyData* input)
 {
   vtkCellArray* triangles = input->GetPolys();
@@ -81,10 +105,10 @@ void requireTriangles(vtkPolyData* input)
 void addSurfaces(vtkPolyData* input, std::size_t part, const std::string& port, int surface, std::map<int, Surface>& surfaces)
 {
   requireTriangles(input);
-  vtkDataArray* fibreId = cellScalars(input, "FibreId");
-  vtkDataArray* bundleId = cellScalars(input, "BundleId");
+  const Ids fibreId = idsOf(input, "FibreId");
+  const Ids bundleId = idsOf(input, "BundleId");
   vtkDataArray* kind = cellScalars(input, "Surface");
-  if (fibreId == nullptr)
+  if (!fibreId.isGiven())
   {
     throw InvalidInput("has no cell data FibreId, which tells whose surface each triangle is");
   }
@@ -95,12 +119,12 @@ void addSurfaces(vtkPolyData* input, std::size_t part, const std::string& port, 
       throw InvalidInput(text("holds ", surface == 0 ? "inner" : "outer", " surfaces (cell data Surface is ",
         kind->GetComponent(cell, 0), " in cell ", cell, "): connect MyelinSurface's port ", port));
     }
-    const int id = idFrom(fibreId, cell);
+    const int id = fibreId.at(cell);
     Surface& mine = surfaces[id];
     if (mine.runs.empty())
     {
       mine.part = part;
-      mine.bundleId = bundleId != nullptr ? idFrom(bundleId, cell) : 1;
+      mine.bundleId = bundleId.isGiven() ? bundleId.at(cell) : 1;
     }
     if (mine.part != part)
     {

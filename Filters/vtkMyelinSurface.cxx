@@ -5,21 +5,21 @@
 #include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "LabelImageData.h"
 #include "MyelinSurface.h"
 #include "Numbers.h"
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
+#include "SurfaceFaults.h"
+#include "VtkMeshing.h"
 #include "WholeData.h"
 
-#include <vtkCompositeDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
-#include <vtkMatrix3x3.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -34,107 +34,6 @@ vtkStandardNewMacro(vtkMyelinSurface);
 
 namespace
 {
-
-constexpr const char* advice = ": give the output of FibreRadialGrowth";
-
-vtkDataArray* fieldColumn(vtkImageData* image, const std::string& name)
-{
-  vtkDataArray* array = image->GetFieldData()->GetArray(name.c_str());
-  if (array == nullptr || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() < 1)
-  {
-    throw cactus::InvalidInput("the label image has no field data " + name + advice);
-  }
-  return array;
-}
-
-double fieldNumber(vtkImageData* image, const std::string& name)
-{
-  return fieldColumn(image, name)->GetComponent(0, 0);
-}
-
-std::vector<double> fieldValues(vtkImageData* image, const std::string& name)
-{
-  vtkDataArray* array = fieldColumn(image, name);
-  std::vector<double> values;
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-  {
-    values.push_back(array->GetComponent(i, 0));
-  }
-  return values;
-}
-
-std::vector<int> fieldIds(vtkImageData* image, const std::string& name)
-{
-  vtkDataArray* array = fieldColumn(image, name);
-  std::vector<int> ids;
-  for (vtkIdType row = 0; row < array->GetNumberOfTuples(); ++row)
-  {
-    ids.push_back(cactus::idFrom(array, row));
-  }
-  return ids;
-}
-
-/// The input as an image. Throws InvalidInput for anything else.
-vtkImageData* imageFrom(vtkDataObject* input)
-{
-  auto* image = vtkImageData::SafeDownCast(input);
-  if (input != nullptr && image == nullptr)
-  {
-    const bool isComposite = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
-    throw cactus::InvalidInput(std::string("the input is a ") + input->GetClassName() + ", and one label image is expected" +
-                               (isComposite ? ": group fibres before FibreRadialGrowth, not images after it" : advice));
-  }
-  if (image == nullptr || image->GetNumberOfPoints() == 0)
-  {
-    throw cactus::InvalidInput(std::string("the label image is empty") + advice);
-  }
-  return image;
-}
-
-/// The image's numbers where VTK keeps them.
-cactus::LabelImageView viewOf(vtkImageData* image)
-{
-  auto* fibreId = vtkIntArray::SafeDownCast(image->GetPointData()->GetArray("FibreId"));
-  auto* depth = vtkFloatArray::SafeDownCast(image->GetPointData()->GetArray("Depth"));
-  const vtkIdType points = image->GetNumberOfPoints();
-  if (fibreId == nullptr || fibreId->GetNumberOfComponents() != 1 || fibreId->GetNumberOfTuples() != points)
-  {
-    throw cactus::InvalidInput(std::string("the label image has no point data FibreId of 32-bit integers") + advice);
-  }
-  if (depth == nullptr || depth->GetNumberOfComponents() != 1 || depth->GetNumberOfTuples() != points)
-  {
-    throw cactus::InvalidInput(std::string("the label image has no point data Depth of 32-bit floating point numbers") + advice);
-  }
-  cactus::LabelImageView view;
-  const double* spacing = image->GetSpacing();
-  if (!std::isfinite(spacing[0]) || spacing[0] <= 0.0 || !Eigen::Vector3d(image->GetOrigin()).allFinite())
-  {
-    throw cactus::InvalidInput("the label image's Spacing or Origin is no length in µm: give the output of FibreRadialGrowth");
-  }
-  if (std::abs(spacing[1] - spacing[0]) > 1e-9 * spacing[0] || std::abs(spacing[2] - spacing[0]) > 1e-9 * spacing[0])
-  {
-    throw cactus::InvalidInput("the label image's voxels are no cubes: resample it, or use the output of FibreRadialGrowth");
-  }
-  const double* direction = image->GetDirectionMatrix()->GetData();
-  for (int i = 0; i < 9; ++i)
-  {
-    if (direction[i] != (i % 4 == 0 ? 1.0 : 0.0))
-    {
-      throw cactus::InvalidInput("the label image is turned (Direction): only images along the axes can be contoured");
-    }
-  }
-  view.grid.spacing = spacing[0];
-  view.grid.origin = Eigen::Vector3d(image->GetOrigin());
-  const int* extent = image->GetExtent();
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    view.grid.lower[axis] = extent[2 * axis];
-    view.grid.count[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-  }
-  view.fibreId = fibreId->GetPointer(0);
-  view.depth = depth->GetPointer(0);
-  return view;
-}
 
 void fillTable(vtkTable* table, const std::vector<cactus::FibreSurfacePair>& fibres)
 {
@@ -238,8 +137,18 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       options.decimationError = this->DecimationError;
       options.clipToDomain = this->ClipToDomain;
       options.seed = cactus::seedFrom(this->Seed);
+      if (this->Meshing != CACTUS_MESHING && this->Meshing != VTK_MESHING)
+      {
+        throw cactus::InvalidInput("Meshing must be CACTUS (0) or VTK filters (1)");
+      }
+      const bool byVtk = this->Meshing == VTK_MESHING;
+      if (byVtk)
+      {
+        options.smoothingIterations = 0;
+        options.decimationError = 0.0;
+      }
       cactus::validate(options);
-      auto* image = imageFrom(vtkDataObject::GetData(inputs[0]));
+      auto* image = cactus::requireImage(vtkDataObject::GetData(inputs[0]));
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         if (this->ReleaseInput)
@@ -248,27 +157,35 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
         }
         return;
       }
-      cactus::LabelImageView view = viewOf(image);
-      cactus::LabelImageFacts facts;
-      facts.domain = cactus::domainFrom(image);
-      facts.minimumGap = fieldNumber(image, "MinimumGap");
-      facts.surfaceTolerance = fieldNumber(image, "SurfaceTolerance");
-      facts.fibreIds = fieldIds(image, "FibreTable.FibreId");
-      facts.bundleIds = fieldIds(image, "FibreTable.BundleId");
-      facts.targetRadii = fieldValues(image, "FibreTable.TargetRadius");
-      if (image->GetFieldData()->HasArray("FibreTable.LengthInDomain"))
-      {
-        facts.lengths = fieldValues(image, "FibreTable.LengthInDomain");
-      }
-      view.gap = facts.minimumGap + 2.0 * facts.surfaceTolerance;
+      const cactus::LabelImageInput labels = cactus::labelImageFrom(image);
+      const cactus::LabelImageView& view = labels.view;
+      const cactus::LabelImageFacts& facts = labels.facts;
 
-      auto fibres = cactus::myelinSurfaces(view, facts, options, context);
+      cactus::SurfaceFilters filters;
+      if (byVtk)
+      {
+        filters =
+          cactus::surfaceFiltersOfVtk({ this->SincIterations, this->SincPassBand, this->TargetReduction }, view.grid.spacing);
+      }
+      auto fibres = cactus::myelinSurfaces(view, facts, options, context, byVtk ? &filters : nullptr);
+      if (byVtk)
+      {
+        cactus::markFaults(fibres, facts.domain, facts.minimumGap, context);
+      }
       cactus::TextStream parameters;
       parameters.precision(15);
       parameters << "GRatioModel=" << this->GRatioModel << " GRatio=" << this->GRatio
                  << " GRatioDeviation=" << this->GRatioDeviation << " TargetAxonVolumeFraction=" << this->TargetAxonVolumeFraction
-                 << " SmoothingIterations=" << this->SmoothingIterations << " DecimationError=" << this->DecimationError
                  << " ClipToDomain=" << this->ClipToDomain << " Seed=" << this->Seed;
+      if (byVtk)
+      {
+        parameters << " Meshing=VTK SincIterations=" << this->SincIterations << " SincPassBand=" << this->SincPassBand
+                   << " TargetReduction=" << this->TargetReduction;
+      }
+      else
+      {
+        parameters << " SmoothingIterations=" << this->SmoothingIterations << " DecimationError=" << this->DecimationError;
+      }
       for (int port = 0; port < 3; ++port)
       {
         vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
@@ -316,6 +233,10 @@ void vtkMyelinSurface::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "DecimationError: " << this->DecimationError << '\n'
      << indent << "ClipToDomain: " << this->ClipToDomain << '\n'
      << indent << "Seed: " << this->Seed << '\n'
+     << indent << "Meshing: " << (this->Meshing == VTK_MESHING ? "VTK filters" : "CACTUS") << '\n'
+     << indent << "SincIterations: " << this->SincIterations << '\n'
+     << indent << "SincPassBand: " << this->SincPassBand << '\n'
+     << indent << "TargetReduction: " << this->TargetReduction << '\n'
      << indent << "ReleaseInput: " << this->ReleaseInput << '\n'
      << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
 }

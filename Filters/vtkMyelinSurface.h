@@ -91,6 +91,42 @@ public:
   vtkGetMacro(Seed, int);
   ///@}
 
+  /** Values of Meshing. */
+  enum
+  {
+    CACTUS_MESHING = 0,
+    VTK_MESHING = 1
+  };
+
+  ///@{
+  /**
+   * What makes the surfaces: CACTUS_MESHING, core's own contouring, coarsening and spacing, with its guarantees; or VTK_MESHING,
+   * vtkFlyingEdges3D on each fibre's field, vtkWindowedSincPolyDataFilter and vtkQuadricDecimation, which promise nothing. What
+   * then is at fault is marked in the column `Flawed`. SmoothingIterations and DecimationError are of the first, the next three
+   * of the second.
+   */
+  vtkSetMacro(Meshing, int);
+  vtkGetMacro(Meshing, int);
+  ///@}
+
+  ///@{
+  /** Iterations of vtkWindowedSincPolyDataFilter (VTK_MESHING), 0 to 500; 0 leaves the contour as it is. */
+  vtkSetMacro(SincIterations, int);
+  vtkGetMacro(SincIterations, int);
+  ///@}
+
+  ///@{
+  /** Its pass band, above 0 to 2: the lower, the smoother. */
+  vtkSetMacro(SincPassBand, double);
+  vtkGetMacro(SincPassBand, double);
+  ///@}
+
+  ///@{
+  /** Part of the triangles that vtkQuadricDecimation takes away (VTK_MESHING), 0 to 0.99. */
+  vtkSetMacro(TargetReduction, double);
+  vtkGetMacro(TargetReduction, double);
+  ///@}
+
   ///@{
   /** Give the label image's memory back once the surfaces are made; what else needs the image makes it anew. */
   vtkSetMacro(ReleaseInput, bool);
@@ -127,6 +163,10 @@ private:
   double DecimationError = 0.005;
   bool ClipToDomain = true;
   int Seed = 1;
+  int Meshing = CACTUS_MESHING;
+  int SincIterations = 20;
+  double SincPassBand = 0.1;
+  double TargetReduction = 0.9;
   bool ReleaseInput = false;
   int NumberOfThreads = 0;
 };

@@ -417,7 +417,8 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out)
 }
 
 SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes)
-  : Lattice(field.lattice())
+  : Fibre(fibre)
+  , Lattice(field.lattice())
   , Blocks(std::move(blocks))
   , FirstNode(field.firstNode())
   , NodesPerLength(1.0 / field.image().grid.spacing)

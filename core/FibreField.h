@@ -88,6 +88,7 @@ class SmoothedField
 public:
   SmoothedField(const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes);
 
+  std::int32_t fibre() const { return this->Fibre; }
   const std::vector<std::uint32_t>& blocks() const { return this->Blocks; }
 
   /// The field less `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0 than
@@ -118,6 +119,7 @@ private:
   /// Copies what is held of a block, less `level` and kept off 0.
   void copyBlock(const std::vector<float>& held, double level, double smallest, const NodeRange& around, float* out) const;
 
+  std::int32_t Fibre;
   NodeLattice Lattice;
   std::vector<std::uint32_t> Blocks;
   Eigen::Vector3d FirstNode;          ///< µm

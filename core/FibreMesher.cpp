@@ -182,10 +182,11 @@ std::vector<Eigen::Vector3d> faults(const TriangleMesh& mesh, const TriangleTree
 
 } // namespace
 
-FibreMesher::FibreMesher(
-  const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context)
+FibreMesher::FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
+  const SurfaceFilters* filters, const Context& context)
   : Facts(facts)
   , Options(options)
+  , Filters(filters)
   , Field(image, facts.domain, options.clipToDomain)
   , Spacing(image.grid.spacing)
   , Inset(std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing))
@@ -214,7 +215,7 @@ void FibreMesher::makeOuter(
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
   const double highest = this->Withdrawal + deeper;
   double level = highest - usualPart * furthest;
-  CappedSurface surface = this->contourAt(this->OuterLattice, field, level);
+  CappedSurface surface = this->contourAt(0.0, field, level);
   pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
   if (surface.mesh.triangles.empty())
   {
@@ -234,7 +235,7 @@ void FibreMesher::makeOuter(
     if (std::abs(right - level) > rest)
     {
       level = right;
-      surface = this->contourAt(this->OuterLattice, field, level);
+      surface = this->contourAt(0.0, field, level);
       pair.droppedVolume = keepMainPart(surface, this->smallestPiece());
       now = measure(surface);
     }
@@ -309,6 +310,12 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   const TriangleTree* within = nullptr;
   Inner best;
   MyelinState state = this->solve(field, wanted, upper, guess, within, best);
+  if (this->Filters != nullptr && state != MyelinState::NoAxon)
+  {
+    this->finishByFilters(field, state == MyelinState::AsAsked ? wanted : best.volume, best, pair);
+    pair.state = pair.inner.triangles.empty() ? MyelinState::NoAxon : state;
+    return;
+  }
   const TriangleTree wall(pair.outer, this->wallOf(pair.outer));
   double leastStep = 0.1 * this->ThinnestMyelin;
   while (state != MyelinState::NoAxon)
@@ -355,17 +362,57 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
 }
 
-CappedSurface FibreMesher::contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const
+/// Coarsens an inner surface by somebody else's filters. These change its volume, so it is made again at other levels until it is
+/// the one wanted. What is wrong with it is only marked.
+void FibreMesher::finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const
 {
-  return contour(
-    lattice, field.blocks(), [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
+  double error = 0.0;
+  for (int round = 0; round < 4; ++round)
+  {
+    if (round > 0)
+    {
+      const Inner next = this->innerAt(field, std::max(best.level + error / best.area, this->ThinnestMyelin), nullptr);
+      if (!next.onePiece)
+      {
+        break;
+      }
+      best = next;
+    }
+    CappedSurface surface = best.surface;
+    pair.isFlawed = !this->finish(field, surface, best.level, wanted, nullptr, {}, pair.innerReport, pair) || pair.isFlawed;
+    pair.inner = packed(std::move(surface.mesh));
+    error = pair.innerReport.volume - wanted;
+    if (std::abs(error) <= volumeTolerance * wanted)
+    {
+      break;
+    }
+  }
+  pair.thickness = best.level - pair.outerLevel;
+  pair.gRatio = pair.outerReport.volume > 0.0 ? std::sqrt(std::max(0.0, pair.innerReport.volume) / pair.outerReport.volume) : 0.0;
+}
+
+CappedSurface FibreMesher::contourAt(double inset, const SmoothedField& field, double level) const
+{
+  if (this->Filters != nullptr)
+  {
+    if (field.blocks().empty())
+    {
+      return {};
+    }
+    const Domain& box = this->Field.box();
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(inset);
+    return this->Filters->contour(fibreImage(this->Field, field.fibre(), field.blocks(), level, inset), level,
+      Eigen::AlignedBox3d(box.lower + margin, box.upper - margin));
+  }
+  return contour(inset > 0.0 ? this->InnerLattice : this->OuterLattice, field.blocks(),
+    [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
 }
 
 FibreMesher::Inner FibreMesher::innerAt(const SmoothedField& field, double level, const TriangleTree* within) const
 {
   Inner inner;
   inner.level = level;
-  inner.surface = this->contourAt(this->InnerLattice, field, level);
+  inner.surface = this->contourAt(this->Inset, field, level);
   if (within != nullptr)
   {
     keepInside(inner.surface, *within);
@@ -443,6 +490,12 @@ MyelinState FibreMesher::solve(
 bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
   const TriangleTree* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
 {
+  if (this->Filters != nullptr)
+  {
+    this->Filters->finish(surface);
+    report = checkSurface(surface.mesh);
+    return sound(report) && faults(surface.mesh, container).empty();
+  }
   const double error = this->Options.decimationError;
   SurfaceDecimationOptions decimation;
   decimation.calm = calm;

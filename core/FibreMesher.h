@@ -4,6 +4,7 @@
 #include "FibreField.h"
 #include "MyelinSurface.h"
 #include "SurfaceDecimation.h"
+#include "SurfaceFilters.h"
 #include "TriangleTree.h"
 
 #include <Eigen/Core>
@@ -18,10 +19,10 @@ namespace cactus
 class FibreMesher
 {
 public:
-  /// What is given has to outlive the mesher, but for the context. Throws InvalidInput where the image is not a proper one, and
-  /// Cancelled.
-  FibreMesher(
-    const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context = {});
+  /// What is given has to outlive the mesher, except the context. With `filters` these contour the fields and coarsen what comes
+  /// out. Throws InvalidInput where the image is not a proper one, and Cancelled.
+  FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
+    const SurfaceFilters* filters = nullptr, const Context& context = {});
 
   const FibreField& field() const { return this->Field; }
 
@@ -50,12 +51,13 @@ public:
 private:
   struct Inner;
 
-  CappedSurface contourAt(const NodeLattice& lattice, const SmoothedField& field, double level) const;
+  CappedSurface contourAt(double inset, const SmoothedField& field, double level) const;
   Inner innerAt(const SmoothedField& field, double level, const TriangleTree* within) const;
   MyelinState solve(
     const SmoothedField& field, double wanted, double deepest, double guess, const TriangleTree* within, Inner& best) const;
   bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleTree* container,
     const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
+  void finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const;
   std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
@@ -68,6 +70,7 @@ private:
 
   const LabelImageFacts& Facts;
   const MyelinSurfaceOptions& Options;
+  const SurfaceFilters* Filters; ///< null for core's own means
   FibreField Field;
   double Spacing;
   double Inset; ///< of the inner surfaces' caps

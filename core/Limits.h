@@ -112,6 +112,11 @@ inline constexpr Range targetAxonFraction{ 1e-4, 0.999 };
 /// Passes blur by the square root of half their number, at most 3.2 voxels, and take on average passes · spacing² / (4 r) off a
 /// round fibre of radius r: more than half the volume of the thinnest ones that are smoothed in full.
 inline constexpr Range smoothingIterations{ 0.0, 20.0 };
+/// Of VTK's windowed sinc filter, whose own advice is 10 to 20 iterations; a pass band of 2 lets everything through.
+inline constexpr Range sincIterations{ 0.0, 500.0 };
+inline constexpr Range sincPassBand{ 1e-4, 2.0 };
+/// Part of the triangles that VTK's quadric decimation takes away.
+inline constexpr Range targetReduction{ 0.0, 0.99 };
 
 // SubstrateStatistics and SubstrateCertificate.
 

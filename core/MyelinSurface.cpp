@@ -145,8 +145,8 @@ void validate(const MyelinSurfaceOptions& options)
   requireWithin("DecimationError", options.decimationError, limits::surfaceTolerance);
 }
 
-std::vector<FibreSurfacePair> myelinSurfaces(
-  const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context)
+std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const LabelImageFacts& facts,
+  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters)
 {
   validate(options);
   requireWithin("MinimumGap of the label image", facts.minimumGap, limits::gap);
@@ -156,7 +156,7 @@ std::vector<FibreSurfacePair> myelinSurfaces(
     throw InvalidInput(text("DecimationError ", options.decimationError, " is more than the room of ", facts.surfaceTolerance,
       " µm that growth left for moving surfaces: choose a smaller one, or raise SurfaceTolerance in FibreRadialGrowth"));
   }
-  const FibreMesher mesher(image, facts, options, context);
+  const FibreMesher mesher(image, facts, options, filters, context);
   const auto blocksOf = mesher.field().findFibres(options.smoothingIterations, context);
   std::vector<FibreSurfacePair> pairs = fibresOf(facts, blocksOf);
   static const Blocks none;
@@ -194,7 +194,10 @@ std::vector<FibreSurfacePair> myelinSurfaces(
     },
     "making outer surfaces", 0.05, 0.45);
 
-  spaceOut(mesher, blocks, std::max(facts.minimumGap, leastSeparation), options.decimationError > 0.0, pairs, context);
+  if (filters == nullptr)
+  {
+    spaceOut(mesher, blocks, std::max(facts.minimumGap, leastSeparation), options.decimationError > 0.0, pairs, context);
+  }
 
   const auto makeInner = [&]
   {

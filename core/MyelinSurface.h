@@ -6,6 +6,7 @@
 #include "FibreField.h"
 #include "GRatio.h"
 #include "SurfaceCheck.h"
+#include "SurfaceFilters.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -109,10 +110,16 @@ struct FibreSurfacePair
 /// piece of a surface that encloses no positive volume, as of a fibre of a voxel or two, is left out.
 ///
 /// A fibre that leaves the box through a face and comes back has a piece for each stay; of other pieces the largest is kept (see
-/// keepMainPart()). Throws InvalidInput (options; an image that is not valid; a fibre in the image that
+/// keepMainPart()).
+///
+/// With `filters` these contour the fields, unsmoothed, and coarsen what comes out, in place of all this; surfaces are then not
+/// mended and not moved apart. What is wrong with a surface by itself is marked (isFlawed); what is wrong between two is for the
+/// certificate to find, see markFaults().
+///
+/// Throws InvalidInput (options; an image that is not valid; a fibre in the image that
 /// is not in the table; decimationError above the tolerance), Infeasible (a target fraction that cannot be met), Cancelled.
-std::vector<FibreSurfacePair> myelinSurfaces(
-  const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options, const Context& context = {});
+std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const LabelImageFacts& facts,
+  const MyelinSurfaceOptions& options, const Context& context = {}, const SurfaceFilters* filters = nullptr);
 
 /// How many fibres did not come out as asked, in what way, and what to do about it, in one sentence; empty where all did. Fibres
 /// that pass by outside the domain are not missed.

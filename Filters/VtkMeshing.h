@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces by VTK's own filters: flying edges, windowed sinc smoothing and quadric decimation.
+#pragma once
+
+#include "CappedSurface.h"
+#include "FibreImage.h"
+#include "SurfaceFilters.h"
+
+namespace cactus
+{
+
+/// Parameters of the three filters.
+struct VtkMeshingOptions
+{
+  int sincIterations = 20;      ///< of vtkWindowedSincPolyDataFilter; 0 leaves the contour as it is
+  double sincPassBand = 0.1;    ///< in (0, 2]: the lower, the smoother
+  double targetReduction = 0.9; ///< part of the triangles that vtkQuadricDecimation removes, in [0, 1); 0 leaves them all
+};
+
+/// Throws InvalidInput, naming the property, for a value out of range.
+void validate(const VtkMeshingOptions& options);
+
+/// The closed surface on which an image's field is `level` (µm), oriented outwards, by vtkFlyingEdges3D. Points within a
+/// thousandth of a voxel of a face of `box` (µm), where its caps are, lie in that face afterwards and are marked so. May be
+/// called from several threads at once.
+CappedSurface contourByVtk(const FibreImage& image, double level, const Eigen::AlignedBox3d& box);
+
+/// Smooths a surface by vtkWindowedSincPolyDataFilter and coarsens it by vtkQuadricDecimation. Caps stay in their faces, other
+/// points inside the box. Nothing else is promised: surfaces may come to meet themselves or each other. May be called from
+/// several threads at once.
+void finishByVtk(CappedSurface& surface, const VtkMeshingOptions& options, double spacing);
+
+/// Both of them, for myelinSurfaces() on a label image with voxels of `spacing` µm. Throws as validate().
+SurfaceFilters surfaceFiltersOfVtk(const VtkMeshingOptions& options, double spacing);
+
+} // namespace cactus

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFibreField.h"
+
+#include "Columns.h"
+#include "Error.h"
+#include "FibreData.h"
+#include "FibreImage.h"
+#include "FilterSupport.h"
+#include "LabelImageData.h"
+#include "Limits.h"
+#include "Parallel.h"
+#include "WholeData.h"
+
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkFibreField);
+
+namespace
+{
+
+/// Blocks are looked for this many voxels around a fibre, so that its surface lies inside them.
+constexpr int reach = 2;
+constexpr cactus::Range levels{ -1.0, 1000.0, " µm" };
+
+/// A fibre of the label image's table.
+struct Chosen
+{
+  int fibreId = 0;
+  int bundleId = 0;
+};
+
+std::vector<Chosen> choose(const cactus::LabelImageFacts& facts, int select, int fibreId, int bundleId)
+{
+  std::vector<Chosen> chosen;
+  for (std::size_t i = 0; i < facts.fibreIds.size(); ++i)
+  {
+    const bool isChosen = select == vtkFibreField::ALL_FIBRES ||
+                          (select == vtkFibreField::ONE_FIBRE && facts.fibreIds[i] == fibreId) ||
+                          (select == vtkFibreField::ONE_BUNDLE && facts.bundleIds[i] == bundleId);
+    if (isChosen)
+    {
+      chosen.push_back({ facts.fibreIds[i], facts.bundleIds[i] });
+    }
+  }
+  if (chosen.empty())
+  {
+    const bool oneFibre = select == vtkFibreField::ONE_FIBRE;
+    const auto& ids = oneFibre ? facts.fibreIds : facts.bundleIds;
+    throw cactus::InvalidInput(std::string(oneFibre ? "FibreId " : "BundleId ") + std::to_string(oneFibre ? fibreId : bundleId) +
+                               " is not in the label image, whose ids go from " +
+                               std::to_string(*std::min_element(ids.begin(), ids.end())) + " to " +
+                               std::to_string(*std::max_element(ids.begin(), ids.end())));
+  }
+  std::sort(chosen.begin(), chosen.end(), [](const Chosen& a, const Chosen& b) { return a.fibreId < b.fibreId; });
+  return chosen;
+}
+
+vtkSmartPointer<vtkImageData> imageFrom(const cactus::FibreImage& image)
+{
+  const cactus::VoxelGrid& grid = image.grid;
+  const auto field = cactus::makeArray<vtkFloatArray>("Field", image.values.size());
+  std::copy(image.values.begin(), image.values.end(), field->GetPointer(0));
+  auto data = vtkSmartPointer<vtkImageData>::New();
+  const Eigen::Vector3d origin = grid.position(grid.lower[0], grid.lower[1], grid.lower[2]);
+  data->SetDimensions(grid.count[0], grid.count[1], grid.count[2]);
+  data->SetOrigin(origin[0], origin[1], origin[2]);
+  data->SetSpacing(grid.spacing, grid.spacing, grid.spacing);
+  data->GetPointData()->SetScalars(field);
+  return data;
+}
+
+} // namespace
+
+int vtkFibreField::FillInputPortInformation(int, vtkInformation* info)
+{
+  cactus::acceptAnyData(info);
+  return 1;
+}
+
+int vtkFibreField::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  cactus::requestWholeInputs(inputs, 1);
+  vtkInformation* info = inputs[0]->GetInformationObject(0);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  int extent[6];
+  if (info->Has(Pipeline::WHOLE_EXTENT()))
+  {
+    info->Get(Pipeline::WHOLE_EXTENT(), extent);
+    info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  }
+  return 1;
+}
+
+int vtkFibreField::ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
+int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return cactus::guarded(this,
+    [&]
+    {
+      const cactus::Context context = cactus::contextFor(this, this->NumberOfThreads);
+      if (this->Select < ONE_FIBRE || this->Select > ALL_FIBRES)
+      {
+        throw cactus::InvalidInput("Select must be One fibre (0), One bundle (1) or All fibres (2)");
+      }
+      cactus::requireWithin("Level", this->Level, levels);
+      if (!cactus::ownsWholeOutput(request, outputs))
+      {
+        return;
+      }
+      const cactus::LabelImageInput labels = cactus::labelImageFrom(vtkDataObject::GetData(inputs[0]));
+      const cactus::FibreField field(labels.view, labels.facts.domain, this->ClipToDomain);
+      const auto blocksOf = field.findFibres(reach, context);
+      const std::vector<Chosen> chosen = choose(labels.facts, this->Select, this->FibreId, this->BundleId);
+
+      auto* output = vtkMultiBlockDataSet::GetData(outputs);
+      output->SetNumberOfBlocks(static_cast<unsigned>(chosen.size()));
+      std::vector<vtkSmartPointer<vtkImageData>> images(chosen.size());
+      cactus::parallelFor(
+        chosen.size(), context,
+        [&](std::size_t i)
+        {
+          const auto blocks = blocksOf.find(chosen[i].fibreId);
+          if (blocks != blocksOf.end())
+          {
+            images[i] = imageFrom(cactus::fibreImage(field, chosen[i].fibreId, blocks->second, this->Level));
+          }
+        },
+        "sampling fibres");
+      const std::string parameters = cactus::text("Level=", this->Level, " ClipToDomain=", this->ClipToDomain);
+      std::size_t missing = 0;
+      for (std::size_t i = 0; i < chosen.size(); ++i)
+      {
+        const auto block = static_cast<unsigned>(i);
+        output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), ("fibre " + std::to_string(chosen[i].fibreId)).c_str());
+        if (images[i] == nullptr)
+        {
+          ++missing;
+          continue;
+        }
+        cactus::addCount(images[i]->GetFieldData(), "FibreId", chosen[i].fibreId);
+        cactus::addCount(images[i]->GetFieldData(), "BundleId", chosen[i].bundleId);
+        cactus::addProvenance(labels.image, images[i], "FibreField", parameters);
+        cactus::setDomain(images[i], labels.facts.domain);
+        output->SetBlock(block, images[i]);
+      }
+      cactus::setDomain(output, labels.facts.domain);
+      if (missing > 0)
+      {
+        vtkWarningMacro(<< missing << " of " << chosen.size()
+                        << " fibres have no voxel in the label image: their blocks are empty");
+      }
+    });
+}
+
+void vtkFibreField::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Select: " << this->Select << '\n'
+     << indent << "FibreId: " << this->FibreId << '\n'
+     << indent << "BundleId: " << this->BundleId << '\n'
+     << indent << "Level: " << this->Level << '\n'
+     << indent << "ClipToDomain: " << this->ClipToDomain << '\n'
+     << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+}
