@@ -110,7 +110,8 @@ void addSurfaces(vtkPolyData* input, std::size_t part, const std::string& port, 
   vtkDataArray* kind = cellScalars(input, "Surface");
   if (!fibreId.isGiven())
   {
-    throw InvalidInput("has no cell data FibreId, which tells whose surface each triangle is");
+    throw InvalidInput("has no cell data FibreId, which tells whose surface each triangle is (nor field data FibreId, as a block "
+                       "of one fibre may have)");
   }
   for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
   {

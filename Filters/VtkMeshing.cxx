@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VtkMeshing.h"
 
+#include "Error.h"
 #include "Limits.h"
 
 #include <vtkCellArray.h>
@@ -108,6 +109,11 @@ void smooth(CappedSurface& surface, const VtkMeshingOptions& options)
   {
     Eigen::Vector3d to;
     sinc->GetOutput()->GetPoint(static_cast<vtkIdType>(i), to.data());
+    if (!((to - surface.mesh.points[i]).norm() <= surface.box.diagonal().norm()))
+    {
+      throw InvalidInput(text("SincPassBand ", options.sincPassBand, " is too small for SincIterations ", options.sincIterations,
+        ": VTK's filter throws points out of the domain; choose a larger pass band, or more iterations"));
+    }
     Eigen::Vector3d& p = surface.mesh.points[i];
     to = keptInside(surface.box, p, to, 0.0);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -125,7 +131,14 @@ void coarsen(CappedSurface& surface, const VtkMeshingOptions& options, double sp
   decimation->SetTargetReduction(options.targetReduction);
   decimation->VolumePreservationOn();
   decimation->Update();
-  surface.mesh = meshFrom(decimation->GetOutput());
+  TriangleMesh coarse = meshFrom(decimation->GetOutput());
+  const bool isFinite =
+    std::all_of(coarse.points.begin(), coarse.points.end(), [](const Eigen::Vector3d& p) { return p.allFinite(); });
+  if (!isFinite)
+  {
+    return;
+  }
+  surface.mesh = std::move(coarse);
   for (Eigen::Vector3d& p : surface.mesh.points)
   {
     p = p.cwiseMax(surface.box.min()).cwiseMin(surface.box.max());
@@ -183,6 +196,10 @@ CappedSurface contourByVtk(const FibreImage& image, double level, const Eigen::A
 
 void finishByVtk(CappedSurface& surface, const VtkMeshingOptions& options, double spacing)
 {
+  if (surface.mesh.triangles.empty())
+  {
+    return; // which the filters would report as an error
+  }
   if (options.sincIterations > 0)
   {
     smooth(surface, options);

@@ -33,7 +33,7 @@ namespace
 
 /// Blocks are looked for this many voxels around a fibre, so that its surface lies inside them.
 constexpr int reach = 2;
-constexpr cactus::Range levels{ -1.0, 1000.0, " µm" };
+constexpr cactus::Range levels{ 0.0, 1000.0, " µm" };
 
 /// A fibre of the label image's table.
 struct Chosen
@@ -125,6 +125,9 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
         return;
       }
       const cactus::LabelImageInput labels = cactus::labelImageFrom(vtkDataObject::GetData(inputs[0]));
+      cactus::requireWithin("MinimumGap of the label image", labels.facts.minimumGap, cactus::limits::gap);
+      cactus::requireWithin(
+        "SurfaceTolerance of the label image", labels.facts.surfaceTolerance, cactus::limits::surfaceTolerance);
       const cactus::FibreField field(labels.view, labels.facts.domain, this->ClipToDomain);
       const auto blocksOf = field.findFibres(reach, context);
       const std::vector<Chosen> chosen = choose(labels.facts, this->Select, this->FibreId, this->BundleId);

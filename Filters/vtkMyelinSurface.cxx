@@ -192,7 +192,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
         cactus::setDomain(output, facts.domain);
         cactus::addProvenance(image, output, "MyelinSurface", parameters.str());
       }
-      const std::string remarks = cactus::notAsAsked(fibres, view, facts);
+      const std::string remarks = cactus::notAsAsked(fibres, view, facts, byVtk);
       if (this->ReleaseInput)
       {
         releaseImage(this);

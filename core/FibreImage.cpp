@@ -2,6 +2,7 @@
 #include "FibreImage.h"
 
 #include "Error.h"
+#include "Memory.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,22 @@ namespace cactus
 
 namespace
 {
+
+/// Contours keep off the samples beyond a face by this part of a voxel, since what is at the level counts as inside.
+constexpr double leastAcross = 1e-4;
+/// Bytes per sample: in the image, and where a contour is made of it.
+constexpr double bytesPerSample = 12.0;
+
+/// The number nearest to `value` that is below `level`.
+float below(double value, double level)
+{
+  auto result = static_cast<float>(value);
+  while (double(result) >= level)
+  {
+    result = std::nextafter(std::min(result, static_cast<float>(level)), -std::numeric_limits<float>::infinity());
+  }
+  return result;
+}
 
 /// Nodes of the lattice that the blocks hold, with one more on every side.
 NodeRange rangeOf(const NodeLattice& lattice, const std::vector<std::uint32_t>& blocks)
@@ -47,20 +64,20 @@ struct Face
 };
 
 /// What lies beyond the outermost sample, by how far out the cap is: a linear contour through the two values around it crosses
-/// `level` at the cap.
+/// `level` at the cap, or a little before.
 float beyond(float inside, const Face& face, int layer, double level, double spacing)
 {
   if (double(inside) <= level)
   {
     return inside;
   }
-  const double part = face.distance - (face.layers - 1);
   if (layer + 1 < face.layers)
   {
     return inside;
   }
-  const double across = (double(inside) - level) * (1.0 - part) / part;
-  return static_cast<float>(level - std::max(across, 1e-3 * spacing));
+  const double part = face.distance - (face.layers - 1); // at least a twentieth, see FibreField::lattice(), or in a second layer
+  const double across = (double(inside) - level) * std::max((1.0 - part) / part, leastAcross);
+  return below(level - std::max(across, 0.1 * leastAcross * spacing), level);
 }
 
 } // namespace
@@ -69,6 +86,7 @@ FibreImage fibreImage(
   const FibreField& field, std::int32_t fibre, const std::vector<std::uint32_t>& blocks, double level, double inset)
 {
   require(!blocks.empty(), "the fibre has no voxel in the label image");
+  require(std::isfinite(level) && level >= 0.0, "the level of a contour must be a depth of 0 or more");
   const NodeLattice lattice = field.lattice(inset);
   const double spacing = field.image().grid.spacing;
   const Eigen::Vector3d firstNode = field.firstNode();
@@ -107,6 +125,10 @@ FibreImage fibreImage(
     image.grid.count[axis] = samples.count[axis] + faces[axis][0].layers + faces[axis][1].layers;
   }
 
+  requireMemory(bytesPerSample * double(image.grid.size()),
+    text("the field of fibre ", fibre, " needs ", image.grid.count[0], " x ", image.grid.count[1], " x ", image.grid.count[2],
+      " samples"),
+    "choose a larger VoxelSize in FibreRadialGrowth, fewer fibres at once, or fewer threads");
   std::vector<float> held(samples.size());
   field.atNodes(fibre, samples, held.data());
   image.values.resize(image.grid.size());
@@ -127,6 +149,8 @@ FibreImage fibreImage(
           held[std::size_t(nearest[0]) + std::size_t(samples.count[0]) *
                                            (std::size_t(nearest[1]) + std::size_t(samples.count[1]) * std::size_t(nearest[2]))];
         float value = inside;
+        const bool isLast = i == 0 || j == 0 || k == 0 || i + 1 == image.grid.count[0] || j + 1 == image.grid.count[1] ||
+                            k + 1 == image.grid.count[2];
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           const int before = faces[axis][0].layers - 1 - at[axis]; // 0 in the layer next to the samples
@@ -140,7 +164,8 @@ FibreImage fibreImage(
             value = std::min(value, beyond(inside, faces[axis][1], after, level, spacing));
           }
         }
-        image.values[out++] = value;
+        // Where no face cuts it off, the fibre ends before; its field may be just 0 there.
+        image.values[out++] = isLast ? below(double(value), level) : value;
       }
     }
   }

@@ -23,7 +23,9 @@ struct FibreImage
 ///
 /// Where the fibre is cut off by a face of the field's box, one or two layers of samples are added beyond that face, with values
 /// that let a linear contour at `level` (µm) cross the face's plane, moved into the box by `inset` (µm, at most a quarter of a
-/// voxel): the contour is closed by flat caps there. Throws InvalidInput where `blocks` is empty or `inset` out of range.
+/// voxel): the contour is closed by flat caps there, with edges that are bevelled over the last voxel, as a regular grid has no
+/// sharper ones. Throws InvalidInput where `blocks` is empty, `inset` out of range or `level` negative or not finite, and
+/// OutOfMemory.
 FibreImage fibreImage(
   const FibreField& field, std::int32_t fibre, const std::vector<std::uint32_t>& blocks, double level = 0.0, double inset = 0.0);
 

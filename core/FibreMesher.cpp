@@ -24,6 +24,8 @@ namespace
 constexpr double negligiblePart = 1e-3;
 /// Relative error of an inner volume that is good enough.
 constexpr double volumeTolerance = 1e-3;
+/// The same of the axons that another library's filters coarsen, after a few rounds.
+constexpr double filteredVolumeTolerance = 5e-3;
 /// Distance from where an inner surface has the wanted volume that is good enough before coarsening, as a part of a voxel.
 constexpr double nearEnough = 0.003;
 /// How far an outer surface mostly moves out to make up for what smoothing takes off it, and what may be left of that before
@@ -271,7 +273,7 @@ std::vector<CalmPlace> FibreMesher::calmAround(const std::vector<Eigen::Vector3d
 
 double FibreMesher::equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const
 {
-  return 2.0 * std::sqrt(pair.outerReport.volume / (3.14159265358979323846 * this->length(field)));
+  return 2.0 * std::sqrt(std::max(0.0, pair.outerReport.volume) / (3.14159265358979323846 * this->length(field)));
 }
 
 /// An inner surface before coarsening.
@@ -292,6 +294,10 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   pair.thickness = 0.0;
   pair.state = MyelinState::NoAxon;
   const double wanted = pair.targetGRatio * pair.targetGRatio * pair.outerReport.volume;
+  if (!(wanted > 0.0))
+  {
+    return; // an outer surface, not made here, that encloses nothing
+  }
 
   std::vector<float> depths = this->depths(field);
   const auto deepest = std::max_element(depths.begin(), depths.end());
@@ -312,7 +318,11 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   MyelinState state = this->solve(field, wanted, upper, guess, within, best);
   if (this->Filters != nullptr && state != MyelinState::NoAxon)
   {
-    this->finishByFilters(field, state == MyelinState::AsAsked ? wanted : best.volume, best, pair);
+    const bool isRight = this->finishByFilters(field, state == MyelinState::AsAsked ? wanted : best.volume, best, pair);
+    if (state == MyelinState::AsAsked && !isRight)
+    {
+      state = pair.innerReport.volume < wanted ? MyelinState::Thicker : MyelinState::Thinner;
+    }
     pair.state = pair.inner.triangles.empty() ? MyelinState::NoAxon : state;
     return;
   }
@@ -363,9 +373,10 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
 }
 
 /// Coarsens an inner surface by somebody else's filters. These change its volume, so it is made again at other levels until it is
-/// the one wanted. What is wrong with it is only marked.
-void FibreMesher::finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const
+/// the one wanted. Returns whether it is.
+bool FibreMesher::finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const
 {
+  const double outerMove = pair.largestMove;
   double error = 0.0;
   for (int round = 0; round < 4; ++round)
   {
@@ -379,7 +390,8 @@ void FibreMesher::finishByFilters(const SmoothedField& field, double wanted, Inn
       best = next;
     }
     CappedSurface surface = best.surface;
-    pair.isFlawed = !this->finish(field, surface, best.level, wanted, nullptr, {}, pair.innerReport, pair) || pair.isFlawed;
+    pair.largestMove = outerMove;
+    this->finish(field, surface, best.level, wanted, nullptr, {}, pair.innerReport, pair);
     pair.inner = packed(std::move(surface.mesh));
     error = pair.innerReport.volume - wanted;
     if (std::abs(error) <= volumeTolerance * wanted)
@@ -389,6 +401,7 @@ void FibreMesher::finishByFilters(const SmoothedField& field, double wanted, Inn
   }
   pair.thickness = best.level - pair.outerLevel;
   pair.gRatio = pair.outerReport.volume > 0.0 ? std::sqrt(std::max(0.0, pair.innerReport.volume) / pair.outerReport.volume) : 0.0;
+  return std::abs(error) <= filteredVolumeTolerance * wanted;
 }
 
 CappedSurface FibreMesher::contourAt(double inset, const SmoothedField& field, double level) const
@@ -494,7 +507,8 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
   {
     this->Filters->finish(surface);
     report = checkSurface(surface.mesh);
-    return sound(report) && faults(surface.mesh, container).empty();
+    pair.largestMove = std::max(pair.largestMove, this->largestMove(field, surface, level));
+    return true;
   }
   const double error = this->Options.decimationError;
   SurfaceDecimationOptions decimation;

@@ -57,7 +57,7 @@ private:
     const SmoothedField& field, double wanted, double deepest, double guess, const TriangleTree* within, Inner& best) const;
   bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleTree* container,
     const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
-  void finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const;
+  bool finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const;
   std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 

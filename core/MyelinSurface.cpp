@@ -257,7 +257,8 @@ std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const 
     ". Ask for another fraction, or grow the fibres further"));
 }
 
-std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts)
+std::string notAsAsked(
+  const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts, bool byFilters)
 {
   const auto count = [&](auto&& is) { return std::count_if(pairs.begin(), pairs.end(), is); };
   const auto in = [&](MyelinState state)
@@ -297,7 +298,13 @@ std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, const LabelIm
     advice += text(advice.empty() ? "" : "; ", "MinimumGap ", facts.minimumGap, " and SurfaceTolerance ", facts.surfaceTolerance,
       " µm are large", radii, ": choose smaller ones in FibreRadialGrowth");
   }
-  if (advice.empty())
+  if (byFilters)
+  {
+    advice =
+      "the filters of VTK promise nothing of this: choose Meshing CACTUS, fewer SincIterations or a larger SincPassBand, or a "
+      "smaller TargetReduction";
+  }
+  else if (advice.empty())
   {
     advice = text("choose a smaller VoxelSize (it is ", image.grid.spacing, " µm", radii,
       ") in FibreRadialGrowth, or a smaller GRatio or DecimationError here");

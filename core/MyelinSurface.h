@@ -123,6 +123,7 @@ std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const 
 
 /// How many fibres did not come out as asked, in what way, and what to do about it, in one sentence; empty where all did. Fibres
 /// that pass by outside the domain are not missed.
-std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts);
+std::string notAsAsked(
+  const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts, bool byFilters = false);
 
 } // namespace cactus

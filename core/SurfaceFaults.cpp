@@ -50,11 +50,15 @@ void markFaults(std::vector<FibreSurfacePair>& pairs, const Domain& domain, doub
   options.minimumGap = minimumGap;
   const SubstrateCertificate certificate = certify(
     domain, surfacesOf(pairs, &FibreSurfacePair::outer), surfacesOf(pairs, &FibreSurfacePair::inner), nullptr, options, context);
+  for (FibreSurfacePair& pair : pairs)
+  {
+    pair.isFlawed = false;
+  }
   for (const FibreCertificate& fibre : certificate.fibres)
   {
     const auto pair = std::lower_bound(
       pairs.begin(), pairs.end(), fibre.fibreId, [](const FibreSurfacePair& one, int id) { return one.fibreId < id; });
-    pair->isFlawed = pair->isFlawed || isAtFault(fibre, minimumGap);
+    pair->isFlawed = isAtFault(fibre, minimumGap);
   }
 }
 

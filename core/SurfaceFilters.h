@@ -10,7 +10,7 @@ namespace cactus
 {
 
 /// The means of another library to make surfaces with, in place of contour() and decimate(). Both may be called from several
-/// threads at once.
+/// threads at once. What comes out is not checked while it is made: markFaults() tells what is wrong with it.
 struct SurfaceFilters
 {
   /// The closed surface, outward, on which the image's field is `level` (µm), with its caps on the faces of `box` (µm).
