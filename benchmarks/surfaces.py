@@ -147,4 +147,5 @@ def main():
         substrate(name, arguments)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -572,6 +572,12 @@ std::vector<std::uint32_t> FibreMesher::wallOf(const TriangleMesh& outer) const
   return wall;
 }
 
+/// Whether a point is nearer to a face of the box than `distance` (µm): a regular grid bevels the edges of caps, and of the box.
+static bool isBeside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p, double distance)
+{
+  return (p - box.min()).minCoeff() < distance || (box.max() - p).minCoeff() < distance;
+}
+
 /// The largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps
 /// only where the field is smaller.
 double FibreMesher::largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const
@@ -583,7 +589,7 @@ double FibreMesher::largestMove(const SmoothedField& field, const CappedSurface&
     const Eigen::Vector3d& a = points[std::size_t(t[0])];
     const Eigen::Vector3d ab = points[std::size_t(t[1])] - a;
     const Eigen::Vector3d ac = points[std::size_t(t[2])] - a;
-    const bool isCap = surface.isCap(t);
+    const bool isCap = surface.isCap(t) || (this->Filters != nullptr && isBeside(surface.box, a, this->Spacing));
     const double longest = std::sqrt(std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() }));
     const int n = std::max(1, static_cast<int>(std::ceil(longest / this->Spacing)));
     for (int i = 0; i <= n; ++i)
