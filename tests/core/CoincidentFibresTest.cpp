@@ -133,7 +133,7 @@ std::vector<Case> cases()
   return { { "crossing at control points", crossing(Vector3d::Zero(), 2, 10) },
     { "crossing between control points", crossing(Vector3d::Zero(), 2, 9) }, { "three axes", crossing(Vector3d::Zero(), 3, 10) },
     { "crossing far from the origin", crossing({ -6e4, 3e4, 9e4 }, 2, 10) }, { "two identical", identical(2) },
-    { "three identical", identical(3) }, { "thirty identical", identical(30) }, { "identical and wavy", identicalWavy() },
+    { "three identical", identical(3) }, { "twelve identical", identical(12) }, { "identical and wavy", identicalWavy() },
     { "identical but for their sense", reversed }, { "one runs into the other", collinear(2.0, -2.0) },
     { "one ends where the other begins", collinear(0.0, 0.0) }, { "a lattice", lattice(4, 1, 0.8) },
     { "a lattice of pairs", lattice(4, 2, 0.9) }, { "a weave in one plane", weave() } };
@@ -176,7 +176,7 @@ TEST(CoincidentFibres, ComeApart)
     SCOPED_TRACE(one.name);
     const Fibres result = optimised(one.fibres, 1);
     EXPECT_LE(cactus::measureOverlap(result).largestPenetration, 1e-3);
-    EXPECT_EQ(result.points, optimised(one.fibres, 3).points);
+    EXPECT_EQ(result.points, optimised(one.fibres, 2).points);
   }
 }
 
