@@ -2,7 +2,8 @@
 #pragma once
 
 #include "FibreField.h"
-#include "MyelinSurface.h"
+#include "FibreSurfacePair.h"
+#include "MyelinSurfaceOptions.h"
 #include "SurfaceDecimation.h"
 #include "SurfaceFilters.h"
 #include "TriangleTree.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "SubstrateFolder.h"
+#include "SubstrateContents.h"
 
 #include <map>
 #include <optional>
