@@ -2,9 +2,9 @@
 #include "FibreData.h"
 
 #include "Columns.h"
-#include "Error.h"
 #include "InputBlocks.h"
-#include "Limits.h"
+#include "base/Error.h"
+#include "base/Limits.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>

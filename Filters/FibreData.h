@@ -2,8 +2,8 @@
 // The one place that converts fibres between VTK and core.
 #pragma once
 
-#include "Domain.h"
-#include "Fibres.h"
+#include "base/Domain.h"
+#include "fibres/Fibres.h"
 
 #include <vtkType.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterSupport.h"
 
-#include "Error.h"
 #include "InputBlocks.h"
-#include "Memory.h"
 #include "Ranks.h"
+#include "base/Error.h"
+#include "base/Memory.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>

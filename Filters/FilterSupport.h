@@ -2,7 +2,7 @@
 // What every filter needs around a call into core: exceptions turned into VTK's errors, progress and stopping passed on.
 #pragma once
 
-#include "Context.h"
+#include "base/Context.h"
 
 #include <vtkType.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InputBlocks.h"
 
-#include "Error.h"
+#include "base/Error.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCompositeDataIterator.h>

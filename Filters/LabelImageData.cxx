@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelImageData.h"
 
-#include "Error.h"
 #include "FibreData.h"
+#include "base/Error.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkFieldData.h>

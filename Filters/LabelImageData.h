@@ -2,7 +2,7 @@
 // The one place that reads the label image of vtkFibreRadialGrowth.
 #pragma once
 
-#include "MyelinSurface.h"
+#include "surface/MyelinSurface.h"
 
 class vtkDataObject;
 class vtkImageData;

@@ -2,10 +2,10 @@
 #include "SurfaceData.h"
 
 #include "Columns.h"
-#include "Error.h"
 #include "FibreData.h"
 #include "InputBlocks.h"
 #include "SurfaceFacts.h"
+#include "base/Error.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -2,9 +2,9 @@
 // The one place that takes apart surfaces that come as one vtkPolyData.
 #pragma once
 
-#include "Domain.h"
-#include "FibreSurfaces.h"
-#include "TriangleMesh.h"
+#include "base/Domain.h"
+#include "mesh/FibreSurfaces.h"
+#include "mesh/TriangleMesh.h"
 
 #include <string>
 #include <vector>

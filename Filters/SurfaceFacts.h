@@ -2,7 +2,7 @@
 // What surfaces say of themselves in their field data, so that what is missing of them can be told.
 #pragma once
 
-#include "FibreSurfaces.h"
+#include "mesh/FibreSurfaces.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VtkMeshing.h"
 
-#include "Error.h"
-#include "Limits.h"
+#include "base/Error.h"
+#include "base/Limits.h"
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>

@@ -2,9 +2,9 @@
 // Surfaces by VTK's own filters: flying edges, windowed sinc smoothing and quadric decimation.
 #pragma once
 
-#include "CappedSurface.h"
-#include "FibreImage.h"
-#include "SurfaceFilters.h"
+#include "mesh/CappedSurface.h"
+#include "surface/FibreImage.h"
+#include "surface/SurfaceFilters.h"
 
 namespace cactus
 {

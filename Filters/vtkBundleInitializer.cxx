@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBundleInitializer.h"
 
-#include "BundleInitializer.h"
-#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
-#include "Numbers.h"
+#include "base/Error.h"
+#include "base/Numbers.h"
+#include "bundle/BundleInitializer.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>

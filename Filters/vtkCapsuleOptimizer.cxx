@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCapsuleOptimizer.h"
 
-#include "CapsuleOptimizer.h"
 #include "Columns.h"
-#include "Context.h"
-#include "Error.h"
 #include "FibreData.h"
-#include "FibreShape.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
-#include "Numbers.h"
-#include "OverlapReport.h"
 #include "Ranks.h"
-#include "TrimToDomain.h"
 #include "WholeData.h"
+#include "base/Context.h"
+#include "base/Error.h"
+#include "base/Numbers.h"
+#include "fibres/FibreShape.h"
+#include "fibres/TrimToDomain.h"
+#include "optimiser/CapsuleOptimizer.h"
+#include "optimiser/OverlapReport.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>

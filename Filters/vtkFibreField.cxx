@@ -2,14 +2,14 @@
 #include "vtkFibreField.h"
 
 #include "Columns.h"
-#include "Error.h"
 #include "FibreData.h"
-#include "FibreImage.h"
 #include "FilterSupport.h"
 #include "LabelImageData.h"
-#include "Limits.h"
-#include "Parallel.h"
 #include "WholeData.h"
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Parallel.h"
+#include "surface/FibreImage.h"
 
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>

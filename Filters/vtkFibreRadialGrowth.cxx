@@ -2,16 +2,16 @@
 #include "vtkFibreRadialGrowth.h"
 
 #include "Columns.h"
-#include "Error.h"
 #include "FibreData.h"
-#include "FibreRadialGrowth.h"
 #include "FilterSupport.h"
-#include "GrowthTarget.h"
 #include "InputBlocks.h"
-#include "Memory.h"
-#include "Numbers.h"
-#include "SubstrateStatistics.h"
 #include "WholeData.h"
+#include "base/Error.h"
+#include "base/Memory.h"
+#include "base/Numbers.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrowthTarget.h"
+#include "judge/SubstrateStatistics.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>

@@ -2,17 +2,17 @@
 #include "vtkMyelinSurface.h"
 
 #include "Columns.h"
-#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "LabelImageData.h"
-#include "MyelinSurface.h"
-#include "Numbers.h"
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
-#include "SurfaceFaults.h"
 #include "VtkMeshing.h"
 #include "WholeData.h"
+#include "base/Error.h"
+#include "base/Numbers.h"
+#include "judge/SurfaceFaults.h"
+#include "surface/MyelinSurface.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>

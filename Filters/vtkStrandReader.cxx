@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkStrandReader.h"
 
-#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
-#include "StrandFile.h"
+#include "base/Error.h"
+#include "io/StrandFile.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkStrandWriter.h"
 
-#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
-#include "StrandFile.h"
 #include "WholeData.h"
+#include "base/Error.h"
+#include "io/StrandFile.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>

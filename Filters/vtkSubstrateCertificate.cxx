@@ -4,10 +4,10 @@
 #include "Columns.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
-#include "Numbers.h"
-#include "SubstrateCertificate.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
+#include "base/Numbers.h"
+#include "judge/SubstrateCertificate.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>

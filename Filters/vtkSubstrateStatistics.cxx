@@ -2,14 +2,14 @@
 #include "vtkSubstrateStatistics.h"
 
 #include "Columns.h"
-#include "Error.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
-#include "Limits.h"
-#include "Numbers.h"
-#include "SubstrateStatistics.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Numbers.h"
+#include "judge/SubstrateStatistics.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>

@@ -5,10 +5,10 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
-#include "Numbers.h"
-#include "SubstrateFolder.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
+#include "base/Numbers.h"
+#include "io/SubstrateFolder.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>

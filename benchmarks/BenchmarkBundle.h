@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Fibres.h"
-#include "Random.h"
+#include "base/Random.h"
+#include "fibres/Fibres.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joint optimisation in parts and as a whole; one thread unless the name says otherwise. Rates are per second of wall time.
 #include "BenchmarkBundle.h"
-#include "CapsuleOptimizer.h"
-#include "NeighbourSearch.h"
-#include "OverlapCost.h"
+#include "optimiser/CapsuleOptimizer.h"
+#include "optimiser/NeighbourSearch.h"
+#include "optimiser/OverlapCost.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Growth of a bundle of bent fibres of two calibres, packed to two thirds before it grows; rates are per voxel and second of wall
 // time.
-#include "FibreRadialGrowth.h"
-#include "GrowthTarget.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrowthTarget.h"
 
 #include <benchmark/benchmark.h>
 

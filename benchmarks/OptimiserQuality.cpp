@@ -6,11 +6,11 @@
 //
 // where STATE is a name below, a pattern of them ("single-*"), or the path of a strand file, and OPTION is a parameter of the
 // optimiser in lower case (relaxation, momentum, smoothing, step, curvature, length, compactness, packing, margin, radius).
-#include "BundleInitializer.h"
-#include "CapsuleOptimizer.h"
-#include "FibreShape.h"
-#include "OverlapReport.h"
-#include "StrandFile.h"
+#include "bundle/BundleInitializer.h"
+#include "fibres/FibreShape.h"
+#include "io/StrandFile.h"
+#include "optimiser/CapsuleOptimizer.h"
+#include "optimiser/OverlapReport.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Certifying a hexagonal bundle of wavy tubes, 0.05 µm apart, with axons inside; rates are triangles per second and thread.
-#include "SubstrateCertificate.h"
+#include "judge/SubstrateCertificate.h"
 
 #include <benchmark/benchmark.h>
 

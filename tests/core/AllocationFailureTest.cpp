@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantee 5: where memory runs out, at whichever allocation and in whichever thread, a stage ends with an exception in the
 // thread that called it, and the next run gives the right bits. Replaces operator new for the whole test program.
-#include "BundleInitializer.h"
-#include "CapsuleOptimizer.h"
-#include "Error.h"
-#include "FibreRadialGrowth.h"
-#include "GrowthTarget.h"
-#include "MyelinSurface.h"
-#include "SubstrateCertificate.h"
-#include "SubstrateStatistics.h"
+#include "base/Error.h"
+#include "bundle/BundleInitializer.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrowthTarget.h"
+#include "judge/SubstrateCertificate.h"
+#include "judge/SubstrateStatistics.h"
+#include "optimiser/CapsuleOptimizer.h"
+#include "surface/MyelinSurface.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "NumbersChecksum.h"
-#include "Random.h"
+#include "base/Random.h"
 
 #include <cmath>
 #include <string>

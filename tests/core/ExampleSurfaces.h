@@ -2,7 +2,7 @@
 // Surfaces to try things on.
 #pragma once
 
-#include "TriangleMesh.h"
+#include "mesh/TriangleMesh.h"
 
 #include <cmath>
 #include <cstdint>

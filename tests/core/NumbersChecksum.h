@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Sha256.h"
+#include "base/Sha256.h"
 
 #include <string>
 #include <type_traits>

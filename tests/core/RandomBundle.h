@@ -2,7 +2,7 @@
 // Small disordered bundles for tests.
 #pragma once
 
-#include "Fibres.h"
+#include "fibres/Fibres.h"
 
 #include <cmath>
 #include <random>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Capsules.h"
-#include "SegmentDistance.h"
+#include "fibres/Capsules.h"
+#include "fibres/SegmentDistance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,14 +2,14 @@
 // Guarantee: a seed has the same bits in every version that does not say otherwise in its CHANGELOG, with any compiler, vector
 // unit and number of threads. What may differ from one C library to the next are the elementary functions (std::log, std::sin,
 // …); where they have other last digits than those below, what depends on them is not compared.
-#include "BundleInitializer.h"
-#include "CapsuleOptimizer.h"
 #include "ElementaryFunctions.h"
-#include "FibreRadialGrowth.h"
-#include "GrowthTarget.h"
-#include "MyelinSurface.h"
 #include "NumbersChecksum.h"
-#include "TrimToDomain.h"
+#include "bundle/BundleInitializer.h"
+#include "fibres/TrimToDomain.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrowthTarget.h"
+#include "optimiser/CapsuleOptimizer.h"
+#include "surface/MyelinSurface.h"
 
 #include <gtest/gtest.h>
 

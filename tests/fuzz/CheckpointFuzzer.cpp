@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a checkpoint: as they are, where only what the program itself wrote is accepted; and with title, fingerprint and
 // checksum put right, where the run that goes on from it ends with finite fibres, or with one error of ours.
-#include "CapsuleOptimizer.h"
-#include "Checkpoint.h"
-#include "Error.h"
 #include "Fuzzing.h"
+#include "base/Checkpoint.h"
+#include "base/Error.h"
+#include "optimiser/CapsuleOptimizer.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as the manifest of a folder: no fault, and only what the program itself wrote counts as written so; with the
 // manifest's own checksum put right, too.
-#include "SubstrateManifest.h"
+#include "io/SubstrateManifest.h"
 
 #include "Fuzzing.h"
-#include "Sha256.h"
+#include "base/Sha256.h"
 
 namespace
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a number: takeNumber() agrees with strtod in the C locale, and what is written reads back as the same bits.
-#include "Numbers.h"
+#include "base/Numbers.h"
 
 #include "Fuzzing.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a table of radii, typed in and in a file: the same numbers from both, or one error of ours from each.
-#include "RadiusDistribution.h"
+#include "bundle/RadiusDistribution.h"
 
-#include "Error.h"
 #include "Fuzzing.h"
+#include "base/Error.h"
 
 #include <cmath>
 #include <sstream>

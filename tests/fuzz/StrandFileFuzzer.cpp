@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a strand file: fibres that use every line, or one error of ours.
-#include "StrandFile.h"
+#include "io/StrandFile.h"
 
-#include "Error.h"
 #include "Fuzzing.h"
+#include "base/Error.h"
 
 #include <sstream>
 

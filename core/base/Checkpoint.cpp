@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Checkpoint.h"
+
+#include "base/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Every format starts so; its number and a line feed follow.
+const std::string title = "CACTUS checkpoint ";
+const std::string version = "3\n";
+/// Reads otherwise where bytes have another order.
+constexpr std::uint64_t byteOrder = 0x0102030405060708u;
+constexpr std::size_t headerBytes = 24;
+constexpr std::size_t checksumBytes = 8;
+
+/// For each of eight bytes in a row, what it adds to the checksum ("slicing by eight", Kounavis and Berry 2005).
+using ChecksumTables = std::array<std::array<std::uint64_t, 256>, 8>;
+
+ChecksumTables makeTables()
+{
+  ChecksumTables tables{};
+  for (std::uint64_t byte = 0; byte < 256; ++byte)
+  {
+    std::uint64_t crc = byte;
+    for (int bit = 0; bit < 8; ++bit)
+    {
+      crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xc96c5795d7870f42u : 0u);
+    }
+    tables[0][byte] = crc;
+  }
+  for (std::size_t place = 1; place < 8; ++place)
+  {
+    for (std::size_t byte = 0; byte < 256; ++byte)
+    {
+      const std::uint64_t before = tables[place - 1][byte];
+      tables[place][byte] = (before >> 8) ^ tables[0][before & 0xff];
+    }
+  }
+  return tables;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why)
+{
+  throw FileError("CheckpointFile " + path + " " + why);
+}
+
+/// Whether there is a file at all. Throws FileError where there is something that is none, or that hides.
+bool isThere(const std::string& path)
+{
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+  {
+    return false;
+  }
+  if (error)
+  {
+    refuse(path, "cannot be read: " + error.message());
+  }
+  if (!std::filesystem::is_regular_file(status))
+  {
+    refuse(path, "is there already and not a file: name another one");
+  }
+  return true;
+}
+
+/// Reads title and header. Throws FileError.
+CheckpointHeader readHeader(std::ifstream& file, const std::string& path)
+{
+  std::string found(title.size() + version.size(), '\0');
+  std::uint64_t order = 0;
+  CheckpointHeader header;
+  file.read(&found[0], static_cast<std::streamsize>(found.size()));
+  if (!file || found.compare(0, title.size(), title) != 0)
+  {
+    refuse(path, "is not a checkpoint of this program, and is kept: name another file, or remove it");
+  }
+  file.read(reinterpret_cast<char*>(&order), sizeof(order));
+  if (found.substr(title.size()) != version || (file && order != byteOrder))
+  {
+    refuse(path,
+      "was written by another version of this program or on another kind of machine, and is kept: go on with that, name "
+      "another file, or remove it");
+  }
+  file.read(reinterpret_cast<char*>(&header.fingerprint), sizeof(header.fingerprint));
+  file.read(reinterpret_cast<char*>(&header.iteration), sizeof(header.iteration));
+  if (!file)
+  {
+    refuse(path, "is damaged: remove it, or name another file");
+  }
+  return header;
+}
+
+void requireSame(const CheckpointHeader& header, std::uint64_t fingerprint, const std::string& path)
+{
+  if (header.fingerprint != fingerprint)
+  {
+    throw InvalidInput("CheckpointFile " + path +
+                       " was written for other fibres or other parameters, and is kept: restore those and switch Resume on, name "
+                       "another file, or remove it");
+  }
+}
+
+} // namespace
+
+std::uint64_t crc64(const void* data, std::size_t bytes, std::uint64_t before)
+{
+  static const ChecksumTables tables = makeTables();
+  const auto* next = static_cast<const unsigned char*>(data);
+  std::uint64_t crc = ~before;
+  for (; bytes >= 8; bytes -= 8, next += 8)
+  {
+    for (std::size_t i = 0; i < 8; ++i)
+    {
+      crc ^= static_cast<std::uint64_t>(next[i]) << (8 * i);
+    }
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < 8; ++i)
+    {
+      sum ^= tables[7 - i][(crc >> (8 * i)) & 0xff];
+    }
+    crc = sum;
+  }
+  for (; bytes > 0; --bytes, ++next)
+  {
+    crc = (crc >> 8) ^ tables[0][(crc ^ *next) & 0xff];
+  }
+  return ~crc;
+}
+
+std::optional<CheckpointHeader> findCheckpoint(const std::string& path, std::uint64_t fingerprint)
+{
+  if (!isThere(path))
+  {
+    return std::nullopt;
+  }
+  return CheckpointReader(path, fingerprint).header();
+}
+
+CheckpointWriter::CheckpointWriter(const std::string& path, const CheckpointHeader& header)
+  : Path(path)
+  , Header(header)
+  , File(path)
+{
+  this->write(title.data(), title.size());
+  this->write(version.data(), version.size());
+  this->put(byteOrder);
+  this->put(header.fingerprint);
+  this->put(header.iteration);
+}
+
+void CheckpointWriter::write(const void* data, std::size_t bytes)
+{
+  this->Checksum = crc64(data, bytes, this->Checksum);
+  this->File.stream().write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+}
+
+void CheckpointWriter::commit()
+{
+  const std::uint64_t checksum = this->Checksum;
+  this->put(checksum);
+  if (isThere(this->Path))
+  {
+    std::ifstream there(this->Path, std::ios::binary);
+    requireSame(readHeader(there, this->Path), this->Header.fingerprint, this->Path);
+  }
+  this->File.commit();
+}
+
+CheckpointReader::CheckpointReader(const std::string& path, std::uint64_t fingerprint)
+  : Path(path)
+{
+  if (!isThere(path))
+  {
+    refuse(path, "is not there");
+  }
+  this->File.open(path, std::ios::binary);
+  if (!this->File)
+  {
+    refuse(path, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  this->Header = readHeader(this->File, path);
+  this->verify();
+  requireSame(this->Header, fingerprint, path);
+}
+
+/// Compares the checksum, and returns to where the values begin.
+void CheckpointReader::verify()
+{
+  this->File.seekg(0, std::ios::end);
+  const auto bytes = static_cast<std::uint64_t>(this->File.tellg());
+  const std::uint64_t before = title.size() + version.size() + headerBytes;
+  this->require(this->File && bytes >= before + checksumBytes);
+  this->File.seekg(0);
+  std::uint64_t checksum = 0;
+  std::vector<char> part(std::size_t(1) << 20);
+  for (std::uint64_t left = bytes - checksumBytes; left > 0;)
+  {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size()));
+    this->File.read(part.data(), static_cast<std::streamsize>(count));
+    this->require(this->File.good());
+    checksum = crc64(part.data(), count, checksum);
+    left -= count;
+  }
+  std::uint64_t expected = 0;
+  this->File.read(reinterpret_cast<char*>(&expected), sizeof(expected));
+  this->require(this->File.good() && checksum == expected);
+  this->Left = bytes - before - checksumBytes;
+  this->File.seekg(static_cast<std::streamoff>(before));
+}
+
+void CheckpointReader::read(void* data, std::size_t bytes)
+{
+  this->require(bytes <= this->Left);
+  this->Left -= bytes;
+  this->File.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes));
+  this->require(this->File.good());
+}
+
+void CheckpointReader::damaged() const
+{
+  refuse(this->Path, "is damaged: remove it, or name another file");
+}
+
+} // namespace cactus

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Error.h"
+
+#include <cmath>
+
+namespace cactus
+{
+
+/// What a number may be: from `lowest` to `highest`, both included, and 0 too where that says "none" or "by default".
+struct Range
+{
+  double lowest;
+  double highest;
+  const char* unit = ""; ///< with a blank before it: " µm"
+  bool orZero = false;
+
+  bool holds(double value) const
+  {
+    return std::isfinite(value) && ((value >= this->lowest && value <= this->highest) || (this->orZero && value == 0.0));
+  }
+};
+
+/// Throws InvalidInput, "NAME is VALUE: give LOWEST to HIGHEST UNIT", for a number out of its range, infinite or NaN. `advice`
+/// ends the message.
+inline void requireWithin(const char* name, double value, const Range& range, const char* advice = "")
+{
+  if (range.holds(value))
+  {
+    return;
+  }
+  TextStream message;
+  message.precision(9);
+  message << name << " is " << value << ": give " << (range.orZero ? "0 or " : "") << range.lowest << " to " << range.highest
+          << range.unit << advice;
+  throw InvalidInput(message.str());
+}
+
+/// What is taken for a substrate, lengths in µm. Beyond these a value is a slip (a wrong unit, a broken file), and would cost
+/// precision, memory or time without end rather than give a substrate. All readers and options refuse it by name; the
+/// server-manager XML has the same numbers.
+namespace limits
+{
+
+// What flows through the chain.
+
+/// Of a fibre, at every control point, and as a target. Axons have 0.05 to 10, the giant axon of the squid 500.
+inline constexpr Range radius{ 1e-3, 1e3, " µm" };
+/// Of control points, of the domain's corners and of all that is derived from them, along each axis: 10 cm to either side. There
+/// are then 7e4 steps of double precision in a nanometre.
+inline constexpr Range coordinate{ -1e5, 1e5, " µm" };
+/// Of a domain along each axis.
+inline constexpr Range side{ 0.1, 1e5, " µm" };
+/// FibreId and BundleId, whole numbers.
+inline constexpr Range id{ 1.0, 2147483647.0 };
+/// Control points are counted in 32 bits, of which the neighbour search wants one.
+inline constexpr double controlPoints = 2147483647.0;
+
+// Options that several stages have.
+
+/// What is kept between surfaces, and what they may move by.
+inline constexpr Range gap{ 0.0, 10.0, " µm" };
+inline constexpr Range surfaceTolerance{ 0.0, 1.0, " µm" };
+inline constexpr Range seconds{ 0.0, 1e9, " s" };
+/// Of a volume that fibres fill.
+inline constexpr Range fraction{ 1e-4, 0.999 };
+
+// BundleInitializer.
+
+inline constexpr Range gammaShape{ 1e-2, 1e4 };
+inline constexpr Range gammaScale{ 1e-5, 1e3, " µm" };
+inline constexpr Range lognormalMean{ 1e-3, 1e3, " µm" };
+inline constexpr Range lognormalDeviation{ 1e-6, 1e3, " µm" };
+/// The displacement of a fibre from face to face has to be more than rounding, and to be met within 2 %.
+inline constexpr Range meanDispersion{ 1e-3, 45.0, "°", true };
+inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", true };
+inline constexpr Range crossingAngle{ 0.1, 90.0, "°" };
+inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", true };
+/// On each side of the domain.
+inline constexpr Range bundleMargin{ 0.0, 1e4, " µm" };
+inline constexpr Range spacingFactor{ 1e-2, 1e3 };
+inline constexpr Range spacing{ 1e-2, 1e5, " µm" };
+
+// CapsuleOptimizer.
+
+inline constexpr Range iterations{ 0.0, 1e7 };
+inline constexpr Range overlapTolerance{ 1e-9, 0.5 };
+inline constexpr Range overlapWeight{ 1e-6, 1e6 };
+inline constexpr Range weight{ 0.0, 1e6 };
+inline constexpr Range stepSize{ 1e-6, 10.0 };
+inline constexpr Range momentum{ 0.0, 0.999 };
+inline constexpr Range safetyMargin{ 1.0, 1.2 };
+inline constexpr Range radiusTolerance{ 0.0, 0.5 };
+inline constexpr Range relaxation{ 0.5, 1.0 };
+inline constexpr Range packingLimit{ 0.1, 1.0 };
+
+// FibreRadialGrowth.
+
+inline constexpr Range voxelSize{ 1e-3, 10.0, " µm" };
+inline constexpr Range targetFraction{ 0.0, 0.999 };
+inline constexpr Range growthIterations{ 0.0, 1e3 };
+inline constexpr Range surfaceRoughness{ 0.0, 0.5 };
+inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
+
+// MyelinSurface.
+
+/// Of an axon's diameter to its fibre's.
+inline constexpr Range gRatio{ 0.05, 0.99 };
+/// Of the axons in the domain.
+inline constexpr Range targetAxonFraction{ 1e-4, 0.999 };
+/// Passes blur by the square root of half their number, at most 3.2 voxels, and take on average passes · spacing² / (4 r) off a
+/// round fibre of radius r: more than half the volume of the thinnest ones that are smoothed in full.
+inline constexpr Range smoothingIterations{ 0.0, 20.0 };
+/// Of VTK's windowed sinc filter, whose own advice is 10 to 20 iterations; a pass band of 2 lets everything through.
+inline constexpr Range sincIterations{ 0.0, 500.0 };
+inline constexpr Range sincPassBand{ 1e-4, 2.0 };
+/// Part of the triangles that VTK's quadric decimation takes away.
+inline constexpr Range targetReduction{ 0.0, 0.99 };
+
+// SubstrateStatistics and SubstrateCertificate.
+
+/// Between two cross-sections along a centre line: from a tenth of usual voxels.
+inline constexpr Range cutSpacing{ 1e-2, 1e3, " µm" };
+/// Of one surface: 10 mm of the finest.
+inline constexpr double cuts = 1e6;
+inline constexpr Range bins{ 1.0, 1e4 };
+
+} // namespace limits
+
+} // namespace cactus

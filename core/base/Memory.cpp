@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Memory.h"
+
+#include "base/Error.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+std::atomic<int> processesSharingMemory{ 1 };
+
+std::uint64_t minus(std::uint64_t limit, std::uint64_t used)
+{
+  return used < limit ? limit - used : 0;
+}
+
+/// The number in a file that holds one; unlimited where there is no such file, or another word in it ("max").
+std::uint64_t numberIn(const std::string& path)
+{
+  std::ifstream file(path);
+  file.imbue(std::locale::classic());
+  std::uint64_t number = 0;
+  return file >> number ? number : unlimited;
+}
+
+/// The number that follows a key in a file of "key number …" lines, or `otherwise`.
+std::uint64_t numberOf(const std::string& path, const std::string& key, std::uint64_t otherwise)
+{
+  std::ifstream file(path);
+  file.imbue(std::locale::classic());
+  std::string word;
+  std::uint64_t number = 0;
+  std::string rest;
+  while (file >> word >> number && std::getline(file, rest))
+  {
+    if (word == key)
+    {
+      return number;
+    }
+  }
+  return otherwise;
+}
+
+/// The names of a control group's files in its two versions.
+struct GroupFiles
+{
+  const char* limit;
+  const char* used;
+  const char* cacheKey; ///< in memory.stat: file pages that give way at once
+};
+
+constexpr GroupFiles version2{ "memory.max", "memory.current", "inactive_file" };
+constexpr GroupFiles version1{ "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file" };
+
+/// What a group and those that it lies in leave, up to the mount point. In a container the path of /proc/self/cgroup may be that
+/// outside, which is not there: the group itself is then what is mounted.
+std::uint64_t leftByGroups(const std::string& mount, std::string path, const GroupFiles& files)
+{
+  std::uint64_t left = unlimited;
+  for (;;)
+  {
+    const std::string folder = mount + path + "/";
+    const std::uint64_t limit = numberIn(folder + files.limit);
+    const std::uint64_t used = numberIn(folder + files.used);
+    if (limit != unlimited && used != unlimited)
+    {
+      const std::uint64_t cached = numberOf(folder + "memory.stat", files.cacheKey, 0);
+      left = std::min(left, minus(limit, minus(used, cached)));
+    }
+    const std::size_t slash = path.rfind('/');
+    if (path.empty() || slash == std::string::npos)
+    {
+      return left;
+    }
+    path.resize(slash);
+  }
+}
+
+/// Lines "number:controllers:path": version 2 has no controllers.
+std::uint64_t leftByControlGroups(const std::string& root)
+{
+  std::uint64_t left = unlimited;
+  std::ifstream file(root + "/proc/self/cgroup");
+  std::string line;
+  while (std::getline(file, line))
+  {
+    const std::size_t first = line.find(':');
+    const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
+    if (second == std::string::npos)
+    {
+      continue;
+    }
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    std::string path = line.substr(second + 1);
+    while (!path.empty() && path.back() == '/')
+    {
+      path.pop_back();
+    }
+    if (controllers == ",,")
+    {
+      // Beside version 1, version 2 is mounted one lower.
+      left = std::min({ left, leftByGroups(root + "/sys/fs/cgroup", path, version2),
+        leftByGroups(root + "/sys/fs/cgroup/unified", path, version2) });
+    }
+    else if (controllers.find(",memory,") != std::string::npos)
+    {
+      left = std::min(left, leftByGroups(root + "/sys/fs/cgroup/memory", path, version1));
+    }
+  }
+  return left;
+}
+
+} // namespace
+
+std::uint64_t availableAddressSpace()
+{
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+  {
+    return unlimited;
+  }
+  const std::uint64_t pages = numberIn("/proc/self/statm");
+  const long pageSize = sysconf(_SC_PAGESIZE);
+  return pages == unlimited || pageSize <= 0 ? limit.rlim_cur
+                                             : minus(limit.rlim_cur, pages * static_cast<std::uint64_t>(pageSize));
+}
+
+std::uint64_t sharedMemoryLeft(const std::string& root)
+{
+  const std::uint64_t kilobytes = numberOf(root + "/proc/meminfo", "MemAvailable:", unlimited / 1024);
+  return std::min(kilobytes * 1024, leftByControlGroups(root));
+}
+
+std::uint64_t availableMemory()
+{
+  return std::min(sharedMemoryLeft("") / static_cast<std::uint64_t>(processesSharingMemory), availableAddressSpace());
+}
+
+void setProcessesSharingMemory(int processes)
+{
+  processesSharingMemory = std::max(1, processes);
+}
+
+void requireMemory(double bytes, const std::string& what, const std::string& advice)
+{
+  const auto available = static_cast<double>(availableMemory());
+  if (bytes < available)
+  {
+    return;
+  }
+  TextStream message;
+  message << std::setprecision(3) << what << " needs " << bytes / 1e9 << " GB of memory, and " << available / 1e9
+          << " GB are available: " << advice;
+  throw OutOfMemory(message.str());
+}
+
+} // namespace cactus

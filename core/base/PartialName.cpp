@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/PartialName.h"
+
+#include "base/Error.h"
+#include "base/PosixFile.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+
+namespace cactus
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr std::size_t digits = 8;
+constexpr std::size_t longestName = 255;
+constexpr std::time_t oneDay = 24 * 60 * 60;
+const std::string marker = ".partial-";
+const std::string unknownStart(digits, '0');
+
+/// What begins every partial name of a thing.
+std::string beginning(const std::string& name)
+{
+  return name.substr(0, longestName - marker.size() - 2 * digits - 1) + marker;
+}
+
+/// Eight digits of the number that Linux draws at each start.
+std::string thisStart()
+{
+  std::ifstream file("/proc/sys/kernel/random/boot_id");
+  std::string id;
+  std::getline(file, id);
+  return id.size() > digits ? id.substr(0, digits) : unknownStart;
+}
+
+bool isHexadecimal(const std::string& text)
+{
+  return text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+} // namespace
+
+std::string partialName(const std::string& name)
+{
+  std::array<unsigned char, digits / 2> drawn;
+  while (::getrandom(drawn.data(), drawn.size(), 0) != static_cast<ssize_t>(drawn.size()))
+  {
+    if (errno != EINTR)
+    {
+      throw FileError("cannot draw a random name: " + systemMessage(errno));
+    }
+  }
+  std::string random;
+  for (const unsigned char byte : drawn)
+  {
+    random += "0123456789abcdef"[byte >> 4];
+    random += "0123456789abcdef"[byte & 15];
+  }
+  return beginning(name) + thisStart() + "-" + random;
+}
+
+bool isPartialName(const std::string& candidate, const std::string& name)
+{
+  const std::string start = beginning(name);
+  return candidate.size() == start.size() + 2 * digits + 1 && candidate.compare(0, start.size(), start) == 0 &&
+         isHexadecimal(candidate.substr(start.size(), digits)) && candidate[start.size() + digits] == '-' &&
+         isHexadecimal(candidate.substr(start.size() + digits + 1));
+}
+
+bool lockForWriting(int descriptor)
+{
+  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+}
+
+bool isStale(const fs::path& partial, int lockedDescriptor)
+{
+  const std::string name = partial.filename().string();
+  const std::string start = name.substr(name.size() - 2 * digits - 1, digits);
+  struct stat status;
+  if (::fstat(lockedDescriptor, &status) != 0)
+  {
+    return false;
+  }
+  return (start == thisStart() && start != unknownStart) || std::time(nullptr) - status.st_mtime > oneDay;
+}
+
+std::vector<fs::path> partialsOf(const fs::path& folder, const std::string& name)
+{
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    if (isPartialName(entry->path().filename().string(), name))
+    {
+      found.push_back(entry->path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+} // namespace cactus

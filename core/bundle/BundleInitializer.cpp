@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/BundleInitializer.h"
+
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Memory.h"
+#include "bundle/BundleLayout.h"
+#include "bundle/BundlePacking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+/// Two bundles with both their faces packed to a density.
+std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double density, const Context& context)
+{
+  if (options.crossingStyle == CrossingStyle::Interwoven)
+  {
+    // Narrow layers waste space along their walls: where one does not hold its density, thicker layers may.
+    constexpr double thickest = 6.0;
+    for (double diameters = 1.5;; diameters *= 1.25)
+    {
+      std::vector<Bundle> bundles = layOutInterwoven(options, density, diameters);
+      try
+      {
+        packFaces(bundles, options, context);
+        return bundles;
+      }
+      catch (const Infeasible&)
+      {
+        if (1.25 * diameters > thickest)
+        {
+          throw;
+        }
+      }
+    }
+  }
+  std::vector<Bundle> bundles = layOutSheets(options, density);
+  packFaces(bundles, options, context);
+  return bundles;
+}
+
+void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options, Fibres& fibres)
+{
+  const double sine = std::sin(bundle.angle);
+  const double cosine = std::cos(bundle.angle);
+  const auto place = [&](const Eigen::Vector2d& face, double w)
+  {
+    // Exact for an axis along z, whose first and last control points lie on the domain's faces.
+    return Eigen::Vector3d(face.x() * cosine + w * sine, face.y(), w * cosine - face.x() * sine);
+  };
+  for (std::size_t i = 0; i < bundle.bottom.size(); ++i)
+  {
+    const double radius = bundle.bottom.radii[i];
+    const Eigen::Vector3d first = place(bundle.bottom.centres[i], -0.5 * bundle.length);
+    const Eigen::Vector3d last = place(bundle.top.centres[i], 0.5 * bundle.length);
+    const double spacing = std::clamp(options.spacingFactor * radius, options.minimumSpacing, options.maximumSpacing);
+    const int segments = std::max(2, static_cast<int>(std::lround((last - first).norm() / spacing)));
+    fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle.id, radius);
+    fibres.addPoint(first, radius);
+    for (int k = 1; k < segments; ++k)
+    {
+      fibres.addPoint(first + (last - first) * (static_cast<double>(k) / segments), radius);
+    }
+    fibres.addPoint(last, radius);
+  }
+}
+
+Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptions& options)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(options.side);
+  for (const Bundle& bundle : bundles)
+  {
+    appendFibres(bundle, options, fibres);
+  }
+  return fibres;
+}
+
+Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+{
+  std::vector<Bundle> bundles = { layOutSingle(options) };
+  packFaces(bundles, options, context);
+  report.fibreVolumeFraction = bundles.front().bottom.density();
+  report.meanDispersion = orientationOf(bundles.front()).meanAngle;
+  return fibresOf(bundles, options);
+}
+
+/// Crossing bundles whose capsules fill the domain to the fraction asked for. Their faces lie outside the domain, and dispersed
+/// fibres that start and end within the faces crowd between them, so the density of the faces is a little lower, and is found by
+/// trying: in proportion to what the domain came to hold.
+Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+{
+  const double asked = options.fibreVolumeFraction;
+  const double tilt = options.meanDispersion * degree;
+  double density = asked * std::cos(tilt) * (1.0 - 0.5 * std::tan(tilt));
+  std::optional<Fibres> best;
+  for (int round = 0; round < 6; ++round)
+  {
+    const std::vector<Bundle> bundles = packCrossing(options, density, context);
+    Fibres fibres = fibresOf(bundles, options);
+    const double reached = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+    if (!best || std::abs(reached - asked) < std::abs(report.fibreVolumeFraction - asked))
+    {
+      double angles = 0.0;
+      for (const Bundle& bundle : bundles)
+      {
+        angles += orientationOf(bundle).meanAngle * static_cast<double>(bundle.bottom.size());
+      }
+      report.fibreVolumeFraction = reached;
+      report.meanDispersion = angles / static_cast<double>(fibres.size());
+      best = std::move(fibres);
+    }
+    if (std::abs(reached - asked) <= 0.004 || reached <= 0.0)
+    {
+      break;
+    }
+    density = std::min(0.95, density * asked / reached);
+  }
+  if (std::abs(report.fibreVolumeFraction - asked) > 0.05 * asked)
+  {
+    TextStream message;
+    message.precision(3);
+    message << "FibreVolumeFraction " << asked << " cannot be reached with whole fibres of these radii: the nearest is "
+            << report.fibreVolumeFraction << ". Enlarge Side, or lower MaximumRadius";
+    throw Infeasible(message.str());
+  }
+  return std::move(*best);
+}
+
+/// Throws OutOfMemory where the fibres asked for could not be held.
+void requireMemoryFor(const BundleInitializerOptions& options)
+{
+  const double side = regionSide(options);
+  const double turned = options.numberOfBundles == 2 ? std::sqrt(2.0) : 1.0;
+  const double fibreCount = options.fibreVolumeFraction * side * side * turned / meanCircleArea(options.radius);
+  const double points = fibreCount * (2.0 + side * turned / options.minimumSpacing);
+  TextStream what;
+  what.precision(3);
+  what << "Side " << options.side << " µm with " << fibreCount << " fibres";
+  requireMemory(fibreCount * 600.0 + points * 160.0, what.str(), "choose a smaller Side, a smaller Margin or larger radii");
+}
+
+} // namespace
+
+Fibres initialiseBundles(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport* report)
+{
+  options.validate();
+  const double thinning = options.thinning();
+  BundleInitializerOptions thinner = options;
+  if (options.grownFibreVolumeFraction > 0.0)
+  {
+    thinner.radius = options.radius.scaled(thinning);
+  }
+  requireMemoryFor(thinner);
+  context.report(0.0, "Drawing radii");
+  BundleInitializerReport reached;
+  Fibres fibres =
+    thinner.numberOfBundles == 2 ? initialiseCrossing(thinner, context, reached) : initialiseSingle(thinner, context, reached);
+  if (options.grownFibreVolumeFraction > 0.0)
+  {
+    for (double& radius : fibres.targetRadii)
+    {
+      radius /= thinning;
+    }
+  }
+  if (report != nullptr)
+  {
+    *report = reached;
+  }
+  context.report(1.0, "Bundle initialised");
+  return fibres;
+}
+
+} // namespace cactus

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bundle/DirectionDistribution.h"
+#include "bundle/RadiusDistribution.h"
+
+#include <cstdint>
+#include <string>
+
+namespace cactus
+{
+
+/// How two crossing bundles share the space. In both styles a fibre stays within its layer from end to end, so straight fibres of
+/// different bundles never meet.
+enum class CrossingStyle
+{
+  Interwoven, ///< thin layers of random thickness, one or two fibres thick, alternating in y
+  Sheets      ///< few layers of equal thickness
+};
+
+/// What initialiseBundles is to make. Lengths in µm, angles in degrees.
+struct BundleInitializerOptions
+{
+  double side = 30.0; ///< side of the cubic domain [-side/2, side/2]³
+  /// In (0, 1). One bundle: area of the circles on the end faces over the area of the faces. Two bundles, whose faces lie outside
+  /// the domain: volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain.
+  double fibreVolumeFraction = 0.7;
+  RadiusDistributionOptions radius; ///< of the fibres' outer radii
+  /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules are then thinner than the
+  /// sampled target radii by sqrt(fibreVolumeFraction / this), so that the grown fibres have these; 0: capsules have the target
+  /// radii.
+  double grownFibreVolumeFraction = 0.0;
+  double meanDispersion = 5.0; ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
+  /// Coherent is for one bundle. The layers of two crossing bundles are too thin for a flow; their fibres are then drawn as with
+  /// Watson.
+  DispersionModel dispersionModel = DispersionModel::Coherent;
+  /// Distance over which the directions of DispersionModel::Coherent are alike (see CoherentFlow); 0: four times the mean shift
+  /// of the fibres from face to face, at least a 32nd of the face.
+  double correlationLength = 0.0;
+  int numberOfBundles = 1;     ///< 1 or 2
+  double crossingAngle = 90.0; ///< between the axes of two bundles, in (0, 90]
+  CrossingStyle crossingStyle = CrossingStyle::Interwoven;
+  /// Least thickness of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height, or what the largest radius needs.
+  double sheetThickness = 0.0;
+  /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides), so that the domain
+  /// can be cut from the middle of what the optimiser spreads.
+  double margin = 0.0;
+  /// Distance between the control points of a fibre, as a multiple of its radius, within the two limits below. A capsule chain
+  /// bends once per control point, so the spacing bounds how sharply a fibre can give way; longer capsules are cheaper.
+  double spacingFactor = 1.25;
+  double minimumSpacing = 0.8; ///< µm
+  double maximumSpacing = 2.0; ///< µm
+  std::uint64_t seed = 1;
+
+  /// Throws InvalidInput, naming the property, unless every value is finite and within its range (see Limits.h).
+  void validate() const;
+  /// Radius of the capsules over the sampled target radius.
+  double thinning() const;
+  /// All parameters as "Name=value" separated by blanks, under the names of the ParaView properties.
+  std::string describe() const;
+};
+
+/// Whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
+bool isCoherent(const BundleInitializerOptions& options);
+
+} // namespace cactus

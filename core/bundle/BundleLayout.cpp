@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/BundleLayout.h"
+
+#include "base/Error.h"
+#include "base/Random.h"
+#include "bundle/RadiusDistribution.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double degree = pi / 180.0;
+
+/// Indices in order of falling radius, ties in order of index.
+std::vector<std::size_t> largestFirst(const std::vector<double>& radii)
+{
+  std::vector<std::size_t> order(radii.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+  return order;
+}
+
+/// Throws unless every circle has room in its rectangle.
+void requireFit(const Circles& circles, const char* property)
+{
+  for (std::size_t i = 0; i < circles.size(); ++i)
+  {
+    if (2.0 * circles.radii[i] > circles.frame(i).size().minCoeff())
+    {
+      TextStream message;
+      message << property << " gives a face or layer only " << circles.frame(i).size().minCoeff()
+              << " µm wide, and a fibre of radius " << circles.radii[i] << " µm does not fit into it: enlarge " << property
+              << " or lower MaximumRadius";
+      throw InvalidInput(message.str());
+    }
+  }
+}
+
+/// The two bundles of a crossing, without radii and frames, each long enough for its fibres to run right through the region.
+std::vector<Bundle> crossingBundles(const BundleInitializerOptions& options, double density)
+{
+  const double half = 0.5 * options.crossingAngle * degree;
+  std::vector<Bundle> bundles(2);
+  for (int b = 0; b < 2; ++b)
+  {
+    bundles[static_cast<std::size_t>(b)].id = b + 1;
+    bundles[static_cast<std::size_t>(b)].angle = b == 0 ? half : -half;
+    bundles[static_cast<std::size_t>(b)].density = density;
+    // A square turned by the half angle fits into a square of this side, and the bundle covers as much in both directions.
+    bundles[static_cast<std::size_t>(b)].length = regionSide(options) * (std::cos(half) + std::sin(half));
+  }
+  return bundles;
+}
+
+/// A layer of a crossing bundle, as wide as the bundle is long.
+Rectangle layerFrame(const Bundle& bundle, double low, double high)
+{
+  Rectangle frame;
+  frame.lower = Eigen::Vector2d(-0.5 * bundle.length, low);
+  frame.upper = Eigen::Vector2d(0.5 * bundle.length, high);
+  return frame;
+}
+
+/// Divides a bundle's circles among thin layers: each takes the largest circles left, with room to spare, and then others in the
+/// order they were drawn, up to a thickness drawn around `wanted` (µm). Returns the layers' thicknesses, each just so that the
+/// layer has the density asked for.
+std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& options, double wanted)
+{
+  Circles& circles = bundle.bottom;
+  circles.frameOf.assign(circles.size(), -1);
+  const double areaPerThickness = bundle.density * bundle.length;
+  double left = 0.0;
+  for (const double r : circles.radii)
+  {
+    left += pi * r * r;
+  }
+  const std::vector<std::size_t> largest = largestFirst(circles.radii);
+  RandomEngine engine = randomStream(options.seed, RandomStage::Packing, itemOf(0, bundle.id + 16));
+  std::vector<double> thicknesses;
+  std::size_t nextLargest = 0;
+  std::size_t nextDrawn = 0;
+  while (left > 0.0)
+  {
+    while (nextLargest < circles.size() && circles.frameOf[largest[nextLargest]] >= 0)
+    {
+      ++nextLargest;
+    }
+    if (nextLargest == circles.size())
+    {
+      break;
+    }
+    const double room = 1.05 * 2.0 * circles.radii[largest[nextLargest]];
+    const double thickness = std::max(room, wanted * (0.75 + 0.5 * uniform(engine)));
+    const bool last = left < areaPerThickness * thickness;
+    // What does not fill a layer of its own thickens the one before.
+    const bool merge = last && !thicknesses.empty();
+    const int layer = static_cast<int>(thicknesses.size()) - (merge ? 1 : 0);
+    double taken = 0.0;
+    const auto take = [&](std::size_t i)
+    {
+      circles.frameOf[i] = layer;
+      taken += pi * circles.radii[i] * circles.radii[i];
+    };
+    // Large circles keep together in few thick layers, so that the others can be thin.
+    for (; nextLargest < circles.size() && taken < 0.6 * areaPerThickness * thickness; ++nextLargest)
+    {
+      if (circles.frameOf[largest[nextLargest]] < 0)
+      {
+        take(largest[nextLargest]);
+      }
+    }
+    for (; nextDrawn < circles.size() && (last || taken < areaPerThickness * thickness); ++nextDrawn)
+    {
+      if (circles.frameOf[nextDrawn] < 0)
+      {
+        take(nextDrawn);
+      }
+    }
+    left -= taken;
+    if (merge)
+    {
+      thicknesses.back() += taken / areaPerThickness;
+    }
+    else
+    {
+      thicknesses.push_back(taken / areaPerThickness);
+    }
+  }
+  return thicknesses;
+}
+
+} // namespace
+
+Bundle layOutSingle(const BundleInitializerOptions& options)
+{
+  const double face = regionSide(options);
+  Bundle bundle;
+  bundle.length = options.side;
+  bundle.density = options.fibreVolumeFraction;
+  Rectangle frame;
+  frame.lower.setConstant(-0.5 * face);
+  frame.upper.setConstant(0.5 * face);
+  bundle.bottom.frames = { frame };
+  bundle.bottom.radii = drawRadii(options.radius, options.seed, options.fibreVolumeFraction * frame.area(), itemOf(0, bundle.id));
+  bundle.bottom.frameOf.assign(bundle.bottom.radii.size(), 0);
+  requireFit(bundle.bottom, "Side");
+  return bundle;
+}
+
+std::vector<Bundle> layOutSheets(const BundleInitializerOptions& options, double density)
+{
+  const double height = regionSide(options);
+  // By default every fibre that may be drawn has room.
+  const double wanted =
+    options.sheetThickness > 0.0 ? options.sheetThickness : std::max(height / 6.0, 1.05 * 2.0 * options.radius.maximum);
+  const int layers = std::max(2, static_cast<int>(std::min(height / wanted + 1e-9, 1e6)));
+  std::vector<Bundle> bundles = crossingBundles(options, density);
+  for (int k = 0; k < layers; ++k)
+  {
+    Bundle& bundle = bundles[static_cast<std::size_t>(k % 2)];
+    bundle.bottom.frames.push_back(layerFrame(bundle, height * (double(k) / layers - 0.5), height * ((k + 1.0) / layers - 0.5)));
+  }
+  for (Bundle& bundle : bundles)
+  {
+    Circles& circles = bundle.bottom;
+    const double capacity = density * circles.frames.front().area();
+    const auto count = circles.frames.size();
+    circles.radii = drawRadii(options.radius, options.seed, capacity * static_cast<double>(count), itemOf(0, bundle.id));
+    circles.frameOf.assign(circles.size(), 0);
+    requireFit(circles, "SheetThickness");
+    std::vector<double> left(count, capacity);
+    for (const std::size_t i : largestFirst(circles.radii))
+    {
+      const auto layer = std::max_element(left.begin(), left.end());
+      circles.frameOf[i] = static_cast<int>(layer - left.begin());
+      *layer -= pi * circles.radii[i] * circles.radii[i];
+    }
+  }
+  return bundles;
+}
+
+std::vector<Bundle> layOutInterwoven(const BundleInitializerOptions& options, double density, double thicknessInDiameters)
+{
+  const double height = regionSide(options);
+  std::vector<Bundle> bundles = crossingBundles(options, density);
+  double radiusSum = 0.0;
+  std::size_t count = 0;
+  for (Bundle& bundle : bundles)
+  {
+    bundle.bottom.radii = drawRadii(options.radius, options.seed, 0.5 * density * bundle.length * height, itemOf(0, bundle.id));
+    radiusSum = std::accumulate(bundle.bottom.radii.begin(), bundle.bottom.radii.end(), radiusSum);
+    count += bundle.bottom.size();
+  }
+  const double wanted = thicknessInDiameters * 2.0 * radiusSum / static_cast<double>(count);
+  std::vector<std::vector<double>> thicknesses;
+  std::vector<std::vector<std::size_t>> order;
+  double total = 0.0;
+  for (Bundle& bundle : bundles)
+  {
+    thicknesses.push_back(weave(bundle, options, wanted));
+    total = std::accumulate(thicknesses.back().begin(), thicknesses.back().end(), total);
+    order.emplace_back(thicknesses.back().size());
+    std::vector<std::size_t>& shuffled = order.back();
+    std::iota(shuffled.begin(), shuffled.end(), std::size_t(0));
+    RandomEngine engine = randomStream(options.seed, RandomStage::Packing, itemOf(1, bundle.id + 16));
+    for (std::size_t k = shuffled.size(); k > 1; --k)
+    {
+      std::swap(shuffled[k - 1], shuffled[std::min(k - 1, static_cast<std::size_t>(uniform(engine) * static_cast<double>(k)))]);
+    }
+    bundle.bottom.frames.resize(shuffled.size());
+  }
+  // The drawn areas miss their half by less than a circle; the layers share that out.
+  const double stretch = height / total;
+  double level = -0.5 * height;
+  std::array<double, 2> filled{ { 0.0, 0.0 } };
+  std::array<std::size_t, 2> next{ { 0, 0 } };
+  while (next[0] < order[0].size() || next[1] < order[1].size())
+  {
+    const bool second = next[0] == order[0].size() || (next[1] < order[1].size() && filled[1] < filled[0]);
+    const std::size_t b = second ? 1 : 0;
+    const std::size_t layer = order[b][next[b]++];
+    const double thickness = stretch * thicknesses[b][layer];
+    bundles[b].bottom.frames[layer] = layerFrame(bundles[b], level, level + thickness);
+    level += thickness;
+    filled[b] += thickness;
+  }
+  for (const Bundle& bundle : bundles)
+  {
+    requireFit(bundle.bottom, "Side");
+  }
+  return bundles;
+}
+
+} // namespace cactus

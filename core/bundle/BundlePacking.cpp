@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/BundlePacking.h"
+
+#include "base/Error.h"
+#include "base/Random.h"
+#include "bundle/CirclePacking.h"
+#include "bundle/CoherentFlow.h"
+#include "bundle/DirectionDistribution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double degree = pi / 180.0;
+constexpr int trialsPerCircle = 64;
+/// How often a packing is begun anew, from other random positions, before its density counts as out of reach.
+constexpr int attempts = 4;
+
+/// The density at which the circles do come apart: their areas are lowered by one per cent at a time.
+double reachableDensity(Circles circles, const Context& context)
+{
+  for (int i = 0; i < 100; ++i)
+  {
+    for (double& radius : circles.radii)
+    {
+      radius *= std::sqrt(0.99);
+    }
+    if (relaxCircles(circles, {}, context).separated)
+    {
+      break;
+    }
+  }
+  return circles.density();
+}
+
+[[noreturn]] void throwDensity(
+  const BundleInitializerOptions& options, const Bundle& bundle, const Circles& jammed, const char* face, const Context& context)
+{
+  TextStream message;
+  message.precision(3);
+  // In proportion: for crossing bundles the faces' density is not the domain's.
+  const double reachable = reachableDensity(jammed, context) * options.fibreVolumeFraction / bundle.density;
+  message << "FibreVolumeFraction " << options.fibreVolumeFraction << " cannot be reached: the circles on the " << face
+          << " face of bundle " << bundle.id << " come apart only at " << reachable
+          << ". Lower FibreVolumeFraction, or spread the radii more widely";
+  if (options.numberOfBundles == 2)
+  {
+    message << ", or use thicker layers (CrossingStyle Sheets, SheetThickness)";
+  }
+  throw Infeasible(message.str());
+}
+
+bool packBottom(Bundle& bundle, std::uint64_t seed, int attempt, const Context& context)
+{
+  Circles& circles = bundle.bottom;
+  RandomEngine engine;
+  const auto anywhere = [&](std::size_t i, int trial) -> Eigen::Vector2d
+  {
+    if (trial == 0)
+    {
+      engine = randomStream(seed, RandomStage::Packing, itemOf(i, bundle.id, attempt));
+    }
+    const Rectangle& frame = circles.frame(i);
+    const double r = circles.radii[i];
+    const double s = uniform(engine);
+    const double t = uniform(engine);
+    const Eigen::Vector2d room = frame.size().array() - 2.0 * r;
+    return frame.clampCentre(frame.lower.array() + r + Eigen::Array2d(s, t) * room.array(), r);
+  };
+  placeCircles(circles, anywhere, trialsPerCircle);
+  return relaxCircles(circles, {}, context).separated;
+}
+
+/// A place at distance `reach` from `from`, towards `azimuth` if that stays inside the frame, mirrored in one or both components
+/// where that does, else slid along the frame's longer side; nearer than `reach` only where the frame has no such place.
+Eigen::Vector2d placeOnRing(
+  const Rectangle& frame, const Eigen::Vector2d& from, double radius, double reach, RandomEngine& engine)
+{
+  const double azimuth = 2.0 * pi * uniform(engine);
+  const double slide = uniform(engine);
+  const Eigen::Vector2d drawn(reach * std::cos(azimuth), reach * std::sin(azimuth));
+  for (const Eigen::Vector2d& mirror :
+    { Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1), Eigen::Vector2d(1, -1), Eigen::Vector2d(-1, -1) })
+  {
+    Eigen::Vector2d centre = from + drawn.cwiseProduct(mirror);
+    if (frame.holds(centre, radius))
+    {
+      return centre;
+    }
+  }
+  const int along = frame.size().x() >= frame.size().y() ? 0 : 1;
+  const int across = 1 - along;
+  const double low = std::max(frame.lower[across] + radius, from[across] - reach);
+  const double high = std::min(frame.upper[across] - radius, from[across] + reach);
+  Eigen::Vector2d shift;
+  shift[across] = low + slide * (high - low) - from[across];
+  const double rest = std::sqrt(std::max(0.0, reach * reach - shift[across] * shift[across]));
+  shift[along] = drawn[along] < 0.0 ? -rest : rest;
+  if (!frame.holds(from + shift, radius))
+  {
+    // The side with more room comes nearest to the distance asked for.
+    const double middle = 0.5 * (frame.lower[along] + frame.upper[along]);
+    shift[along] = from[along] > middle ? -rest : rest;
+  }
+  return frame.clampCentre(from + shift, radius);
+}
+
+/// Places each circle of the top face at an angle of its own.
+void placeOnRings(Bundle& bundle, const BundleInitializerOptions& options, int attempt)
+{
+  Circles& top = bundle.top;
+  const bool cone = options.dispersionModel == DispersionModel::Cone;
+  const DirectionDistribution directions(cone ? DispersionModel::Cone : DispersionModel::Watson, options.meanDispersion);
+  RandomEngine engine;
+  double reach = 0.0;
+  const auto onRing = [&](std::size_t i, int trial) -> Eigen::Vector2d
+  {
+    if (trial == 0)
+    {
+      engine = randomStream(options.seed, RandomStage::Directions, itemOf(i, bundle.id, attempt));
+      // No place on the face is further away than its diagonal, and near 90° the tangent is out of all bounds.
+      reach = std::min(bundle.length * std::tan(directions.sampleAngle(engine)), top.frame(i).size().norm());
+    }
+    return placeOnRing(top.frame(i), bundle.bottom.centres[i], top.radii[i], reach, engine);
+  };
+  placeCircles(top, onRing, trialsPerCircle);
+}
+
+/// Carries the top face's circles from where the bottom's are, all in one flow; false where it does not lead as far as asked.
+bool carryAlong(Bundle& bundle, const BundleInitializerOptions& options, int attempt, const Context& context)
+{
+  Circles& top = bundle.top;
+  const Rectangle& frame = top.frames.front();
+  const double shift = bundle.length * std::tan(options.meanDispersion * degree);
+  const double length =
+    options.correlationLength > 0.0 ? options.correlationLength : std::max(4.0 * shift, frame.size().maxCoeff() / 32.0);
+  RandomEngine engine = randomStream(options.seed, RandomStage::Directions, itemOf(0, bundle.id, attempt));
+  const bool isFarEnough =
+    CoherentFlow(frame, length, engine).carry(top.centres, bundle.length, options.meanDispersion * degree, context);
+  for (std::size_t i = 0; i < top.size(); ++i)
+  {
+    top.centres[i] = frame.clampCentre(top.centres[i], top.radii[i]);
+  }
+  return isFarEnough;
+}
+
+enum class TopFace
+{
+  Done,
+  Jammed,
+  DispersionMissed
+};
+
+TopFace packTop(Bundle& bundle, const BundleInitializerOptions& options, int attempt, const Context& context, double& reached)
+{
+  const Circles& bottom = bundle.bottom;
+  Circles& top = bundle.top;
+  top = bottom;
+  reached = 0.0;
+  if (options.meanDispersion == 0.0)
+  {
+    return TopFace::Done;
+  }
+  if (!isCoherent(options))
+  {
+    placeOnRings(bundle, options, attempt);
+  }
+  else if (!carryAlong(bundle, options, attempt, context))
+  {
+    reached = orientationOf(bundle).meanAngle;
+    return TopFace::DispersionMissed;
+  }
+
+  const double tolerance = std::min(0.05, 0.02 * options.meanDispersion);
+  constexpr double driftTolerance = 0.1;
+  std::optional<Circles> accepted;
+  double acceptedDrift = 0.0;
+  double best = 0.0;
+  for (int step = 0; step < 30; ++step)
+  {
+    if (!relaxCircles(top, {}, context).separated)
+    {
+      if (accepted)
+      {
+        break;
+      }
+      return TopFace::Jammed;
+    }
+    const Orientation orientation = orientationOf(bundle);
+    reached = orientation.meanAngle;
+    if (std::abs(reached - options.meanDispersion) <= tolerance && (!accepted || orientation.drift < acceptedDrift))
+    {
+      accepted = top;
+      acceptedDrift = orientation.drift;
+    }
+    if (accepted && (acceptedDrift <= driftTolerance || step >= 15))
+    {
+      break;
+    }
+    best = std::max(best, reached);
+    const double scale = std::clamp(std::tan(options.meanDispersion * degree) / std::tan(reached * degree), 0.5, 2.0);
+    for (std::size_t i = 0; i < top.size(); ++i)
+    {
+      Eigen::Vector2d shift = scale * (top.centres[i] - bottom.centres[i]);
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        shift[axis] *= 1.0 - (shift[axis] > 0.0 ? orientation.bias[axis] : -orientation.bias[axis]);
+      }
+      top.centres[i] = top.frame(i).clampCentre(bottom.centres[i] + shift, top.radii[i]);
+    }
+  }
+  if (!accepted)
+  {
+    reached = best;
+    return TopFace::DispersionMissed;
+  }
+  top = *accepted;
+  return TopFace::Done;
+}
+
+/// Packs both faces of a bundle whose bottom holds radii and frames.
+void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const Context& context, double begin, double end)
+{
+  TextStream what;
+  what << "Packing the faces of bundle " << bundle.id << " (" << bundle.bottom.size() << " fibres)";
+  std::optional<Circles> jammed;
+  const char* jammedFace = "first";
+  double dispersion = 0.0;
+  for (int attempt = 0; attempt < attempts; ++attempt)
+  {
+    context.checkpoint();
+    context.report(begin, what.str());
+    if (!packBottom(bundle, options.seed, attempt, context))
+    {
+      jammed = bundle.bottom;
+      continue;
+    }
+    context.report(0.5 * (begin + end), what.str());
+    const TopFace outcome = packTop(bundle, options, attempt, context, dispersion);
+    if (outcome == TopFace::Done)
+    {
+      return;
+    }
+    if (outcome == TopFace::Jammed)
+    {
+      jammed = bundle.top;
+      jammedFace = "second";
+    }
+    else
+    {
+      jammed.reset();
+      // Another flow may lead a little farther, but not as far as this.
+      if (isCoherent(options) && dispersion < 0.5 * options.meanDispersion)
+      {
+        break;
+      }
+    }
+  }
+  if (jammed)
+  {
+    throwDensity(options, bundle, *jammed, jammedFace, context);
+  }
+  TextStream message;
+  message.precision(3);
+  message << "MeanDispersion " << options.meanDispersion << "° cannot be met: fibres that start and end within the faces came to "
+          << dispersion << "°. Lower MeanDispersion, or enlarge Margin";
+  if (options.correlationLength > 0.0 && isCoherent(options))
+  {
+    message << " or CorrelationLength, which is short for so large an angle";
+  }
+  throw Infeasible(message.str());
+}
+
+void requireDensity(const std::vector<Bundle>& bundles, const BundleInitializerOptions& options)
+{
+  for (const Bundle& bundle : bundles)
+  {
+    const double density = bundle.bottom.density();
+    if (std::abs(density - bundle.density) > 0.05 * bundle.density)
+    {
+      TextStream message;
+      message.precision(3);
+      message << "FibreVolumeFraction " << options.fibreVolumeFraction
+              << " cannot be reached with whole fibres of these radii: the nearest is "
+              << density * options.fibreVolumeFraction / bundle.density << ". Enlarge Side, or lower MaximumRadius";
+      throw Infeasible(message.str());
+    }
+  }
+}
+
+} // namespace
+
+Orientation orientationOf(const Bundle& bundle)
+{
+  double angles = 0.0;
+  double along = 0.0;
+  Eigen::Vector2d across = Eigen::Vector2d::Zero();
+  Eigen::Vector2d magnitude = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < bundle.bottom.size(); ++i)
+  {
+    const Eigen::Vector2d shift = bundle.top.centres[i] - bundle.bottom.centres[i];
+    const double length = std::hypot(shift.norm(), bundle.length);
+    angles += std::atan2(shift.norm(), bundle.length);
+    along += bundle.length / length;
+    across += shift / length;
+    magnitude += shift.cwiseAbs() / length;
+  }
+  Orientation orientation;
+  orientation.meanAngle = angles / static_cast<double>(bundle.bottom.size()) / degree;
+  orientation.drift = std::atan2(across.norm(), along) / degree;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    orientation.bias[axis] = magnitude[axis] > 0.0 ? across[axis] / magnitude[axis] : 0.0;
+  }
+  return orientation;
+}
+
+void packFaces(std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context)
+{
+  requireDensity(bundles, options);
+  const double share = 0.9 / static_cast<double>(bundles.size());
+  for (std::size_t b = 0; b < bundles.size(); ++b)
+  {
+    const double begin = 0.05 + share * static_cast<double>(b);
+    packBundle(bundles[b], options, context, begin, begin + share);
+  }
+}
+
+} // namespace cactus

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/DirectionDistribution.h"
+
+#include "base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Mean angle (radians) of the Watson model: ∫θ w / ∫w with w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
+double meanWatsonAngle(double kappa)
+{
+  const double end = std::min(0.5 * pi, 9.0 / std::sqrt(kappa));
+  constexpr int intervals = 2000;
+  double weighted = 0.0;
+  double weights = 0.0;
+  for (int i = 0; i <= intervals; ++i)
+  {
+    const double angle = end * i / intervals;
+    const double sine = std::sin(angle);
+    const double weight = std::exp(-kappa * sine * sine) * sine * (i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0));
+    weighted += angle * weight;
+    weights += weight;
+  }
+  return weighted / weights;
+}
+
+/// Mean angle of directions uniform in a cap of half angle a: ∫θ sin θ / ∫sin θ on [0, a], by its series where that cancels.
+double meanConeAngle(double a)
+{
+  if (a < 1e-2)
+  {
+    return 2.0 * a / 3.0 * (1.0 - a * a / 60.0);
+  }
+  return (std::sin(a) - a * std::cos(a)) / (1.0 - std::cos(a));
+}
+
+} // namespace
+
+DirectionDistribution::DirectionDistribution(DispersionModel model, double meanAngle)
+  : Model(model)
+{
+  if (!(meanAngle > 0.0 && meanAngle <= 45.0))
+  {
+    TextStream message;
+    message << "MeanDispersion is " << meanAngle << "°: give an angle above 0 and at most 45";
+    throw InvalidInput(message.str());
+  }
+  if (model != DispersionModel::Watson && model != DispersionModel::Cone)
+  {
+    throw InvalidInput("angles are drawn from DispersionModel Watson (0) or Cone (1) only");
+  }
+  const double wanted = meanAngle * pi / 180.0;
+  const bool watson = model == DispersionModel::Watson;
+  // Both means are monotonic: bisection over log κ (falling) or over the half angle (rising).
+  double low = watson ? std::log(1e-3) : 0.0;
+  double high = watson ? std::log(1e14) : 0.5 * pi;
+  for (int i = 0; i < 200; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    const bool tooWide = watson ? meanWatsonAngle(std::exp(middle)) > wanted : meanConeAngle(middle) > wanted;
+    (tooWide == watson ? low : high) = middle;
+  }
+  Parameter = watson ? std::exp(0.5 * (low + high)) : 0.5 * (low + high);
+}
+
+double DirectionDistribution::sampleAngle(RandomEngine& engine) const
+{
+  // x = 1 − cos θ is handled directly: small angles keep their digits.
+  double x = 0.0;
+  if (Model == DispersionModel::Cone)
+  {
+    const double half = std::sin(0.5 * Parameter);
+    x = uniform(engine) * 2.0 * half * half;
+  }
+  else
+  {
+    // The density of x is ∝ exp(−κ(2x − x²)) ≤ exp(−κx): a truncated exponential, accepted at least every other time or so.
+    do
+    {
+      x = -std::log1p(uniform(engine) * std::expm1(-Parameter)) / Parameter;
+    } while (uniform(engine) > std::exp(-Parameter * (x - x * x)));
+  }
+  return 2.0 * std::asin(std::sqrt(std::clamp(0.5 * x, 0.0, 0.5)));
+}
+
+} // namespace cactus

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/RadiusDistribution.h"
+
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Numbers.h"
+#include "base/RandomVariates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+
+double draw(const RadiusDistributionOptions& options, RandomEngine& engine)
+{
+  if (options.model == RadiusModel::Gamma)
+  {
+    return gammaVariate(options.gammaShape, options.gammaScale, engine);
+  }
+  const double ratio = options.lognormalDeviation / options.lognormalMean;
+  const double variance = std::log1p(ratio * ratio);
+  return lognormalVariate(std::log(options.lognormalMean) - 0.5 * variance, std::sqrt(variance), engine);
+}
+
+/// Between limits so near each other, relative to the radius, the density of any distribution is as good as constant.
+constexpr double narrow = 1e-4;
+/// Draws for one radius.
+constexpr int tries = 100000;
+/// The smallest share of draws within the limits for which radii are drawn by the thousand.
+constexpr double smallestShare = 1e-4;
+
+[[noreturn]] void throwHardlyAny(const RadiusDistributionOptions& options)
+{
+  throw InvalidInput(text("hardly any of the RadiusDistribution lies between MinimumRadius ", options.minimum,
+    " and MaximumRadius ", options.maximum, " (less than one draw in ", 1.0 / smallestShare,
+    "): widen the limits, make them equal for equal radii, or change the distribution"));
+}
+
+} // namespace
+
+void RadiusDistributionOptions::validate() const
+{
+  requireWithin("MinimumRadius", minimum, limits::radius);
+  requireWithin("MaximumRadius", maximum, limits::radius);
+  TextStream message;
+  if (minimum > maximum)
+  {
+    message << "MinimumRadius " << minimum << " is larger than MaximumRadius " << maximum << ": exchange them";
+    throw InvalidInput(message.str());
+  }
+  switch (model)
+  {
+  case RadiusModel::Gamma:
+    requireWithin("GammaShape", gammaShape, limits::gammaShape);
+    requireWithin("GammaScale", gammaScale, limits::gammaScale);
+    break;
+  case RadiusModel::Lognormal:
+    requireWithin("LognormalMean", lognormalMean, limits::lognormalMean);
+    requireWithin("LognormalDeviation", lognormalDeviation, limits::lognormalDeviation);
+    break;
+  case RadiusModel::Table:
+    if (table.empty())
+    {
+      throw InvalidInput("RadiusTable is empty: list at least one radius in µm, for example \"0.4 0.5 0.7\", or name a "
+                         "RadiusTableFile");
+    }
+    for (const double radius : table)
+    {
+      if (!std::isfinite(radius) || radius < minimum || radius > maximum)
+      {
+        message << "RadiusTable holds " << radius << ", which is not between MinimumRadius " << minimum << " and MaximumRadius "
+                << maximum << ": change the one or the other";
+        throw InvalidInput(message.str());
+      }
+    }
+    break;
+  default:
+    throw InvalidInput("RadiusDistribution has no such choice: use Gamma (0), Lognormal (1) or Table (2)");
+  }
+}
+
+RadiusDistributionOptions RadiusDistributionOptions::scaled(double factor) const
+{
+  RadiusDistributionOptions result = *this;
+  for (double* length :
+    { &result.gammaScale, &result.lognormalMean, &result.lognormalDeviation, &result.minimum, &result.maximum })
+  {
+    *length *= factor;
+  }
+  for (double& radius : result.table)
+  {
+    radius *= factor;
+  }
+  return result;
+}
+
+double sampleRadius(const RadiusDistributionOptions& options, std::uint64_t seed, std::uint64_t index)
+{
+  RandomEngine engine = randomStream(seed, RandomStage::Radii, index);
+  if (options.model == RadiusModel::Table)
+  {
+    const auto size = options.table.size();
+    return options.table[std::min(size - 1, static_cast<std::size_t>(uniform(engine) * static_cast<double>(size)))];
+  }
+  if (options.maximum - options.minimum <= narrow * options.maximum)
+  {
+    return options.minimum + uniform(engine) * (options.maximum - options.minimum);
+  }
+  for (int i = 0; i < tries; ++i)
+  {
+    const double radius = draw(options, engine);
+    if (radius >= options.minimum && radius <= options.maximum)
+    {
+      return radius;
+    }
+  }
+  throwHardlyAny(options);
+}
+
+std::vector<double> drawRadii(const RadiusDistributionOptions& options, std::uint64_t seed, double area, std::uint64_t firstIndex)
+{
+  std::vector<double> radii;
+  double sum = 0.0;
+  std::uint64_t index = firstIndex;
+  double next = sampleRadius(options, seed, index++);
+  while (sum + pi * next * next < area)
+  {
+    radii.push_back(next);
+    sum += pi * next * next;
+    next = sampleRadius(options, seed, index++);
+  }
+  double best = radii.empty() ? next : 0.0;
+  for (int i = 0; i < 48; ++i)
+  {
+    if (std::abs(sum + pi * next * next - area) < std::abs(sum + pi * best * best - area))
+    {
+      best = next;
+    }
+    next = sampleRadius(options, seed, index++);
+  }
+  if (best > 0.0)
+  {
+    radii.push_back(best);
+  }
+  return radii;
+}
+
+double meanCircleArea(const RadiusDistributionOptions& options)
+{
+  constexpr int draws = 2000;
+  requireShareWithinLimits(options);
+  double sum = 0.0;
+  for (int i = 0; i < draws; ++i)
+  {
+    const double radius = sampleRadius(options, 0, static_cast<std::uint64_t>(i));
+    sum += pi * radius * radius;
+  }
+  return sum / draws;
+}
+
+void requireShareWithinLimits(const RadiusDistributionOptions& options)
+{
+  if (options.model == RadiusModel::Table || options.maximum - options.minimum <= narrow * options.maximum)
+  {
+    return;
+  }
+  RandomEngine engine = randomStream(0, RandomStage::Radii, 0);
+  constexpr int draws = 200000;
+  int within = 0;
+  for (int i = 0; i < draws; ++i)
+  {
+    const double radius = draw(options, engine);
+    within += radius >= options.minimum && radius <= options.maximum;
+    // By far the most distributions show at once that they are not so.
+    if (within >= 20)
+    {
+      return;
+    }
+  }
+  throwHardlyAny(options);
+}
+
+namespace
+{
+
+/// Appends the numbers of a text; returns false and leaves `text` at the word that is no number where there is one.
+bool appendRadii(std::string_view& text, std::vector<double>& table)
+{
+  constexpr std::string_view separators = " \t\r\n\v\f,;";
+  for (;;)
+  {
+    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+    if (text.empty())
+    {
+      return true;
+    }
+    const std::string_view word = text;
+    double value = 0.0;
+    if (!takeNumber(text, value) || (!text.empty() && separators.find(text.front()) == std::string_view::npos))
+    {
+      text = word.substr(0, word.find_first_of(separators));
+      return false;
+    }
+    table.push_back(value);
+  }
+}
+
+const std::string hint = ", which is no number: list radii in µm, for example \"0.4 0.5 0.7\"";
+
+} // namespace
+
+std::vector<double> parseRadiusTable(const std::string& text)
+{
+  std::vector<double> table;
+  std::string_view rest = text;
+  if (!appendRadii(rest, table))
+  {
+    throw InvalidInput("RadiusTable holds \"" + excerpt(rest) + "\"" + hint);
+  }
+  return table;
+}
+
+std::vector<double> readRadiusTable(std::istream& stream, const std::string& name)
+{
+  std::string text;
+  constexpr std::size_t chunk = 1 << 16;
+  constexpr std::size_t longest = std::size_t(1) << 26;
+  try
+  {
+    for (std::size_t got = chunk; got == chunk && text.size() <= longest;)
+    {
+      const std::size_t before = text.size();
+      text.resize(before + chunk);
+      got = static_cast<std::size_t>(stream.rdbuf()->sgetn(&text[before], chunk));
+      text.resize(before + got);
+    }
+  }
+  catch (const std::ios_base::failure& error) // a folder, a broken disk
+  {
+    throw FileError("RadiusTableFile " + name + " cannot be read: " + error.what());
+  }
+  if (text.size() > longest)
+  {
+    throw FileError("RadiusTableFile " + name + " is longer than 64 MB: this is no text file of radii");
+  }
+  std::string_view rest = text;
+  if (rest.substr(0, 3) == "\xef\xbb\xbf")
+  {
+    rest.remove_prefix(3); // the mark that some editors put before UTF-8
+  }
+  std::vector<double> table;
+  if (!appendRadii(rest, table))
+  {
+    const auto line = 1 + std::count(std::as_const(text).data(), rest.data(), '\n');
+    throw FileError("RadiusTableFile " + name + ", line " + std::to_string(line) + ", holds \"" + excerpt(rest) + "\"" + hint);
+  }
+  if (table.empty())
+  {
+    throw FileError("RadiusTableFile " + name + " is empty: list at least one radius in µm");
+  }
+  return table;
+}
+
+std::vector<double> readRadiusTable(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file)
+  {
+    throw FileError("RadiusTableFile " + path + " cannot be read: name a text file of radii in µm");
+  }
+  return readRadiusTable(file, path);
+}
+
+} // namespace cactus

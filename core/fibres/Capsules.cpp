@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibres/Capsules.h"
+
+#include "base/Random.h"
+
+#include <algorithm>
+
+namespace cactus
+{
+
+Capsules capsulesOf(const Fibres& fibres)
+{
+  Capsules capsules;
+  capsules.places.reserve(fibres.size());
+  for (const int id : fibres.fibreIds)
+  {
+    RandomEngine engine = randomStream(0, RandomStage::Optimiser, static_cast<std::uint64_t>(id));
+    const double x = uniform(engine);
+    const double y = uniform(engine);
+    capsules.places.emplace_back(x, y, uniform(engine));
+  }
+  capsules.bodies.reserve(fibres.points.size());
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      Capsule capsule;
+      std::copy_n(fibres.points[i].data(), 3, capsule.p0);
+      std::copy_n(fibres.points[i + 1].data(), 3, capsule.p1);
+      capsule.r0 = fibres.radii[i];
+      capsule.r1 = fibres.radii[i + 1];
+      capsules.bodies.push_back(capsule);
+      capsules.first.push_back(static_cast<std::uint32_t>(i));
+      capsules.fibre.push_back(static_cast<std::uint32_t>(f));
+    }
+  }
+  return capsules;
+}
+
+} // namespace cactus

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// Both ends of a capsule with their radii in one cache line, which is what a loop over pairs reads.
+struct alignas(64) Capsule
+{
+  double p0[3];
+  double r0;
+  double p1[3];
+  double r1;
+};
+
+/// All capsules of all fibres, in fibre order. Capsule k spans the control points first[k] and first[k] + 1.
+struct Capsules
+{
+  std::vector<Capsule> bodies;
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> fibre; ///< index of the fibre in its Fibres, not FibreId
+  std::vector<Eigen::Vector3d>
+    places; ///< per fibre, where it belongs beside others that lie in the same place: random, by FibreId
+
+  std::size_t size() const { return bodies.size(); }
+};
+
+Capsules capsulesOf(const Fibres& fibres);
+
+} // namespace cactus

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+
+namespace cactus
+{
+
+/// How fibres run; what an optimiser should change as little as it can.
+struct FibreShape
+{
+  double meanDispersion = 0.0;     ///< degrees, see meanDispersion
+  double tangentDispersion = 0.0;  ///< degrees, see meanTangentDispersion
+  double crossingAngle = 0.0;      ///< degrees, largest angle between the axes of two bundles; 0 for a single one
+  double totalLength = 0.0;        ///< µm, of all centre lines
+  double smallestBendRadius = 0.0; ///< smallest radius of the circle through three consecutive control points, as a multiple of
+                                   ///< the fibre's radius there; infinite where all are straight
+  double smallestCurvatureRadius = 0.0; ///< µm, the smallest such radius itself
+};
+
+/// Measures the fibres from end to end, also outside the domain.
+FibreShape measureShape(const Fibres& fibres);
+
+/// Kolmogorov–Smirnov distance between the radii of two sets of fibres: the largest difference of their distribution functions,
+/// each fibre counting once with the mean radius of its control points.
+double radiusDistance(const Fibres& a, const Fibres& b);
+
+} // namespace cactus

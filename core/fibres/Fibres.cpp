@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibres/Fibres.h"
+
+#include "base/Error.h"
+#include "base/Limits.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <unordered_set>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double degrees = 180.0 / pi;
+
+double coneVolume(double r0, double r1, double height)
+{
+  return pi / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * height;
+}
+
+double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
+{
+  // atan2 keeps full precision at small angles, where acos loses half the digits.
+  return degrees * std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
+}
+
+Eigen::Vector3d endToEnd(const Fibres& fibres, std::size_t fibre)
+{
+  const Eigen::Vector3d chord = fibres.points[fibres.offsets[fibre + 1] - 1] - fibres.points[fibres.offsets[fibre]];
+  const double length = chord.norm();
+  return length > 0.0 ? Eigen::Vector3d(chord / length) : Eigen::Vector3d::Zero();
+}
+
+void validateControlPoint(const Fibres& fibres, std::size_t fibre, std::size_t i, const std::string& name)
+{
+  const auto where = [&] { return name + ", control point " + std::to_string(i - fibres.offsets[fibre]); };
+  const Eigen::Vector3d& point = fibres.points[i];
+  for (const double coordinate : point)
+  {
+    if (!limits::coordinate.holds(coordinate))
+    {
+      requireWithin((where() + ": a coordinate").c_str(), coordinate, limits::coordinate);
+    }
+  }
+  if (!limits::radius.holds(fibres.radii[i]))
+  {
+    requireWithin((where() + ": Radius").c_str(), fibres.radii[i], limits::radius);
+  }
+  if (i > fibres.offsets[fibre] && (point - fibres.points[i - 1]).norm() <= 1e-9)
+  {
+    throw InvalidInput(where() + " coincides with the one before it: remove zero-length segments");
+  }
+}
+
+} // namespace
+
+void Fibres::addFibre(int fibreId, int bundleId, double targetRadius)
+{
+  fibreIds.push_back(fibreId);
+  bundleIds.push_back(bundleId);
+  targetRadii.push_back(targetRadius);
+  offsets.push_back(points.size());
+}
+
+void Fibres::addPoint(const Eigen::Vector3d& point, double radius)
+{
+  points.push_back(point);
+  radii.push_back(radius);
+  offsets.back() = points.size();
+}
+
+void validate(const Domain& domain)
+{
+  if (!domain.lower.allFinite() || !domain.upper.allFinite() || domain.size().minCoeff() <= 0.0)
+  {
+    throw InvalidInput("the Domain is empty or not finite: give xmin < xmax, ymin < ymax, zmin < zmax in µm");
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    requireWithin("a corner of the Domain", domain.lower[axis], limits::coordinate);
+    requireWithin("a corner of the Domain", domain.upper[axis], limits::coordinate);
+    requireWithin("a side of the Domain", domain.size()[axis], { limits::side.lowest, 2.0 * limits::coordinate.highest, " µm" });
+  }
+  if (domain.isPeriodic())
+  {
+    throw InvalidInput("the Domain is periodic, which is not supported yet: use a domain that is not periodic");
+  }
+}
+
+void validate(const Fibres& fibres)
+{
+  if (fibres.size() == 0)
+  {
+    throw InvalidInput("the input holds no fibres: connect a BundleInitializer, a reader or polylines with a Radius array");
+  }
+  validate(fibres.domain);
+  if (static_cast<double>(fibres.points.size()) > limits::controlPoints)
+  {
+    throw InvalidInput(text("the input holds ", fibres.points.size(), " control points, and at most ", limits::controlPoints,
+      " can be counted: use fewer fibres, or segments less short"));
+  }
+  std::unordered_set<int> seen;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const std::string name = "fibre " + std::to_string(fibres.fibreIds[f]) + " (cell " + std::to_string(f) + ")";
+    if (fibres.fibreIds[f] < 1 || fibres.bundleIds[f] < 1)
+    {
+      throw InvalidInput(name + " has a FibreId or BundleId below 1: ids count from 1");
+    }
+    if (!seen.insert(fibres.fibreIds[f]).second)
+    {
+      throw InvalidInput(name + " shares its FibreId with another fibre: give each polyline its own id");
+    }
+    if (fibres.pointCount(f) < 2)
+    {
+      throw InvalidInput(name + " has " + std::to_string(fibres.pointCount(f)) + " control point(s): a fibre needs at least two");
+    }
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      validateControlPoint(fibres, f, i, name);
+    }
+    // After the radii, from which a missing target is made.
+    if (!limits::radius.holds(fibres.targetRadii[f]))
+    {
+      requireWithin((name + ": TargetRadius").c_str(), fibres.targetRadii[f], limits::radius);
+    }
+  }
+}
+
+double chainVolume(const Fibres& fibres, std::size_t fibre)
+{
+  double volume = 0.0;
+  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
+  {
+    volume += coneVolume(fibres.radii[i], fibres.radii[i + 1], (fibres.points[i + 1] - fibres.points[i]).norm());
+  }
+  return volume;
+}
+
+double capsuleVolumeInDomain(const Fibres& fibres)
+{
+  double volume = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const auto [t0, t1] = fibres.domain.clip(fibres.points[i], fibres.points[i + 1]);
+      if (t1 <= t0)
+      {
+        continue;
+      }
+      const double r0 = fibres.radii[i] + t0 * (fibres.radii[i + 1] - fibres.radii[i]);
+      const double r1 = fibres.radii[i] + t1 * (fibres.radii[i + 1] - fibres.radii[i]);
+      volume += coneVolume(r0, r1, (t1 - t0) * (fibres.points[i + 1] - fibres.points[i]).norm());
+    }
+  }
+  return volume;
+}
+
+std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)
+{
+  std::map<int, Eigen::Vector3d> axes;
+  std::map<int, Eigen::Vector3d> sense;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const Eigen::Vector3d direction = endToEnd(fibres, f);
+    const int bundle = fibres.bundleIds[f];
+    if (sense.count(bundle) == 0 && direction.squaredNorm() > 0.0)
+    {
+      sense[bundle] = direction;
+      axes[bundle].setZero();
+    }
+    if (sense.count(bundle) > 0)
+    {
+      axes[bundle] += direction.dot(sense[bundle]) < 0.0 ? Eigen::Vector3d(-direction) : direction;
+    }
+  }
+  for (auto& entry : axes)
+  {
+    entry.second.normalize();
+  }
+  // Fibres that all end where they begin have no direction.
+  for (const int bundle : fibres.bundleIds)
+  {
+    axes.emplace(bundle, Eigen::Vector3d::UnitZ());
+  }
+  return axes;
+}
+
+Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId)
+{
+  const auto axes = bundleAxes(fibres);
+  const auto found = axes.find(bundleId);
+  if (found == axes.end())
+  {
+    throw InvalidInput("there is no bundle " + std::to_string(bundleId));
+  }
+  return found->second;
+}
+
+double meanDispersion(const Fibres& fibres, int bundleId)
+{
+  const auto axes = bundleAxes(fibres);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const auto axis = axes.find(fibres.bundleIds[f]);
+    if (axis != axes.end() && (bundleId == 0 || bundleId == fibres.bundleIds[f]))
+    {
+      sum += angleBetweenLines(endToEnd(fibres, f), axis->second);
+      ++count;
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+double meanTangentDispersion(const Fibres& fibres, int bundleId)
+{
+  const auto axes = bundleAxes(fibres);
+  double sum = 0.0;
+  double length = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const auto axis = axes.find(fibres.bundleIds[f]);
+    if (axis == axes.end() || (bundleId != 0 && bundleId != fibres.bundleIds[f]))
+    {
+      continue;
+    }
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const Eigen::Vector3d d = fibres.points[i + 1] - fibres.points[i];
+      sum += d.norm() * angleBetweenLines(d, axis->second);
+      length += d.norm();
+    }
+  }
+  return length > 0.0 ? sum / length : 0.0;
+}
+
+} // namespace cactus

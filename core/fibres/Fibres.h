@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Domain.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace cactus
+{
+
+/// Fibres as chains of capsules (paper, "Fibre capsule-parameterisation"): fibre f owns the control points
+/// [offsets[f], offsets[f + 1]), and every two consecutive ones span a capsule. Lengths in µm.
+struct Fibres
+{
+  std::vector<Eigen::Vector3d> points;   ///< control points
+  std::vector<double> radii;             ///< outer radius at each control point
+  std::vector<std::size_t> offsets{ 0 }; ///< size() + 1 entries, increasing
+  std::vector<int> fibreIds;             ///< one per fibre, positive and unique
+  std::vector<int> bundleIds;            ///< one per fibre, positive
+  std::vector<double> targetRadii;       ///< sampled outer radius, one per fibre
+  Domain domain;
+
+  std::size_t size() const { return offsets.size() - 1; }
+  std::size_t pointCount(std::size_t fibre) const { return offsets[fibre + 1] - offsets[fibre]; }
+  /// Appends an empty fibre; follow it with addPoint for its control points.
+  void addFibre(int fibreId, int bundleId, double targetRadius);
+  /// Appends a control point to the last fibre.
+  void addPoint(const Eigen::Vector3d& point, double radius);
+};
+
+/// Throws InvalidInput unless the domain has corners and sides within the limits (see Limits.h) and is not periodic.
+void validate(const Domain& domain);
+
+/// Throws InvalidInput, naming the fibre, unless: there is a fibre; every fibre has at least two control points, no
+/// zero-length segment, and coordinates, radii and target radius within the limits (see Limits.h); ids are positive and
+/// fibre ids unique; the domain is valid.
+void validate(const Fibres& fibres);
+
+/// Volume (µm³) of one fibre: its capsules as truncated cones between control points, without end caps.
+double chainVolume(const Fibres& fibres, std::size_t fibre);
+
+/// Volume (µm³) of the union-free sum of the fibres' capsules inside the domain, each chain measured as truncated cones
+/// between control points clipped to the domain along the centre line. Overlaps count twice, end caps are left out.
+double capsuleVolumeInDomain(const Fibres& fibres);
+
+/// Mean angle (degrees) between each fibre's end-to-end direction and its bundle's axis, where an axis is the normalised sum
+/// of the end-to-end unit directions of the bundle's fibres. `bundleId` 0 averages over all bundles' fibres.
+double meanDispersion(const Fibres& fibres, int bundleId = 0);
+
+/// The same for the directions of all segments, weighted by their length.
+double meanTangentDispersion(const Fibres& fibres, int bundleId = 0);
+
+/// The axis (unit vector) of a bundle: the normalised sum of its fibres' end-to-end unit directions, each counted in the
+/// sense that agrees with the first fibre's; +z where all of them end where they begin.
+Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId);
+
+/// The axes of all bundles, by BundleId.
+std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres);
+
+} // namespace cactus

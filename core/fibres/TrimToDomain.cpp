@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibres/TrimToDomain.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Whether a fibre that leaves after one control point comes back at another so near that the two pieces could meet, grown by up
+/// to their radius: then they are one.
+bool comesBackAtOnce(const Fibres& fibres, std::size_t left, std::size_t back)
+{
+  return (fibres.points[back] - fibres.points[left]).norm() < 2.0 * (fibres.radii[left] + fibres.radii[back]);
+}
+
+} // namespace
+
+Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
+{
+  Fibres trimmed;
+  trimmed.domain = fibres.domain;
+  if (kept != nullptr)
+  {
+    kept->clear();
+  }
+  int nextId = fibres.fibreIds.empty() ? 1 : *std::max_element(fibres.fibreIds.begin(), fibres.fibreIds.end()) + 1;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    std::vector<std::pair<std::size_t, std::size_t>> pieces; // first and last control point
+    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const auto [enter, leave] =
+        fibres.domain.clip(fibres.points[i], fibres.points[i + 1], 2.0 * std::max(fibres.radii[i], fibres.radii[i + 1]));
+      if (leave < enter)
+      {
+        continue;
+      }
+      if (!pieces.empty() && (pieces.back().second == i || comesBackAtOnce(fibres, pieces.back().second, i)))
+      {
+        pieces.back().second = i + 1;
+      }
+      else
+      {
+        pieces.emplace_back(i, i + 1);
+      }
+    }
+    const auto longest = std::max_element(
+      pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.second - a.first < b.second - b.first; });
+    for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
+    {
+      trimmed.addFibre(piece == longest ? fibres.fibreIds[f] : nextId++, fibres.bundleIds[f], fibres.targetRadii[f]);
+      for (std::size_t i = piece->first; i <= piece->second; ++i)
+      {
+        trimmed.addPoint(fibres.points[i], fibres.radii[i]);
+        if (kept != nullptr)
+        {
+          kept->push_back(i);
+        }
+      }
+    }
+  }
+  return trimmed;
+}
+
+} // namespace cactus

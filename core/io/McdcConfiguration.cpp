@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/McdcConfiguration.h"
+
+#include "base/Numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double gyromagneticRatio = 267.51525e6; ///< rad/(s·T), as the simulator has it
+constexpr double millimetre = 1e-3;               ///< of one µm
+
+void writeBox(std::ostream& out, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
+{
+  for (const Eigen::Vector3d& corner : { lower, upper })
+  {
+    out << millimetre * corner[0] << ' ' << millimetre * corner[1] << ' ' << millimetre * corner[2] << '\n';
+  }
+}
+
+} // namespace
+
+double McdcOptions::displacement() const
+{
+  return 1e6 * std::sqrt(2.0 * diffusivity * echoTime);
+}
+
+std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, const std::string& plyList,
+  const std::string& scheme, const std::string& outputPrefix, const std::string& compartment)
+{
+  const Eigen::Vector3d margin = (0.25 * domain.size()).cwiseMin(options.displacement());
+  const Eigen::Vector3d room = Eigen::Vector3d::Constant(10.0 * options.displacement());
+  TextStream out;
+  out.precision(9);
+  out << "N " << options.walkers << '\n'
+      << "T " << options.steps << '\n'
+      << "duration " << options.echoTime << '\n'
+      << "diffusivity " << options.diffusivity << '\n'
+      << "exp_prefix " << outputPrefix << '\n'
+      << "scheme_file " << scheme << '\n'
+      << "scale_from_stu 1\n"
+      << "write_txt 1\n"
+      << "write_bin 0\n"
+      << "write_traj_file 0\n"
+      << "<obstacle>\n"
+      << "ply_file_list " << plyList << '\n'
+      << "</obstacle>\n"
+      << "<voxels>\n";
+  writeBox(out, domain.lower - room, domain.upper + room);
+  out << "</voxels>\n"
+      << "<spawning_area>\n";
+  writeBox(out, domain.lower + margin, domain.upper - margin);
+  out << "</spawning_area>\n"
+      << "ini_walkers_pos " << compartment << '\n'
+      << "num_process 1\n"
+      << "<END>\n";
+  return out.str();
+}
+
+std::string mcdcScheme(const McdcOptions& options)
+{
+  TextStream out;
+  out.precision(9);
+  const auto line = [&](const Eigen::Vector3d& direction, double gradient)
+  {
+    out << direction[0] << ' ' << direction[1] << ' ' << direction[2] << ' ' << gradient << ' ' << options.gradientSeparation
+        << ' ' << options.gradientDuration << ' ' << options.echoTime << '\n';
+  };
+  out << "VERSION: STEJSKALTANNER\n";
+  line({ 0.0, 0.0, 1.0 }, 0.0);
+  const double golden = pi * (3.0 - std::sqrt(5.0));
+  for (const double b : options.bValues)
+  {
+    // Stejskal & Tanner 1965: b = (γ G δ)² (Δ - δ / 3)
+    const double gradient = std::sqrt(b / (options.gradientSeparation - options.gradientDuration / 3.0)) /
+                            (gyromagneticRatio * options.gradientDuration);
+    for (int i = 0; i < options.directions; ++i)
+    {
+      // A golden-angle spiral from the pole to the equator: the first direction runs close to the bundles' usual axis, z.
+      const double z = 1.0 - (i + 0.5) / options.directions;
+      const double radius = std::sqrt(1.0 - z * z);
+      line({ radius * std::cos(golden * i), radius * std::sin(golden * i), z }, gradient);
+    }
+  }
+  return out.str();
+}
+
+std::string mcdcPlyList(const std::vector<std::string>& paths)
+{
+  std::string text = "1e-3\n";
+  for (const std::string& path : paths)
+  {
+    text += path + '\n';
+  }
+  return text;
+}
+
+} // namespace cactus

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/StrandFile.h"
+
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Numbers.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <string_view>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Reads numbers line by line, and knows which line it is on.
+class LineReader
+{
+public:
+  LineReader(std::istream& stream, const std::string& name)
+    : Buffer(*stream.rdbuf())
+    , Name(name)
+  {
+  }
+
+  /// The one number of the next line.
+  double only(const std::string& meaning)
+  {
+    this->begin(meaning);
+    const double value = this->number(meaning);
+    this->end(meaning + " and nothing else");
+    return value;
+  }
+
+  std::size_t count(const std::string& meaning)
+  {
+    const double value = this->only(meaning);
+    if (value < 0.0 || value != std::floor(value) || value > std::numeric_limits<int>::max())
+    {
+      this->expected(meaning + " (a whole number)");
+    }
+    return static_cast<std::size_t>(value);
+  }
+
+  /// The four numbers of the next line.
+  void four(const std::string& meaning, double (&values)[4])
+  {
+    this->begin(meaning);
+    for (double& value : values)
+    {
+      value = this->number(meaning);
+    }
+    this->end(meaning + " and nothing else");
+  }
+
+  /// Throws unless only blank lines are left.
+  void finish(const std::string& after)
+  {
+    if (this->next())
+    {
+      this->fail("expected the end of the file after " + after + ", found '" + excerpt(this->Rest) + "': correct the number");
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& what) const
+  {
+    throw FileError(this->Name + ", line " + std::to_string(this->Line) + ": " + what);
+  }
+
+private:
+  /// Goes to the next line that is not blank; false where there is none.
+  bool next()
+  {
+    do
+    {
+      if (!this->readLine())
+      {
+        return false;
+      }
+      this->Rest = this->Text;
+      skipBlanks(this->Rest);
+    } while (this->Rest.empty());
+    return true;
+  }
+
+  /// The next line, whether it ends as under Unix, Windows or the old Mac; false at the end of the file.
+  bool readLine()
+  {
+    constexpr std::size_t longest = 4096;
+    constexpr int none = std::char_traits<char>::eof();
+    this->Text.clear();
+    try
+    {
+      int c = this->Buffer.sbumpc();
+      if (c == none)
+      {
+        return false;
+      }
+      ++this->Line;
+      for (; c != none && c != '\n' && c != '\r'; c = this->Buffer.sbumpc())
+      {
+        if (this->Text.size() == longest)
+        {
+          this->fail("the line is longer than " + std::to_string(longest) + " characters: this is no strand file");
+        }
+        this->Text += static_cast<char>(c);
+      }
+      if (c == '\r' && this->Buffer.sgetc() == '\n')
+      {
+        this->Buffer.sbumpc();
+      }
+    }
+    catch (const std::ios_base::failure& error) // a folder, a broken disk
+    {
+      throw FileError("cannot read " + this->Name + " after line " + std::to_string(this->Line) + ": " + error.what());
+    }
+    if (this->Line == 1 && this->Text.compare(0, 3, "\xef\xbb\xbf") == 0)
+    {
+      this->Text.erase(0, 3); // the mark that some editors put before UTF-8
+    }
+    return true;
+  }
+
+  void begin(const std::string& meaning)
+  {
+    if (!this->next())
+    {
+      throw FileError(this->Name + ": the file ends after line " + std::to_string(this->Line) + ", where " + meaning +
+                      " was expected: it is truncated, or the numbers of strands and control points in it are wrong");
+    }
+  }
+
+  double number(const std::string& meaning)
+  {
+    double value = 0.0;
+    if (!takeNumber(this->Rest, value))
+    {
+      this->expected(meaning);
+    }
+    const std::size_t before = this->Rest.size();
+    skipBlanks(this->Rest);
+    if (!this->Rest.empty() && this->Rest.size() == before)
+    {
+      this->expected(meaning);
+    }
+    return value;
+  }
+
+  void end(const std::string& meaning)
+  {
+    if (!this->Rest.empty())
+    {
+      this->expected(meaning);
+    }
+  }
+
+  [[noreturn]] void expected(const std::string& meaning) const
+  {
+    this->fail("expected " + meaning + ", found '" + excerpt(this->Text) + "'");
+  }
+
+  std::streambuf& Buffer;
+  std::string Name;
+  std::string Text;
+  std::string_view Rest; ///< of Text
+  std::size_t Line = 0;
+};
+
+void readStrand(LineReader& reader, std::size_t number, std::size_t strands, Fibres& fibres)
+{
+  const std::string strand = "strand " + std::to_string(number) + " of " + std::to_string(strands);
+  const std::size_t points = reader.count("the number of control points of " + strand);
+  if (points < 2)
+  {
+    reader.fail("fibre " + std::to_string(number) + " (" + strand + ") has " + std::to_string(points) +
+                " control point(s): a fibre needs at least two");
+  }
+  fibres.addFibre(static_cast<int>(number), 1, 1.0);
+  double radiusSum = 0.0;
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    double values[4];
+    reader.four("x y z r of control point " + std::to_string(i + 1) + " of " + strand, values);
+    fibres.addPoint({ values[0], values[1], values[2] }, values[3]);
+    radiusSum += values[3];
+  }
+  double& mean = fibres.targetRadii.back();
+  mean = radiusSum / static_cast<double>(points);
+  for (const double limit : { limits::radius.lowest, limits::radius.highest })
+  {
+    // The mean of radii at a limit is not beyond it, however their sum was rounded.
+    mean = std::abs(mean - limit) <= 1e-9 * limit ? limit : mean;
+  }
+}
+
+} // namespace
+
+Fibres readStrandFile(std::istream& stream, const std::string& name)
+{
+  LineReader reader(stream, name);
+  Fibres fibres;
+  const double side = reader.only("the side of the cube");
+  if (side <= 0.0)
+  {
+    reader.fail(text("the side of the cube is ", side, ", not a positive length"));
+  }
+  fibres.domain = Domain::cube(side);
+  const std::size_t strands = reader.count("the number of strands");
+  if (strands == 0)
+  {
+    reader.fail("the number of strands is 0: there are no fibres to read");
+  }
+  for (std::size_t s = 0; s < strands; ++s)
+  {
+    readStrand(reader, s + 1, strands, fibres);
+  }
+  reader.finish("the last of " + std::to_string(strands) + " strand(s)");
+  try
+  {
+    validate(fibres);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput(name + ": " + error.what());
+  }
+  return fibres;
+}
+
+Fibres readStrandFile(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file)
+  {
+    throw FileError("cannot open strand file " + path + ": " + std::strerror(errno));
+  }
+  return readStrandFile(file, path);
+}
+
+void writeStrandFile(const Fibres& fibres, const std::string& path)
+{
+  validate(fibres);
+  const double side = fibres.domain.size()[0];
+  const Domain cube = Domain::cube(side);
+  if ((fibres.domain.lower - cube.lower).cwiseAbs().maxCoeff() > 1e-9 * side ||
+      (fibres.domain.upper - cube.upper).cwiseAbs().maxCoeff() > 1e-9 * side)
+  {
+    throw InvalidInput(
+      "a strand file can only hold a cube centred on the origin, and the Domain is something else: write .vtp instead");
+  }
+  constexpr int digits = 9;
+  AtomicFile file(path);
+  std::string part;
+  appendNumber(part, side, digits);
+  part += '\n' + std::to_string(fibres.size()) + '\n';
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    part += std::to_string(fibres.pointCount(f)) + '\n';
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        appendNumber(part, fibres.points[i][axis], digits);
+        part += ' ';
+      }
+      appendNumber(part, fibres.radii[i], digits);
+      part += '\n';
+    }
+    file.stream().write(part.data(), static_cast<std::streamsize>(part.size()));
+    part.clear();
+  }
+  file.commit();
+}
+
+} // namespace cactus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Domain.h"
+#include "fibres/Fibres.h"
+#include "io/McdcConfiguration.h"
+#include "judge/SubstrateCertificate.h"
+#include "mesh/FibreSurfaces.h"
+
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// What goes into a substrate folder.
+struct SubstrateFolderContents
+{
+  Domain domain;
+  FibreSurfaces outer;
+  FibreSurfaces inner;
+  const Fibres* fibres = nullptr;      ///< centre lines, if they are to be written too (`fibres.strands`)
+  std::vector<std::string> provenance; ///< one line per stage so far
+  bool allowOpenSurfaces = false;      ///< write surfaces that leak, too
+  SubstrateCertificateOptions certificate;
+  McdcOptions mcdc;
+};
+
+/// One surface's file, as the manifest lists it.
+struct SubstrateFile
+{
+  std::string path; ///< relative to the folder
+  std::string surface;
+  int fibreId = 0;
+  int bundleId = 0;
+  std::size_t triangles = 0;
+  double volume = 0.0; ///< µm³
+  double area = 0.0;   ///< µm²
+  bool closed = false; ///< a closed 2-manifold that points outward
+};
+
+/// What has been written, and how good it is.
+struct WrittenSubstrate
+{
+  std::vector<SubstrateFile> files;
+  SubstrateCertificate certificate; ///< of the surfaces as the files hold them
+  /// What writes that were killed have left beside the folder and is kept, as it holds what is the user's: a sentence for each.
+  std::vector<std::string> leftovers;
+};
+
+} // namespace cactus

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/SubstrateManifest.h"
+
+#include "base/Sha256.h"
+
+#include <nlohmann/json.hpp>
+
+namespace cactus
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+/// What the manifest says it is; by this a folder is known as one of ours.
+constexpr char format[] = "CACTUS substrate folder";
+constexpr char ownChecksum[] = "manifest_sha256";
+constexpr std::size_t checksumDigits = 64;
+
+/// JSON on one line. Text that is not UTF-8 (a file's name in the provenance may be anything) is marked where it is not.
+std::string line(const Json& value)
+{
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// One line for each property and for each thing in a list, which a person can read and `grep` can find.
+std::string laidOut(const Json& manifest)
+{
+  std::string text = "{";
+  for (const auto& [name, value] : manifest.items())
+  {
+    text += (text.size() > 1 ? ",\n  " : "\n  ") + line(name) + ": ";
+    if (value.empty() || !value.is_structured() || value.front().is_number())
+    {
+      text += line(value);
+      continue;
+    }
+    const char* before = "";
+    text += value.is_array() ? "[" : "{";
+    for (const auto& [key, part] : value.items())
+    {
+      text += before;
+      text += "\n    " + (value.is_array() ? "" : line(key) + ": ") + line(part);
+      before = ",";
+    }
+    text += value.is_array() ? "\n  ]" : "\n  }";
+  }
+  return text + "\n}\n";
+}
+
+Json fileEntry(const SubstrateFile& file)
+{
+  return { { "path", file.path }, { "surface", file.surface }, { "fibre", file.fibreId }, { "bundle", file.bundleId },
+    { "triangles", file.triangles }, { "volume_um3", file.volume }, { "area_um2", file.area }, { "closed", file.closed } };
+}
+
+bool isText(const Json& object, const char* name)
+{
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string();
+}
+
+/// The manifest's text as it was when its own checksum was taken.
+std::string withoutOwnChecksum(std::string text, const std::string& checksum)
+{
+  const std::size_t place = text.rfind(checksum);
+  return place == std::string::npos ? text : text.replace(place, checksum.size(), std::string(checksumDigits, '0'));
+}
+
+} // namespace
+
+std::string manifestText(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, const WrittenFiles& written)
+{
+  double outerVolume = 0.0;
+  double innerVolume = 0.0;
+  std::size_t triangles = 0;
+  Json files = Json::array();
+  for (const SubstrateFile& file : substrate.files)
+  {
+    (file.surface == "outer" ? outerVolume : innerVolume) += file.volume;
+    triangles += file.triangles;
+    files.push_back(fileEntry(file));
+  }
+  Json domain = Json::array();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    domain.push_back(contents.domain.lower[axis]);
+    domain.push_back(contents.domain.upper[axis]);
+  }
+  Json manifest;
+  manifest["format"] = format;
+  manifest["version"] = CACTUS_VERSION;
+  manifest["length_unit"] = "micrometre";
+  manifest["domain"] = domain;
+  manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();
+  manifest["outer_surfaces"] = contents.outer.size();
+  manifest["inner_surfaces"] = contents.inner.size();
+  manifest["triangles"] = triangles;
+  manifest["outer_volume_um3"] = outerVolume;
+  manifest["inner_volume_um3"] = innerVolume;
+  manifest["certified"] = substrate.certificate.certified();
+  manifest["faults"] = substrate.certificate.faults;
+  manifest["provenance"] = contents.provenance;
+  manifest["files"] = std::move(files);
+  manifest["folders"] = written.folders;
+  manifest["sha256"] = written.checksums;
+  const std::string blank(checksumDigits, '0');
+  manifest[ownChecksum] = blank;
+  std::string text = laidOut(manifest);
+  return text.replace(text.rfind(blank), checksumDigits, sha256(text));
+}
+
+std::optional<SubstrateManifest> readManifest(const std::string& text)
+{
+  // What is of no use here is not kept: neither the list of surfaces nor what is nested more deeply than ours.
+  const Json::parser_callback_t wanted = [](int depth, Json::parse_event_t event, Json&)
+  { return depth < 2 || (event != Json::parse_event_t::object_start && event != Json::parse_event_t::array_start); };
+  const Json manifest = Json::parse(text, wanted, false);
+  if (!manifest.is_object() || !isText(manifest, "format") || manifest["format"] != format)
+  {
+    return std::nullopt;
+  }
+  SubstrateManifest found;
+  found.version = isText(manifest, "version") ? manifest["version"].get<std::string>() : "";
+  const auto checksums = manifest.find("sha256");
+  const auto folders = manifest.find("folders");
+  found.hasChecksums = checksums != manifest.end() && checksums->is_object() && folders != manifest.end() &&
+                       folders->is_array() && isText(manifest, ownChecksum);
+  if (!found.hasChecksums)
+  {
+    return found;
+  }
+  for (const auto& [path, checksum] : checksums->items())
+  {
+    if (checksum.is_string())
+    {
+      found.written.checksums[path] = checksum.get<std::string>();
+    }
+  }
+  for (const Json& folder : *folders)
+  {
+    if (folder.is_string())
+    {
+      found.written.folders.insert(folder.get<std::string>());
+    }
+  }
+  const auto checksum = manifest[ownChecksum].get<std::string>();
+  found.asWritten = checksum.size() == checksumDigits && sha256(withoutOwnChecksum(text, checksum)) == checksum;
+  return found;
+}
+
+} // namespace cactus

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/SubstrateReadme.h"
+
+#include <algorithm>
+
+namespace cactus
+{
+
+std::string readmeText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate)
+{
+  const bool hasInner = contents.inner.size() > 0;
+  const bool hasOuter = contents.outer.size() > 0;
+  std::string text = "A substrate of " + std::to_string(std::max(contents.outer.size(), contents.inner.size())) +
+                     " fibres, written by CACTUS " CACTUS_VERSION ".\n\n";
+  text += certificate.certified()
+            ? "CERTIFIED: every surface is closed, no two meet, and no walker can leak (certificate.csv).\n\n"
+            : "NOT CERTIFIED (certificate.csv):\n\n";
+  for (const std::string& fault : certificate.faults)
+  {
+    text += "  - " + fault + "\n";
+  }
+  text += certificate.certified() ? "" : "\n";
+  text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
+  if (hasOuter)
+  {
+    text += "outer/          outer surfaces, one ASCII PLY file per fibre, in micrometres, normals outward\n";
+  }
+  if (hasInner)
+  {
+    text += "inner/          inner surfaces (the axons), likewise\n";
+  }
+  if (contents.fibres != nullptr)
+  {
+    text += "fibres.strands  centre lines and radii\n";
+  }
+  text += "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
+  text += "mcdc/           configurations for the MC/DC simulator (github.com/jonhrafe/MCDC_Simulator_public)\n\n";
+  text += "To simulate, start MC/DC in this folder; it looks for all files from where it is started:\n\n";
+  text += "    MC-DC_Simulator --conf mcdc/intra.conf\n";
+  if (hasOuter)
+  {
+    text += "    MC-DC_Simulator --conf mcdc/extra.conf\n";
+  }
+  text +=
+    "\nMC/DC before December 2024 takes the file without --conf, where later ones end without a word.\n"
+    "The signals come to mcdc/output/. \n"
+    "Writing the substrate again replaces the surfaces and all else that is as it was written. Where you have changed or added\n"
+    "anything (results, a .conf, notes), the writer refuses and says what: move it away, or write to another folder.\n\n";
+  text += std::string("intra.conf  walkers inside the ") + (hasInner ? "inner" : "outer") + " surfaces\n";
+  if (hasOuter)
+  {
+    text += "extra.conf  walkers outside the outer surfaces\n";
+  }
+  text +=
+    "\nMyelin has no walkers: MC/DC knows the inside and the outside of a surface, and no third compartment. For the signal of\n"
+    "both, divide each by its number of walkers and weight it with its compartment's share of the domain (manifest.json): "
+    "inside,\n"
+    "the volume of the surfaces used over the domain's; outside, 1 - outer_volume_um3 over the domain's.\n\n"
+    "What to edit: N (walkers) and num_process first, T (steps: a step should be shorter than the smallest radius), and\n"
+    "pgse.scheme. Walkers start in <spawning_area>, off the substrate's boundary. A fibre ends in a cap at the boundary, and\n"
+    "outside it water is free: a walker that gets there no longer tells of the substrate. Choose the duration and the\n"
+    "<spawning_area> (both in the .conf, in s and mm) so that few do. <voxels> is wider than the substrate, because MC/DC\n"
+    "continues a walker that leaves it on the opposite side, where there is another fibre.\n";
+  return text;
+}
+
+} // namespace cactus

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/EditableSurface.h"
+
+#include <utility>
+
+namespace cactus
+{
+
+EditableSurface::EditableSurface(CappedSurface& surface)
+  : Surface(surface)
+  , First(surface.mesh.points.size(), -1)
+  , Next(3 * surface.mesh.triangles.size())
+  , Mark(surface.mesh.points.size(), 0)
+  , Alive(surface.mesh.triangles.size())
+{
+  for (std::size_t t = surface.mesh.triangles.size(); t-- > 0;)
+  {
+    this->link(t);
+  }
+}
+
+void EditableSurface::link(std::size_t triangle)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    auto& first = this->First[std::size_t(this->cornersOf(triangle)[i])];
+    this->Next[3 * triangle + i] = first;
+    first = static_cast<std::int32_t>(3 * triangle + i);
+  }
+}
+
+void EditableSurface::unlink(std::int32_t point, std::int32_t corner)
+{
+  std::int32_t* link = &this->First[std::size_t(point)];
+  while (*link != corner)
+  {
+    link = &this->Next[std::size_t(*link)];
+  }
+  *link = this->Next[std::size_t(corner)];
+}
+
+void EditableSurface::unlink(std::size_t triangle)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    this->unlink(this->cornersOf(triangle)[i], static_cast<std::int32_t>(3 * triangle + i));
+  }
+}
+
+bool EditableSurface::areLinked(std::int32_t u, std::int32_t v) const
+{
+  for (std::int32_t c = this->firstCorner(u); c >= 0; c = this->nextCorner(c))
+  {
+    const auto& corners = this->cornersOf(std::size_t(c) / 3);
+    if (corners[0] == v || corners[1] == v || corners[2] == v)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+int EditableSurface::valence(std::int32_t point) const
+{
+  int count = 0;
+  for (std::int32_t c = this->firstCorner(point); c >= 0; c = this->nextCorner(c))
+  {
+    ++count;
+  }
+  return count;
+}
+
+std::size_t EditableSurface::triangleAlong(std::int32_t from, std::int32_t to) const
+{
+  std::int32_t c = this->firstCorner(from);
+  while (this->cornersOf(std::size_t(c) / 3)[(std::size_t(c) % 3 + 1) % 3] != to)
+  {
+    c = this->nextCorner(c);
+  }
+  return std::size_t(c) / 3;
+}
+
+std::int32_t EditableSurface::thirdCorner(std::size_t triangle, std::int32_t a, std::int32_t b) const
+{
+  const auto& corners = this->cornersOf(triangle);
+  return corners[0] != a && corners[0] != b ? corners[0] : corners[1] != a && corners[1] != b ? corners[1] : corners[2];
+}
+
+bool EditableSurface::isCollapsible(std::int32_t u, std::int32_t v)
+{
+  this->MarkValue += 2;
+  int around = 0;
+  for (std::int32_t c = this->firstCorner(u); c >= 0; c = this->nextCorner(c))
+  {
+    for (const std::int32_t corner : this->cornersOf(std::size_t(c) / 3))
+    {
+      this->Mark[std::size_t(corner)] = this->MarkValue;
+    }
+    ++around;
+  }
+  int common = 0;
+  int aroundV = 0;
+  for (std::int32_t c = this->firstCorner(v); c >= 0; c = this->nextCorner(c))
+  {
+    for (const std::int32_t corner : this->cornersOf(std::size_t(c) / 3))
+    {
+      auto& mark = this->Mark[std::size_t(corner)];
+      if (corner != u && corner != v && mark == this->MarkValue)
+      {
+        ++common;
+        mark = this->MarkValue + 1;
+      }
+    }
+    ++aroundV;
+  }
+  return common == 2 && around + aroundV > 6;
+}
+
+void EditableSurface::collapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place)
+{
+  this->Surface.mesh.points[std::size_t(u)] = place;
+  this->Surface.faces[std::size_t(u)] |= this->facesOf(v);
+  // The triangles on the edge die; v's others become u's.
+  for (std::int32_t c = this->firstCorner(v); c >= 0;)
+  {
+    const std::int32_t next = this->nextCorner(c);
+    const auto t = std::size_t(c) / 3;
+    auto& corners = this->Surface.mesh.triangles[t];
+    if (corners[0] == u || corners[1] == u || corners[2] == u)
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        if (corners[i] != v)
+        {
+          this->unlink(corners[i], static_cast<std::int32_t>(3 * t + i));
+        }
+      }
+      corners = { { -1, -1, -1 } };
+      --this->Alive;
+    }
+    else
+    {
+      corners[std::size_t(c) % 3] = u;
+      this->Next[std::size_t(c)] = this->First[std::size_t(u)];
+      this->First[std::size_t(u)] = c;
+    }
+    c = next;
+  }
+  this->First[std::size_t(v)] = -1;
+}
+
+void EditableSurface::flip(std::size_t one, std::size_t other, std::int32_t a, std::int32_t b)
+{
+  const std::int32_t c = this->thirdCorner(one, a, b);
+  const std::int32_t d = this->thirdCorner(other, a, b);
+  this->unlink(one);
+  this->unlink(other);
+  this->Surface.mesh.triangles[one] = { { a, d, c } };
+  this->Surface.mesh.triangles[other] = { { d, b, c } };
+  this->link(one);
+  this->link(other);
+}
+
+void EditableSurface::compact()
+{
+  auto& triangles = this->Surface.mesh.triangles;
+  std::vector<std::int32_t> number(this->pointCount(), -1);
+  std::size_t alive = 0;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::uint8_t> faces;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    if (this->isDead(t))
+    {
+      continue;
+    }
+    auto corners = triangles[t];
+    for (std::int32_t& corner : corners)
+    {
+      auto& n = number[std::size_t(corner)];
+      if (n < 0)
+      {
+        n = static_cast<std::int32_t>(points.size());
+        points.push_back(this->at(corner));
+        faces.push_back(this->facesOf(corner));
+      }
+      corner = n;
+    }
+    triangles[alive++] = corners;
+  }
+  triangles.resize(alive);
+  this->Surface.mesh.points = std::move(points);
+  this->Surface.faces = std::move(faces);
+}
+
+} // namespace cactus

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/CappedSurface.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// A closed surface whose edges can be collapsed and flipped, so that it stays a closed 2-manifold of the same topology.
+///
+/// A corner is number 3 · triangle + place of a point in a triangle. Those of a point are linked in a list:
+///
+///     for (std::int32_t c = surface.firstCorner(p); c >= 0; c = surface.nextCorner(c))
+///
+/// Triangles that a collapse removes stay in their place, dead, until compact().
+class EditableSurface
+{
+public:
+  /// Works on the surface in place; whoever made the object must not change it before compact().
+  explicit EditableSurface(CappedSurface& surface);
+
+  std::size_t pointCount() const { return this->First.size(); }
+  std::size_t triangleCount() const { return this->Surface.mesh.triangles.size(); }
+  std::size_t aliveCount() const { return this->Alive; }
+
+  const Eigen::Vector3d& at(std::int32_t point) const { return this->Surface.mesh.points[std::size_t(point)]; }
+  std::uint8_t facesOf(std::int32_t point) const { return this->Surface.faces[std::size_t(point)]; }
+  const std::array<std::int32_t, 3>& cornersOf(std::size_t triangle) const { return this->Surface.mesh.triangles[triangle]; }
+  bool isDead(std::size_t triangle) const { return this->cornersOf(triangle)[0] < 0; }
+  bool isDeadPoint(std::int32_t point) const { return this->firstCorner(point) < 0; }
+  bool isCap(const std::array<std::int32_t, 3>& corners) const { return this->Surface.isCap(corners); }
+
+  std::int32_t firstCorner(std::int32_t point) const { return this->First[std::size_t(point)]; }
+  std::int32_t nextCorner(std::int32_t corner) const { return this->Next[std::size_t(corner)]; }
+
+  /// Whether two points are the ends of an edge.
+  bool areLinked(std::int32_t u, std::int32_t v) const;
+  /// How many triangles meet at a point.
+  int valence(std::int32_t point) const;
+  /// The triangle that runs through an edge from `from` to `to`. Precondition: there is one.
+  std::size_t triangleAlong(std::int32_t from, std::int32_t to) const;
+  /// Whether an edge can be collapsed: the points next to both ends are just the two that the edge's triangles have beside it,
+  /// and the surface is no tetrahedron.
+  bool isCollapsible(std::int32_t u, std::int32_t v);
+
+  /// Makes u and v one, u, at `place`. Precondition: isCollapsible().
+  void collapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place);
+  /// Replaces the edge that two triangles have in common, a to b in `one` and b to a in `other`, by that of the two points beside
+  /// it. Precondition: these are not linked.
+  void flip(std::size_t one, std::size_t other, std::int32_t a, std::int32_t b);
+  /// Removes what is dead. Points are numbered by their first use; the object is of no use after that.
+  void compact();
+
+  /// The corner of a triangle that is neither of two others.
+  std::int32_t thirdCorner(std::size_t triangle, std::int32_t a, std::int32_t b) const;
+
+private:
+  void link(std::size_t triangle);
+  void unlink(std::size_t triangle);
+  void unlink(std::int32_t point, std::int32_t corner);
+
+  CappedSurface& Surface;
+  std::vector<std::int32_t> First; ///< per point, a corner that it is, or -1
+  std::vector<std::int32_t> Next;  ///< per corner, the next one that is the same point, or -1
+  std::vector<int> Mark;           ///< per point, of isCollapsible()
+  int MarkValue = 0;
+  std::size_t Alive;
+};
+
+} // namespace cactus

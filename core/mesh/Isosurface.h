@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/CappedSurface.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace cactus
+{
+
+/// A box cut into cells by planes across each axis. Its nodes are where three planes meet; the outermost planes are its faces.
+struct NodeLattice
+{
+  /// Edge of a block, in cells. Work on a lattice goes block by block, so that it can be left out where nothing is.
+  static constexpr int blockCells = 16;
+
+  std::array<std::vector<double>, 3> planes; ///< µm, increasing, at least two per axis
+
+  int nodes(int axis) const { return static_cast<int>(this->planes[std::size_t(axis)].size()); }
+  int cells(int axis) const { return this->nodes(axis) - 1; }
+  int blocks(int axis) const { return (this->cells(axis) + blockCells - 1) / blockCells; }
+  std::size_t blockCount() const
+  {
+    return std::size_t(this->blocks(0)) * std::size_t(this->blocks(1)) * std::size_t(this->blocks(2));
+  }
+};
+
+/// A box of nodes, the first and how many per axis; values on it are stored x fastest.
+struct NodeRange
+{
+  std::array<int, 3> first{ { 0, 0, 0 } };
+  std::array<int, 3> count{ { 0, 0, 0 } };
+
+  std::size_t size() const { return std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]); }
+};
+
+/// The nodes of the cells of block number `block` (x fastest): at most blockCells + 1 per axis.
+NodeRange nodesOfBlock(const NodeLattice& lattice, std::size_t block);
+
+/// Of the second differences on either side of an edge, the smaller one, or 0 where they have different signs: across a crease
+/// one side tells nothing about the other.
+inline double agreedBend(double a, double b)
+{
+  return a * b <= 0.0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b;
+}
+
+/// The boundary of the region of the lattice's box in which a field is positive: its zero surface, closed by flat caps on the
+/// faces of the box.
+///
+/// The field is what `values` gives at the nodes. The surface crosses each edge of a cell once where the signs at its ends differ
+/// (marching cubes, Lorensen and Cline 1987); on a face of a cell with four crossings the saddle of the bilinear field says which
+/// of them belong together (asymptotic decider, Nielson and Hamann 1991). Crossings of a cell are chained into loops, face by
+/// face, so cells agree on what they share and the surface is a closed, outward 2-manifold. A loop is cut into triangles by
+/// diagonals or, in a cell with such a face, around a point in its middle, since a diagonal might lie in the face and be made
+/// twice. It may have several components.
+///
+/// Along an edge the field is taken as a parabola, bent by the second difference that the samples before and behind agree on, so
+/// that the surface of a smooth field is off by the third power of the spacing; linear interpolation would leave ripples of
+/// spacing² / (8 radius of curvature). In the outermost cells, which may be flatter, the field is taken to be the same on both
+/// sides, as where its values at a face are copies.
+///
+/// `blocks` (increasing) is where to look: all blocks in which a node is positive must be among them. `values(range, out)` has
+/// to give the field at the nodes of a range, which reaches one node beyond a block on every side, also beyond the lattice, where
+/// anything will do. A 0 is taken for a negative number, but leaves triangles without an area.
+/// The order of points and triangles follows from the order of blocks and cells alone. Throws InvalidInput for a lattice that is
+/// none.
+CappedSurface contour(const NodeLattice& lattice, const std::vector<std::uint32_t>& blocks,
+  const std::function<void(const NodeRange&, float*)>& values);
+
+} // namespace cactus

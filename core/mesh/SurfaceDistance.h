@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/TriangleTree.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace cactus
+{
+
+/// Where two surfaces come nearest to each other.
+struct SurfaceGap
+{
+  double distance = std::numeric_limits<double>::infinity(); ///< µm; 0 where they meet, infinite where nothing was found
+  std::uint32_t triangleA = 0;
+  std::uint32_t triangleB = 0;
+  Eigen::Vector3d pointA = Eigen::Vector3d::Zero(); ///< on triangleA, and next to pointB; where they meet, of no meaning
+  Eigen::Vector3d pointB = Eigen::Vector3d::Zero();
+
+  bool found() const { return this->distance < std::numeric_limits<double>::infinity(); }
+};
+
+/// The shortest distance of two triangles (µm), as far as it is below `below`: between a corner and a face, between two edges, or
+/// 0 exactly where they meet (see trianglesMeet()). Otherwise nothing is found. Right to a few units in the last place of the
+/// coordinates, and never 0 by rounding.
+SurfaceGap triangleGap(const std::array<Eigen::Vector3d, 3>& a, const std::array<Eigen::Vector3d, 3>& b,
+  double below = std::numeric_limits<double>::infinity());
+
+/// The shortest distance of two surfaces (µm) over all pairs of triangles, as far as it is below `below`; else nothing is found.
+/// It is 0 exactly if they meet. One surface inside the other has a distance, too.
+SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double below = std::numeric_limits<double>::infinity());
+
+/// The triangles of `a` that come nearer than `distance` (µm, positive) to `b`, or meet it, in increasing order.
+std::vector<std::uint32_t> trianglesNear(const TriangleTree& a, const TriangleTree& b, double distance);
+
+} // namespace cactus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/TriangleMesh.h"
+#include "mesh/TriangleTree.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+// Whether surfaces meet, by exact predicates (see ExactPredicates.h): no answer here is a matter of rounding. Triangles are
+// closed sets, so that touching in a single point is meeting. Flat triangles (all corners on one line) are taken for the line
+// they are.
+
+/// Whether two triangles have a point in common.
+bool trianglesMeet(const std::array<Eigen::Vector3d, 3>& a, const std::array<Eigen::Vector3d, 3>& b);
+
+/// Whether two surfaces cut or touch each other. One inside the other does not count.
+bool surfacesMeet(const TriangleTree& a, const TriangleTree& b);
+bool surfacesMeet(const TriangleMesh& a, const TriangleMesh& b);
+
+/// All pairs of triangles, first of `a` and second of `b`, that cut or touch each other, in increasing order.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingTriangles(const TriangleTree& a, const TriangleTree& b);
+
+/// All pairs of a surface's own triangles that have more in common than the corners they share by index, the smaller first, in
+/// increasing order. Neighbours across an edge count where one lies folded onto the other in one plane, and two triangles of the
+/// same three corners. A flat triangle, which lies on its own edge, counts as a pair with itself.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> selfIntersections(const TriangleTree& surface);
+
+/// Whether there is any such pair.
+bool meetsItself(const TriangleTree& surface);
+bool meetsItself(const TriangleMesh& mesh);
+
+/// Where a point lies with respect to a closed surface.
+enum class Side
+{
+  Outside,
+  On,
+  Inside
+};
+
+/// By how often a line from the point to the outside crosses the surface. `surface` has to be closed.
+Side sideOf(const TriangleTree& surface, const Eigen::Vector3d& point);
+
+} // namespace cactus

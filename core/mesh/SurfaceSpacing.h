@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "mesh/TriangleMesh.h"
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// What keepApart() did.
+struct SpacingReport
+{
+  std::vector<std::size_t> moved;   ///< surfaces that were changed, increasing
+  std::vector<std::size_t> tooNear; ///< those that are still nearer than the gap to another, increasing
+};
+
+/// Moves points of closed, outward surfaces inwards, a nanometre or so at a time, until any two surfaces are at least `gap` (µm)
+/// apart: those of the triangles that come nearer. Meant for surfaces that keep the gap but for what coarsening has cost; it
+/// gives up on pairs that some fifty rounds do not part. Surfaces that meet are moved a few nanometres at a time. Distances are
+/// those of the triangles (see smallestGap()), no samples.
+///
+/// "At least" is meant for files, too, that hold points in single precision: what is nearer than 0.00005 µm more than the gap is
+/// moved. Points on a face of `box` stay on it, so that flat caps stay flat; what else a surface may run into, such as a cap that
+/// folds, is for the caller to check. Empty surfaces are left out. Same result on any number of threads.
+///
+/// It looks at one slab of `box` after the other, 10 µm thick along z, and holds search trees over that slab alone. How far a
+/// place is moved depends on what is missing of the gap within its slab.
+///
+/// Only pairs with a surface among those in `changed` (increasing), or one that is moved, are looked at: the others are taken to
+/// be apart.
+/// Progress runs from `from` to `to`. Throws Cancelled.
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double gap,
+  const Eigen::AlignedBox3d& box, const Context& context = {}, double from = 0.0, double to = 1.0);
+
+/// All of them.
+SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
+  const Context& context = {}, double from = 0.0, double to = 1.0);
+
+} // namespace cactus

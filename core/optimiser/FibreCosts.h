@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "optimiser/BundleBox.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// Weights of the terms that keep a fibre in shape, relative to the overlap cost.
+struct FibreCostWeights
+{
+  double curvature = 10.0;
+  double length = 10.0;
+  double radius = 1.0;
+  double compactness = 2.0;
+};
+
+/// Sums of the cost terms over fibres.
+struct FibreCostTotals
+{
+  double curvature = 0.0;
+  double length = 0.0;
+  double radius = 0.0;
+  double compactness = 0.0;
+};
+
+/// The terms that involve one fibre alone (the paper names them; its supplement, which defines them, is not published with it):
+///  - curvature, per triple of control points: 3 / (r1 + r2 + r3) · (1 − cos θ)², θ the angle between the two segments;
+///  - length, per segment: k/2 · max(0, ℓ − L)², k = 20 / (1/r1 + 1/r2), L the segment's length before optimisation;
+///  - radius, per control point: (r − r_target)²;
+///  - compactness, per control point: ½ ℓ² e², e how far the fibre's surface leaves its bundle's cuboid sideways, ℓ the mean
+///  length of the segments at the point (it replaces an attraction to the axis, which would compress the core of a bundle that is
+///  already dense); and per fibre 50 L1² |c − C|², c its chord from end to end, C that before optimisation, L1 its first
+///  segment's length.
+/// Two limits do not fade, since a fibre that folds up finds no way out: they belong to curvature and length, and share their
+/// weights.
+///  - bends, per triple: ¼ (L1 L2)² · max(0, cos θ_max − cos θ)², θ_max the angle at which the radius of curvature is 1.2 fibre
+///  radii (at most 90°);
+///  - compression, per segment: ½ L² · max(0, ¾ L − ℓ)².
+/// Each adds weight × its exact gradient to `gradient` (per control point) and `radiusGradient`, and a diagonal that bounds
+/// its curvature to `stiffness`. All arrays are indexed by control point; only those of fibre `f` are touched.
+class FibreCosts
+{
+public:
+  /// Takes reference lengths, target radii and cuboids from the fibres as they come in.
+  FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit);
+
+  /// `relaxation` scales curvature, length and compactness, but not their limits.
+  FibreCostTotals add(const Fibres& fibres, std::size_t f, double relaxation, std::vector<Eigen::Vector3d>& gradient,
+    std::vector<double>& radiusGradient, std::vector<double>& stiffness) const;
+
+  const BundleBox& boxOf(std::size_t fibre) const { return this->Boxes[fibre]; }
+
+private:
+  void addLimits(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, std::vector<Eigen::Vector3d>& gradient,
+    std::vector<double>& stiffness) const;
+
+  FibreCostWeights Weights;
+  std::vector<double> ReferenceLength; ///< of the segment that starts at a control point
+  std::vector<float> SmallestCosine;   ///< of the bend at a control point, below which it is too sharp
+  std::vector<double> ReferenceRadius;
+  std::vector<Eigen::Vector3d> ReferenceChord; ///< from the first control point of a fibre to its last
+  std::vector<BundleBox> Boxes;
+};
+
+} // namespace cactus

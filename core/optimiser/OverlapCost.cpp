@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "optimiser/OverlapCost.h"
+
+#include "fibres/SegmentDistance.h"
+#include "optimiser/VectorKernels.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Axes count as meeting where their distance is less than this share of the sum of the radii.
+constexpr double meeting = 1e-9;
+
+/// The direction (a unit vector) in which the axis u of one fibre leaves the axis v of another that it meets: across both, and
+/// towards the place that belongs to it. The opposite for the other fibre, and the same wherever the two meet at a like angle.
+Eigen::Vector3d partingDirection(
+  const Eigen::Vector3d& u, const Eigen::Vector3d& v, const Eigen::Vector3d& place, const Eigen::Vector3d& otherPlace)
+{
+  constexpr double parallel = 1e-6; // sine of the angle
+  const Eigen::Vector3d wish = place - otherPlace;
+  const Eigen::Vector3d across = u.cross(v);
+  if (across.norm() > parallel * u.norm() * v.norm())
+  {
+    return across.dot(wish) < 0.0 ? Eigen::Vector3d(-across.normalized()) : Eigen::Vector3d(across.normalized());
+  }
+  // The same from either side.
+  const bool first = place.x() < otherPlace.x();
+  const Eigen::Vector3d along = (first ? u : v).normalized();
+  const Eigen::Vector3d sideways = wish - wish.dot(along) * along;
+  if (sideways.norm() > parallel * wish.norm())
+  {
+    return sideways.normalized();
+  }
+  const Eigen::Vector3d any = along.unitOrthogonal();
+  return first ? any : Eigen::Vector3d(-any);
+}
+
+/// Adds to the gradient of capsule k what it lacks where its axis meets those of others, and the cost, which is largest there,
+/// has no gradient: the push that they would have a little apart, in a direction chosen from the fibres' ids, so that it depends
+/// neither on the order of the fibres nor on threads.
+void partCoincident(const Capsules& capsules, std::size_t k, const std::uint32_t* neighbours, std::size_t count, double margin,
+  CapsuleOverlap& result)
+{
+  const auto vector = [](const double* p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
+  const Capsule& p = capsules.bodies[k];
+  const Eigen::Vector3d u = vector(p.p1) - vector(p.p0);
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    const Capsule& q = capsules.bodies[neighbours[n]];
+    const Eigen::Vector3d v = vector(q.p1) - vector(q.p0);
+    const SegmentPair pair = closestPoints(vector(p.p0), vector(p.p1), vector(q.p0), vector(q.p1));
+    const double rp = p.r0 + pair.s * (p.r1 - p.r0);
+    const double rq = q.r0 + pair.t * (q.r1 - q.r0);
+    if (pair.distance > meeting * (rp + rq))
+    {
+      continue;
+    }
+    const Eigen::Vector3d apart = vector(p.p0) + pair.s * u - vector(q.p0) - pair.t * v;
+    const Eigen::Vector3d direction =
+      partingDirection(u, v, capsules.places[capsules.fibre[k]], capsules.places[capsules.fibre[neighbours[n]]]);
+    // A little apart in that direction, or its opposite, they part by themselves; apart along themselves they do not.
+    constexpr double noise = 1e-12;
+    if (pair.distance > noise && std::abs(apart.dot(direction)) > 0.5 * pair.distance)
+    {
+      continue;
+    }
+    const double push = -2.0 * margin * u.norm() * v.norm() * rp * rq / (rp + rq);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      result.gradient0[axis] += push * (1.0 - pair.s) * direction[axis];
+      result.gradient1[axis] += push * pair.s * direction[axis];
+    }
+  }
+}
+
+} // namespace
+
+OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& neighbours, double margin, double tolerance,
+  int threads, std::vector<CapsuleOverlap>& result)
+{
+  const std::size_t count = capsules.size();
+  result.resize(count);
+  constexpr std::size_t blockSize = 1024;
+  const std::size_t blocks = (count + blockSize - 1) / blockSize;
+  std::vector<OverlapTotals> partial(blocks);
+  const VectorKernels& kernels = vectorKernels();
+  const bool tapered =
+    std::any_of(capsules.bodies.begin(), capsules.bodies.end(), [](const Capsule& body) { return body.r0 != body.r1; });
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 4)
+  for (std::size_t block = 0; block < blocks; ++block)
+  {
+    OverlapTotals& mine = partial[block];
+    const std::size_t end = std::min(count, (block + 1) * blockSize);
+    for (std::size_t k = block * blockSize; k < end; ++k)
+    {
+      kernels.evaluateCapsule(capsules.bodies.data(), neighbours.indices.data() + neighbours.offsets[k],
+        neighbours.offsets[k + 1] - neighbours.offsets[k], capsules.bodies[k], margin, tolerance, tapered, result[k]);
+      if (result[k].penetration > 1.0 - 2.0 * meeting)
+      {
+        partCoincident(capsules, k, neighbours.indices.data() + neighbours.offsets[k],
+          neighbours.offsets[k + 1] - neighbours.offsets[k], margin, result[k]);
+      }
+      mine.cost += result[k].cost;
+      mine.penetration = std::max(mine.penetration, result[k].penetration);
+      mine.overlappingPairs += result[k].overlapping;
+    }
+  }
+  OverlapTotals totals;
+  for (const OverlapTotals& mine : partial)
+  {
+    totals.cost += mine.cost;
+    totals.penetration = std::max(totals.penetration, mine.penetration);
+    totals.overlappingPairs += mine.overlappingPairs;
+  }
+  totals.overlappingPairs /= 2;
+  return totals;
+}
+
+} // namespace cactus

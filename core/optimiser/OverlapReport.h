@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// How far the capsules of different fibres penetrate each other.
+struct OverlapReport
+{
+  double largestPenetration = 0.0; ///< largest D = 1 − d/(rp + rq) (paper, overlapping cost function); 0 where nothing overlaps
+  std::size_t overlappingPairs = 0; ///< pairs with D above the tolerance asked for
+  std::vector<double> perPoint;     ///< largest D of the capsules at each control point; 0 where it touches nothing
+};
+
+/// Measures every pair of capsules of different fibres with exact closest points. Tolerance: the D above which a pair counts.
+OverlapReport measureOverlap(const Fibres& fibres, double tolerance = 0.0, int threads = 0);
+
+} // namespace cactus

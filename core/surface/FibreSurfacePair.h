@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/SurfaceCheck.h"
+#include "mesh/TriangleMesh.h"
+
+namespace cactus
+{
+
+/// How a fibre's myelin came out.
+enum class MyelinState
+{
+  AsAsked = 0,
+  Thinner = 1, ///< than asked: else the axon would break within the box
+  Thicker = 2, ///< than asked: myelin is at least MinimumGap (and leastSeparation) thick, and the axon does not leave it
+  NoAxon = 3,  ///< the fibre is too thin to hold an unbroken axon inside myelin of that thickness: no inner surface
+  NoFibre = 4  ///< the fibre has no voxel of the image, or too few for a closed surface: neither surface
+};
+
+/// The surfaces of one fibre and what was measured on them.
+struct FibreSurfacePair
+{
+  int fibreId = 0;
+  int bundleId = 0;
+  double targetRadius = 0.0;
+  TriangleMesh outer; ///< empty for NoFibre
+  TriangleMesh inner; ///< empty for NoFibre and NoAxon
+  SurfaceReport outerReport;
+  SurfaceReport innerReport;
+  MyelinState state = MyelinState::NoFibre;
+  double outerLevel = 0.0; ///< µm, the field's value on the outer surface, 0 or a little less
+  double thickness = 0.0;  ///< µm, depth of the inner surface below the outer one: the difference of the field
+  double targetGRatio = 0.0;
+  double gRatio = 0.0;        ///< reached: sqrt(inner volume / outer volume); 0 without an axon
+  double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
+  bool isWanted = true;       ///< false only where the centre line is known to pass by outside the domain
+  /// A surface has a fault that could not be mended: it meets itself or the other one, or is nearer than MinimumGap (and
+  /// leastSeparation) to another fibre.
+  bool isFlawed = false;
+  double largestMove = 0.0; ///< µm, the largest |field - level| found on the final surfaces away from caps
+};
+
+} // namespace cactus

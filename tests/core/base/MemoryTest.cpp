@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Memory.h"
+#include "base/Context.h"
+#include "base/Error.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace
+{
+
+constexpr std::uint64_t gigabyte = 1000000000;
+
+/// A machine's files, as far as they say how much memory is left.
+class Machine
+{
+public:
+  Machine()
+    : Root(::testing::TempDir() + "cactus-machine-" + std::to_string(getpid()))
+  {
+    std::filesystem::remove_all(this->Root);
+    this->write("/proc/meminfo", "MemTotal: 64000000 kB\nMemFree: 1 kB\nMemAvailable:   8000000 kB\nBuffers: 2 kB\n");
+  }
+  ~Machine() { std::filesystem::remove_all(this->Root); }
+
+  void write(const std::string& path, const std::string& content) const
+  {
+    std::filesystem::create_directories(std::filesystem::path(this->Root + path).parent_path());
+    std::ofstream(this->Root + path) << content;
+  }
+  std::uint64_t left() const { return cactus::sharedMemoryLeft(this->Root); }
+
+private:
+  std::string Root;
+};
+
+} // namespace
+
+TEST(Memory, IsWhatTheMachineHasAvailable)
+{
+  const Machine machine;
+  EXPECT_EQ(machine.left(), 8192 * (gigabyte / 1000));
+}
+
+TEST(Memory, IsLimitedByEachControlGroupThatTheProcessLiesIn)
+{
+  const Machine machine;
+  machine.write("/proc/self/cgroup", "0::/job.slice/step_0\n");
+  machine.write("/sys/fs/cgroup/job.slice/step_0/memory.max", "max\n");
+  machine.write("/sys/fs/cgroup/job.slice/step_0/memory.current", "1000000000\n");
+  EXPECT_EQ(machine.left(), 8192 * (gigabyte / 1000)) << "no limit";
+  machine.write("/sys/fs/cgroup/job.slice/memory.max", "4000000000\n");
+  machine.write("/sys/fs/cgroup/job.slice/memory.current", "1500000000\n");
+  EXPECT_EQ(machine.left(), 2500000000u) << "that of the job";
+  machine.write("/sys/fs/cgroup/job.slice/memory.stat", "anon 1000000000\nfile 500000000\ninactive_file 500000000\n");
+  EXPECT_EQ(machine.left(), 3000000000u) << "cached files give way";
+  machine.write("/sys/fs/cgroup/job.slice/step_0/memory.max", "2000000000\n");
+  EXPECT_EQ(machine.left(), gigabyte) << "that of the step";
+  machine.write("/sys/fs/cgroup/job.slice/step_0/memory.current", "2100000000\n");
+  EXPECT_EQ(machine.left(), 0u) << "nothing is left";
+}
+
+TEST(Memory, IsLimitedByControlGroupsOfVersion1)
+{
+  const Machine machine;
+  machine.write("/proc/self/cgroup", "5:cpu,cpuacct:/other\n4:memory:/slurm/uid_1/job_2\n0::/\n");
+  machine.write("/sys/fs/cgroup/memory/slurm/uid_1/memory.limit_in_bytes", "3000000000\n");
+  machine.write("/sys/fs/cgroup/memory/slurm/uid_1/memory.usage_in_bytes", "2000000000\n");
+  machine.write("/sys/fs/cgroup/memory/slurm/uid_1/memory.stat", "cache 7\ntotal_inactive_file 100000000\n");
+  machine.write("/sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+  machine.write("/sys/fs/cgroup/memory/memory.usage_in_bytes", "5000000000\n");
+  EXPECT_EQ(machine.left(), 1100000000u);
+}
+
+TEST(Memory, InAContainerTheGroupIsWhatIsMounted)
+{
+  const Machine machine;
+  machine.write("/proc/self/cgroup", "0::/docker/0123/not/to/be/seen\n");
+  machine.write("/sys/fs/cgroup/memory.max", "700000000\n");
+  machine.write("/sys/fs/cgroup/memory.current", "200000000\n");
+  EXPECT_EQ(machine.left(), 500000000u);
+}
+
+TEST(Memory, IsSharedByProcesses)
+{
+  const auto alone = static_cast<double>(cactus::availableMemory());
+  cactus::setProcessesSharingMemory(4);
+  const auto shared = static_cast<double>(cactus::availableMemory());
+  cactus::setProcessesSharingMemory(1);
+  EXPECT_NEAR(shared / alone, 0.25, 0.1);
+}
+
+namespace
+{
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define CACTUS_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define CACTUS_SANITIZED
+#endif
+
+/// Limits the address space of this process.
+void limitAddressSpace(rlim_t bytes)
+{
+  const rlimit lowered = { bytes, bytes };
+  setrlimit(RLIMIT_AS, &lowered);
+}
+
+/// Whether what needs more than is left is refused.
+int refusesWhatDoesNotFit()
+{
+  limitAddressSpace(3 * gigabyte);
+  if (cactus::availableMemory() >= 3 * gigabyte)
+  {
+    return 1;
+  }
+  try
+  {
+    cactus::requireMemory(3e9, "this", "less");
+  }
+  catch (const cactus::OutOfMemory&)
+  {
+    return 0;
+  }
+  return 2;
+}
+
+/// Opens parallel regions with little room for stacks.
+int opensRegionsWithin(rlim_t bytes)
+{
+  limitAddressSpace(bytes);
+  cactus::Context context;
+  for (const int asked : { 1000, 2, 7, 1, 16 })
+  {
+    context.threads = asked;
+    const int count = context.threadCount();
+    if (count < 1 || count > std::max(16, omp_get_num_procs()))
+    {
+      return 1;
+    }
+#pragma omp parallel num_threads(count)
+    {
+    }
+  }
+  return 0;
+}
+
+/// Limits are for a process of its own, which has not started any threads yet.
+class LimitedProcess : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+#ifdef CACTUS_SANITIZED
+    GTEST_SKIP() << "sanitizers want all of the address space";
+#endif
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+  }
+};
+
+} // namespace
+
+TEST_F(LimitedProcess, IsRefusedWhatDoesNotFitIntoItsAddressSpace)
+{
+  EXPECT_EXIT(_exit(refusesWhatDoesNotFit()), ::testing::ExitedWithCode(0), "");
+}
+
+TEST_F(LimitedProcess, DoesWithoutThreadsThatCannotBeStarted)
+{
+  EXPECT_EXIT(_exit(opensRegionsWithin(500000000)), ::testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(_exit(opensRegionsWithin(5 * gigabyte)), ::testing::ExitedWithCode(0), "");
+}
+
+// Guarantee 5, and 4: a result never depends on the number of threads, so fewer are taken than asked for where they cannot be.
+TEST(Threads, AreNeverMoreThanAreOfUse)
+{
+  cactus::Context context;
+  for (const int asked : { 1, 2, 16, 17, 1000, 2000000000 })
+  {
+    context.threads = asked;
+    EXPECT_EQ(context.threadCount(), std::min(asked, std::max(16, omp_get_num_procs())));
+  }
+  context.threads = 0;
+  EXPECT_LE(context.threadCount(), std::max(16, omp_get_num_procs()));
+}

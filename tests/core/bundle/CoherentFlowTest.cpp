@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/CoherentFlow.h"
+#include "base/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+using namespace cactus;
+
+namespace
+{
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+Rectangle frameOf(double width, double height)
+{
+  Rectangle frame;
+  frame.lower = Eigen::Vector2d(-0.5 * width, -0.5 * height);
+  frame.upper = -frame.lower;
+  return frame;
+}
+
+/// Points spread evenly at random over a frame.
+std::vector<Eigen::Vector2d> pointsIn(const Rectangle& frame, std::size_t count)
+{
+  RandomEngine engine = randomStream(7, RandomStage::Packing);
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double x = uniform(engine);
+    const double y = uniform(engine);
+    points.push_back(frame.lower + Eigen::Vector2d(x, y).cwiseProduct(frame.size()));
+  }
+  return points;
+}
+
+CoherentFlow flow(const Rectangle& frame, double length, std::uint64_t seed = 1)
+{
+  RandomEngine engine = randomStream(seed, RandomStage::Directions);
+  return CoherentFlow(frame, length, engine);
+}
+
+} // namespace
+
+TEST(CoherentFlow, CarriesPointsAsFarAsAskedAndNotOutOfTheFrame)
+{
+  const Rectangle frame = frameOf(30.0, 20.0);
+  const std::vector<Eigen::Vector2d> start = pointsIn(frame, 500);
+  for (const double length : { 4.0, 12.0, 100.0 })
+  {
+    for (const double asked : { 0.1, 2.0, 5.0 })
+    {
+      std::vector<Eigen::Vector2d> points = start;
+      ASSERT_TRUE(flow(frame, length).carry(points, 30.0, asked * degree));
+      double sum = 0.0;
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        sum += std::atan2((points[i] - start[i]).norm(), 30.0) / degree;
+        EXPECT_TRUE(frame.holds(points[i], -1e-9)) << points[i].transpose();
+      }
+      EXPECT_NEAR(sum / 500.0, asked, 2e-6 * asked);
+    }
+  }
+}
+
+TEST(CoherentFlow, KeepsAreas)
+{
+  const Rectangle frame = frameOf(30.0, 30.0);
+  const double h = 1e-4;
+  // Around each place four more, whose distances before and after give the map's derivative.
+  std::vector<Eigen::Vector2d> points;
+  for (const Eigen::Vector2d& place : pointsIn(frameOf(28.0, 28.0), 200))
+  {
+    for (const Eigen::Vector2d& shift :
+      { Eigen::Vector2d(h, 0), Eigen::Vector2d(-h, 0), Eigen::Vector2d(0, h), Eigen::Vector2d(0, -h) })
+    {
+      points.push_back(place + shift);
+    }
+  }
+  double largestStretch = 0.0;
+  ASSERT_TRUE(flow(frame, 12.0).carry(points, 30.0, 8.0 * degree));
+  for (std::size_t i = 0; i < points.size(); i += 4)
+  {
+    Eigen::Matrix2d derivative;
+    derivative.col(0) = (points[i] - points[i + 1]) / (2.0 * h);
+    derivative.col(1) = (points[i + 2] - points[i + 3]) / (2.0 * h);
+    EXPECT_NEAR(derivative.determinant(), 1.0, 1e-3);
+    largestStretch = std::max(largestStretch, derivative.col(0).norm());
+  }
+  EXPECT_GT(largestStretch, 1.3); // it is no rigid motion
+}
+
+TEST(CoherentFlow, ShiftsNeighboursAlikeAndStrangersNot)
+{
+  const Rectangle frame = frameOf(100.0, 100.0);
+  const double length = 10.0;
+  double near = 0.0;
+  double far = 0.0;
+  std::size_t nearCount = 0;
+  std::size_t farCount = 0;
+  double square = 0.0;
+  for (const std::uint64_t seed : { 1, 2, 3 })
+  {
+    const std::vector<Eigen::Vector2d> start = pointsIn(frame, 1500);
+    std::vector<Eigen::Vector2d> points = start;
+    ASSERT_TRUE(flow(frame, length, seed).carry(points, 100.0, 0.5 * degree));
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const Eigen::Vector2d one = points[i] - start[i];
+      square += one.squaredNorm();
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        const double distance = (start[i] - start[j]).norm();
+        const double product = one.dot(points[j] - start[j]);
+        if (distance < 0.15 * length)
+        {
+          near += product;
+          ++nearCount;
+        }
+        else if (distance > 2.5 * length)
+        {
+          far += product;
+          ++farCount;
+        }
+      }
+    }
+  }
+  square /= 4500.0;
+  EXPECT_GT(near / double(nearCount), 0.9 * square);
+  EXPECT_LT(std::abs(far / double(farCount)), 0.02 * square);
+}
+
+TEST(CoherentFlow, SaysWhereItGoesRoundInCircles)
+{
+  const Rectangle frame = frameOf(30.0, 30.0);
+  std::vector<Eigen::Vector2d> points = pointsIn(frame, 200);
+  const std::vector<Eigen::Vector2d> start = points;
+  EXPECT_FALSE(flow(frame, 3.0).carry(points, 30.0, 30.0 * degree));
+  EXPECT_NE(points, start);
+}
+
+TEST(CoherentFlow, SameSeedSameBitsOnAnyNumberOfThreads)
+{
+  const Rectangle frame = frameOf(30.0, 30.0);
+  std::vector<std::vector<Eigen::Vector2d>> results;
+  for (const int threads : { 1, 2, 4 })
+  {
+    Context context;
+    context.threads = threads;
+    results.push_back(pointsIn(frame, 1000));
+    ASSERT_TRUE(flow(frame, 10.0).carry(results.back(), 30.0, 10.0 * degree, context));
+    EXPECT_EQ(results.back(), results.front());
+  }
+  std::vector<Eigen::Vector2d> others = pointsIn(frame, 1000);
+  ASSERT_TRUE(flow(frame, 10.0, 2).carry(others, 30.0, 10.0 * degree));
+  EXPECT_NE(others, results.front());
+}
+
+TEST(CoherentFlow, ALengthThatCannotBeResolvedIsNamed)
+{
+  for (const double bad : { 0.1, 0.0, -1.0, static_cast<double>(NAN) })
+  {
+    EXPECT_THROW(flow(frameOf(30.0, 30.0), bad), InvalidInput);
+  }
+}

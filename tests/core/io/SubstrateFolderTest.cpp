@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/SubstrateFolder.h"
+
+#include "base/Error.h"
+#include "io/PlyFile.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+cactus::TriangleMesh tetrahedron(double size)
+{
+  cactus::TriangleMesh mesh;
+  mesh.points = { { 0, 0, 0 }, { size, 0, 0 }, { 0, size, 0 }, { 0, 0, size } };
+  mesh.triangles = { { { 0, 2, 1 } }, { { 0, 1, 3 } }, { { 0, 3, 2 } }, { { 1, 2, 3 } } };
+  return mesh;
+}
+
+cactus::FibreSurfaces surfacesOf(std::vector<int> ids, std::vector<cactus::TriangleMesh> meshes)
+{
+  cactus::FibreSurfaces surfaces;
+  surfaces.fibreIds = ids;
+  surfaces.bundleIds.assign(ids.size(), 1);
+  surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
+  return surfaces;
+}
+
+std::string textOf(const fs::path& path)
+{
+  std::ifstream file(path);
+  return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+}
+
+class SubstrateFolder : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Scratch = fs::path(::testing::TempDir()) / ("substrate-folder-test-" + std::to_string(::getpid()));
+    fs::remove_all(this->Scratch);
+    fs::create_directories(this->Scratch);
+    this->Contents.domain = cactus::Domain::cube(30.0);
+    this->Contents.outer = surfacesOf({ 2, 70000 }, { tetrahedron(1.0), tetrahedron(2.0) });
+    this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(0.5) });
+  }
+  void TearDown() override
+  {
+    fs::permissions(this->Scratch, fs::perms::owner_all);
+    fs::remove_all(this->Scratch);
+  }
+
+  std::string write(const fs::path& folder)
+  {
+    try
+    {
+      cactus::writeSubstrateFolder(this->Contents, folder.string());
+    }
+    catch (const cactus::Error& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+  /// What lies in the scratch folder, sorted.
+  std::vector<std::string> entries() const
+  {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(this->Scratch))
+    {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  fs::path Scratch;
+  cactus::SubstrateFolderContents Contents;
+};
+
+} // namespace
+
+TEST(PlyFile, Text)
+{
+  auto mesh = tetrahedron(1.0);
+  mesh.points[1] = { 1.0 / 3.0, -2e-7, 123456.789123 };
+  const std::string text = cactus::plyText(mesh, "one surface");
+  std::istringstream lines(text);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(lines, line);)
+  {
+    all.push_back(line);
+  }
+  ASSERT_EQ(all.size(), 10u + 4u + 4u);
+  EXPECT_EQ(all[0], "ply");
+  EXPECT_EQ(all[2], "comment one surface");
+  EXPECT_EQ(all[3], "element vertex 4");
+  EXPECT_EQ(all[7], "element face 4");
+  EXPECT_EQ(all[9], "end_header");
+  EXPECT_EQ(all[11], "0.333333333 -2e-07 123456.789");
+  EXPECT_EQ(all[14], "3 0 2 1");
+  EXPECT_THROW(cactus::plyText(mesh, "a face of it"), cactus::InvalidInput);
+  EXPECT_THROW(cactus::plyText(mesh, "two\nlines"), cactus::InvalidInput);
+}
+
+TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
+{
+  const auto files = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s/").string()).files;
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_EQ(files[0].path, "outer/fibre_00002.ply");
+  EXPECT_EQ(files[1].path, "outer/fibre_70000.ply");
+  EXPECT_EQ(files[2].path, "inner/fibre_00002.ply");
+  EXPECT_NEAR(files[1].volume, 8.0 / 6.0, 1e-12);
+  EXPECT_TRUE(files[1].closed);
+  EXPECT_EQ(this->entries(), std::vector<std::string>{ "s" });
+  for (const auto& file : files)
+  {
+    EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"" + file.path + "\""), std::string::npos);
+    EXPECT_EQ(textOf(this->Scratch / "s" / file.path).substr(0, 4), "ply\n");
+  }
+  EXPECT_EQ(textOf(this->Scratch / "s/mcdc/extra_ply_list.txt"), "1e-3\nouter/fibre_00002.ply\nouter/fibre_70000.ply\n");
+  EXPECT_EQ(textOf(this->Scratch / "s/mcdc/intra_ply_list.txt"), "1e-3\ninner/fibre_00002.ply\n");
+  EXPECT_TRUE(fs::is_directory(this->Scratch / "s/mcdc/output"));
+  EXPECT_FALSE(fs::exists(this->Scratch / "s/fibres.strands"));
+}
+
+// The folder says of itself how good it is, of the surfaces as its files hold them.
+TEST_F(SubstrateFolder, HoldsItsCertificate)
+{
+  auto inside = tetrahedron(0.5);
+  for (auto& point : inside.points)
+  {
+    point += Eigen::Vector3d(0.1, 0.1, 0.1);
+  }
+  this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(1.0) });
+  this->Contents.inner = surfacesOf({ 2 }, { inside });
+  auto written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
+  EXPECT_TRUE(written.certificate.certified());
+  EXPECT_EQ(textOf(this->Scratch / "s/certificate.csv").substr(0, 27), "quantity,value\nCertified,1\n");
+  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": true"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("\nCERTIFIED"), std::string::npos);
+  std::istringstream fibres(textOf(this->Scratch / "s/certificate_fibres.csv"));
+  std::string names;
+  std::string row;
+  std::getline(fibres, names);
+  std::getline(fibres, row);
+  EXPECT_EQ(names.substr(0, 8), "FibreId,");
+  EXPECT_EQ(row.substr(0, 6), "2,1,1,");
+  EXPECT_EQ(std::count(names.begin(), names.end(), ','), std::count(row.begin(), row.end(), ','));
+
+  // Apart by less than nine digits can say: in the files they touch.
+  auto beside = tetrahedron(1.0);
+  for (auto& point : beside.points)
+  {
+    point[0] += 1.0 + 1e-12;
+  }
+  this->Contents.outer = surfacesOf({ 2, 3 }, { tetrahedron(1.0), beside });
+  this->Contents.certificate.minimumGap = 0.0;
+  written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
+  EXPECT_EQ(written.certificate.meetingPairs, 1u);
+  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": false"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("NOT CERTIFIED"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("1 pairs of outer surfaces cut or touch"), std::string::npos);
+}
+
+// The simulator takes similar keys for each other and ignores the rest: only ones that it knows, spelt as it spells them.
+TEST_F(SubstrateFolder, ConfigurationHoldsKnownKeysAndBoxesInMillimetres)
+{
+  ASSERT_EQ(this->write(this->Scratch / "s"), "");
+  std::istringstream conf(textOf(this->Scratch / "s/mcdc/extra.conf"));
+  std::map<std::string, std::vector<std::string>> values;
+  std::string key;
+  for (std::string line; std::getline(conf, line);)
+  {
+    std::istringstream words(line);
+    std::string first;
+    words >> first;
+    const bool isNumber = std::isdigit(first[0]) || first[0] == '-';
+    if (!isNumber)
+    {
+      key = first;
+      EXPECT_TRUE(values.emplace(key, std::vector<std::string>()).second) << key << " stands there twice";
+    }
+    else
+    {
+      values[key].push_back(first);
+    }
+    for (std::string word; words >> word;)
+    {
+      values[key].push_back(word);
+    }
+  }
+  const std::set<std::string> known{ "N", "T", "duration", "diffusivity", "exp_prefix", "scheme_file", "scale_from_stu",
+    "write_txt", "write_bin", "write_traj_file", "<obstacle>", "ply_file_list", "</obstacle>", "<voxels>", "</voxels>",
+    "<spawning_area>", "</spawning_area>", "ini_walkers_pos", "num_process", "<END>" };
+  for (const auto& entry : values)
+  {
+    EXPECT_EQ(known.count(entry.first), 1u) << entry.first;
+  }
+  EXPECT_EQ(values["ini_walkers_pos"], std::vector<std::string>{ "extra" });
+  ASSERT_EQ(values["<spawning_area>"].size(), 6u);
+  ASSERT_EQ(values["<voxels>"].size(), 6u);
+  // A free walker moves sqrt(2 · 2e-9 · 0.035) m = 11.8 µm, more than a quarter of the side, 7.5 µm.
+  EXPECT_DOUBLE_EQ(std::stod(values["<spawning_area>"][0]), -7.5e-3);
+  EXPECT_DOUBLE_EQ(std::stod(values["<spawning_area>"][5]), 7.5e-3);
+  EXPECT_NEAR(std::stod(values["<voxels>"][2]), -15e-3 - 10.0 * std::sqrt(2.0 * 2e-9 * 0.035) * 1e3, 1e-9);
+  EXPECT_TRUE(fs::exists(this->Scratch / "s" / values["ply_file_list"].at(0)));
+  EXPECT_TRUE(fs::exists(this->Scratch / "s" / values["scheme_file"].at(0)));
+  EXPECT_TRUE(fs::is_directory((this->Scratch / "s" / values["exp_prefix"].at(0)).parent_path()));
+}
+
+TEST_F(SubstrateFolder, SchemeHasTheBValuesAskedFor)
+{
+  ASSERT_EQ(this->write(this->Scratch / "s"), "");
+  std::istringstream scheme(textOf(this->Scratch / "s/mcdc/pgse.scheme"));
+  std::string version;
+  std::getline(scheme, version);
+  EXPECT_EQ(version, "VERSION: STEJSKALTANNER");
+  double x, y, z, gradient, separation, duration, echo;
+  int count = 0;
+  while (scheme >> x >> y >> z >> gradient >> separation >> duration >> echo)
+  {
+    EXPECT_NEAR(x * x + y * y + z * z, 1.0, 1e-7);
+    const double dephasing = 2.6751525e8 * gradient * duration;
+    const double b = dephasing * dephasing * (separation - duration / 3.0) * 1e-6;
+    EXPECT_NEAR(b, count == 0 ? 0.0 : 1000.0 * ((count - 1) / 30 + 1), 1e-3);
+    EXPECT_LE(separation + duration, echo);
+    ++count;
+  }
+  EXPECT_EQ(count, 91);
+}
+
+TEST_F(SubstrateFolder, ReplacesItsOwn)
+{
+  const fs::path folder = this->Scratch / "s";
+  ASSERT_EQ(this->write(folder), "");
+  this->Contents.inner = {};
+  EXPECT_EQ(this->write(folder), "");
+  EXPECT_FALSE(fs::exists(folder / "inner")) << "nothing of the former folder stays";
+  EXPECT_EQ(textOf(folder / "mcdc/intra_ply_list.txt").substr(0, 11), "1e-3\nouter/") << "inside the outer ones then";
+  fs::create_directory(this->Scratch / "empty");
+  EXPECT_EQ(this->write(this->Scratch / "empty"), "");
+  EXPECT_EQ(this->entries(), (std::vector<std::string>{ "empty", "s" }));
+}
+
+// Guarantee 5: one clear error, and nothing half-written.
+TEST_F(SubstrateFolder, LeavesNothingBehindWhereItFails)
+{
+  EXPECT_NE(this->write(this->Scratch / "no/such/folder").find("cannot write folder"), std::string::npos);
+  EXPECT_NE(this->write("").find("FolderName"), std::string::npos);
+  auto open = tetrahedron(1.0);
+  open.triangles.pop_back();
+  this->Contents.outer = surfacesOf({ 2, 9 }, { tetrahedron(1.0), open });
+  EXPECT_NE(this->write(this->Scratch / "s").find("outer surface of fibre 9 is not closed (3 open"), std::string::npos);
+  auto inward = tetrahedron(1.0);
+  for (auto& t : inward.triangles)
+  {
+    std::swap(t[0], t[1]);
+  }
+  this->Contents.outer = surfacesOf({ 9 }, { inward });
+  EXPECT_NE(this->write(this->Scratch / "s").find("fibre 9 points inward"), std::string::npos);
+  inward.points[0][0] = std::numeric_limits<double>::quiet_NaN();
+  this->Contents.outer = surfacesOf({ 9 }, { inward });
+  EXPECT_NE(this->write(this->Scratch / "s").find("fibre 9: point 0"), std::string::npos);
+  this->Contents.outer = {};
+  this->Contents.inner = {};
+  EXPECT_NE(this->write(this->Scratch / "s").find("no surfaces"), std::string::npos);
+  EXPECT_TRUE(this->entries().empty());
+
+  this->Contents.outer = surfacesOf({ 9 }, { open });
+  this->Contents.allowOpenSurfaces = true;
+  EXPECT_EQ(this->write(this->Scratch / "s"), "");
+  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"closed\":false"), std::string::npos);
+}
+
+TEST_F(SubstrateFolder, StopsWithoutATrace)
+{
+  cactus::Context context;
+  context.cancelled = [] { return true; };
+  EXPECT_THROW(cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string(), context), cactus::Cancelled);
+  EXPECT_TRUE(this->entries().empty());
+}
+
+TEST_F(SubstrateFolder, SameBytesOnAnyNumberOfThreads)
+{
+  cactus::Context context;
+  for (const int threads : { 1, 3 })
+  {
+    context.threads = threads;
+    cactus::writeSubstrateFolder(this->Contents, (this->Scratch / std::to_string(threads)).string(), context);
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(this->Scratch / "1"))
+  {
+    if (entry.is_regular_file())
+    {
+      EXPECT_EQ(textOf(entry.path()), textOf(this->Scratch / "3" / fs::relative(entry.path(), this->Scratch / "1")));
+    }
+  }
+}

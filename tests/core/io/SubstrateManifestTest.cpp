@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/SubstrateManifest.h"
+
+#include "base/Sha256.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace
+{
+
+std::string exampleText()
+{
+  cactus::SubstrateFolderContents contents;
+  contents.domain = cactus::Domain::cube(30.0);
+  contents.provenance = { "StrandReader FileName=\"a\\b\"\n", "not UTF-8: \xff" };
+  cactus::WrittenSubstrate substrate;
+  substrate.files = { { "outer/fibre_00001.ply", "outer", 1, 1, 4, std::numeric_limits<double>::quiet_NaN(), 0.1, true } };
+  cactus::WrittenFiles written;
+  written.checksums = { { "README.txt", cactus::sha256("read me") }, { "outer/fibre_00001.ply", cactus::sha256("ply") } };
+  written.folders = { "outer" };
+  return cactus::manifestText(contents, substrate, written);
+}
+
+} // namespace
+
+TEST(SubstrateManifest, SaysWhatWasWritten)
+{
+  const std::string text = exampleText();
+  const auto manifest = cactus::readManifest(text);
+  ASSERT_TRUE(manifest);
+  EXPECT_EQ(manifest->version, CACTUS_VERSION);
+  EXPECT_TRUE(manifest->hasChecksums);
+  EXPECT_TRUE(manifest->asWritten);
+  EXPECT_EQ(manifest->written.checksums.size(), 2u);
+  EXPECT_EQ(manifest->written.checksums.at("README.txt"), cactus::sha256("read me"));
+  EXPECT_EQ(manifest->written.folders, std::set<std::string>{ "outer" });
+  EXPECT_NE(text.find("\n  \"domain\": [-15.0,15.0,-15.0,15.0,-15.0,15.0],\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"volume_um3\":null,\"area_um2\":0.1,"), std::string::npos) << "JSON has no NaN";
+}
+
+TEST(SubstrateManifest, ShowsEveryChangeToIt)
+{
+  const std::string text = exampleText();
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    std::string changed = text;
+    changed[i] = static_cast<char>(changed[i] ^ 1);
+    const auto manifest = cactus::readManifest(changed);
+    EXPECT_TRUE(!manifest || !manifest->asWritten) << "byte " << i;
+    const auto cut = cactus::readManifest(text.substr(0, i));
+    EXPECT_FALSE(cut && cut->asWritten) << "cut at " << i;
+  }
+}
+
+TEST(SubstrateManifest, TellsOthersFromOurs)
+{
+  for (const char* text :
+    { "", "{}", "[]", "null", "{\"format\": 3}", "{\"format\": \"another\"}", "{\"name\": \"CACTUS substrate folder\"}",
+      "{\"format\": \"CACTUS substrate folder\"", "\"CACTUS substrate folder\"", "\xff\xfe" })
+  {
+    EXPECT_FALSE(cactus::readManifest(text)) << text;
+  }
+  EXPECT_FALSE(cactus::readManifest(std::string(1000000, '['))) << "deeply nested";
+  const auto early =
+    cactus::readManifest("{\"format\": \"CACTUS substrate folder\", \"version\": \"0.1.0\", \"files\": [{\"path\": \"x\"}]}");
+  ASSERT_TRUE(early);
+  EXPECT_FALSE(early->hasChecksums);
+  const auto odd = cactus::readManifest("{\"format\": \"CACTUS substrate folder\", \"version\": 1, \"folders\": [1, [\"x\"]], "
+                                        "\"sha256\": {\"a\": 1, \"b\": {}}, \"manifest_sha256\": \"\"}");
+  ASSERT_TRUE(odd);
+  EXPECT_TRUE(odd->written.checksums.empty());
+  EXPECT_TRUE(odd->written.folders.empty());
+  EXPECT_FALSE(odd->asWritten);
+}

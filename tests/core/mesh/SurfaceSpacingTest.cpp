@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: surfaces that are too near are moved to the gap, by no more than that takes, wherever they lie to the slabs that
+// are looked at; others keep every bit.
+#include "mesh/SurfaceSpacing.h"
+
+#include "ExampleSurfaces.h"
+#include "base/Error.h"
+#include "mesh/SurfaceCheck.h"
+#include "mesh/SurfaceDistance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+using namespace cactus;
+
+/// A closed tube along z from face to face of the box [-1, 1]³, with a bulge of height `bulge` towards +x in its middle.
+TriangleMesh tube(double x, double radius, double bulge = 0.0)
+{
+  TriangleMesh mesh = example::tube(x, 0.0, radius, -1.0, 1.0, 48, 40);
+  for (Eigen::Vector3d& p : mesh.points)
+  {
+    const Eigen::Vector3d outwards(p[0] - x, p[1], 0.0);
+    const double angle = std::atan2(p[1], p[0] - x);
+    p += bulge * std::exp(-20.0 * (p[2] * p[2] + angle * angle)) * outwards / radius;
+  }
+  return mesh;
+}
+
+/// The shortest distance of the points of one mesh to densely spread points of the other's triangles: never less than the truth.
+double sampledDistance(const TriangleMesh& a, const TriangleMesh& b)
+{
+  double least = 1e300;
+  for (const auto& t : b.triangles)
+  {
+    for (int i = 0; i <= 8; ++i)
+    {
+      for (int j = 0; i + j <= 8; ++j)
+      {
+        const Eigen::Vector3d p = b.points[std::size_t(t[0])] +
+                                  (i / 8.0) * (b.points[std::size_t(t[1])] - b.points[std::size_t(t[0])]) +
+                                  (j / 8.0) * (b.points[std::size_t(t[2])] - b.points[std::size_t(t[0])]);
+        if (p[0] > -0.2 && p[0] < 0.3)
+        {
+          for (const auto& q : a.points)
+          {
+            least = std::min(least, (p - q).norm());
+          }
+        }
+      }
+    }
+  }
+  return least;
+}
+
+const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
+
+// Two tips, one above the other, whose normals point nearly sideways: what moves them inwards hardly moves them apart.
+TEST(SurfaceSpacing, PartsCornersThatMoveAskew)
+{
+  const auto tip = [](double z, double up)
+  {
+    TriangleMesh mesh;
+    mesh.points = { { 0.0, 0.0, z }, { -0.3, -0.5, z - up }, { -0.3, 0.5, z - up }, { -0.34, 0.0, z - 0.1 * up } };
+    mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 3, 2 } };
+    for (auto& t : mesh.triangles)
+    {
+      if (up < 0.0)
+      {
+        std::swap(t[1], t[2]);
+      }
+    }
+    return mesh;
+  };
+  TriangleMesh lower = tip(0.0, 0.9);
+  TriangleMesh upper = tip(0.019, -0.9);
+  ASSERT_TRUE(checkSurface(lower).outward() && checkSurface(upper).outward());
+  const SpacingReport report = keepApart({ &lower, &upper }, 0.02, box);
+  EXPECT_TRUE(report.tooNear.empty());
+  EXPECT_GE((upper.points[0] - lower.points[0]).norm(), 0.02);
+}
+
+TEST(SurfaceSpacing, MovesWhatIsTooNearToTheGap)
+{
+  // 0.03 apart, but for the bulge, which leaves 0.015.
+  TriangleMesh left = tube(-0.5, 0.5, 0.015);
+  TriangleMesh right = tube(0.53, 0.5);
+  TriangleMesh far = tube(-0.5, 0.2);
+  for (auto& p : far.points)
+  {
+    p[1] += 5.0;
+  }
+  const TriangleMesh oldLeft = left;
+  const TriangleMesh oldFar = far;
+  TriangleMesh empty;
+  ASSERT_LT(sampledDistance(left, right), 0.0151);
+  const SpacingReport report = keepApart({ &left, &empty, &far, &right }, 0.02, box);
+  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 0, 3 }));
+  EXPECT_TRUE(report.tooNear.empty());
+  const double distance = sampledDistance(left, right);
+  EXPECT_GE(distance, 0.02);
+  EXPECT_LT(distance, 0.0215);
+  double largest = 0.0;
+  for (std::size_t p = 0; p < left.points.size(); ++p)
+  {
+    largest = std::max(largest, (left.points[p] - oldLeft.points[p]).norm());
+  }
+  EXPECT_LT(largest, 0.005);
+  EXPECT_EQ(far.points, oldFar.points);
+  for (const TriangleMesh* mesh : { &left, &right })
+  {
+    const SurfaceReport check = checkSurface(*mesh);
+    EXPECT_TRUE(check.closedManifold());
+    EXPECT_TRUE(check.outward());
+  }
+}
+
+TEST(SurfaceSpacing, PointsOnTheBoxStayOnIt)
+{
+  TriangleMesh left = tube(-0.5, 0.5);
+  TriangleMesh right = tube(0.515, 0.5);
+  const TriangleMesh before = left;
+  const SpacingReport report = keepApart({ &left, &right }, 0.02, box);
+  EXPECT_EQ(report.moved.size(), 2u);
+  EXPECT_TRUE(report.tooNear.empty());
+  EXPECT_GE(sampledDistance(left, right), 0.02);
+  for (std::size_t p = 0; p < left.points.size(); ++p)
+  {
+    EXPECT_EQ(left.points[p][2] == 1.0, before.points[p][2] == 1.0);
+    EXPECT_EQ(left.points[p][2] == -1.0, before.points[p][2] == -1.0);
+  }
+}
+
+TEST(SurfaceSpacing, NamesWhatItCannotPart)
+{
+  // One through the other: to move each inwards does not help.
+  TriangleMesh left = tube(-0.1, 0.5);
+  TriangleMesh right = tube(0.1, 0.5);
+  EXPECT_EQ(keepApart({ &left, &right }, 0.02, box).tooNear, (std::vector<std::size_t>{ 0, 1 }));
+}
+
+TEST(SurfaceSpacing, SameBitsOnAnyNumberOfThreadsAndStops)
+{
+  std::vector<TriangleMesh> results;
+  for (const int threads : { 1, 2, 4 })
+  {
+    TriangleMesh left = tube(-0.5, 0.5, 0.015);
+    TriangleMesh right = tube(0.53, 0.5);
+    TriangleMesh beyond = tube(1.545, 0.5);
+    Context context;
+    context.threads = threads;
+    keepApart({ &left, &right, &beyond }, 0.02, box, context);
+    results.push_back(right);
+  }
+  EXPECT_EQ(results[0].points, results[1].points);
+  EXPECT_EQ(results[0].points, results[2].points);
+  TriangleMesh left = tube(-0.5, 0.5, 0.015);
+  TriangleMesh right = tube(0.53, 0.5);
+  Context context;
+  context.cancelled = [] { return true; };
+  EXPECT_THROW(keepApart({ &left, &right }, 0.02, box, context), Cancelled);
+}
+
+TEST(SurfaceSpacing, LooksOnlyAtWhatHasChangedOrIsMoved)
+{
+  TriangleMesh far = tube(-1.71, 0.2);
+  TriangleMesh near = tube(-1.3, 0.2);
+  TriangleMesh left = tube(-0.5, 0.49);
+  TriangleMesh middle = tube(0.5, 0.495);
+  TriangleMesh right = tube(1.5, 0.49);
+  const std::vector<TriangleMesh*> all{ &far, &near, &left, &middle, &right };
+  const TriangleMesh oldFar = far;
+  const TriangleMesh oldLeft = left;
+  EXPECT_EQ(keepApart(all, { 1 }, 0.005, box).moved, std::vector<std::size_t>{});
+  const SpacingReport report = keepApart(all, { 4 }, 0.02, box);
+  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 2, 3, 4 })) << "0 and 1 are too near, too, but neither has changed";
+  EXPECT_EQ(far.points, oldFar.points);
+  EXPECT_NE(left.points, oldLeft.points) << "3 has moved, and is too near to 2";
+  EXPECT_EQ(keepApart(all, { 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
+}
+
+/// The mesh with its axes moved on: what was along z lies along x.
+TriangleMesh alongX(TriangleMesh mesh)
+{
+  for (Eigen::Vector3d& p : mesh.points)
+  {
+    p = Eigen::Vector3d(p[2], p[0], p[1]);
+  }
+  return mesh;
+}
+
+/// Whether any triangle of the one is nearer than `gap` to any of the other.
+bool tooNear(const TriangleMesh& one, const TriangleMesh& other, double gap)
+{
+  const auto corners = [](const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t)
+  {
+    return std::array<Eigen::Vector3d, 3>{ mesh.points[std::size_t(t[0])], mesh.points[std::size_t(t[1])],
+      mesh.points[std::size_t(t[2])] };
+  };
+  const auto boxOf = [](const std::array<Eigen::Vector3d, 3>& t) { return Eigen::AlignedBox3d(t[0]).extend(t[1]).extend(t[2]); };
+  for (const auto& s : one.triangles)
+  {
+    const auto a = corners(one, s);
+    const Eigen::AlignedBox3d around = boxOf(a);
+    for (const auto& t : other.triangles)
+    {
+      const auto b = corners(other, t);
+      if (around.squaredExteriorDistance(boxOf(b)) < gap * gap && triangleGap(a, b, gap).found())
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Those of the surfaces that are too near to another.
+std::vector<std::size_t> allTooNear(const std::vector<TriangleMesh>& surfaces, double gap)
+{
+  std::set<std::size_t> found;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      if (tooNear(surfaces[i], surfaces[j], gap))
+      {
+        found.insert({ i, j });
+      }
+    }
+  }
+  return { found.begin(), found.end() };
+}
+
+TEST(SurfaceSpacing, FindsAllThatIsNearInALongBox)
+{
+  // Slabs are 10 thick: their borders are at -10, 0 and 10.
+  const Eigen::AlignedBox3d longBox(Eigen::Vector3d(-20, -20, -20), Eigen::Vector3d(20, 20, 20));
+  const auto tubeAt = [](double x, double lower, double upper, int rings)
+  { return example::tube(x, 0.0, 0.5, lower, upper, 24, rings); };
+  std::vector<TriangleMesh> before{
+    tubeAt(-12.0, -20.0, 20.0, 40), tubeAt(-10.99, -20.0, 20.0, 40), // all along, with rings on the borders
+    tubeAt(-9.0, -20.0, 20.0, 37), tubeAt(-7.9, -20.0, 20.0, 40),    // at one height, on a border, see below
+    tubeAt(-6.0, 3.0, 9.995, 7), tubeAt(-6.0, 10.005, 17.0, 7),      // end to end, to either side of a border
+    tubeAt(-4.0, -9.0, 0.0, 9), tubeAt(-4.0, 0.01, 9.0, 9),          // end to end, the one on a border
+    tubeAt(-2.0, -9.0, -0.01, 9), tubeAt(-2.0, 0.0, 9.0, 9),         // the same from the other side
+    tubeAt(0.0, -20.0, 20.0, 1), tubeAt(1.01, 12.0, 18.0, 6),        // triangles through all slabs, and a short neighbour
+    tubeAt(5.0, -20.0, 20.0, 40), alongX(example::tube(1.01, -10.0, 0.5, 3.0, 7.0, 24, 5)), // one across it, on a border
+    tubeAt(9.0, -20.0, 20.0, 40), tubeAt(10.03, -20.0, 20.0, 40),                           // far enough
+  };
+  for (Eigen::Vector3d& p : before[3].points)
+  {
+    p[0] -= p[2] == 10.0 ? 0.09 : 0.0;
+  }
+  std::vector<std::size_t> near(14);
+  std::iota(near.begin(), near.end(), std::size_t(0));
+  ASSERT_EQ(allTooNear(before, 0.02), near);
+  std::vector<TriangleMesh> results[2];
+  for (const int threads : { 1, 3 })
+  {
+    std::vector<TriangleMesh>& surfaces = results[threads / 2];
+    surfaces = before;
+    std::vector<TriangleMesh*> pointers;
+    for (TriangleMesh& mesh : surfaces)
+    {
+      pointers.push_back(&mesh);
+    }
+    Context context;
+    context.threads = threads;
+    const SpacingReport report = keepApart(pointers, 0.02, longBox, context);
+    EXPECT_EQ(report.moved, near);
+    EXPECT_TRUE(report.tooNear.empty());
+  }
+  EXPECT_TRUE(allTooNear(results[0], 0.02).empty());
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    EXPECT_EQ(results[0][i].points, results[1][i].points) << i;
+    for (std::size_t p = 0; p < before[i].points.size(); ++p)
+    {
+      EXPECT_LT((results[0][i].points[p] - before[i].points[p]).norm(), 0.02) << i;
+    }
+  }
+}
+
+} // namespace

@@ -1,0 +1,576 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: two smoothed fields sum to at most -gap everywhere on the grid; thin fibres stay what they are; models give the
+// g-ratios that they state; fibres are the gap apart, and myelin as thick, even where growth left less, voxels are coarse or
+// nothing is coarsened; what is not as asked is counted.
+#include "surface/MyelinSurface.h"
+#include "base/Error.h"
+#include "bundle/BundleInitializer.h"
+#include "fibres/TrimToDomain.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrowthTarget.h"
+#include "mesh/SurfaceDistance.h"
+#include "mesh/SurfaceIntersection.h"
+#include "optimiser/CapsuleOptimizer.h"
+#include "surface/FibreField.h"
+#include "surface/FibreMesher.h"
+#include "surface/GRatio.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+
+using namespace cactus;
+
+/// Three fibres that meet in the middle of a cube of 3 µm.
+LabelImage meeting(FibreRadialGrowthOptions options)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(3.0);
+  for (int f = 0; f < 3; ++f)
+  {
+    fibres.addFibre(f + 1, 1, 0.5);
+    const double angle = 2.1 * f;
+    fibres.addPoint({ 0.55 * std::cos(angle), 0.55 * std::sin(angle), -2.0 }, 0.5);
+    fibres.addPoint({ 0.6 * std::cos(angle + 0.3), 0.6 * std::sin(angle + 0.3), 2.0 }, 0.5);
+  }
+  return growFibres(fibres, options, 0.3, growthGrid(fibres.domain, options));
+}
+
+/// The largest sum of two of the three fibres' smoothed fields at a node.
+double largestSum(const FibreField& field, int passes)
+{
+  const NodeLattice lattice = field.lattice();
+  std::vector<std::uint32_t> all(lattice.blockCount());
+  std::iota(all.begin(), all.end(), 0u);
+  const SmoothedField one(field, 1, all, passes);
+  const SmoothedField two(field, 2, all, passes);
+  const SmoothedField three(field, 3, all, passes);
+  double largest = -1.0;
+  for (const std::uint32_t block : all)
+  {
+    NodeRange range = nodesOfBlock(lattice, block);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      range.first[axis] -= 1;
+      range.count[axis] += 2;
+    }
+    std::vector<float> a(range.size());
+    std::vector<float> b(range.size());
+    std::vector<float> c(range.size());
+    one.values(0.0, 0.0, range, a.data());
+    two.values(0.0, 0.0, range, b.data());
+    three.values(0.0, 0.0, range, c.data());
+    for (std::size_t n = 0; n < a.size(); ++n)
+    {
+      largest = std::max({ largest, double(a[n]) + b[n], double(b[n]) + c[n], double(c[n]) + a[n] });
+    }
+  }
+  return largest;
+}
+
+TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
+{
+  FibreRadialGrowthOptions options;
+  const LabelImage image = meeting(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  for (const int passes : { 0, 1, 4 })
+  {
+    const double sum = largestSum(field, passes);
+    EXPECT_LE(sum, -options.gap() + 1e-6);
+    EXPECT_GE(sum, -options.gap() - 0.01);
+  }
+}
+
+// An outer surface may lie further in than the field tells, after it was moved; the axon keeps clear of it all the same.
+TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
+{
+  FibreRadialGrowthOptions options;
+  Fibres fibres;
+  fibres.domain = Domain::cube(3.0);
+  fibres.addFibre(1, 1, 0.6);
+  fibres.addPoint({ 0.0, 0.0, -2.0 }, 0.6);
+  fibres.addPoint({ 0.0, 0.0, 2.0 }, 0.6);
+  const LabelImage image = growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.fibreIds = facts.bundleIds = { 1 };
+  facts.targetRadii = { 0.6 };
+  facts.minimumGap = options.minimumGap;
+  facts.surfaceTolerance = options.surfaceTolerance;
+  MyelinSurfaceOptions surfaceOptions;
+  surfaceOptions.decimationError = 0.0005; // so that there are points to push
+  const FibreMesher mesher({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, facts, surfaceOptions);
+  const auto blocks = mesher.field().findFibres(surfaceOptions.smoothingIterations, {});
+  const SmoothedField field = mesher.smoothed(blocks.at(1), 1);
+  FibreSurfacePair pair;
+  pair.fibreId = 1;
+  pair.targetGRatio = 0.7;
+  mesher.makeOuter(field, pair);
+  mesher.makeInner(field, pair);
+  EXPECT_EQ(pair.state, MyelinState::AsAsked);
+  const double volume = pair.innerReport.volume;
+  for (Eigen::Vector3d& p : pair.outer.points)
+  {
+    const double distance = (p - Eigen::Vector3d(0.6, 0.0, 0.0)).norm();
+    p[0] -= distance < 0.4 ? 0.25 * (1.0 - distance / 0.4) : 0.0; // through the myelin, 0.18 µm thick
+  }
+  EXPECT_FALSE(meetingTriangles(TriangleTree(pair.inner), TriangleTree(pair.outer)).empty());
+  EXPECT_TRUE(mesher.checkOuter(pair).empty());
+  mesher.makeInner(field, pair);
+  EXPECT_EQ(pair.state, MyelinState::Thicker);
+  EXPECT_TRUE(meetingTriangles(TriangleTree(pair.inner), TriangleTree(pair.outer)).empty());
+  EXPECT_FALSE(pair.isFlawed);
+  EXPECT_LT(pair.innerReport.volume, volume);
+  EXPECT_GT(pair.innerReport.volume, 0.5 * volume);
+  // Pushed in to its middle, the fibre has no room for an axon, and gets none.
+  for (Eigen::Vector3d& p : pair.outer.points)
+  {
+    const double distance = (p - Eigen::Vector3d(0.35, 0.0, 0.0)).norm();
+    p[0] -= distance < 0.4 ? 0.8 * (1.0 - distance / 0.4) : 0.0;
+  }
+  mesher.makeInner(field, pair);
+  EXPECT_EQ(pair.state, MyelinState::NoAxon);
+  EXPECT_TRUE(pair.inner.triangles.empty());
+}
+
+TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
+{
+  FibreRadialGrowthOptions options;
+  for (const double voxelSize : { 0.25, 0.4 }) // so that fibres are smoothed in part, and not at all
+  {
+    options.voxelSize = voxelSize;
+    const LabelImage image = meeting(options);
+    FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+    const double smoothed = largestSum(field, 4);
+    field.spareThinFibres();
+    const double spared = largestSum(field, 4);
+    EXPECT_LE(spared, -options.gap() + 1e-6);
+    EXPECT_NE(spared, smoothed);
+  }
+}
+
+// With many passes blocks are smoothed together; what comes out does not depend on which are asked for.
+TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
+{
+  FibreRadialGrowthOptions options;
+  options.voxelSize = 0.06;
+  const LabelImage image = meeting(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  const NodeLattice lattice = field.lattice();
+  std::vector<std::uint32_t> all(lattice.blockCount());
+  std::iota(all.begin(), all.end(), 0u);
+  ASSERT_GT(all.size(), 27u);
+  for (const int passes : { 2, 9, 20 })
+  {
+    const SmoothedField together(field, 1, all, passes);
+    for (const std::uint32_t block : { 0u, 21u, all.back() })
+    {
+      NodeRange range = nodesOfBlock(lattice, block);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        range.first[axis] -= 1;
+        range.count[axis] += 2;
+      }
+      std::vector<float> a(range.size());
+      std::vector<float> b(range.size());
+      together.values(0.0, 0.0, range, a.data());
+      SmoothedField(field, 1, { block }, passes).values(0.0, 0.0, range, b.data());
+      EXPECT_EQ(a, b);
+    }
+  }
+}
+
+TEST(SmoothedField, InterpolatesTheSamples)
+{
+  FibreRadialGrowthOptions options;
+  const LabelImage image = meeting(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  const auto blocks = field.findFibres(0);
+  ASSERT_EQ(blocks.size(), 3u);
+  const SmoothedField one(field, 1, blocks.at(1), 0);
+  int inside = 0;
+  for (int k = 0; k < image.grid.count[2]; ++k)
+  {
+    for (int j = 0; j < image.grid.count[1]; ++j)
+    {
+      for (int i = 0; i < image.grid.count[0]; ++i)
+      {
+        if (image.fibreId[image.grid.index(i, j, k)] == 1)
+        {
+          ASSERT_NEAR(one.value(image.grid.position(i, j, k)), image.depth[image.grid.index(i, j, k)], 1e-6);
+          ++inside;
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(FibreField, RefusesWhatIsNoLabelImage)
+{
+  FibreRadialGrowthOptions options;
+  LabelImage image = meeting(options);
+  const auto find = [&]
+  {
+    return FibreField({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true)
+      .findFibres(1);
+  };
+  EXPECT_NO_THROW(find());
+  const float depth = image.depth[1234];
+  image.depth[1234] = std::nanf("");
+  EXPECT_THROW(find(), InvalidInput);
+  image.depth[1234] = depth > 0.0f ? -depth : 1.0f;
+  EXPECT_THROW(find(), InvalidInput);
+  EXPECT_THROW(FibreField({ image.grid, image.fibreId.data(), nullptr, 0.03 }, Domain::cube(3.0), true), InvalidInput);
+}
+
+TEST(GRatio, LogLinearSolvesItsRelation)
+{
+  for (const double outer : { 1.0, 1.7, 3.0, 8.0 })
+  {
+    const double inner = logLinearGRatio(outer) * outer;
+    EXPECT_NEAR(inner + 2.0 * (0.35 + 0.006 * inner + 0.024 * std::log(inner)), outer, 1e-9);
+  }
+  EXPECT_EQ(logLinearGRatio(0.5), smallestGRatio);
+  EXPECT_EQ(logLinearGRatio(1e3), largestGRatio);
+  EXPECT_THROW(logLinearGRatio(0.0), InvalidInput);
+  EXPECT_THROW(logLinearGRatio(std::nan("")), InvalidInput);
+}
+
+TEST(GRatio, DistributedHasItsMeanAndDeviationAndDependsOnSeedAndFibre)
+{
+  double sum = 0.0;
+  double squares = 0.0;
+  const int count = 20000;
+  for (int fibre = 1; fibre <= count; ++fibre)
+  {
+    const double g = distributedGRatio(0.7, 0.05, 3, fibre);
+    EXPECT_GE(g, smallestGRatio);
+    EXPECT_LE(g, largestGRatio);
+    sum += g;
+    squares += g * g;
+  }
+  EXPECT_NEAR(sum / count, 0.7, 0.002);
+  EXPECT_NEAR(std::sqrt(squares / count - sum * sum / count / count), 0.05, 0.002);
+  EXPECT_EQ(distributedGRatio(0.7, 0.05, 3, 17), distributedGRatio(0.7, 0.05, 3, 17));
+  EXPECT_NE(distributedGRatio(0.7, 0.05, 3, 17), distributedGRatio(0.7, 0.05, 4, 17));
+  EXPECT_NE(distributedGRatio(0.7, 0.05, 3, 17), distributedGRatio(0.7, 0.05, 3, 18));
+  EXPECT_EQ(distributedGRatio(0.6, 0.0, 1, 1), 0.6);
+  EXPECT_THROW(distributedGRatio(0.2, 0.05, 1, 1), InvalidInput);
+  EXPECT_THROW(distributedGRatio(0.7, -0.1, 1, 1), InvalidInput);
+}
+
+/// Surfaces of fibres that have grown by so much, to be `gap` apart.
+std::vector<FibreSurfacePair> surfacesOf(const Fibres& fibres, const FibreRadialGrowthOptions& growth, double by, double gap)
+{
+  const LabelImage image = growFibres(fibres, growth, by, growthGrid(fibres.domain, growth));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = gap;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  return myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, MyelinSurfaceOptions());
+}
+
+TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
+{
+  // Alone in its cube, as thick as two voxels on either side of its axis.
+  const double radius = 0.2;
+  const double slope = 0.3;
+  Fibres fibres;
+  fibres.domain = Domain::cube(4.0);
+  fibres.addFibre(1, 1, radius);
+  fibres.addPoint({ -3.0 * slope + 0.013, 0.027, -3.0 }, radius);
+  fibres.addPoint({ 3.0 * slope + 0.013, 0.027, 3.0 }, radius);
+  FibreRadialGrowthOptions growth;
+  growth.surfaceRoughness = 0.0;
+  const auto pairs = surfacesOf(fibres, growth, 0.0, growth.minimumGap);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].state, MyelinState::AsAsked);
+  const double volume = 4.0 * std::sqrt(1.0 + slope * slope) * 3.14159265358979 * radius * radius;
+  EXPECT_NEAR(pairs[0].outerReport.volume, volume, 0.05 * volume);
+  EXPECT_NEAR(pairs[0].innerReport.volume, 0.49 * pairs[0].outerReport.volume, 0.002 * volume);
+}
+
+// Surfaces are moved by much more than coarsening costs; some fold, and are made again.
+TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
+{
+  BundleInitializerOptions bundle;
+  bundle.side = 8.0;
+  bundle.meanDispersion = 10.0;
+  Fibres fibres = initialiseBundles(bundle);
+  optimise(fibres, {}, {});
+  fibres = trimToDomain(fibres);
+  FibreRadialGrowthOptions growth;
+  growth.targetFibreVolumeFraction = 0.93;
+  fibres = aimAtTargetRadii(fibres, growth);
+  const auto pairs = surfacesOf(fibres, growth, growthFor(fibres, growth), 0.06);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    EXPECT_FALSE(pairs[i].isFlawed) << pairs[i].fibreId;
+    const TriangleTree tree(pairs[i].outer);
+    EXPECT_TRUE(selfIntersections(tree).empty()) << pairs[i].fibreId;
+    for (std::size_t j = i + 1; j < pairs.size(); ++j)
+    {
+      const TriangleTree other(pairs[j].outer);
+      EXPECT_FALSE(smallestGap(tree, other, 0.06).found()) << pairs[i].fibreId << ", " << pairs[j].fibreId;
+    }
+  }
+}
+
+/// Surfaces of three fibres that meet, and how far growth kept them apart.
+struct Meeting
+{
+  FibreRadialGrowthOptions growth;
+  MyelinSurfaceOptions options;
+  LabelImageFacts facts;
+  LabelImage image;
+
+  std::vector<FibreSurfacePair> surfaces()
+  {
+    this->image = meeting(this->growth);
+    this->facts.domain = Domain::cube(3.0);
+    this->facts.minimumGap = this->growth.minimumGap;
+    this->facts.surfaceTolerance = this->growth.surfaceTolerance;
+    this->facts.fibreIds = { 1, 2, 3 };
+    this->facts.bundleIds = { 1, 1, 1 };
+    this->facts.targetRadii = { 0.5, 0.5, 0.5 };
+    return myelinSurfaces(this->view(), this->facts, this->options);
+  }
+
+  LabelImageView view() const
+  {
+    return { this->image.grid, this->image.fibreId.data(), this->image.depth.data(), this->growth.gap() };
+  }
+};
+
+/// That surfaces are sound and keep `gap` from each other, as axons do from the walls of their fibres.
+void expectSound(const std::vector<FibreSurfacePair>& pairs, double gap)
+{
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    SCOPED_TRACE(pairs[i].fibreId);
+    EXPECT_FALSE(pairs[i].isFlawed);
+    const TriangleTree outer(pairs[i].outer);
+    EXPECT_TRUE(selfIntersections(outer).empty());
+    for (std::size_t j = i + 1; j < pairs.size(); ++j)
+    {
+      EXPECT_FALSE(smallestGap(outer, TriangleTree(pairs[j].outer), gap).found()) << pairs[j].fibreId;
+    }
+    if (pairs[i].inner.triangles.empty())
+    {
+      EXPECT_EQ(pairs[i].state, MyelinState::NoAxon);
+      continue;
+    }
+    const TriangleTree inner(pairs[i].inner);
+    EXPECT_TRUE(selfIntersections(inner).empty());
+    EXPECT_FALSE(surfacesMeet(inner, outer));
+    std::vector<std::uint32_t> wall;
+    for (std::size_t t = 0; t < pairs[i].outer.triangles.size(); ++t)
+    {
+      const auto& triangle = pairs[i].outer.triangles[t];
+      bool isCap = false;
+      for (Eigen::Index face = 0; face < 6; ++face)
+      {
+        isCap = isCap || std::all_of(triangle.begin(), triangle.end(),
+                           [&](std::int32_t p)
+                           { return pairs[i].outer.points[std::size_t(p)][face / 2] == (face % 2 == 0 ? -1.5 : 1.5); });
+      }
+      if (!isCap)
+      {
+        wall.push_back(static_cast<std::uint32_t>(t));
+      }
+    }
+    EXPECT_FALSE(smallestGap(inner, TriangleTree(pairs[i].outer, wall), gap).found());
+  }
+}
+
+TEST(MyelinSurfaces, FibresThatMayTouchDoNotMeet)
+{
+  Meeting without;
+  without.growth.minimumGap = 0.0;
+  without.growth.surfaceTolerance = 0.0;
+  without.options.decimationError = 0.0;
+  for (const double voxelSize : { 0.1, 0.25 })
+  {
+    without.growth.voxelSize = voxelSize;
+    expectSound(without.surfaces(), leastSeparation);
+  }
+}
+
+TEST(MyelinSurfaces, ThinMyelinOnCoarseVoxelsIsAsThickAsPromised)
+{
+  Meeting thin;
+  thin.options.gRatio = 0.95;
+  for (const double error : { 0.0, 0.005 })
+  {
+    for (const double voxelSize : { 0.2, 0.3 })
+    {
+      thin.growth.voxelSize = voxelSize;
+      thin.options.decimationError = error;
+      const auto pairs = thin.surfaces();
+      expectSound(pairs, thin.growth.minimumGap);
+      for (const FibreSurfacePair& pair : pairs)
+      {
+        EXPECT_TRUE(
+          pair.state == MyelinState::Thicker || pair.state == MyelinState::NoAxon || pair.state == MyelinState::AsAsked);
+      }
+    }
+  }
+}
+
+TEST(MyelinSurfaces, VoxelsOfAnySizeGiveSoundSurfacesOrNone)
+{
+  Meeting coarse;
+  for (const double voxelSize : { 0.5, 0.75, 1.0, 1.5, 3.0 })
+  {
+    for (const double error : { 0.0, 0.005 })
+    {
+      SCOPED_TRACE(voxelSize);
+      coarse.growth.voxelSize = voxelSize;
+      coarse.options.decimationError = error;
+      const auto pairs = coarse.surfaces();
+      for (const FibreSurfacePair& pair : pairs)
+      {
+        const bool isNone = pair.state == MyelinState::NoFibre;
+        EXPECT_EQ(isNone, pair.outer.triangles.empty());
+        EXPECT_TRUE(isNone || (pair.outerReport.closedManifold() && pair.outerReport.outward()));
+        EXPECT_EQ(isNone || pair.state == MyelinState::NoAxon, pair.inner.triangles.empty());
+        EXPECT_TRUE(pair.inner.triangles.empty() || (pair.innerReport.closedManifold() && pair.innerReport.outward()));
+      }
+    }
+  }
+}
+
+/// A small bundle and voxels about as large as its fibres.
+struct CoarseBundle
+{
+  double side;
+  std::uint64_t seed;
+  double dispersion;
+  DispersionModel model;
+  double voxelSize;
+  double gRatio;
+  int smoothing;
+  bool clips;
+};
+
+std::vector<FibreSurfacePair> surfacesOf(const CoarseBundle& coarse, double gap)
+{
+  BundleInitializerOptions bundle;
+  bundle.side = coarse.side;
+  bundle.seed = coarse.seed;
+  bundle.fibreVolumeFraction = 0.5;
+  bundle.meanDispersion = coarse.dispersion;
+  bundle.dispersionModel = coarse.model;
+  Fibres fibres = initialiseBundles(bundle);
+  optimise(fibres, {}, {});
+  fibres = trimToDomain(fibres);
+  FibreRadialGrowthOptions growth;
+  growth.voxelSize = coarse.voxelSize;
+  growth.targetFibreVolumeFraction = 0.9;
+  growth.minimumGap = gap;
+  growth.surfaceTolerance = 0.02;
+  fibres = aimAtTargetRadii(fibres, growth);
+  const LabelImage image = growFibres(fibres, growth, growthFor(fibres, growth), growthGrid(fibres.domain, growth));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = gap;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  MyelinSurfaceOptions options;
+  options.gRatio = coarse.gRatio;
+  options.decimationError = 0.0;
+  options.smoothingIterations = coarse.smoothing;
+  options.clipToDomain = coarse.clips;
+  return myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, options);
+}
+
+// What is not marked keeps to all that is promised. In the first bundle an axon's largest part lies in a part of its fibre that
+// is left out; in the second, surfaces that are moved apart come nearer to a third one.
+TEST(MyelinSurfaces, CoarseBundlesAreSoundOrMarked)
+{
+  constexpr double gap = 0.02;
+  const CoarseBundle bundles[] = { { 6.0, 28, 10.0, DispersionModel::Coherent, 1.5, 0.5, 9, false },
+    { 4.0, 14, 5.0, DispersionModel::Watson, 1.0, 0.9, 1, true } };
+  for (const CoarseBundle& bundle : bundles)
+  {
+    const auto pairs = surfacesOf(bundle, gap);
+    std::size_t unmarked = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+    {
+      SCOPED_TRACE(pairs[i].fibreId);
+      if (pairs[i].isFlawed || pairs[i].outer.triangles.empty())
+      {
+        continue;
+      }
+      ++unmarked;
+      const TriangleTree outer(pairs[i].outer);
+      EXPECT_TRUE(selfIntersections(outer).empty());
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        EXPECT_FALSE(smallestGap(outer, TriangleTree(pairs[j].outer), gap).found()) << pairs[j].fibreId;
+      }
+      if (!pairs[i].inner.triangles.empty())
+      {
+        EXPECT_FALSE(surfacesMeet(TriangleTree(pairs[i].inner), outer));
+        for (const std::int32_t point : pairs[i].innerReport.pieces)
+        {
+          EXPECT_EQ(sideOf(outer, pairs[i].inner.points[std::size_t(point)]), Side::Inside);
+        }
+      }
+    }
+    EXPECT_GT(unmarked, 3u);
+  }
+}
+
+TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
+{
+  Meeting lost;
+  EXPECT_EQ(notAsAsked(lost.surfaces(), lost.view(), lost.facts), "");
+  lost.facts.lengths = { 3.0, 3.0, 0.0 };
+  auto pairs = lost.surfaces();
+  pairs[2].state = MyelinState::NoFibre; // passes by outside
+  EXPECT_EQ(notAsAsked(pairs, lost.view(), lost.facts), "");
+  pairs[1].state = MyelinState::NoFibre;
+  const std::string one = notAsAsked(pairs, lost.view(), lost.facts);
+  EXPECT_EQ(one.find("1 of 2 fibres are not as asked, see Fibre statistics: 1 without any surface (Myelin 4); choose a smaller "
+                     "VoxelSize (it is 0.1 µm"),
+    0u)
+    << one;
+  pairs[0].isFlawed = true;
+  pairs[0].state = MyelinState::Thicker;
+  const std::string two = notAsAsked(pairs, lost.view(), lost.facts);
+  EXPECT_EQ(two.find("2 of 2 fibres are not as asked, see Fibre statistics: 1 without any surface (Myelin 4), 1 with thicker "
+                     "myelin (2), 1 with a"),
+    0u)
+    << two;
+  lost.facts.minimumGap = 0.3;
+  lost.image.grid.spacing = 0.3;
+  const std::string three = notAsAsked(pairs, lost.view(), lost.facts);
+  EXPECT_NE(three.find("VoxelSize 0.3 µm is coarse for fibres of radii 0.5 to 0.5 µm: choose 0.25 or less"), std::string::npos)
+    << three;
+  EXPECT_NE(three.find("MinimumGap 0.3"), std::string::npos) << three;
+}
+
+TEST(MyelinSurfaces, RefusesMoreSmoothingThanFibresBear)
+{
+  MyelinSurfaceOptions options;
+  for (const int passes : { -1, 21, 1000 })
+  {
+    options.smoothingIterations = passes;
+    EXPECT_THROW(validate(options), InvalidInput);
+  }
+  options.smoothingIterations = 20;
+  validate(options);
+}
+
+} // namespace
