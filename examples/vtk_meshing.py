@@ -37,18 +37,18 @@ def describe(title, surfaces):
     )
 
 
-def view(width, height, depth):
+def view():
     one = simple.CreateRenderView()
-    one.ViewSize = [width, height]
+    one.ViewSize = [500, 500]
     one.UseColorPaletteForBackground = 0
     one.BackgroundColorMode = "Single Color"
     one.Background = [1.0, 1.0, 1.0]
     one.OrientationAxesVisibility = 0
-    one.CameraPosition = [4.5, -7.5, 12.0]
-    one.CameraFocalPoint = [0.0, 0.0, depth]
-    one.CameraViewUp = [0.0, 1.0, 0.0]
+    one.CameraPosition = [9.0, -13.0, 13.0]
+    one.CameraFocalPoint = [0.0, 0.0, 0.0]
+    one.CameraViewUp = [0.0, 0.0, 1.0]
     one.CameraParallelProjection = 1
-    one.CameraParallelScale = 3.7
+    one.CameraParallelScale = 4.9
     return one
 
 
@@ -62,7 +62,7 @@ def show(source, where, colour):
 def draw(image, fields, picture):
     """Left the contour of the label image's Depth at 0, right those of the fibres' own fields."""
     fused = simple.Contour(Input=image, ContourBy=["POINTS", "Depth"], Isosurfaces=[0.0])
-    left, right = view(700, 700, 0.0), view(700, 700, 0.0)
+    left, right = view(), view()
     show(fused, left, [0.80, 0.20, 0.18])
     surfaces = simple.Contour(Input=fields, ContourBy=["POINTS", "Field"], Isosurfaces=[0.0])
     display = simple.Show(surfaces, right)
@@ -72,8 +72,8 @@ def draw(image, fields, picture):
     layout.SplitHorizontal(0, 0.5)
     layout.AssignView(1, left)
     layout.AssignView(2, right)
-    layout.SetSize(1400, 700)
-    simple.SaveScreenshot(picture, layout, ImageResolution=[1400, 700])
+    layout.SetSize(1000, 500)
+    simple.SaveScreenshot(picture, layout, ImageResolution=[1000, 500], CompressionLevel="9")
 
 
 image = label_image()
