@@ -47,8 +47,8 @@ def print_row(name, surfaces, contours, side):
     asked = table["Myelin"] == 0
     cells = (
         name,
-        f"{made / fibres:.2f}",
-        f"{judged / fibres:.2f}",
+        f"{made / fibres:.3f}",
+        f"{judged / fibres:.3f}",
         f"{len(areas) / areas.sum():.1f}",
         f"{found['OuterPairsMeeting']:.0f}",
         f"{found['InnerLeaving']:.0f}",

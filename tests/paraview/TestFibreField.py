@@ -133,8 +133,8 @@ class FibreFieldTest(CactusTestCase):
 
     def test_what_the_window_makes_goes_into_our_filters(self):
         field = self.field(Select="All fibres")
-        surface = ExtractSurface(Input=self.contour(field))
-        surface = Decimate(Input=Smooth(Input=surface, NumberofIterations=10), TargetReduction=0.5)
+        smoothed = Smooth(Input=ExtractSurface(Input=self.contour(field)), NumberofIterations=10)
+        surface = Decimate(Input=smoothed, TargetReduction=0.5)
         made = blocks_of(fetch(surface))
         ids = self.table_ids("FibreId")
         self.assertEqual([number(block, "FibreId") for block in made], sorted(ids))
@@ -150,11 +150,12 @@ class FibreFieldTest(CactusTestCase):
         self.assertEqual(list(vtk_to_numpy(per_fibre.GetColumnByName("FibreId"))), sorted(ids))
         self.assertEqual(list(vtk_to_numpy(per_fibre.GetColumnByName("BundleId"))), list(self.table_ids("BundleId")))
         self.assertEqual(fetch(certificate).GetColumnByName("OuterSurfaces").GetValue(0), len(ids))
+        # Decimate may leave surfaces that are not closed, which the writer refuses.
         folder = os.path.join(self.folder, "written")
-        SubstrateWriter(Fibres=produce(self.fibres), Outer=surface, FolderName=folder, MinimumGap=0).UpdatePipeline()
+        SubstrateWriter(Fibres=produce(self.fibres), Outer=smoothed, FolderName=folder, MinimumGap=0).UpdatePipeline()
         self._messages.clear()
         written = [name for _, _, names in os.walk(folder) for name in names if name.endswith(".ply")]
-        self.assertGreaterEqual(len(written), 1)
+        self.assertEqual(len(written), len(ids))
 
     def test_without_clipping_fibres_reach_to_the_end_of_the_image(self):
         growth = FibreRadialGrowth(Input=produce(self.fibres), GrowthIterations=0, VoxelSize=0.25, Margin=0.5)
