@@ -8,8 +8,8 @@
  * data `FibreId`, `BundleId`, `Domain` and `Provenance`, which the filters of VTK pass on.
  *
  * In the label image neighbours are nearer to each other than a voxel is wide, so that a contour of its `Depth` fuses them.
- * The fields here are those of one fibre each (see core/surface/FibreField.h), and the zero contours of two of them do not meet. Beyond
- * the faces of the domain each image has samples that make a contour at `Level` (µm) end in flat caps on these faces.
+ * The fields here are those of one fibre each (see core/surface/FibreField.h), and the zero contours of two of them do not meet.
+ * Beyond the faces of the domain each image has samples that make a contour at `Level` (µm) end in flat caps on these faces.
  *
  * All of the image is needed at once. Where the pipeline runs on several ranks, the first one gives the result.
  */

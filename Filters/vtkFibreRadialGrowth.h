@@ -5,9 +5,9 @@
  *
  * All fibres grow at the same speed until they have grown by `GrowthIterations` voxels, or fill `TargetFibreVolumeFraction` of
  * the domain, or meet a neighbour, from which they keep `MinimumGap` (paper, section "Fibre radial growth"; what is computed is
- * the limit of that method for small voxels, see core/growth/FibreRadialGrowth.h). No voxel belongs to two fibres, also where capsules
- * overlap. For a target fraction the capsules' radii are changed first, so that each fibre ends at its TargetRadius where these
- * add up to the fraction (core/growth/GrowthTarget.h).
+ * the limit of that method for small voxels, see core/growth/FibreRadialGrowth.h). No voxel belongs to two fibres, also where
+ * capsules overlap. For a target fraction the capsules' radii are changed first, so that each fibre ends at its TargetRadius
+ * where these add up to the fraction (core/growth/GrowthTarget.h).
  *
  * Input: fibres (polylines with point data `Radius`). Output: an image of cubic voxels that fill the field data `Domain`, its
  * points the voxels' centres, with

@@ -8,8 +8,8 @@
  * `Domain` and `Provenance`. Output 2 `Fibre statistics`: a table with one row per fibre of the image's FibreTable.
  *
  * Each surface is a closed, outward 2-manifold, cut off flat at the faces of the domain; inner caps lie a little
- * inside the outer ones. The method, what it guarantees and where the limits are stand in core/surface/MyelinSurface.h; the contouring
- * is core/mesh/Isosurface.h, since marching cubes does not promise a manifold.
+ * inside the outer ones. The method, what it guarantees and where the limits are stand in core/surface/MyelinSurface.h; the
+ * contouring is core/mesh/Isosurface.h, since marching cubes does not promise a manifold.
  *
  * The column `Myelin` tells how a fibre came out: 0 as asked; 1 thinner than asked, since the axon would break; 2
  * thicker than asked, since myelin is at least MinimumGap thick; 3 without an inner surface, since the fibre is too thin for
