@@ -203,7 +203,7 @@ void CheckpointReader::verify()
   this->require(this->File && bytes >= before + checksumBytes);
   this->File.seekg(0);
   std::uint64_t checksum = 0;
-  std::vector<char> part(std::size_t(1) << 20);
+  std::vector<char> part(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, 1 << 20)));
   for (std::uint64_t left = bytes - checksumBytes; left > 0;)
   {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size()));
