@@ -21,6 +21,8 @@ namespace cactus
 namespace
 {
 
+/// Pairs of triangles of a surface that are counted: a ruined one may have half a billion.
+constexpr std::size_t mostIntersections = 10000;
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Of a fibre of which only the id is known; behind all others.
@@ -185,7 +187,7 @@ private:
       this->Reach[f] = std::max(this->Reach[f], -this->Box.depth(point));
     }
     auto surface = std::make_unique<TreedSurface>(std::move(mesh));
-    intersections = selfIntersections(surface->tree).size();
+    intersections = selfIntersections(surface->tree, mostIntersections).size();
     nested = report.pieces.size() > 1 && report.closed() && intersections == 0 && holdsItself(surface->mesh);
     const auto line = this->LineIndex.find(id);
     if (line != this->LineIndex.end())

@@ -37,7 +37,7 @@ struct FibreCertificate
   bool hasInner = false;
   SurfaceReport outer;
   SurfaceReport inner;
-  std::size_t outerSelfIntersections = 0; ///< pairs of triangles, see selfIntersections()
+  std::size_t outerSelfIntersections = 0; ///< pairs of triangles, see selfIntersections(); at most 10,000 are counted
   std::size_t innerSelfIntersections = 0;
   bool outerSelfNested = false; ///< a piece of the surface lies inside another one of its pieces
   bool innerSelfNested = false;

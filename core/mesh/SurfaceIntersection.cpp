@@ -361,14 +361,14 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingTriangles(const Tria
   return pairs;
 }
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>> selfIntersections(const TriangleTree& surface)
+std::vector<std::pair<std::uint32_t, std::uint32_t>> selfIntersections(const TriangleTree& surface, std::size_t most)
 {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   visitSelfIntersections(surface,
-    [&pairs](std::uint32_t s, std::uint32_t t)
+    [&pairs, most](std::uint32_t s, std::uint32_t t)
     {
       pairs.emplace_back(s, t);
-      return false;
+      return pairs.size() >= most;
     });
   std::sort(pairs.begin(), pairs.end());
   return pairs;

@@ -7,7 +7,9 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,7 +33,9 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingTriangles(const Tria
 /// All pairs of a surface's own triangles that have more in common than the corners they share by index, the smaller first, in
 /// increasing order. Neighbours across an edge count where one lies folded onto the other in one plane, and two triangles of the
 /// same three corners. A flat triangle, which lies on its own edge, counts as a pair with itself.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> selfIntersections(const TriangleTree& surface);
+/// With `most`, no more than so many are looked for: of n triangles in one place there are n²/2.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> selfIntersections(
+  const TriangleTree& surface, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// Whether there is any such pair.
 bool meetsItself(const TriangleTree& surface);
