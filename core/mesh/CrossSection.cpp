@@ -70,7 +70,9 @@ CrossSections::CrossSections(const TriangleMesh& mesh)
   this->Lower = lower[this->Axis];
   this->Upper = upper[this->Axis];
   // About 64 triangles a bin keep a bin shorter than a cut's window without filing many triangles twice.
-  this->Begin.assign(std::clamp<std::size_t>(mesh.triangles.size() / 64, 1, 65536) + 1, 0);
+  // A surface without an extent has one only, which every search for an outline reaches.
+  const bool hasExtent = this->Upper > this->Lower;
+  this->Begin.assign((hasExtent ? std::clamp<std::size_t>(mesh.triangles.size() / 64, 1, 65536) : 1) + 1, 0);
 
   std::vector<std::size_t> lastBin(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
