@@ -3,6 +3,7 @@
 
 #include "FibreData.h"
 #include "base/Error.h"
+#include "base/Limits.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkFieldData.h>
@@ -46,6 +47,10 @@ std::vector<double> fieldValues(vtkImageData* image, const std::string& name)
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     values.push_back(array->GetComponent(i, 0));
+    if (!(values.back() >= 0.0 && values.back() <= limits::coordinate.highest))
+    {
+      throw InvalidInput(text("the label image's field data ", name, " holds ", values.back(), advice));
+    }
   }
   return values;
 }

@@ -23,6 +23,13 @@ inline void requestWholeInputs(vtkInformationVector** inputs, int ports)
       info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
       info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
       info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      if (info->Has(Pipeline::WHOLE_EXTENT()))
+      {
+        // Else the executive asks for as much as the output has, which of an empty image there is not.
+        int extent[6];
+        info->Get(Pipeline::WHOLE_EXTENT(), extent);
+        info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+      }
     }
   }
 }

@@ -20,7 +20,6 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
 #include <string>
@@ -93,14 +92,6 @@ int vtkFibreField::FillInputPortInformation(int, vtkInformation* info)
 int vtkFibreField::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
   cactus::requestWholeInputs(inputs, 1);
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  int extent[6];
-  if (info->Has(Pipeline::WHOLE_EXTENT()))
-  {
-    info->Get(Pipeline::WHOLE_EXTENT(), extent);
-    info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
-  }
   return 1;
 }
 

@@ -24,7 +24,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
 #include <cmath>
@@ -104,15 +103,7 @@ int vtkMyelinSurface::FillOutputPortInformation(int port, vtkInformation* info)
 
 int vtkMyelinSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   cactus::requestWholeInputs(inputs, 1);
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  int extent[6];
-  if (info->Has(Pipeline::WHOLE_EXTENT()) != 0) // which data other than images have not
-  {
-    info->Get(Pipeline::WHOLE_EXTENT(), extent);
-    info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
-  }
   return 1;
 }
 

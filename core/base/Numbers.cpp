@@ -109,13 +109,48 @@ bool takeNumber(std::string_view& text, double& value)
   return true;
 }
 
+namespace
+{
+
+/// Bytes of the UTF-8 character that `text` starts with; 0 where it starts with none (Unicode, table 3-7).
+std::size_t characterLength(std::string_view text)
+{
+  const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(0);
+  if (first < 0x80)
+  {
+    return 1;
+  }
+  const std::size_t length = first >= 0xc2 && first <= 0xdf   ? 2
+                             : (first & 0xf0U) == 0xe0        ? 3
+                             : first >= 0xf0 && first <= 0xf4 ? 4
+                                                              : 0;
+  const unsigned lowest = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned highest = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  bool whole = byte(1) >= lowest && byte(1) <= highest;
+  for (std::size_t i = 2; i < length; ++i)
+  {
+    whole = whole && (byte(i) & 0xc0U) == 0x80;
+  }
+  return whole ? length : 0;
+}
+
+} // namespace
+
 std::string excerpt(std::string_view text)
 {
   constexpr std::size_t longest = 60;
-  std::string found(text.substr(0, longest));
-  std::replace_if(
-    found.begin(), found.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-  return text.size() > longest ? found + "..." : found;
+  std::string found;
+  while (!text.empty() && found.size() < longest)
+  {
+    const std::size_t length = characterLength(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    found += first < 0x20 || first == 0x7f ? std::string(" ")
+             : length == 0                 ? std::string("?")
+                                           : std::string(text.substr(0, length));
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return text.empty() ? found : found + "...";
 }
 
 } // namespace cactus

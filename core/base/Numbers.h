@@ -31,7 +31,7 @@ void skipBlanks(std::string_view& text);
 /// infinite, not a number, or too large for a double (hexadecimal ones also where too small).
 bool takeNumber(std::string_view& text, double& value);
 
-/// The first characters of what was found in a file, fit for a message: without control characters, and not long.
+/// The first characters of what was found in a file, fit for a message: without control characters, in UTF-8, and not long.
 std::string excerpt(std::string_view text);
 
 } // namespace cactus

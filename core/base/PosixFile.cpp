@@ -82,6 +82,15 @@ fs::path folderOf(const fs::path& path)
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+void requireNoPipe(const std::string& name, const std::filesystem::path& path)
+{
+  std::error_code unknown;
+  if (std::filesystem::is_fifo(path, unknown))
+  {
+    throw FileError(name + " is a pipe, and not a file");
+  }
+}
+
 std::string sha256OfFile(const fs::path& path)
 {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));

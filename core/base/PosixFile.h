@@ -58,6 +58,10 @@ std::filesystem::path followLinks(const std::filesystem::path& path);
 /// The folder that a path is in; "." for a name alone.
 std::filesystem::path folderOf(const std::filesystem::path& path);
 
+/// Throws FileError for a pipe, which would have its reader wait for ever for somebody who writes; the message begins with
+/// `name`.
+void requireNoPipe(const std::string& name, const std::filesystem::path& path);
+
 /// The SHA-256 checksum of a file, read piece by piece. Throws FileError.
 std::string sha256OfFile(const std::filesystem::path& path);
 

@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Numbers.h"
+#include "base/PosixFile.h"
 #include "base/RandomVariates.h"
 
 #include <algorithm>
@@ -246,7 +247,7 @@ std::vector<double> readRadiusTable(std::istream& stream, const std::string& nam
   }
   catch (const std::ios_base::failure& error) // a folder, a broken disk
   {
-    throw FileError("RadiusTableFile " + name + " cannot be read: " + error.what());
+    throw FileError("RadiusTableFile " + name + " cannot be read: " + error.code().message());
   }
   if (text.size() > longest)
   {
@@ -272,6 +273,7 @@ std::vector<double> readRadiusTable(std::istream& stream, const std::string& nam
 
 std::vector<double> readRadiusTable(const std::string& path)
 {
+  requireNoPipe("RadiusTableFile " + path, path);
   std::ifstream file(path);
   if (!file)
   {

@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Numbers.h"
+#include "base/PosixFile.h"
 
 #include <cerrno>
 #include <cmath>
@@ -118,7 +119,7 @@ private:
     }
     catch (const std::ios_base::failure& error) // a folder, a broken disk
     {
-      throw FileError("cannot read " + this->Name + " after line " + std::to_string(this->Line) + ": " + error.what());
+      throw FileError("cannot read " + this->Name + " after line " + std::to_string(this->Line) + ": " + error.code().message());
     }
     if (this->Line == 1 && this->Text.compare(0, 3, "\xef\xbb\xbf") == 0)
     {
@@ -234,6 +235,7 @@ Fibres readStrandFile(std::istream& stream, const std::string& name)
 
 Fibres readStrandFile(const std::string& path)
 {
+  requireNoPipe("strand file " + path, path);
   std::ifstream file(path);
   if (!file)
   {

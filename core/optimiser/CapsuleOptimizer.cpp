@@ -738,6 +738,30 @@ bool shouldStop(const Run& run, const ConvergenceRow& row, const CapsuleOptimize
   return false;
 }
 
+/// Throws InvalidInput for a fibre whose capsules are so much shorter than they are thick that the neighbour search, which passes
+/// by those of the fibre itself, would not come to an end.
+void requireSegmentsToSearch(const Fibres& fibres)
+{
+  constexpr double mostCandidates = 3e8;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    double length = 0.0;
+    double radius = 0.0;
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      length += i > fibres.offsets[f] ? (fibres.points[i] - fibres.points[i - 1]).norm() : 0.0;
+      radius = std::max(radius, fibres.radii[i]);
+    }
+    const auto count = static_cast<double>(fibres.pointCount(f));
+    const double spacing = length / (count - 1.0);
+    if (count * std::min(count, radius / spacing) > mostCandidates)
+    {
+      throw InvalidInput(text("fibre ", fibres.fibreIds[f], " (cell ", f, ") has ", fibres.pointCount(f), " control points, ",
+        spacing, " µm apart with a Radius of up to ", radius, " µm: resample it to a spacing of about its radius"));
+    }
+  }
+}
+
 } // namespace
 
 void validate(const CapsuleOptimizerOptions& options)
@@ -769,6 +793,7 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
 {
   validate(options);
   validate(fibres);
+  requireSegmentsToSearch(fibres);
   requireMemory(bytesPerPoint * static_cast<double>(fibres.points.size()),
     text("an optimisation of ", fibres.size(), " fibres with ", fibres.points.size(), " control points"),
     "use fewer fibres, or a larger spacing of their control points");

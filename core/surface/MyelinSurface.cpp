@@ -206,9 +206,17 @@ std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const 
     open += pair.outerReport.volume;
   }
   const double fibreFraction = open / mesher.field().box().volume();
-  for (int round = 0; round < 4; ++round)
+  double before = 0.0;
+  double correction = 1.0; // for what the fibres' own tolerances sum up to
+  for (int round = 0; round < 6; ++round)
   {
-    const double square = open > 0.0 ? (wanted - given) / open : 2.0;
+    double square = open > 0.0 ? correction * (wanted - given) / open : 2.0;
+    if (square == before && reached > given)
+    {
+      correction *= (wanted - given) / (reached - given);
+      square = correction * (wanted - given) / open;
+    }
+    before = square;
     if (!(square > 0.0 && square < 1.0))
     {
       break;
@@ -231,8 +239,9 @@ std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const 
     }
   }
   throw Infeasible(text("TargetAxonVolumeFraction ", options.targetAxonVolumeFraction, " cannot be reached: the fibres fill ",
-    fibreFraction, " of the box, and with the thinnest myelin allowed their axons fill ", reached / mesher.field().box().volume(),
-    ". Ask for another fraction, or grow the fibres further"));
+    fibreFraction, " of the box, and ",
+    reached < wanted ? "with the thinnest myelin allowed their axons fill " : "the nearest that their axons come to is ",
+    reached / mesher.field().box().volume(), ". Ask for another fraction, or grow the fibres further"));
 }
 
 std::string notAsAsked(

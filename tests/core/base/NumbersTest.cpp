@@ -217,6 +217,12 @@ TEST(Numbers, ExcerptsAreShortAndPrintable)
 {
   EXPECT_EQ(excerpt(std::string("a\0b\tc", 5)), "a b c");
   EXPECT_EQ(excerpt(std::string(1000, 'x')).size(), 63u);
+  EXPECT_EQ(excerpt("0.5 \xc2\xb5m \xe6\xbc\xa2 \xf0\x9f\xa7\xa0"), "0.5 \xc2\xb5m \xe6\xbc\xa2 \xf0\x9f\xa7\xa0");
+  // What is no UTF-8 could not be passed on to Python or the window.
+  EXPECT_EQ(excerpt("\xff\xfe"
+                    "6"),
+    "??6");
+  EXPECT_EQ(excerpt("\xc0\x80 \xed\xa0\x80 \xf5\x80 \xc2"), "?? ??? ?? ?");
 }
 
 // Guarantee: nothing that core reads or writes depends on the locale, neither on C++'s nor on C's.

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sys/stat.h>
 
 namespace
 {
@@ -52,6 +53,28 @@ TEST(StrandFile, RoundTrip)
   }
   EXPECT_DOUBLE_EQ(back.targetRadii[0], 0.5);
   EXPECT_DOUBLE_EQ(back.domain.upper[2], 6.25);
+}
+
+// Guarantee: what is no file is told of, and never waited for.
+TEST(StrandFile, ReadsNoFolderAndNoPipe)
+{
+  const std::string pipe = scratch("pipe.strands");
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : { pipe, ::testing::TempDir() })
+  {
+    try
+    {
+      cactus::readStrandFile(path);
+      ADD_FAILURE() << path << " was read";
+    }
+    catch (const cactus::FileError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("filebuf"), std::string::npos) << error.what();
+    }
+  }
+  std::filesystem::remove(pipe);
 }
 
 // Guarantee: bad input gets one clear error that names the place.

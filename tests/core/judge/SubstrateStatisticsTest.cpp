@@ -95,6 +95,15 @@ TEST(CrossSection, OnlyTheLoopAroundThePoint)
 }
 
 // Guarantee 3: fractions and radii are those of the final meshes.
+// Its bins along the surface had no end.
+TEST(CrossSection, OfASurfaceInOnePointIsNone)
+{
+  cactus::TriangleMesh mesh = tube(0.0, 0.0, 1.0, 4.0);
+  std::fill(mesh.points.begin(), mesh.points.end(), mesh.points.front());
+  const cactus::CrossSections sections(mesh);
+  EXPECT_TRUE(sections.outlineAround({ 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, 0.1).empty());
+}
+
 TEST(SubstrateStatistics, StraightTubes)
 {
   const auto fibres = twoFibres();

@@ -491,6 +491,28 @@ TEST(CapsuleOptimizer, NamesTheParameterThatIsOutOfRange)
     cactus::InvalidInput);
 }
 
+// Such a fibre has so many capsules within reach of each other that the search for neighbours would take hours.
+TEST(CapsuleOptimizer, RefusesFibresOfFarTooManyPoints)
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  fibres.addFibre(1, 1, 0.5);
+  constexpr int count = 300000;
+  for (int i = 0; i < count; ++i)
+  {
+    fibres.addPoint({ 0.0, 0.0, -4.0 + 8.0 * i / (count - 1) }, 0.5);
+  }
+  try
+  {
+    cactus::optimise(fibres, {}, {});
+    FAIL() << "nothing was said";
+  }
+  catch (const cactus::InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("fibre 1 (cell 0) has 300000 control points"), std::string::npos) << error.what();
+  }
+}
+
 // The pieces of a fibre that is outside for a moment only would overlap, or meet when they grow.
 TEST(TrimToDomain, KeepsAFibreWholeThatComesBackAtOnce)
 {
