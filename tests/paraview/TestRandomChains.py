@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 900
+# ctest-processors: 2
 """Chains with parameters drawn at random over all that is legal, judged by the mesh oracle and compared with the certificate.
 
     ./cactus pvpython tests/paraview/TestRandomChains.py [--seed N] [--cases N] [--only INDEX]... [--workers N] [--report FILE]

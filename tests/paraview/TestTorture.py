@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 900
+# ctest-processors: 2
 """Whatever ParaView can throw at the plugin ends in a result or in one clear error, and the next good value works.
 
     ./cactus pvpython tests/paraview/TestTorture.py [--all] [--list] [--only PATTERN]... [--workers N] [--seconds N] [--report FILE]
