@@ -227,13 +227,22 @@ private:
   /// The triangles that are no caps on the faces of the domain.
   std::vector<std::uint32_t> wallOf(const TriangleMesh& mesh) const
   {
+    Eigen::Vector3d lower = this->Box.lower;
+    Eigen::Vector3d upper = this->Box.upper;
+    for (const Eigen::Vector3d& point : mesh.points)
+    {
+      lower = lower.cwiseMin(point);
+      upper = upper.cwiseMax(point);
+    }
+    // Surfaces that were not clipped to the domain end in planes, too: those of the image.
+    const Eigen::Vector3d planes[4] = { this->Box.lower, this->Box.upper, lower, upper };
     std::vector<unsigned> faces(mesh.points.size(), 0U);
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
     {
-      for (int axis = 0; axis < 3; ++axis)
+      for (int face = 0; face < 12; ++face)
       {
-        faces[i] |= std::fabs(mesh.points[i][axis] - this->Box.lower[axis]) <= capTolerance ? 1U << (2 * axis) : 0U;
-        faces[i] |= std::fabs(mesh.points[i][axis] - this->Box.upper[axis]) <= capTolerance ? 2U << (2 * axis) : 0U;
+        const int axis = face % 3;
+        faces[i] |= std::fabs(mesh.points[i][axis] - planes[face / 3][axis]) <= capTolerance ? 1U << face : 0U;
       }
     }
     std::vector<std::uint32_t> wall;

@@ -231,6 +231,16 @@ TEST(SubstrateCertificate, RemarksOnSurfacesThatReachOutOfTheDomain)
 }
 
 // What was asked for and is not there is told, by what the surfaces say of themselves or by the fibres.
+// Without ClipToDomain fibres reach to the end of the image, where they are cut off as flat as at the domain's faces.
+TEST(SubstrateCertificate, LeavesOutTheCapsBeyondTheDomain)
+{
+  const double end = halfSide + 0.3;
+  const auto certificate =
+    certified({ { 1, tube(0.0, 0.0, 0.5, -end, end) } }, { { 1, tube(0.0, 0.0, 0.35, -end + 0.001, end - 0.001) } });
+  EXPECT_TRUE(certificate.certified());
+  EXPECT_NEAR(certificate.smallestMyelin, 0.15, 0.01);
+}
+
 TEST(SubstrateCertificate, TellsWhichFibresAreMissing)
 {
   const Substrate all;
