@@ -323,9 +323,9 @@ class Chains:
 
     @staticmethod
     def _is_faulty(row, gap):
-        """Whether a row of the certificate's fibres names a fault."""
+        """Whether a row of the certificate's fibres names a fault of surfaces that are there."""
         return (
-            not row["OuterSound"]
+            (row["HasOuter"] and not row["OuterSound"])
             or (row["InnerTriangles"] > 0 and not row["InnerSound"])
             or row["OuterSelfIntersections"] > 0
             or row["InnerSelfIntersections"] > 0
@@ -341,7 +341,7 @@ class Chains:
         faults = []
         if len(warnings) > 1:
             faults.append("MyelinSurface warns more than once: " + " | ".join(warnings))
-        certified = {int(row["FibreId"]) for row in fibres}
+        certified = {int(row["FibreId"]) for row in fibres if row["HasOuter"]}
         listed = {int(row["FibreId"]) for row in made if row["Myelin"] != 4}
         if certified != listed:
             faults.append(f"surfaces of {sorted(certified)}, but the table lists {sorted(listed)}")
