@@ -230,7 +230,6 @@ TEST(SubstrateCertificate, RemarksOnSurfacesThatReachOutOfTheDomain)
   EXPECT_NE(certificate.remarks[0].find("reach 0.5"), std::string::npos) << certificate.remarks[0];
 }
 
-// What was asked for and is not there is told, by what the surfaces say of themselves or by the fibres.
 // Without ClipToDomain fibres reach to the end of the image, where they are cut off as flat as at the domain's faces.
 TEST(SubstrateCertificate, LeavesOutTheCapsBeyondTheDomain)
 {
@@ -241,6 +240,7 @@ TEST(SubstrateCertificate, LeavesOutTheCapsBeyondTheDomain)
   EXPECT_NEAR(certificate.smallestMyelin, 0.15, 0.01);
 }
 
+// What was asked for and is not there is told, by what the surfaces say of themselves or by the fibres.
 TEST(SubstrateCertificate, TellsWhichFibresAreMissing)
 {
   const Substrate all;
