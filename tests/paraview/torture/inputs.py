@@ -550,7 +550,8 @@ def _classes():
     seen = set()
     for number in range(64):
         one = vtkDataObjectTypes.NewDataObject(number)
-        if one is not None and one.GetClassName() not in seen:
+        # An empty vtkExplicitStructuredGrid does not know its extent: VTK counts its cells by memory that nobody has set.
+        if one is not None and one.GetClassName() not in seen | {"vtkExplicitStructuredGrid"}:
             seen.add(one.GetClassName())
             yield "empty-" + one.GetClassName(), empty_of(number)
 
