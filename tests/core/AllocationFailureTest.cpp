@@ -61,6 +61,19 @@ void* operator new(std::size_t size, std::align_val_t alignment)
   return allocate(size, static_cast<std::size_t>(alignment));
 }
 
+// Sanitizers have this one of their own, too, whose memory they want back by their own.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+  try
+  {
+    return allocate(size, 1);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return nullptr;
+  }
+}
+
 void operator delete(void* memory) noexcept
 {
   std::free(memory);
