@@ -15,6 +15,10 @@ namespace cactus
 ///
 ///     for (std::int32_t c = surface.firstCorner(p); c >= 0; c = surface.nextCorner(c))
 ///
+/// Those of two points, as around an edge, are had by
+///
+///     for (const std::int32_t c : surface.cornersAt(u, v))
+///
 /// Triangles that a collapse removes stay in their place, dead, until compact().
 class EditableSurface
 {
@@ -33,8 +37,25 @@ public:
   bool isDeadPoint(std::int32_t point) const { return this->firstCorner(point) < 0; }
   bool isCap(const std::array<std::int32_t, 3>& corners) const { return this->Surface.isCap(corners); }
 
+  /// The other two points of a corner's triangle, in its sense.
+  std::array<std::int32_t, 2> oppositeEdge(std::int32_t corner) const
+  {
+    const auto& corners = this->cornersOf(std::size_t(corner) / 3);
+    return { { corners[(std::size_t(corner) + 1) % 3], corners[(std::size_t(corner) + 2) % 3] } };
+  }
+
+  /// Whether a triangle at u or v, by the edge opposite to that corner, is left when u and v become one.
+  static bool outlivesCollapse(const std::array<std::int32_t, 2>& edge, std::int32_t u, std::int32_t v)
+  {
+    return edge[0] != u && edge[0] != v && edge[1] != u && edge[1] != v;
+  }
+
   std::int32_t firstCorner(std::int32_t point) const { return this->First[std::size_t(point)]; }
   std::int32_t nextCorner(std::int32_t corner) const { return this->Next[std::size_t(corner)]; }
+
+  /// The corners of one point and then those of another, for a range-based loop. A triangle at both points comes twice.
+  class CornersOfTwo;
+  CornersOfTwo cornersAt(std::int32_t u, std::int32_t v) const;
 
   /// Whether two points are the ends of an edge.
   bool areLinked(std::int32_t u, std::int32_t v) const;
@@ -69,5 +90,56 @@ private:
   int MarkValue = 0;
   std::size_t Alive;
 };
+
+class EditableSurface::CornersOfTwo
+{
+public:
+  class Iterator
+  {
+  public:
+    Iterator(const EditableSurface& surface, std::int32_t corner, std::int32_t then)
+      : Surface(&surface)
+      , Corner(corner)
+      , Then(then)
+    {
+    }
+    std::int32_t operator*() const { return this->Corner; }
+    bool operator!=(const Iterator& other) const { return this->Corner != other.Corner; }
+    Iterator& operator++()
+    {
+      this->Corner = this->Surface->nextCorner(this->Corner);
+      if (this->Corner < 0)
+      {
+        this->Corner = this->Then;
+        this->Then = -1;
+      }
+      return *this;
+    }
+
+  private:
+    const EditableSurface* Surface;
+    std::int32_t Corner; ///< -1 behind the last one
+    std::int32_t Then;   ///< first corner of the second point, until that is reached
+  };
+
+  CornersOfTwo(const EditableSurface& surface, std::int32_t u, std::int32_t v)
+    : Surface(surface)
+    , U(u)
+    , V(v)
+  {
+  }
+  Iterator begin() const { return { this->Surface, this->Surface.firstCorner(this->U), this->Surface.firstCorner(this->V) }; }
+  Iterator end() const { return { this->Surface, -1, -1 }; }
+
+private:
+  const EditableSurface& Surface;
+  std::int32_t U;
+  std::int32_t V;
+};
+
+inline EditableSurface::CornersOfTwo EditableSurface::cornersAt(std::int32_t u, std::int32_t v) const
+{
+  return { *this, u, v };
+}
 
 } // namespace cactus

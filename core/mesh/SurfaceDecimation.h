@@ -9,8 +9,8 @@
 namespace cactus
 {
 
-/// A ball in which less coarsening is wanted; lengths in µm.
-struct CalmPlace
+/// A ball in which the surface is coarsened less; lengths in µm.
+struct LocalErrorBound
 {
   Eigen::Vector3d centre;
   double radius;
@@ -30,7 +30,7 @@ struct SurfaceDecimationOptions
   double sampling = 0.6;
   /// No triangle is made whose longest and shortest squared edges have a ratio above this, unless it was worse before.
   double largestSquaredEdgeRatio = 300.0;
-  std::vector<CalmPlace> calm;
+  std::vector<LocalErrorBound> localBounds;
 };
 
 /// Coarsens a closed surface by edge collapses, in sweeps of rising error, cheapest first. A point goes where it is nearest to
@@ -39,7 +39,7 @@ struct SurfaceDecimationOptions
 /// surface nearer to the level.
 ///
 /// Each collapse keeps the surface a closed 2-manifold of the same topology (link condition), turns no triangle over, makes no
-/// needle, and leaves points on the faces of the box in the faces that they lie in. That distant parts of the surface do not
+/// needle, and leaves points on the faces of the box in the faces that they lie in. Whether distant parts of the surface come to
 /// meet is not checked. Points are compacted; the result depends on the input alone.
 void decimate(CappedSurface& surface, const SurfaceDecimationOptions& options);
 

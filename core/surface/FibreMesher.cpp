@@ -211,7 +211,7 @@ SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, in
 }
 
 void FibreMesher::makeOuter(
-  const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm, double deeper) const
+  const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds, double deeper) const
 {
   // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre held before.
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
@@ -243,7 +243,7 @@ void FibreMesher::makeOuter(
     }
     volume = std::clamp(volume, now.volume - rest * now.freeArea, now.volume + rest * now.freeArea);
   }
-  const bool isSound = this->finish(field, surface, level, volume, nullptr, calm, pair.outerReport, pair);
+  const bool isSound = this->finish(field, surface, level, volume, nullptr, bounds, pair.outerReport, pair);
   pair.isFlawed = pair.isFlawed || !isSound;
   pair.outer = packed(std::move(surface.mesh));
   pair.outerLevel = level;
@@ -261,14 +261,14 @@ std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) con
   return faults(pair.outer, nullptr);
 }
 
-std::vector<CalmPlace> FibreMesher::calmAround(const std::vector<Eigen::Vector3d>& places, int attempt) const
+std::vector<LocalErrorBound> FibreMesher::boundsAround(const std::vector<Eigen::Vector3d>& places, int attempt) const
 {
-  std::vector<CalmPlace> calm;
+  std::vector<LocalErrorBound> bounds;
   for (const Eigen::Vector3d& place : places)
   {
-    calm.push_back({ place, 2.0 * this->Spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });
+    bounds.push_back({ place, 2.0 * this->Spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });
   }
-  return calm;
+  return bounds;
 }
 
 double FibreMesher::equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const
@@ -501,7 +501,7 @@ MyelinState FibreMesher::solve(
 /// less coarsening around there; what cannot be mended like that stays as contoured, without pieces that enclose nothing, which
 /// may leave an empty mesh. Returns whether nothing is wrong with it.
 bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, double level, double volume,
-  const TriangleTree* container, const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const
+  const TriangleTree* container, const std::vector<LocalErrorBound>& bounds, SurfaceReport& report, FibreSurfacePair& pair) const
 {
   if (this->Filters != nullptr)
   {
@@ -512,7 +512,7 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
   }
   const double error = this->Options.decimationError;
   SurfaceDecimationOptions decimation;
-  decimation.calm = calm;
+  decimation.localBounds = bounds;
   decimation.level = level;
   decimation.maximumError = error;
   decimation.sampling = samplingDistance * this->Spacing;
@@ -535,8 +535,8 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     {
       break; // no place to mend
     }
-    const std::vector<CalmPlace> more = this->calmAround(places, attempt);
-    decimation.calm.insert(decimation.calm.end(), more.begin(), more.end());
+    const std::vector<LocalErrorBound> more = this->boundsAround(places, attempt);
+    decimation.localBounds.insert(decimation.localBounds.end(), more.begin(), more.end());
   }
   if (error > 0.0)
   {

@@ -30,17 +30,17 @@ public:
   /// The field of a fibre, from the blocks that findFibres() found for it.
   SmoothedField smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const;
 
-  /// Makes the outer surface, with less coarsening in `calm`, and `deeper` (µm) than it might be; leaves the pair's state at
+  /// Makes the outer surface, with less coarsening in `bounds`, and `deeper` (µm) than it might be; leaves the pair's state at
   /// NoFibre where there is none, else at NoAxon.
-  void makeOuter(
-    const SmoothedField& field, FibreSurfacePair& pair, const std::vector<CalmPlace>& calm = {}, double deeper = 0.0) const;
+  void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds = {},
+    double deeper = 0.0) const;
 
   /// Measures the outer surface again after it has been changed, and says where it now meets itself. Pieces that have been turned
   /// inside out go; where nothing is left, the pair's state is NoFibre.
   std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
 
   /// What has to be coarsened less where something went wrong at some places, for the first time (0) or once more.
-  std::vector<CalmPlace> calmAround(const std::vector<Eigen::Vector3d>& places, int attempt) const;
+  std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& places, int attempt) const;
 
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const;
@@ -57,7 +57,7 @@ private:
   MyelinState solve(
     const SmoothedField& field, double wanted, double deepest, double guess, const TriangleTree* within, Inner& best) const;
   bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleTree* container,
-    const std::vector<CalmPlace>& calm, SurfaceReport& report, FibreSurfacePair& pair) const;
+    const std::vector<LocalErrorBound>& bounds, SurfaceReport& report, FibreSurfacePair& pair) const;
   bool finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const;
   std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;

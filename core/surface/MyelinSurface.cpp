@@ -80,7 +80,7 @@ void spaceOut(const FibreMesher& mesher, const BlocksOf& blocks, double gap, boo
   std::vector<std::size_t> made(pairs.size());
   std::iota(made.begin(), made.end(), std::size_t(0));
   std::vector<std::size_t> tooNear; // as far as is known, increasing
-  std::map<std::size_t, std::vector<CalmPlace>> calm;
+  std::map<std::size_t, std::vector<LocalErrorBound>> bounds;
   for (int attempt = 0; !made.empty(); ++attempt)
   {
     // What was too near is looked at again, since the other one of the pair may be new.
@@ -96,8 +96,8 @@ void spaceOut(const FibreMesher& mesher, const BlocksOf& blocks, double gap, boo
     {
       if (!faults[i].empty() && attempt < remakes)
       {
-        const std::vector<CalmPlace> more = mesher.calmAround(faults[i], attempt);
-        auto& known = calm[spacing.moved[i]];
+        const std::vector<LocalErrorBound> more = mesher.boundsAround(faults[i], attempt);
+        auto& known = bounds[spacing.moved[i]];
         known.insert(known.end(), more.begin(), more.end());
         made.push_back(spacing.moved[i]);
       }
@@ -112,7 +112,7 @@ void spaceOut(const FibreMesher& mesher, const BlocksOf& blocks, double gap, boo
         FibreSurfacePair& pair = pairs[made[i]];
         pair.isFlawed = false; // of the surface that goes
         mesher.makeOuter(
-          mesher.smoothed(blocks(pair), pair.fibreId), pair, calm.at(made[i]), coarsens ? 0.0 : deeperEachTime * (attempt + 1));
+          mesher.smoothed(blocks(pair), pair.fibreId), pair, bounds.at(made[i]), coarsens ? 0.0 : deeperEachTime * (attempt + 1));
       });
   }
   for (const std::size_t i : tooNear)

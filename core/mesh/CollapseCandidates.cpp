@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/CollapseCandidates.h"
+
+#include "mesh/Quadric.h"
+
+#include <Eigen/Geometry>
+
+namespace cactus
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+/// Of the triangles at u and v as they are now, from `origin`. That they are not those of the beginning lets a surface of much
+/// fewer triangles keep to the field: what earlier collapses have done to it, the field tells (Lindstrom and Turk 1998).
+Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32_t v, const Vector3d& origin)
+{
+  Quadric sum;
+  for (const std::int32_t c : surface.cornersAt(u, v))
+  {
+    const auto& corners = surface.cornersOf(std::size_t(c) / 3);
+    // A triangle at both comes as one of u, too.
+    const bool isCounted = corners[std::size_t(c) % 3] == v && (corners[0] == u || corners[1] == u || corners[2] == u);
+    // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
+    if (!isCounted && !surface.isCap(corners))
+    {
+      const Vector3d& a = surface.at(corners[0]);
+      sum.addPlane((surface.at(corners[1]) - a).cross(surface.at(corners[2]) - a), a - origin);
+    }
+  }
+  return sum;
+}
+
+} // namespace
+
+CollapseCandidates collapseCandidates(
+  const EditableSurface& surface, std::int32_t u, std::int32_t v, const Eigen::AlignedBox3d& box, double margin)
+{
+  const Vector3d origin = surface.at(u); // near by, so that no digits are lost
+  const Quadric sum = quadricAround(surface, u, v, origin);
+  const std::uint8_t facesU = surface.facesOf(u);
+  const std::uint8_t facesV = surface.facesOf(v);
+  const std::uint8_t both = facesU & facesV;
+  CollapseCandidates found;
+  if (facesU == facesV)
+  {
+    const Vector3d middle = 0.5 * (surface.at(u) + surface.at(v));
+    if (facesU == 0)
+    {
+      const double reach = (surface.at(u) - surface.at(v)).norm();
+      found.add(keptInside(box, middle, sum.best(middle - origin, reach) + origin, margin));
+    }
+    else
+    {
+      found.add(middle);
+    }
+    found.add(surface.at(u));
+    found.add(surface.at(v));
+  }
+  else if (both == facesU)
+  {
+    found.add(surface.at(v));
+  }
+  else if (both == facesV)
+  {
+    found.add(surface.at(u));
+  }
+  for (std::size_t p = 0; p < found.count; ++p)
+  {
+    found.errors[p] = sum.error(found.places[p] - origin);
+  }
+  return found;
+}
+
+} // namespace cactus

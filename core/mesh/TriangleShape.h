@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <limits>
+
+namespace cactus
+{
+
+/// How well formed a triangle is.
+struct TriangleShape
+{
+  double edgeRatio; ///< longest over shortest squared edge; infinite where an edge has no length
+  double flatness;  ///< twice the area over the longest squared edge: the height on that edge over its length
+};
+
+inline TriangleShape shapeOf(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+  const double edges[3] = { (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() };
+  const double longest = std::max({ edges[0], edges[1], edges[2] });
+  const double shortest = std::min({ edges[0], edges[1], edges[2] });
+  return { shortest > 0.0 ? longest / shortest : std::numeric_limits<double>::infinity(),
+    longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0 };
+}
+
+} // namespace cactus
