@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/Domain.h"
+#include "base/Properties.h"
 #include "fibres/Fibres.h"
 
 #include <vtkType.h>
@@ -42,7 +43,16 @@ Domain domainFrom(vtkDataObject* data);
 void setDomain(vtkDataObject* data, const Domain& domain);
 
 /// Copies the provenance (field data `Provenance`, one string per stage so far) of `from`, if any, and appends
-/// "stage version: parameters" to it.
-void addProvenance(vtkDataObject* from, vtkDataObject* to, const std::string& stage, const std::string& parameters);
+/// "stage version: parameters", of those that have an effect on the result, to it.
+void addProvenance(vtkDataObject* from, vtkDataObject* to, const std::string& stage, const std::vector<PropertyState>& parameters,
+  const std::string& reached);
+
+/// The same for the properties of a stage.
+template <typename Stage>
+void addProvenance(
+  vtkDataObject* from, vtkDataObject* to, const std::string& name, const Stage& stage, const std::string& reached = "")
+{
+  addProvenance(from, to, name, Stage::properties().states(stage), reached);
+}
 
 } // namespace cactus

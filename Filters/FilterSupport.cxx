@@ -179,10 +179,6 @@ bool isKnownToFail(vtkAlgorithm* self)
 
 Context contextFor(vtkAlgorithm* algorithm, int threads)
 {
-  if (threads < 0)
-  {
-    throw InvalidInput("NumberOfThreads is " + std::to_string(threads) + ": give 0 for all, or how many");
-  }
   Context context;
   context.threads = threads;
   context.progress = [algorithm](double fraction, const std::string& message)
@@ -204,15 +200,6 @@ Context contextFor(vtkAlgorithm* algorithm, int threads)
     return *stopped;
   };
   return context;
-}
-
-std::uint64_t seedFrom(int seed)
-{
-  if (seed < 0)
-  {
-    throw InvalidInput("Seed is " + std::to_string(seed) + ": give a number that is not negative");
-  }
-  return static_cast<std::uint64_t>(seed);
 }
 
 bool attempt(vtkAlgorithm* self, const std::function<void()>& work)

@@ -6,7 +6,6 @@
 
 #include <vtkType.h>
 
-#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -16,12 +15,8 @@ class vtkDataObject;
 namespace cactus
 {
 
-/// Context whose progress goes to `algorithm` and which stops when the user aborts it. Throws InvalidInput for a negative number
-/// of threads.
+/// Context whose progress goes to `algorithm` and which stops when the user aborts it.
 Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
-
-/// A user's seed as core takes it. Throws InvalidInput for a negative one.
-std::uint64_t seedFrom(int seed);
 
 /// Runs `work`, and tells whether it came to its end. Whatever it throws is reported once, as the algorithm's error; all outputs
 /// are then empty and hold the message as field data `Error`, a string array.

@@ -148,13 +148,6 @@ void coarsen(CappedSurface& surface, const VtkMeshingOptions& options, double sp
 
 } // namespace
 
-void validate(const VtkMeshingOptions& options)
-{
-  requireWithin("SincIterations", options.sincIterations, limits::sincIterations);
-  requireWithin("SincPassBand", options.sincPassBand, limits::sincPassBand);
-  requireWithin("TargetReduction", options.targetReduction, limits::targetReduction);
-}
-
 CappedSurface contourByVtk(const FibreImage& image, double level, const Eigen::AlignedBox3d& box)
 {
   const VoxelGrid& grid = image.grid;

@@ -3,22 +3,12 @@
 #pragma once
 
 #include "mesh/CappedSurface.h"
+#include "stages/VtkMeshingOptions.h"
 #include "surface/FibreImage.h"
 #include "surface/SurfaceFilters.h"
 
 namespace cactus
 {
-
-/// Parameters of the three filters.
-struct VtkMeshingOptions
-{
-  int sincIterations = 20;      ///< of vtkWindowedSincPolyDataFilter; 0 leaves the contour as it is
-  double sincPassBand = 0.1;    ///< in (0, 2]: the lower, the smoother
-  double targetReduction = 0.9; ///< part of the triangles that vtkQuadricDecimation removes, in [0, 1); 0 leaves them all
-};
-
-/// Throws InvalidInput, naming the property, for a value out of range.
-void validate(const VtkMeshingOptions& options);
 
 /// The closed surface on which an image's field is `level` (µm), oriented outwards, by vtkFlyingEdges3D. Points within a
 /// thousandth of a voxel of a face of `box` (µm), where its caps are, lie in that face afterwards and are marked so. May be

@@ -14,6 +14,7 @@
 #define vtkBundleInitializer_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkPolyDataAlgorithm.h>
 
@@ -42,167 +43,44 @@ public:
     SHEETS = 1
   };
 
-  ///@{
-  /** Side (µm) of the cubic domain, centred on the origin. Default 30. */
-  vtkSetMacro(Side, double);
-  vtkGetMacro(Side, double);
-  ///@}
-
-  ///@{
-  /** In (0, 1), default 0.7. One bundle: area of the fibres' circles on the end faces over the area of the faces. Two bundles,
-   * whose faces lie outside the domain: the fibres' volume within the domain over that of the domain. */
-  vtkSetMacro(FibreVolumeFraction, double);
-  vtkGetMacro(FibreVolumeFraction, double);
-  ///@}
-
-  ///@{
-  /** Fraction of the domain that FibreRadialGrowth is to fill later, from FibreVolumeFraction to below 1: the capsules are made
-   * thinner than the radii drawn, by sqrt(FibreVolumeFraction / this), so that these are what the grown fibres have
-   * (`TargetRadius`). Default 0: the capsules have the radii drawn, and growth makes them thicker. */
-  vtkSetMacro(GrownFibreVolumeFraction, double);
-  vtkGetMacro(GrownFibreVolumeFraction, double);
-  ///@}
-
-  ///@{
-  /** One of RadiusDistributions, for the outer radius. Default GAMMA. */
-  vtkSetMacro(RadiusDistribution, int);
-  vtkGetMacro(RadiusDistribution, int);
-  ///@}
-
-  ///@{
-  /** Shape (default 2.4) and scale (µm, default 0.25) of the gamma distribution. */
-  vtkSetMacro(GammaShape, double);
-  vtkGetMacro(GammaShape, double);
-  vtkSetMacro(GammaScale, double);
-  vtkGetMacro(GammaScale, double);
-  ///@}
-
-  ///@{
-  /** Mean (µm, default 0.6) and standard deviation (µm, default 0.39) of a lognormal radius before it is cut to its limits. */
-  vtkSetMacro(LognormalMean, double);
-  vtkGetMacro(LognormalMean, double);
-  vtkSetMacro(LognormalDeviation, double);
-  vtkGetMacro(LognormalDeviation, double);
-  ///@}
-
-  ///@{
-  /** Radii (µm) to draw from, with replacement: numbers separated by blanks or commas, or a text file of such. Give one of them.
-   */
-  vtkSetStringMacro(RadiusTable);
-  vtkGetStringMacro(RadiusTable);
-  vtkSetFilePathMacro(RadiusTableFile);
-  vtkGetFilePathMacro(RadiusTableFile);
-  ///@}
-
-  ///@{
-  /** Limits (µm) of the outer radius: what is drawn outside is drawn again. Defaults 0.2 and 2. */
-  vtkSetMacro(MinimumRadius, double);
-  vtkGetMacro(MinimumRadius, double);
-  vtkSetMacro(MaximumRadius, double);
-  vtkGetMacro(MaximumRadius, double);
-  ///@}
-
-  ///@{
-  /** Mean angle (degrees, 0 to 45) between a fibre's end-to-end direction and its bundle's axis. Default 5. */
-  vtkSetMacro(MeanDispersion, double);
-  vtkGetMacro(MeanDispersion, double);
-  ///@}
-
-  ///@{
-  /** One of DispersionModels. Default COHERENT. */
-  vtkSetMacro(DispersionModel, int);
-  vtkGetMacro(DispersionModel, int);
-  ///@}
-
-  ///@{
-  /** Distance (µm) over which the directions of COHERENT are alike. Default 0: four times the fibres' mean shift between the
-   * faces. */
-  vtkSetMacro(CorrelationLength, double);
-  vtkGetMacro(CorrelationLength, double);
-  ///@}
-
-  ///@{
-  /** 1 (default) or 2. */
-  vtkSetMacro(NumberOfBundles, int);
-  vtkGetMacro(NumberOfBundles, int);
-  ///@}
-
-  ///@{
-  /** Angle (degrees, above 0 and up to 90) between the axes of two bundles. Default 90. */
-  vtkSetMacro(CrossingAngle, double);
-  vtkGetMacro(CrossingAngle, double);
-  ///@}
-
-  ///@{
-  /** One of CrossingStyles. Default INTERWOVEN. */
-  vtkSetMacro(CrossingStyle, int);
-  vtkGetMacro(CrossingStyle, int);
-  ///@}
-
-  ///@{
-  /** Least thickness (µm) of each layer of SHEETS; 0 (default) takes a sixth of the height, or what the largest radius needs. */
-  vtkSetMacro(SheetThickness, double);
-  vtkGetMacro(SheetThickness, double);
-  ///@}
-
-  ///@{
-  /** Width (µm) by which the fibres extend beyond each lateral side of the domain. Default 0. */
-  vtkSetMacro(Margin, double);
-  vtkGetMacro(Margin, double);
-  ///@}
-
-  ///@{
-  /** Distance between control points: this multiple of the radius (default 1.25), within two limits (µm, 0.8 and 2). */
-  vtkSetMacro(SpacingFactor, double);
-  vtkGetMacro(SpacingFactor, double);
-  vtkSetMacro(MinimumSpacing, double);
-  vtkGetMacro(MinimumSpacing, double);
-  vtkSetMacro(MaximumSpacing, double);
-  vtkGetMacro(MaximumSpacing, double);
-  ///@}
-
-  ///@{
-  /** Seed of all random numbers, not negative. Default 1. */
-  vtkSetMacro(Seed, int);
-  vtkGetMacro(Seed, int);
-  ///@}
+  CACTUS_NUMBER_PROPERTY(Side)
+  CACTUS_NUMBER_PROPERTY(FibreVolumeFraction)
+  CACTUS_NUMBER_PROPERTY(GrownFibreVolumeFraction)
+  CACTUS_WHOLE_PROPERTY(RadiusDistribution)
+  CACTUS_NUMBER_PROPERTY(GammaShape)
+  CACTUS_NUMBER_PROPERTY(GammaScale)
+  CACTUS_NUMBER_PROPERTY(LognormalMean)
+  CACTUS_NUMBER_PROPERTY(LognormalDeviation)
+  CACTUS_TEXT_PROPERTY(RadiusTable)
+  CACTUS_FILE_PROPERTY(RadiusTableFile)
+  CACTUS_NUMBER_PROPERTY(MinimumRadius)
+  CACTUS_NUMBER_PROPERTY(MaximumRadius)
+  CACTUS_NUMBER_PROPERTY(MeanDispersion)
+  CACTUS_WHOLE_PROPERTY(DispersionModel)
+  CACTUS_NUMBER_PROPERTY(CorrelationLength)
+  CACTUS_WHOLE_PROPERTY(NumberOfBundles)
+  CACTUS_NUMBER_PROPERTY(CrossingAngle)
+  CACTUS_WHOLE_PROPERTY(CrossingStyle)
+  CACTUS_NUMBER_PROPERTY(SheetThickness)
+  CACTUS_NUMBER_PROPERTY(Margin)
+  CACTUS_NUMBER_PROPERTY(SpacingFactor)
+  CACTUS_NUMBER_PROPERTY(MinimumSpacing)
+  CACTUS_NUMBER_PROPERTY(MaximumSpacing)
+  CACTUS_WHOLE_PROPERTY(Seed)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:
   vtkBundleInitializer();
-  ~vtkBundleInitializer() override;
+  ~vtkBundleInitializer() override = default;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkBundleInitializer(const vtkBundleInitializer&) = delete;
   void operator=(const vtkBundleInitializer&) = delete;
 
-  double Side = 30.0;
-  double FibreVolumeFraction = 0.7;
-  double GrownFibreVolumeFraction = 0.0;
-  int RadiusDistribution = GAMMA;
-  double GammaShape = 2.4;
-  double GammaScale = 0.25;
-  double LognormalMean = 0.6;
-  double LognormalDeviation = 0.39;
-  char* RadiusTable = nullptr;
-  char* RadiusTableFile = nullptr;
-  double MinimumRadius = 0.2;
-  double MaximumRadius = 2.0;
-  double MeanDispersion = 5.0;
-  int DispersionModel = COHERENT;
-  double CorrelationLength = 0.0;
-  int NumberOfBundles = 1;
-  double CrossingAngle = 90.0;
-  int CrossingStyle = INTERWOVEN;
-  double SheetThickness = 0.0;
-  double Margin = 0.0;
-  double SpacingFactor = 1.25;
-  double MinimumSpacing = 0.8;
-  double MaximumSpacing = 2.0;
-  int Seed = 1;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

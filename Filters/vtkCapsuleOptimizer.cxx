@@ -6,6 +6,7 @@
 #include "FilterSupport.h"
 #include "InputBlocks.h"
 #include "Ranks.h"
+#include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Context.h"
 #include "base/Error.h"
@@ -14,6 +15,7 @@
 #include "fibres/TrimToDomain.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "optimiser/OverlapReport.h"
+#include "stages/Stages.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
@@ -136,14 +138,12 @@ struct vtkCapsuleOptimizer::Run
 };
 
 vtkCapsuleOptimizer::vtkCapsuleOptimizer()
+  : Properties(cactus::makeProperties<cactus::CapsuleOptimizerStage>())
 {
   this->SetNumberOfOutputPorts(2);
 }
 
-vtkCapsuleOptimizer::~vtkCapsuleOptimizer()
-{
-  this->SetCheckpointFile(nullptr);
-}
+vtkCapsuleOptimizer::~vtkCapsuleOptimizer() = default;
 
 int vtkCapsuleOptimizer::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -169,7 +169,7 @@ void vtkCapsuleOptimizer::OfferTimes(vtkInformationVector* outputs) const
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputs->GetInformationObject(port);
-    if (!this->KeepHistory || !this->LastRun || this->LastRun->Failure)
+    if (!this->Stage().keepHistory || !this->LastRun || this->LastRun->Failure)
     {
       info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
       info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
@@ -184,10 +184,10 @@ void vtkCapsuleOptimizer::OfferTimes(vtkInformationVector* outputs) const
 
 int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (this->KeepHistory)
+  if (this->Stage().keepHistory)
   {
     // Only the run itself says which times there are, and what follows asks for them here, not after RequestData.
-    cactus::RankAgreement agreement(this->TimeBudget > 0.0);
+    cactus::RankAgreement agreement(this->Stage().options.timeBudget > 0.0);
     cactus::quietly(
       [&]
       {
@@ -201,7 +201,7 @@ int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVecto
 
 void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs, cactus::RankAgreement& agreement)
 {
-  const bool isKnown = this->KeepHistory && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
+  const bool isKnown = this->Stage().keepHistory && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
                        this->LastRun->InputTime == inputTime(inputs);
   if (!isKnown)
   {
@@ -226,49 +226,24 @@ void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs, cactus::RankAg
   }
 }
 
-cactus::CapsuleOptimizerOptions vtkCapsuleOptimizer::Options() const
+const cactus::CapsuleOptimizerStage& vtkCapsuleOptimizer::Stage() const
 {
-  if (this->Method != MOMENTUM && this->Method != ADAGRAD)
-  {
-    throw cactus::InvalidInput("Method must be Momentum (0) or Adagrad (1)");
-  }
-  if (this->HistoryInterval < 1)
-  {
-    throw cactus::InvalidInput("HistoryInterval is " + std::to_string(this->HistoryInterval) + ": it must be 1 or more");
-  }
-  cactus::CapsuleOptimizerOptions options;
-  options.maximumIterations = this->MaximumIterations;
-  options.overlapTolerance = this->OverlapTolerance;
-  options.method = static_cast<cactus::DescentMethod>(this->Method);
-  options.overlapWeight = this->OverlapWeight;
-  options.weights.curvature = this->CurvatureWeight;
-  options.weights.length = this->LengthWeight;
-  options.weights.radius = this->RadiusWeight;
-  options.weights.compactness = this->CompactnessWeight;
-  options.stepSize = this->StepSize;
-  options.relaxation = this->Relaxation;
-  options.packingLimit = this->PackingLimit;
-  options.radiusTolerance = this->RadiusTolerance;
-  options.timeBudget = this->TimeBudget;
-  options.checkpointFile = this->CheckpointFile != nullptr ? this->CheckpointFile : "";
-  options.checkpointInterval = this->CheckpointInterval;
-  options.resume = this->Resume;
-  cactus::validate(options);
-
-  return options;
+  return cactus::stageOf<cactus::CapsuleOptimizerStage>(this->Properties);
 }
 
 void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgreement& agreement, Run& run)
 {
-  const cactus::CapsuleOptimizerOptions options = this->Options();
-  cactus::Context context = cactus::contextFor(this, this->NumberOfThreads);
+  const cactus::CapsuleOptimizerStage& stage = this->Stage();
+  cactus::validateProperties(stage);
+  cactus::validate(stage.options);
+  cactus::Context context = cactus::contextFor(this, stage.threads);
   context.agree = [&](bool wanted) { return agreement.decide(wanted); };
   run.Fibres = cactus::joinedFibres(dataOf(inputs));
   run.Before = cactus::measureShape(run.Fibres);
   const cactus::Fibres before = run.Fibres;
   const auto keep = [&](int iteration, const cactus::Fibres& fibres)
   {
-    if (iteration % this->HistoryInterval != 0)
+    if (iteration % stage.historyInterval != 0)
     {
       return;
     }
@@ -279,18 +254,18 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgr
     {
       state.Points.push_back(point.cast<float>());
     }
-    if (this->RadiusTolerance > 0.0)
+    if (stage.options.radiusTolerance > 0.0)
     {
       state.Radii.assign(fibres.radii.begin(), fibres.radii.end());
     }
     run.States.push_back(std::move(state));
   };
   std::function<void(int, const cactus::Fibres&)> observe;
-  if (this->KeepHistory)
+  if (stage.keepHistory)
   {
     observe = keep;
   }
-  run.Optimisation = cactus::optimise(run.Fibres, options, context, observe);
+  run.Optimisation = cactus::optimise(run.Fibres, stage.options, context, observe);
   run.RadiusDistance = cactus::radiusDistance(before, run.Fibres);
   // The result takes the place of the last state.
   while (!run.States.empty() && run.States.back().Iteration >= run.lastIteration())
@@ -301,6 +276,7 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgr
 
 void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
+  const cactus::CapsuleOptimizerStage& stage = this->Stage();
   const bool isResult = state >= run.States.size();
   cactus::Fibres fibres = run.Fibres;
   std::vector<double> overlaps = run.Optimisation.overlap;
@@ -316,8 +292,8 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
     {
       fibres.radii.assign(then.Radii.begin(), then.Radii.end());
     }
-    const int threads = cactus::contextFor(this, this->NumberOfThreads).threadCount();
-    const cactus::OverlapReport report = cactus::measureOverlap(fibres, this->OverlapTolerance, threads);
+    const int threads = cactus::contextFor(this, stage.threads).threadCount();
+    const cactus::OverlapReport report = cactus::measureOverlap(fibres, stage.options.overlapTolerance, threads);
     overlaps = report.perPoint;
     penetration = std::max(0.0, report.largestPenetration);
   }
@@ -326,7 +302,7 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   auto* output = vtkPolyData::GetData(outputs, 0);
   std::vector<std::size_t> kept(fibres.points.size());
   std::iota(kept.begin(), kept.end(), std::size_t(0));
-  if (this->TrimToDomain)
+  if (stage.trimToDomain)
   {
     fibres = cactus::trimToDomain(fibres, &kept);
   }
@@ -339,7 +315,7 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
     output->GetPointData(), "Overlap", kept.size(), [&](std::size_t i) { return overlaps[kept[i]]; });
 
   vtkFieldData* data = output->GetFieldData();
-  cactus::addCount(data, "Converged", penetration <= this->OverlapTolerance ? 1 : 0);
+  cactus::addCount(data, "Converged", penetration <= stage.options.overlapTolerance ? 1 : 0);
   cactus::addNumber(data, "MaximumPenetration", penetration);
   cactus::addNumber(data, "InitialMeanDispersion", run.Before.meanDispersion);
   cactus::addNumber(data, "MeanDispersion", after.meanDispersion);
@@ -352,24 +328,16 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   cactus::addNumber(data, "LengthIncrease", after.totalLength / run.Before.totalLength - 1.0);
   cactus::addNumber(data, "RadiusDistance", run.RadiusDistance);
 
-  cactus::TextStream parameters;
-  parameters.precision(15);
-  parameters << "MaximumIterations=" << this->MaximumIterations << " OverlapTolerance=" << this->OverlapTolerance
-             << " Method=" << (this->Method == MOMENTUM ? "Momentum" : "Adagrad") << " OverlapWeight=" << this->OverlapWeight
-             << " CurvatureWeight=" << this->CurvatureWeight << " LengthWeight=" << this->LengthWeight
-             << " RadiusWeight=" << this->RadiusWeight << " CompactnessWeight=" << this->CompactnessWeight
-             << " StepSize=" << this->StepSize << " Relaxation=" << this->Relaxation << " PackingLimit=" << this->PackingLimit
-             << " RadiusTolerance=" << this->RadiusTolerance << " TrimToDomain=" << this->TrimToDomain
-             << " TimeBudget=" << this->TimeBudget << " (" << (isResult ? run.lastIteration() : run.States[state].Iteration)
-             << " iterations, largest penetration " << penetration << ")";
-  cactus::addProvenance(vtkDataObject::GetData(inputs[0]), output, "CapsuleOptimizer", parameters.str());
+  const int iterations = isResult ? run.lastIteration() : run.States[state].Iteration;
+  cactus::addProvenance(vtkDataObject::GetData(inputs[0]), output, "CapsuleOptimizer", stage,
+    "Iterations=" + std::to_string(iterations) + " MaximumPenetration=" + cactus::exactText(penetration));
   fillTable(run.Optimisation.convergence, vtkTable::GetData(outputs, 1));
 }
 
 int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   // Before anything else, on ranks that have nothing to give, too.
-  cactus::RankAgreement agreement(this->TimeBudget > 0.0);
+  cactus::RankAgreement agreement(this->Stage().options.timeBudget > 0.0);
   return cactus::guarded(this,
     [&]
     {
@@ -381,7 +349,7 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
       Run& run = *this->LastRun;
       std::size_t state = run.States.size();
       double time = run.lastIteration();
-      if (this->KeepHistory)
+      if (this->Stage().keepHistory)
       {
         const std::vector<double> times = run.times();
         // The other port may still hold the time it was asked for before.
@@ -395,7 +363,7 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
         state = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
       }
       this->Show(run, state, inputs, outputs);
-      if (this->KeepHistory)
+      if (this->Stage().keepHistory)
       {
         for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
         {
@@ -407,15 +375,16 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
       {
         vtkWarningMacro(<< "the run could not be written down to go on from: " << result.checkpointFailure);
       }
-      if (!run.WasReported && result.maximumPenetration > this->OverlapTolerance)
+      if (!run.WasReported && result.maximumPenetration > this->Stage().options.overlapTolerance)
       {
         vtkWarningMacro(<< "overlaps remain: " << reasonText(result.reason) << " after " << run.lastIteration()
                         << " iterations with " << result.overlappingPairs << " capsule pairs above OverlapTolerance "
-                        << cactus::text(this->OverlapTolerance, ", the largest penetration being ", result.maximumPenetration)
+                        << cactus::text(this->Stage().options.overlapTolerance, ", the largest penetration being ",
+                             result.maximumPenetration)
                         << ". The best state is kept. Allow more iterations or time, or ask for a lower density.");
       }
       run.WasReported = true;
-      if (!this->KeepHistory)
+      if (!this->Stage().keepHistory)
       {
         this->LastRun.reset();
       }
@@ -425,24 +394,5 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
 void vtkCapsuleOptimizer::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "MaximumIterations: " << this->MaximumIterations << '\n';
-  os << indent << "OverlapTolerance: " << this->OverlapTolerance << '\n';
-  os << indent << "Method: " << (this->Method == MOMENTUM ? "Momentum" : "Adagrad") << '\n';
-  os << indent << "OverlapWeight: " << this->OverlapWeight << '\n';
-  os << indent << "CurvatureWeight: " << this->CurvatureWeight << '\n';
-  os << indent << "LengthWeight: " << this->LengthWeight << '\n';
-  os << indent << "RadiusWeight: " << this->RadiusWeight << '\n';
-  os << indent << "CompactnessWeight: " << this->CompactnessWeight << '\n';
-  os << indent << "StepSize: " << this->StepSize << '\n';
-  os << indent << "Relaxation: " << this->Relaxation << '\n';
-  os << indent << "PackingLimit: " << this->PackingLimit << '\n';
-  os << indent << "RadiusTolerance: " << this->RadiusTolerance << '\n';
-  os << indent << "TrimToDomain: " << this->TrimToDomain << '\n';
-  os << indent << "TimeBudget: " << this->TimeBudget << '\n';
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
-  os << indent << "CheckpointFile: " << (this->CheckpointFile != nullptr ? this->CheckpointFile : "(none)") << '\n';
-  os << indent << "CheckpointInterval: " << this->CheckpointInterval << '\n';
-  os << indent << "Resume: " << this->Resume << '\n';
-  os << indent << "KeepHistory: " << this->KeepHistory << '\n';
-  os << indent << "HistoryInterval: " << this->HistoryInterval << '\n';
+  this->Properties->print(os, indent);
 }

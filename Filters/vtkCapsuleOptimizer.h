@@ -24,6 +24,7 @@
 #define vtkCapsuleOptimizer_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkPolyDataAlgorithm.h>
 
@@ -31,7 +32,7 @@
 
 namespace cactus
 {
-struct CapsuleOptimizerOptions;
+struct CapsuleOptimizerStage;
 class RankAgreement;
 } // namespace cactus
 
@@ -49,128 +50,26 @@ public:
     ADAGRAD = 1
   };
 
-  ///@{
-  /** Iterations after which to give up. */
-  vtkSetMacro(MaximumIterations, int);
-  vtkGetMacro(MaximumIterations, int);
-  ///@}
-
-  ///@{
-  /** Largest relative penetration D = 1 - d / (rp + rq) allowed between capsules of different fibres. */
-  vtkSetMacro(OverlapTolerance, double);
-  vtkGetMacro(OverlapTolerance, double);
-  ///@}
-
-  ///@{
-  /** MOMENTUM (preconditioned heavy ball) or ADAGRAD (as in the paper). */
-  vtkSetMacro(Method, int);
-  vtkGetMacro(Method, int);
-  ///@}
-
-  ///@{
-  /** Weight of the overlap cost. */
-  vtkSetMacro(OverlapWeight, double);
-  vtkGetMacro(OverlapWeight, double);
-  ///@}
-
-  ///@{
-  /** Weight of the curvature cost. */
-  vtkSetMacro(CurvatureWeight, double);
-  vtkGetMacro(CurvatureWeight, double);
-  ///@}
-
-  ///@{
-  /** Weight of the length cost. */
-  vtkSetMacro(LengthWeight, double);
-  vtkGetMacro(LengthWeight, double);
-  ///@}
-
-  ///@{
-  /** Weight of the radius cost; acts where RadiusTolerance is above 0. */
-  vtkSetMacro(RadiusWeight, double);
-  vtkGetMacro(RadiusWeight, double);
-  ///@}
-
-  ///@{
-  /** Weight of the compactness cost. */
-  vtkSetMacro(CompactnessWeight, double);
-  vtkGetMacro(CompactnessWeight, double);
-  ///@}
-
-  ///@{
-  /** MOMENTUM: part of the Newton step along the fibre that is taken. ADAGRAD: length of the first step in µm. */
-  vtkSetMacro(StepSize, double);
-  vtkGetMacro(StepSize, double);
-  ///@}
-
-  ///@{
-  /** Factor by which curvature, length and compactness fade in each iteration (MOMENTUM). */
-  vtkSetMacro(Relaxation, double);
-  vtkGetMacro(Relaxation, double);
-  ///@}
-
-  ///@{
-  /** Share of its cuboid above which a bundle is widened. */
-  vtkSetMacro(PackingLimit, double);
-  vtkGetMacro(PackingLimit, double);
-  ///@}
-
-  ///@{
-  /** Largest change of a radius as a fraction of it; 0 keeps radii. */
-  vtkSetMacro(RadiusTolerance, double);
-  vtkGetMacro(RadiusTolerance, double);
-  ///@}
-
-  ///@{
-  /** Cut away what lies outside the domain. */
-  vtkSetMacro(TrimToDomain, bool);
-  vtkGetMacro(TrimToDomain, bool);
-  vtkBooleanMacro(TrimToDomain, bool);
-  ///@}
-
-  ///@{
-  /** Seconds after which to stop with the best state; 0 for no limit. */
-  vtkSetMacro(TimeBudget, double);
-  vtkGetMacro(TimeBudget, double);
-  ///@}
-
-  ///@{
-  /** Threads to use; 0 takes all. The result does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  ///@{
-  /** File to which the state of the run is written every CheckpointInterval seconds and when it ends; empty for none. */
-  vtkSetFilePathMacro(CheckpointFile);
-  vtkGetFilePathMacro(CheckpointFile);
-  ///@}
-
-  ///@{
-  /** Least seconds between two checkpoints. */
-  vtkSetMacro(CheckpointInterval, double);
-  vtkGetMacro(CheckpointInterval, double);
-  ///@}
-
-  ///@{
-  /** Go on from CheckpointFile where it exists; an error where it belongs to other fibres or other parameters. */
-  vtkSetMacro(Resume, bool);
-  vtkGetMacro(Resume, bool);
-  vtkBooleanMacro(Resume, bool);
-  ///@}
-
-  ///@{
-  /** Keep states of the run and offer them as time steps; 12 bytes per control point and state, 16 where radii may change. */
-  vtkSetMacro(KeepHistory, bool);
-  vtkGetMacro(KeepHistory, bool);
-  vtkBooleanMacro(KeepHistory, bool);
-  ///@}
-
-  ///@{
-  /** Iterations from one state that is kept to the next. */
-  vtkSetMacro(HistoryInterval, int);
-  vtkGetMacro(HistoryInterval, int);
-  ///@}
+  CACTUS_WHOLE_PROPERTY(MaximumIterations)
+  CACTUS_NUMBER_PROPERTY(OverlapTolerance)
+  CACTUS_WHOLE_PROPERTY(Method)
+  CACTUS_NUMBER_PROPERTY(OverlapWeight)
+  CACTUS_NUMBER_PROPERTY(CurvatureWeight)
+  CACTUS_NUMBER_PROPERTY(LengthWeight)
+  CACTUS_NUMBER_PROPERTY(RadiusWeight)
+  CACTUS_NUMBER_PROPERTY(CompactnessWeight)
+  CACTUS_NUMBER_PROPERTY(StepSize)
+  CACTUS_NUMBER_PROPERTY(Relaxation)
+  CACTUS_NUMBER_PROPERTY(PackingLimit)
+  CACTUS_NUMBER_PROPERTY(RadiusTolerance)
+  CACTUS_SWITCH_PROPERTY(TrimToDomain)
+  CACTUS_NUMBER_PROPERTY(TimeBudget)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
+  CACTUS_FILE_PROPERTY(CheckpointFile)
+  CACTUS_NUMBER_PROPERTY(CheckpointInterval)
+  CACTUS_SWITCH_PROPERTY(Resume)
+  CACTUS_SWITCH_PROPERTY(KeepHistory)
+  CACTUS_WHOLE_PROPERTY(HistoryInterval)
 
 protected:
   vtkCapsuleOptimizer();
@@ -187,8 +86,10 @@ private:
   vtkCapsuleOptimizer(const vtkCapsuleOptimizer&) = delete;
   void operator=(const vtkCapsuleOptimizer&) = delete;
 
-  /** The properties as core takes them; throws cactus::InvalidInput for one out of range. */
-  cactus::CapsuleOptimizerOptions Options() const;
+  std::unique_ptr<cactus::FilterProperties> Properties;
+
+  /** The values of the properties, not checked. */
+  const cactus::CapsuleOptimizerStage& Stage() const;
   /** Runs the optimisation unless LastRun holds it; throws what it throws, or threw. */
   void EnsureRun(vtkInformationVector* inputs, cactus::RankAgreement& agreement);
   /** Runs the optimisation. */
@@ -199,27 +100,6 @@ private:
   void OfferTimes(vtkInformationVector* outputs) const;
 
   std::unique_ptr<Run> LastRun; ///< kept where KeepHistory is on
-
-  int MaximumIterations = 3000;
-  double OverlapTolerance = 1e-3;
-  int Method = MOMENTUM;
-  double OverlapWeight = 1.0;
-  double CurvatureWeight = 10.0;
-  double LengthWeight = 10.0;
-  double RadiusWeight = 1.0;
-  double CompactnessWeight = 2.0;
-  double StepSize = 1.7;
-  double Relaxation = 0.96;
-  double PackingLimit = 0.7;
-  double RadiusTolerance = 0.0;
-  bool TrimToDomain = true;
-  double TimeBudget = 0.0;
-  int NumberOfThreads = 0;
-  char* CheckpointFile = nullptr;
-  double CheckpointInterval = 600.0;
-  bool Resume = false;
-  bool KeepHistory = false;
-  int HistoryInterval = 10;
 };
 
 #endif

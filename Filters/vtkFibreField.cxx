@@ -5,10 +5,12 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "LabelImageData.h"
+#include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Parallel.h"
+#include "stages/Stages.h"
 #include "surface/FibreImage.h"
 
 #include <vtkFieldData.h>
@@ -32,7 +34,6 @@ namespace
 
 /// Blocks are looked for this many voxels around a fibre, so that its surface lies inside them.
 constexpr int reach = 2;
-constexpr cactus::Range levels{ 0.0, 1000.0, " µm" };
 
 /// A fibre of the label image's table.
 struct Chosen
@@ -41,14 +42,15 @@ struct Chosen
   int bundleId = 0;
 };
 
-std::vector<Chosen> choose(const cactus::LabelImageFacts& facts, int select, int fibreId, int bundleId)
+std::vector<Chosen> choose(const cactus::LabelImageFacts& facts, const cactus::FibreFieldStage& stage)
 {
+  using Selection = cactus::FibreSelection;
   std::vector<Chosen> chosen;
   for (std::size_t i = 0; i < facts.fibreIds.size(); ++i)
   {
-    const bool isChosen = select == vtkFibreField::ALL_FIBRES ||
-                          (select == vtkFibreField::ONE_FIBRE && facts.fibreIds[i] == fibreId) ||
-                          (select == vtkFibreField::ONE_BUNDLE && facts.bundleIds[i] == bundleId);
+    const bool isChosen = stage.select == Selection::AllFibres ||
+                          (stage.select == Selection::OneFibre && facts.fibreIds[i] == stage.fibreId) ||
+                          (stage.select == Selection::OneBundle && facts.bundleIds[i] == stage.bundleId);
     if (isChosen)
     {
       chosen.push_back({ facts.fibreIds[i], facts.bundleIds[i] });
@@ -56,12 +58,12 @@ std::vector<Chosen> choose(const cactus::LabelImageFacts& facts, int select, int
   }
   if (chosen.empty())
   {
-    const bool oneFibre = select == vtkFibreField::ONE_FIBRE;
+    const bool oneFibre = stage.select == Selection::OneFibre;
     const auto& ids = oneFibre ? facts.fibreIds : facts.bundleIds;
-    throw cactus::InvalidInput(std::string(oneFibre ? "FibreId " : "BundleId ") + std::to_string(oneFibre ? fibreId : bundleId) +
-                               " is not in the label image, whose ids go from " +
-                               std::to_string(*std::min_element(ids.begin(), ids.end())) + " to " +
-                               std::to_string(*std::max_element(ids.begin(), ids.end())));
+    throw cactus::InvalidInput(
+      std::string(oneFibre ? "FibreId " : "BundleId ") + std::to_string(oneFibre ? stage.fibreId : stage.bundleId) +
+      " is not in the label image, whose ids go from " + std::to_string(*std::min_element(ids.begin(), ids.end())) + " to " +
+      std::to_string(*std::max_element(ids.begin(), ids.end())));
   }
   std::sort(chosen.begin(), chosen.end(), [](const Chosen& a, const Chosen& b) { return a.fibreId < b.fibreId; });
   return chosen;
@@ -82,6 +84,11 @@ vtkSmartPointer<vtkImageData> imageFrom(const cactus::FibreImage& image)
 }
 
 } // namespace
+
+vtkFibreField::vtkFibreField()
+  : Properties(cactus::makeProperties<cactus::FibreFieldStage>())
+{
+}
 
 int vtkFibreField::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -105,12 +112,9 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
   return cactus::guarded(this,
     [&]
     {
-      const cactus::Context context = cactus::contextFor(this, this->NumberOfThreads);
-      if (this->Select < ONE_FIBRE || this->Select > ALL_FIBRES)
-      {
-        throw cactus::InvalidInput("Select must be One fibre (0), One bundle (1) or All fibres (2)");
-      }
-      cactus::requireWithin("Level", this->Level, levels);
+      const auto& stage = cactus::stageOf<cactus::FibreFieldStage>(this->Properties);
+      cactus::validateProperties(stage);
+      const cactus::Context context = cactus::contextFor(this, stage.threads);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         return;
@@ -119,9 +123,9 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
       cactus::requireWithin("MinimumGap of the label image", labels.facts.minimumGap, cactus::limits::gap);
       cactus::requireWithin(
         "SurfaceTolerance of the label image", labels.facts.surfaceTolerance, cactus::limits::surfaceTolerance);
-      const cactus::FibreField field(labels.view, labels.facts.domain, this->ClipToDomain);
+      const cactus::FibreField field(labels.view, labels.facts.domain, stage.clipToDomain);
       const auto blocksOf = field.findFibres(reach, context);
-      const std::vector<Chosen> chosen = choose(labels.facts, this->Select, this->FibreId, this->BundleId);
+      const std::vector<Chosen> chosen = choose(labels.facts, stage);
 
       auto* output = vtkMultiBlockDataSet::GetData(outputs);
       output->SetNumberOfBlocks(static_cast<unsigned>(chosen.size()));
@@ -133,11 +137,10 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
           const auto blocks = blocksOf.find(chosen[i].fibreId);
           if (blocks != blocksOf.end())
           {
-            images[i] = imageFrom(cactus::fibreImage(field, chosen[i].fibreId, blocks->second, this->Level));
+            images[i] = imageFrom(cactus::fibreImage(field, chosen[i].fibreId, blocks->second, stage.level));
           }
         },
         "sampling fibres");
-      const std::string parameters = cactus::text("Level=", this->Level, " ClipToDomain=", this->ClipToDomain);
       std::size_t missing = 0;
       for (std::size_t i = 0; i < chosen.size(); ++i)
       {
@@ -150,7 +153,7 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
         }
         cactus::addCount(images[i]->GetFieldData(), "FibreId", chosen[i].fibreId);
         cactus::addCount(images[i]->GetFieldData(), "BundleId", chosen[i].bundleId);
-        cactus::addProvenance(labels.image, images[i], "FibreField", parameters);
+        cactus::addProvenance(labels.image, images[i], "FibreField", stage);
         cactus::setDomain(images[i], labels.facts.domain);
         output->SetBlock(block, images[i]);
       }
@@ -166,10 +169,5 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
 void vtkFibreField::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Select: " << this->Select << '\n'
-     << indent << "FibreId: " << this->FibreId << '\n'
-     << indent << "BundleId: " << this->BundleId << '\n'
-     << indent << "Level: " << this->Level << '\n'
-     << indent << "ClipToDomain: " << this->ClipToDomain << '\n'
-     << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+  this->Properties->print(os, indent);
 }

@@ -17,6 +17,7 @@
 #define vtkFibreField_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkMultiBlockDataSetAlgorithm.h>
 
@@ -35,64 +36,29 @@ public:
     ALL_FIBRES = 2
   };
 
-  ///@{
-  /** Whose fields to give. */
-  vtkSetMacro(Select, int);
-  vtkGetMacro(Select, int);
-  ///@}
-
-  ///@{
-  /** The fibre (ONE_FIBRE), from 1. */
-  vtkSetMacro(FibreId, int);
-  vtkGetMacro(FibreId, int);
-  ///@}
-
-  ///@{
-  /** The bundle (ONE_BUNDLE), from 1. */
-  vtkSetMacro(BundleId, int);
-  vtkGetMacro(BundleId, int);
-  ///@}
-
-  ///@{
-  /** The value (µm) at which contours will be taken, and for which the caps on the domain's faces are made: 0 is the outer
-   * surface, a depth inside an axon's. */
-  vtkSetMacro(Level, double);
-  vtkGetMacro(Level, double);
-  ///@}
-
-  ///@{
-  /** Cut fibres off at the faces of the domain, else where the image ends. */
-  vtkSetMacro(ClipToDomain, bool);
-  vtkGetMacro(ClipToDomain, bool);
-  ///@}
-
-  ///@{
-  /** Threads to use; 0 takes all. The result does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  CACTUS_WHOLE_PROPERTY(Select)
+  CACTUS_WHOLE_PROPERTY(FibreId)
+  CACTUS_WHOLE_PROPERTY(BundleId)
+  CACTUS_NUMBER_PROPERTY(Level)
+  CACTUS_SWITCH_PROPERTY(ClipToDomain)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:
-  vtkFibreField() = default;
+  vtkFibreField();
   ~vtkFibreField() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
-  int Select = ONE_FIBRE;
-  int FibreId = 1;
-  int BundleId = 1;
-  double Level = 0.0;
-  bool ClipToDomain = true;
-  int NumberOfThreads = 0;
-
 private:
   vtkFibreField(const vtkFibreField&) = delete;
   void operator=(const vtkFibreField&) = delete;
+
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

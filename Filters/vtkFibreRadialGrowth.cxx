@@ -5,6 +5,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
+#include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
 #include "base/Memory.h"
@@ -12,6 +13,7 @@
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
 #include "judge/SubstrateStatistics.h"
+#include "stages/Stages.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -36,21 +38,6 @@ vtkStandardNewMacro(vtkFibreRadialGrowth);
 
 namespace
 {
-
-cactus::FibreRadialGrowthOptions optionsFrom(vtkFibreRadialGrowth* self)
-{
-  cactus::FibreRadialGrowthOptions options;
-  options.voxelSize = self->GetVoxelSize();
-  options.targetFibreVolumeFraction = self->GetTargetFibreVolumeFraction();
-  options.growthIterations = self->GetGrowthIterations();
-  options.minimumGap = self->GetMinimumGap();
-  options.surfaceTolerance = self->GetSurfaceTolerance();
-  options.surfaceRoughness = self->GetSurfaceRoughness();
-  options.margin = self->GetMargin();
-  options.seed = cactus::seedFrom(self->GetSeed());
-  cactus::validate(options);
-  return options;
-}
 
 /// Whether the optimiser has left overlaps in the input, or in one of its blocks.
 bool stillOverlaps(vtkDataObject* input)
@@ -100,7 +87,10 @@ cactus::VoxelGrid requestedGrid(
 
 } // namespace
 
-vtkFibreRadialGrowth::vtkFibreRadialGrowth() = default;
+vtkFibreRadialGrowth::vtkFibreRadialGrowth()
+  : Properties(cactus::makeProperties<cactus::FibreRadialGrowthStage>())
+{
+}
 
 vtkFibreRadialGrowth::~vtkFibreRadialGrowth() = default;
 
@@ -125,7 +115,8 @@ int vtkFibreRadialGrowth::RequestInformation(vtkInformation*, vtkInformationVect
     {
       cactus::updateWholeInputs(this, inputs);
       const cactus::Domain domain = cactus::fibresFrom(vtkDataObject::GetData(inputs[0])).domain;
-      const cactus::VoxelGrid grid = cactus::growthGrid(domain, optionsFrom(this));
+      const cactus::VoxelGrid grid =
+        cactus::growthGrid(domain, cactus::stageOf<cactus::FibreRadialGrowthStage>(this->Properties).options);
       const double spacing[3] = { grid.spacing, grid.spacing, grid.spacing };
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -156,10 +147,12 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
   return cactus::guarded(this,
     [&]
     {
-      const auto options = optionsFrom(this);
+      const auto& stage = cactus::stageOf<cactus::FibreRadialGrowthStage>(this->Properties);
+      cactus::validateProperties(stage);
+      const cactus::FibreRadialGrowthOptions& options = stage.options;
       auto* input = vtkDataObject::GetData(inputs[0]);
       const cactus::Fibres fibres = cactus::fibresFrom(input);
-      const cactus::Context context = cactus::contextFor(this, this->NumberOfThreads);
+      const cactus::Context context = cactus::contextFor(this, stage.threads);
       vtkInformation* info = outputs->GetInformationObject(0);
       const cactus::VoxelGrid grid = requestedGrid(fibres.domain, options, info);
       auto* output = vtkImageData::GetData(outputs);
@@ -214,27 +207,13 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       cactus::addColumn<vtkDoubleArray>(
         data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });
 
-      cactus::TextStream parameters;
-      parameters.precision(15);
-      parameters << "VoxelSize=" << options.voxelSize << " TargetFibreVolumeFraction=" << options.targetFibreVolumeFraction
-                 << " GrowthIterations=" << options.growthIterations << " MinimumGap=" << options.minimumGap
-                 << " SurfaceTolerance=" << options.surfaceTolerance << " SurfaceRoughness=" << options.surfaceRoughness
-                 << " Margin=" << options.margin << " Seed=" << this->Seed << " (spacing " << grid.spacing << ", growth "
-                 << this->Growth << " µm)";
-      cactus::addProvenance(input, output, "FibreRadialGrowth", parameters.str());
+      cactus::addProvenance(input, output, "FibreRadialGrowth", stage,
+        "Spacing=" + cactus::exactText(grid.spacing) + " Growth=" + cactus::exactText(this->Growth));
     });
 }
 
 void vtkFibreRadialGrowth::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "VoxelSize: " << this->VoxelSize << '\n'
-     << indent << "TargetFibreVolumeFraction: " << this->TargetFibreVolumeFraction << '\n'
-     << indent << "GrowthIterations: " << this->GrowthIterations << '\n'
-     << indent << "MinimumGap: " << this->MinimumGap << '\n'
-     << indent << "SurfaceTolerance: " << this->SurfaceTolerance << '\n'
-     << indent << "SurfaceRoughness: " << this->SurfaceRoughness << '\n'
-     << indent << "Margin: " << this->Margin << '\n'
-     << indent << "Seed: " << this->Seed << '\n'
-     << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+  this->Properties->print(os, indent);
 }

@@ -27,6 +27,7 @@
 #define vtkFibreRadialGrowth_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkImageAlgorithm.h>
 
@@ -44,62 +45,15 @@ public:
   vtkTypeMacro(vtkFibreRadialGrowth, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /** Edge of a voxel (µm). Where it does not divide the domain, the nearest spacing that does is used. */
-  vtkSetMacro(VoxelSize, double);
-  vtkGetMacro(VoxelSize, double);
-  ///@}
-
-  ///@{
-  /** Fraction of the domain that the grown fibres fill, with their radii on target; 0: grow by GrowthIterations. */
-  vtkSetMacro(TargetFibreVolumeFraction, double);
-  vtkGetMacro(TargetFibreVolumeFraction, double);
-  ///@}
-
-  ///@{
-  /** Growth in voxels where no target is given. */
-  vtkSetMacro(GrowthIterations, int);
-  vtkGetMacro(GrowthIterations, int);
-  ///@}
-
-  ///@{
-  /** Least distance (µm) between the surfaces of two fibres. */
-  vtkSetMacro(MinimumGap, double);
-  vtkGetMacro(MinimumGap, double);
-  ///@}
-
-  ///@{
-  /** Room (µm) left on either side of the gap for smoothing and decimating the surfaces later. */
-  vtkSetMacro(SurfaceTolerance, double);
-  vtkGetMacro(SurfaceTolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * How far, as a fraction of its radius, a fibre may fall short of its capsules, at random and smoothly along it, before it
-   * grows (0 to 0.5).
-   */
-  vtkSetMacro(SurfaceRoughness, double);
-  vtkGetMacro(SurfaceRoughness, double);
-  ///@}
-
-  ///@{
-  /** Width (µm) by which the image extends beyond the domain on every side, rounded up to whole voxels. */
-  vtkSetMacro(Margin, double);
-  vtkGetMacro(Margin, double);
-  ///@}
-
-  ///@{
-  /** Seed of the random calibre, see SurfaceRoughness. */
-  vtkSetMacro(Seed, int);
-  vtkGetMacro(Seed, int);
-  ///@}
-
-  ///@{
-  /** Threads to use; 0 means all. The result does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  CACTUS_NUMBER_PROPERTY(VoxelSize)
+  CACTUS_NUMBER_PROPERTY(TargetFibreVolumeFraction)
+  CACTUS_WHOLE_PROPERTY(GrowthIterations)
+  CACTUS_NUMBER_PROPERTY(MinimumGap)
+  CACTUS_NUMBER_PROPERTY(SurfaceTolerance)
+  CACTUS_NUMBER_PROPERTY(SurfaceRoughness)
+  CACTUS_NUMBER_PROPERTY(Margin)
+  CACTUS_WHOLE_PROPERTY(Seed)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
@@ -116,15 +70,7 @@ private:
   vtkFibreRadialGrowth(const vtkFibreRadialGrowth&) = delete;
   void operator=(const vtkFibreRadialGrowth&) = delete;
 
-  double VoxelSize = 0.1;
-  double TargetFibreVolumeFraction = 0.0;
-  int GrowthIterations = 4;
-  double MinimumGap = 0.02;
-  double SurfaceTolerance = 0.0075;
-  double SurfaceRoughness = 0.1;
-  double Margin = 0.0;
-  int Seed = 1;
-  int NumberOfThreads = 0;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 
   // What the target needs, kept from one extent to the next: the fibres that grow, and how far.
   std::unique_ptr<cactus::Fibres> Aimed;

@@ -5,6 +5,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "LabelImageData.h"
+#include "StageProperties.h"
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
 #include "VtkMeshing.h"
@@ -12,6 +13,7 @@
 #include "base/Error.h"
 #include "base/Numbers.h"
 #include "judge/SurfaceFaults.h"
+#include "stages/Stages.h"
 #include "surface/MyelinSurface.h"
 
 #include <vtkDoubleArray.h>
@@ -85,6 +87,7 @@ void releaseImage(vtkAlgorithm* consumer)
 } // namespace
 
 vtkMyelinSurface::vtkMyelinSurface()
+  : Properties(cactus::makeProperties<cactus::MyelinSurfaceStage>())
 {
   this->SetNumberOfOutputPorts(3);
 }
@@ -118,21 +121,11 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
   return cactus::guarded(this,
     [&]
     {
-      const cactus::Context context = cactus::contextFor(this, this->NumberOfThreads);
-      cactus::MyelinSurfaceOptions options;
-      options.model = static_cast<cactus::GRatioModel>(this->GRatioModel);
-      options.gRatio = this->GRatio;
-      options.gRatioDeviation = this->GRatioDeviation;
-      options.targetAxonVolumeFraction = this->TargetAxonVolumeFraction;
-      options.smoothingIterations = this->SmoothingIterations;
-      options.decimationError = this->DecimationError;
-      options.clipToDomain = this->ClipToDomain;
-      options.seed = cactus::seedFrom(this->Seed);
-      if (this->Meshing != CACTUS_MESHING && this->Meshing != VTK_MESHING)
-      {
-        throw cactus::InvalidInput("Meshing must be CACTUS (0) or VTK filters (1)");
-      }
-      const bool byVtk = this->Meshing == VTK_MESHING;
+      const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
+      cactus::validateProperties(stage);
+      const cactus::Context context = cactus::contextFor(this, stage.threads);
+      cactus::MyelinSurfaceOptions options = stage.options;
+      const bool byVtk = stage.meshing == cactus::Meshing::Vtk;
       if (byVtk)
       {
         options.smoothingIterations = 0;
@@ -142,7 +135,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       auto* image = cactus::requireImage(vtkDataObject::GetData(inputs[0]));
       if (!cactus::ownsWholeOutput(request, outputs))
       {
-        if (this->ReleaseInput)
+        if (stage.releaseInput)
         {
           releaseImage(this); // which this rank has grown, too
         }
@@ -155,36 +148,21 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       cactus::SurfaceFilters filters;
       if (byVtk)
       {
-        filters =
-          cactus::surfaceFiltersOfVtk({ this->SincIterations, this->SincPassBand, this->TargetReduction }, view.grid.spacing);
+        filters = cactus::surfaceFiltersOfVtk(stage.vtkMeshing, view.grid.spacing);
       }
       auto fibres = cactus::myelinSurfaces(view, facts, options, context, byVtk ? &filters : nullptr);
       if (byVtk)
       {
         cactus::markFaults(fibres, facts.domain, facts.minimumGap, context);
       }
-      cactus::TextStream parameters;
-      parameters.precision(15);
-      parameters << "GRatioModel=" << this->GRatioModel << " GRatio=" << this->GRatio
-                 << " GRatioDeviation=" << this->GRatioDeviation << " TargetAxonVolumeFraction=" << this->TargetAxonVolumeFraction
-                 << " ClipToDomain=" << this->ClipToDomain << " Seed=" << this->Seed;
-      if (byVtk)
-      {
-        parameters << " Meshing=VTK SincIterations=" << this->SincIterations << " SincPassBand=" << this->SincPassBand
-                   << " TargetReduction=" << this->TargetReduction;
-      }
-      else
-      {
-        parameters << " SmoothingIterations=" << this->SmoothingIterations << " DecimationError=" << this->DecimationError;
-      }
       for (int port = 0; port < 3; ++port)
       {
         vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
         cactus::setDomain(output, facts.domain);
-        cactus::addProvenance(image, output, "MyelinSurface", parameters.str());
+        cactus::addProvenance(image, output, "MyelinSurface", stage);
       }
       const std::string remarks = cactus::notAsAsked(fibres, view, facts, byVtk);
-      if (this->ReleaseInput)
+      if (stage.releaseInput)
       {
         releaseImage(this);
       }
@@ -216,18 +194,5 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
 void vtkMyelinSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "GRatioModel: " << this->GRatioModel << '\n'
-     << indent << "GRatio: " << this->GRatio << '\n'
-     << indent << "GRatioDeviation: " << this->GRatioDeviation << '\n'
-     << indent << "TargetAxonVolumeFraction: " << this->TargetAxonVolumeFraction << '\n'
-     << indent << "SmoothingIterations: " << this->SmoothingIterations << '\n'
-     << indent << "DecimationError: " << this->DecimationError << '\n'
-     << indent << "ClipToDomain: " << this->ClipToDomain << '\n'
-     << indent << "Seed: " << this->Seed << '\n'
-     << indent << "Meshing: " << (this->Meshing == VTK_MESHING ? "VTK filters" : "CACTUS") << '\n'
-     << indent << "SincIterations: " << this->SincIterations << '\n'
-     << indent << "SincPassBand: " << this->SincPassBand << '\n'
-     << indent << "TargetReduction: " << this->TargetReduction << '\n'
-     << indent << "ReleaseInput: " << this->ReleaseInput << '\n'
-     << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+  this->Properties->print(os, indent);
 }

@@ -23,6 +23,7 @@
 #define vtkMyelinSurface_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkPolyDataAlgorithm.h>
 
@@ -42,54 +43,14 @@ public:
     TARGET_AXON_VOLUME_FRACTION = 3
   };
 
-  ///@{
-  /** How the thickness of the myelin is found. */
-  vtkSetMacro(GRatioModel, int);
-  vtkGetMacro(GRatioModel, int);
-  ///@}
-
-  ///@{
-  /** Ratio of inner to outer diameter (CONSTANT), or the mean of it over the fibres (DISTRIBUTED). */
-  vtkSetMacro(GRatio, double);
-  vtkGetMacro(GRatio, double);
-  ///@}
-
-  ///@{
-  /** Standard deviation of the g-ratio over the fibres (DISTRIBUTED). */
-  vtkSetMacro(GRatioDeviation, double);
-  vtkGetMacro(GRatioDeviation, double);
-  ///@}
-
-  ///@{
-  /** Fraction of the domain that the axons are to fill (TARGET_AXON_VOLUME_FRACTION). */
-  vtkSetMacro(TargetAxonVolumeFraction, double);
-  vtkGetMacro(TargetAxonVolumeFraction, double);
-  ///@}
-
-  ///@{
-  /** How often the fibres' fields are smoothed before they are contoured. */
-  vtkSetMacro(SmoothingIterations, int);
-  vtkGetMacro(SmoothingIterations, int);
-  ///@}
-
-  ///@{
-  /** Distance (µm) by which coarsening may move a surface, an aim and no strict bound; 0: no coarsening. */
-  vtkSetMacro(DecimationError, double);
-  vtkGetMacro(DecimationError, double);
-  ///@}
-
-  ///@{
-  /** Cut off at the faces of the domain; else where the image ends. */
-  vtkSetMacro(ClipToDomain, bool);
-  vtkGetMacro(ClipToDomain, bool);
-  vtkBooleanMacro(ClipToDomain, bool);
-  ///@}
-
-  ///@{
-  /** Seed of the fibres' g-ratios (DISTRIBUTED). */
-  vtkSetMacro(Seed, int);
-  vtkGetMacro(Seed, int);
-  ///@}
+  CACTUS_WHOLE_PROPERTY(GRatioModel)
+  CACTUS_NUMBER_PROPERTY(GRatio)
+  CACTUS_NUMBER_PROPERTY(GRatioDeviation)
+  CACTUS_NUMBER_PROPERTY(TargetAxonVolumeFraction)
+  CACTUS_WHOLE_PROPERTY(SmoothingIterations)
+  CACTUS_NUMBER_PROPERTY(DecimationError)
+  CACTUS_SWITCH_PROPERTY(ClipToDomain)
+  CACTUS_WHOLE_PROPERTY(Seed)
 
   /** Values of Meshing. */
   enum
@@ -98,47 +59,12 @@ public:
     VTK_MESHING = 1
   };
 
-  ///@{
-  /**
-   * What makes the surfaces: CACTUS_MESHING, core's own contouring, coarsening and spacing, with its guarantees; or VTK_MESHING,
-   * vtkFlyingEdges3D on each fibre's field, vtkWindowedSincPolyDataFilter and vtkQuadricDecimation, which promise nothing. What
-   * then is at fault is marked in the column `Flawed`. SmoothingIterations and DecimationError are of the first, the next three
-   * of the second.
-   */
-  vtkSetMacro(Meshing, int);
-  vtkGetMacro(Meshing, int);
-  ///@}
-
-  ///@{
-  /** Iterations of vtkWindowedSincPolyDataFilter (VTK_MESHING), 0 to 500; 0 leaves the contour as it is. */
-  vtkSetMacro(SincIterations, int);
-  vtkGetMacro(SincIterations, int);
-  ///@}
-
-  ///@{
-  /** Its pass band, above 0 to 2: the lower, the smoother. */
-  vtkSetMacro(SincPassBand, double);
-  vtkGetMacro(SincPassBand, double);
-  ///@}
-
-  ///@{
-  /** Part of the triangles that vtkQuadricDecimation takes away (VTK_MESHING), 0 to 0.99. */
-  vtkSetMacro(TargetReduction, double);
-  vtkGetMacro(TargetReduction, double);
-  ///@}
-
-  ///@{
-  /** Give the label image's memory back once the surfaces are made; what else needs the image makes it anew. */
-  vtkSetMacro(ReleaseInput, bool);
-  vtkGetMacro(ReleaseInput, bool);
-  vtkBooleanMacro(ReleaseInput, bool);
-  ///@}
-
-  ///@{
-  /** Threads to use; 0 means all. The result does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  CACTUS_WHOLE_PROPERTY(Meshing)
+  CACTUS_WHOLE_PROPERTY(SincIterations)
+  CACTUS_NUMBER_PROPERTY(SincPassBand)
+  CACTUS_NUMBER_PROPERTY(TargetReduction)
+  CACTUS_SWITCH_PROPERTY(ReleaseInput)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
@@ -155,20 +81,7 @@ private:
   vtkMyelinSurface(const vtkMyelinSurface&) = delete;
   void operator=(const vtkMyelinSurface&) = delete;
 
-  int GRatioModel = CONSTANT;
-  double GRatio = 0.7;
-  double GRatioDeviation = 0.04;
-  double TargetAxonVolumeFraction = 0.0;
-  int SmoothingIterations = 2;
-  double DecimationError = 0.005;
-  bool ClipToDomain = true;
-  int Seed = 1;
-  int Meshing = CACTUS_MESHING;
-  int SincIterations = 20;
-  double SincPassBand = 0.1;
-  double TargetReduction = 0.9;
-  bool ReleaseInput = false;
-  int NumberOfThreads = 0;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

@@ -3,8 +3,10 @@
 
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "StageProperties.h"
 #include "base/Error.h"
 #include "io/StrandFile.h"
+#include "stages/Stages.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -12,13 +14,9 @@
 vtkStandardNewMacro(vtkStrandReader);
 
 vtkStrandReader::vtkStrandReader()
+  : Properties(cactus::makeProperties<cactus::StrandReaderStage>())
 {
   this->SetNumberOfInputPorts(0);
-}
-
-vtkStrandReader::~vtkStrandReader()
-{
-  this->SetFileName(nullptr);
 }
 
 int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
@@ -26,18 +24,19 @@ int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInf
   return cactus::guarded(this,
     [&]
     {
-      if (this->FileName == nullptr || *this->FileName == '\0')
+      const auto& stage = cactus::stageOf<cactus::StrandReaderStage>(this->Properties);
+      if (stage.fileName.empty())
       {
         throw cactus::InvalidInput("FileName is empty: name the strand file to read");
       }
       auto* output = vtkPolyData::GetData(outputs);
-      cactus::toPolyData(cactus::readStrandFile(this->FileName), output);
-      cactus::addProvenance(nullptr, output, "StrandReader", std::string("FileName=") + this->FileName);
+      cactus::toPolyData(cactus::readStrandFile(stage.fileName), output);
+      cactus::addProvenance(nullptr, output, "StrandReader", stage);
     });
 }
 
 void vtkStrandReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+  this->Properties->print(os, indent);
 }

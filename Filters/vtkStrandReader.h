@@ -11,6 +11,7 @@
 #define vtkStrandReader_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkPolyDataAlgorithm.h>
 
@@ -21,22 +22,18 @@ public:
   vtkTypeMacro(vtkStrandReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /** Path of the file to read. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  CACTUS_FILE_PROPERTY(FileName)
 
 protected:
   vtkStrandReader();
-  ~vtkStrandReader() override;
+  ~vtkStrandReader() override = default;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkStrandReader(const vtkStrandReader&) = delete;
   void operator=(const vtkStrandReader&) = delete;
 
-  char* FileName = nullptr;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

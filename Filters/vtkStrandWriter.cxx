@@ -3,9 +3,11 @@
 
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
 #include "io/StrandFile.h"
+#include "stages/Stages.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
@@ -14,9 +16,9 @@
 
 vtkStandardNewMacro(vtkStrandWriter);
 
-vtkStrandWriter::~vtkStrandWriter()
+vtkStrandWriter::vtkStrandWriter()
+  : Properties(cactus::makeProperties<cactus::StrandWriterStage>())
 {
-  this->SetFileName(nullptr);
 }
 
 int vtkStrandWriter::FillInputPortInformation(int, vtkInformation* info)
@@ -36,11 +38,12 @@ void vtkStrandWriter::WriteData()
   const bool isWritten = cactus::attempt(this,
     [&]
     {
-      if (this->FileName == nullptr || *this->FileName == '\0')
+      const auto& stage = cactus::stageOf<cactus::StrandWriterStage>(this->Properties);
+      if (stage.fileName.empty())
       {
         throw cactus::InvalidInput("FileName is empty: name the strand file to write");
       }
-      cactus::writeStrandFile(cactus::fibresFrom(this->GetInput()), this->FileName);
+      cactus::writeStrandFile(cactus::fibresFrom(this->GetInput()), stage.fileName);
     });
   if (!isWritten)
   {
@@ -51,5 +54,5 @@ void vtkStrandWriter::WriteData()
 void vtkStrandWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+  this->Properties->print(os, indent);
 }

@@ -10,6 +10,7 @@
 #define vtkStrandWriter_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkWriter.h>
 
@@ -20,15 +21,11 @@ public:
   vtkTypeMacro(vtkStrandWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /** Path of the file to write. */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
-  ///@}
+  CACTUS_FILE_PROPERTY(FileName)
 
 protected:
-  vtkStrandWriter() = default;
-  ~vtkStrandWriter() override;
+  vtkStrandWriter();
+  ~vtkStrandWriter() override = default;
   void WriteData() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
@@ -36,7 +33,7 @@ private:
   vtkStrandWriter(const vtkStrandWriter&) = delete;
   void operator=(const vtkStrandWriter&) = delete;
 
-  char* FileName = nullptr;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

@@ -4,10 +4,12 @@
 #include "Columns.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "StageProperties.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
 #include "judge/SubstrateCertificate.h"
+#include "stages/Stages.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
@@ -41,6 +43,7 @@ void fill(vtkTable* table, const std::vector<cactus::CertificateColumn>& columns
 } // namespace
 
 vtkSubstrateCertificate::vtkSubstrateCertificate()
+  : Properties(cactus::makeProperties<cactus::SubstrateCertificateStage>())
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(2);
@@ -70,6 +73,8 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
   return cactus::guarded(this,
     [&]
     {
+      const auto& stage = cactus::stageOf<cactus::SubstrateCertificateStage>(this->Properties);
+      cactus::validateProperties(stage);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
@@ -87,11 +92,8 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       {
         fibres = cactus::fibresFrom(lines);
       }
-      cactus::SubstrateCertificateOptions options;
-      options.minimumGap = this->MinimumGap;
-      options.cutSpacing = this->CutSpacing;
       const auto certificate = cactus::certify(domain, outerSurfaces, innerSurfaces, lines != nullptr ? &fibres : nullptr,
-        options, cactus::contextFor(this, this->NumberOfThreads));
+        stage.options, cactus::contextFor(this, stage.threads));
       if (!certificate.certified())
       {
         vtkWarningMacro(<< "the substrate is not certified: " << certificate.verdict());
@@ -102,11 +104,9 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       }
       fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
       fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
-      cactus::TextStream parameters;
-      parameters << "MinimumGap=" << this->MinimumGap << " CutSpacing=" << this->CutSpacing;
       for (int port = 0; port < 2; ++port)
       {
-        cactus::addProvenance(outer, vtkTable::GetData(outputs, port), "SubstrateCertificate", parameters.str());
+        cactus::addProvenance(outer, vtkTable::GetData(outputs, port), "SubstrateCertificate", stage);
       }
     });
 }
@@ -114,7 +114,5 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
 void vtkSubstrateCertificate::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "MinimumGap: " << this->MinimumGap << '\n';
-  os << indent << "CutSpacing: " << this->CutSpacing << '\n';
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+  this->Properties->print(os, indent);
 }

@@ -18,6 +18,7 @@
 #define vtkSubstrateCertificate_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkTableAlgorithm.h>
 
@@ -28,23 +29,9 @@ public:
   vtkTypeMacro(vtkSubstrateCertificate, vtkTableAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /** Distance (µm) that the outer surfaces of any two fibres have to keep; 0 asks only that they do not meet. */
-  vtkSetMacro(MinimumGap, double);
-  vtkGetMacro(MinimumGap, double);
-  ///@}
-
-  ///@{
-  /** Distance (µm) between two cross-sections along a fibre. */
-  vtkSetMacro(CutSpacing, double);
-  vtkGetMacro(CutSpacing, double);
-  ///@}
-
-  ///@{
-  /** Threads to use; 0 takes all. The result does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  CACTUS_NUMBER_PROPERTY(MinimumGap)
+  CACTUS_NUMBER_PROPERTY(CutSpacing)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
@@ -60,9 +47,7 @@ private:
   vtkSubstrateCertificate(const vtkSubstrateCertificate&) = delete;
   void operator=(const vtkSubstrateCertificate&) = delete;
 
-  double MinimumGap = 0.02;
-  double CutSpacing = 1.0;
-  int NumberOfThreads = 0;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

@@ -4,12 +4,14 @@
 #include "Columns.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "StageProperties.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Numbers.h"
 #include "judge/SubstrateStatistics.h"
+#include "stages/Stages.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
@@ -127,6 +129,7 @@ void fillHistograms(vtkTable* table, const std::vector<cactus::FibreStatistics>&
 } // namespace
 
 vtkSubstrateStatistics::vtkSubstrateStatistics()
+  : Properties(cactus::makeProperties<cactus::SubstrateStatisticsStage>())
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(3);
@@ -156,7 +159,8 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
   return cactus::guarded(this,
     [&]
     {
-      cactus::requireWithin("NumberOfBins", this->NumberOfBins, cactus::limits::bins);
+      const auto& stage = cactus::stageOf<cactus::SubstrateStatisticsStage>(this->Properties);
+      cactus::validateProperties(stage);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
@@ -167,12 +171,10 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       const cactus::Fibres fibres = cactus::fibresFrom(lines);
       cactus::requireSameDomain(fibres.domain, outerData, "Outer");
       cactus::requireSameDomain(fibres.domain, innerData, "Inner");
-      cactus::SubstrateStatisticsOptions options;
-      options.cutSpacing = this->CutSpacing;
       const cactus::FibreSurfaces outer = cactus::surfacesFrom(outerData, "Outer", 0);
       const cactus::FibreSurfaces inner = cactus::surfacesFrom(innerData, "Inner", 1);
       const auto statistics =
-        cactus::measureSubstrate(fibres, outer, inner, options, cactus::contextFor(this, this->NumberOfThreads));
+        cactus::measureSubstrate(fibres, outer, inner, stage.options, cactus::contextFor(this, stage.threads));
       if (statistics.outerOpen + statistics.innerOpen > 0)
       {
         vtkWarningMacro(<< statistics.outerOpen << " outer and " << statistics.innerOpen
@@ -180,12 +182,11 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       }
       fillSubstrate(vtkTable::GetData(outputs, 0), statistics);
       fillFibres(vtkTable::GetData(outputs, 1), statistics.fibres);
-      fillHistograms(vtkTable::GetData(outputs, 2), statistics.fibres, static_cast<std::size_t>(this->NumberOfBins));
+      fillHistograms(vtkTable::GetData(outputs, 2), statistics.fibres, static_cast<std::size_t>(stage.bins));
       vtkDataObject* last = outerData != nullptr ? outerData : lines;
       for (int port = 0; port < 3; ++port)
       {
-        cactus::addProvenance(
-          last, vtkTable::GetData(outputs, port), "SubstrateStatistics", "CutSpacing=" + cactus::exactText(this->CutSpacing));
+        cactus::addProvenance(last, vtkTable::GetData(outputs, port), "SubstrateStatistics", stage);
       }
     });
 }
@@ -193,7 +194,5 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
 void vtkSubstrateStatistics::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "CutSpacing: " << this->CutSpacing << '\n';
-  os << indent << "NumberOfBins: " << this->NumberOfBins << '\n';
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+  this->Properties->print(os, indent);
 }

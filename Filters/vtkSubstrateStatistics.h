@@ -18,6 +18,7 @@
 #define vtkSubstrateStatistics_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkTableAlgorithm.h>
 
@@ -28,23 +29,9 @@ public:
   vtkTypeMacro(vtkSubstrateStatistics, vtkTableAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /** Distance (µm) between two cross-sections along a fibre. */
-  vtkSetMacro(CutSpacing, double);
-  vtkGetMacro(CutSpacing, double);
-  ///@}
-
-  ///@{
-  /** Number of bins of each histogram, at least 1. */
-  vtkSetMacro(NumberOfBins, int);
-  vtkGetMacro(NumberOfBins, int);
-  ///@}
-
-  ///@{
-  /** Threads to use; 0 takes all. The result does not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  CACTUS_NUMBER_PROPERTY(CutSpacing)
+  CACTUS_WHOLE_PROPERTY(NumberOfBins)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
@@ -60,9 +47,7 @@ private:
   vtkSubstrateStatistics(const vtkSubstrateStatistics&) = delete;
   void operator=(const vtkSubstrateStatistics&) = delete;
 
-  double CutSpacing = 1.0;
-  int NumberOfBins = 25;
-  int NumberOfThreads = 0;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

@@ -5,10 +5,12 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
+#include "StageProperties.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
 #include "io/SubstrateFolder.h"
+#include "stages/Stages.h"
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
@@ -57,13 +59,9 @@ std::vector<std::string> provenanceOf(vtkDataObject* data)
 } // namespace
 
 vtkSubstrateWriter::vtkSubstrateWriter()
+  : Properties(cactus::makeProperties<cactus::SubstrateWriterStage>())
 {
   this->SetNumberOfInputPorts(3);
-}
-
-vtkSubstrateWriter::~vtkSubstrateWriter()
-{
-  this->SetFolderName(nullptr);
 }
 
 int vtkSubstrateWriter::FillInputPortInformation(int port, vtkInformation* info)
@@ -90,6 +88,8 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
   return cactus::guarded(this,
     [&]
     {
+      const auto& stage = cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties);
+      cactus::validateProperties(stage);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         return;
@@ -110,13 +110,12 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
         contents.fibres = &fibres;
       }
       contents.provenance = provenanceOf(outer);
-      contents.allowOpenSurfaces = this->AllowOpenSurfaces;
-      contents.certificate.minimumGap = this->MinimumGap;
-      const auto written = cactus::writeSubstrateFolder(
-        contents, this->FolderName ? this->FolderName : "", cactus::contextFor(this, this->NumberOfThreads));
+      contents.allowOpenSurfaces = stage.allowOpenSurfaces;
+      contents.certificate.minimumGap = stage.minimumGap;
+      const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads));
       if (!written.certificate.certified())
       {
-        vtkWarningMacro(<< "the substrate in " << this->FolderName << " is not certified: " << written.certificate.verdict());
+        vtkWarningMacro(<< "the substrate in " << stage.folderName << " is not certified: " << written.certificate.verdict());
       }
       for (const std::string& leftover : written.leftovers)
       {
@@ -124,17 +123,12 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       }
       auto* table = vtkTable::GetData(outputs);
       fill(table, written.files);
-      cactus::addProvenance(outer, table, "SubstrateWriter",
-        std::string("AllowOpenSurfaces=") + (this->AllowOpenSurfaces ? "1" : "0") +
-          " MinimumGap=" + cactus::exactText(this->MinimumGap));
+      cactus::addProvenance(outer, table, "SubstrateWriter", stage);
     });
 }
 
 void vtkSubstrateWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FolderName: " << (this->FolderName ? this->FolderName : "(none)") << '\n';
-  os << indent << "AllowOpenSurfaces: " << this->AllowOpenSurfaces << '\n';
-  os << indent << "MinimumGap: " << this->MinimumGap << '\n';
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << '\n';
+  this->Properties->print(os, indent);
 }

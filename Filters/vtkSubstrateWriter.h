@@ -18,6 +18,7 @@
 #define vtkSubstrateWriter_h
 
 #include "CactusFiltersModule.h"
+#include "FilterProperties.h"
 
 #include <vtkTableAlgorithm.h>
 
@@ -28,37 +29,17 @@ public:
   vtkTypeMacro(vtkSubstrateWriter, vtkTableAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /** The folder to write. The folder that it is in has to exist. */
-  vtkSetFilePathMacro(FolderName);
-  vtkGetFilePathMacro(FolderName);
-  ///@}
-
-  ///@{
-  /** Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them. */
-  vtkSetMacro(AllowOpenSurfaces, bool);
-  vtkGetMacro(AllowOpenSurfaces, bool);
-  vtkBooleanMacro(AllowOpenSurfaces, bool);
-  ///@}
-
-  ///@{
-  /** Distance (µm) that the certificate asks of the outer surfaces of any two fibres; 0 asks only that they do not meet. */
-  vtkSetMacro(MinimumGap, double);
-  vtkGetMacro(MinimumGap, double);
-  ///@}
-
-  ///@{
-  /** Threads to use; 0 takes all. The files do not depend on it. */
-  vtkSetMacro(NumberOfThreads, int);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
+  CACTUS_FILE_PROPERTY(FolderName)
+  CACTUS_SWITCH_PROPERTY(AllowOpenSurfaces)
+  CACTUS_NUMBER_PROPERTY(MinimumGap)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:
   vtkSubstrateWriter();
-  ~vtkSubstrateWriter() override;
+  ~vtkSubstrateWriter() override = default;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -67,10 +48,7 @@ private:
   vtkSubstrateWriter(const vtkSubstrateWriter&) = delete;
   void operator=(const vtkSubstrateWriter&) = delete;
 
-  char* FolderName = nullptr;
-  bool AllowOpenSurfaces = false;
-  double MinimumGap = 0.02;
-  int NumberOfThreads = 0;
+  std::unique_ptr<cactus::FilterProperties> Properties;
 };
 
 #endif

@@ -31,7 +31,7 @@ inline void requireWithin(const char* name, double value, const Range& range, co
     return;
   }
   TextStream message;
-  message.precision(9);
+  message.precision(10); // as many as the largest whole numbers have
   message << name << " is " << value << ": give " << (range.orZero ? "0 or " : "") << range.lowest << " to " << range.highest
           << range.unit << advice;
   throw InvalidInput(message.str());
@@ -63,8 +63,14 @@ inline constexpr double controlPoints = 2147483647.0;
 inline constexpr Range gap{ 0.0, 10.0, " µm" };
 inline constexpr Range surfaceTolerance{ 0.0, 1.0, " µm" };
 inline constexpr Range seconds{ 0.0, 1e9, " s" };
+/// As far as whole numbers go in ParaView.
+inline constexpr Range seed{ 0.0, 2147483647.0 };
+/// 0 for all that the machine offers, which is all that there can be (see Context::threadCount()).
+inline constexpr Range threads{ 0.0, 65536.0 };
 /// Of a volume that fibres fill.
 inline constexpr Range fraction{ 1e-4, 0.999 };
+/// The same, where 0 stands for none.
+inline constexpr Range fractionOrNone{ 1e-4, 0.999, "", true };
 
 // BundleInitializer.
 
@@ -75,6 +81,7 @@ inline constexpr Range lognormalDeviation{ 1e-6, 1e3, " µm" };
 /// The displacement of a fibre from face to face has to be more than rounding, and to be met within 2 %.
 inline constexpr Range meanDispersion{ 1e-3, 45.0, "°", true };
 inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", true };
+inline constexpr Range bundles{ 1.0, 2.0 };
 inline constexpr Range crossingAngle{ 0.1, 90.0, "°" };
 inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", true };
 /// On each side of the domain.
@@ -85,6 +92,7 @@ inline constexpr Range spacing{ 1e-2, 1e5, " µm" };
 // CapsuleOptimizer.
 
 inline constexpr Range iterations{ 0.0, 1e7 };
+inline constexpr Range historyInterval{ 1.0, 1e7 };
 inline constexpr Range overlapTolerance{ 1e-9, 0.5 };
 inline constexpr Range overlapWeight{ 1e-6, 1e6 };
 inline constexpr Range weight{ 0.0, 1e6 };
@@ -107,8 +115,8 @@ inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 
 /// Of an axon's diameter to its fibre's.
 inline constexpr Range gRatio{ 0.05, 0.99 };
-/// Of the axons in the domain.
-inline constexpr Range targetAxonFraction{ 1e-4, 0.999 };
+/// Its standard deviation from fibre to fibre.
+inline constexpr Range gRatioDeviation{ 0.0, 0.3 };
 /// Passes blur by the square root of half their number, at most 3.2 voxels, and take on average passes · spacing² / (4 r) off a
 /// round fibre of radius r: more than half the volume of the thinnest ones that are smoothed in full.
 inline constexpr Range smoothingIterations{ 0.0, 20.0 };
@@ -118,10 +126,17 @@ inline constexpr Range sincPassBand{ 1e-4, 2.0 };
 /// Part of the triangles that VTK's quadric decimation takes away.
 inline constexpr Range targetReduction{ 0.0, 0.99 };
 
+// FibreField.
+
+/// A depth, in a fibre of any radius.
+inline constexpr Range level{ 0.0, 1000.0, " µm" };
+
 // SubstrateStatistics and SubstrateCertificate.
 
 /// Between two cross-sections along a centre line: from a tenth of usual voxels.
 inline constexpr Range cutSpacing{ 1e-2, 1e3, " µm" };
+/// By how much a surface may reach out of the domain, as the rounding of a clip does.
+inline constexpr Range clipTolerance{ 0.0, 1e5, " µm" };
 /// Of one surface: 10 mm of the finest.
 inline constexpr double cuts = 1e6;
 inline constexpr Range bins{ 1.0, 1e4 };

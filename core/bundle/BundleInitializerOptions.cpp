@@ -3,20 +3,63 @@
 
 #include "base/Error.h"
 #include "base/Limits.h"
-#include "base/Numbers.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace cactus
 {
 
+const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properties()
+{
+  using Options = BundleInitializerOptions;
+  static const auto list =
+    PropertyList<Options>()
+      .add("Side", &Options::side, limits::side, "Side of the cubic domain, which is centred on the origin")
+      .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
+        "Part of the end faces that the fibres' circles cover; with two bundles, part of the domain that the fibres fill")
+      .add("GrownFibreVolumeFraction", &Options::grownFibreVolumeFraction, limits::fractionOrNone,
+        "What FibreRadialGrowth will be asked for: fibres start thinner than their target radii and are grown towards them; "
+        "0: they start with these")
+      .include(&Options::radius, RadiusDistributionOptions::properties())
+      .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
+        "Mean angle between a fibre's end-to-end direction and its bundle's axis")
+      .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent" },
+        "Distribution of the fibres' directions: each for itself about the axis (Watson) or uniform within a cone, or alike "
+        "among "
+        "neighbours (Coherent; two bundles take Watson instead)")
+      .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
+        "Distance over which the directions of neighbours are alike; 0: four times the fibres' mean shift between the faces")
+      .where("DispersionModel", { 2 })
+      .where("NumberOfBundles", { 1 })
+      .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
+        "One bundle along z, or two that cross in the x-z plane, symmetric about z")
+      .advise("; append several sources for more bundles or other directions")
+      .add("CrossingAngle", &Options::crossingAngle, limits::crossingAngle, "Angle between the axes of two bundles")
+      .where("NumberOfBundles", { 2 })
+      .add("CrossingStyle", &Options::crossingStyle, { "Interwoven", "Sheets" },
+        "How two bundles share the space: in thin layers of random thickness, or in few thick sheets")
+      .where("NumberOfBundles", { 2 })
+      .add("SheetThickness", &Options::sheetThickness, limits::sheetThickness,
+        "Least thickness of each sheet; 0: a sixth of the height, or what the largest radius needs")
+      .where("CrossingStyle", { 1 })
+      .add("Margin", &Options::margin, limits::bundleMargin,
+        "Width by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides")
+      .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,
+        "Distance between a fibre's control points as a multiple of its radius, within the two limits below")
+      .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing, "Smallest distance between control points")
+      .add("MaximumSpacing", &Options::maximumSpacing, limits::spacing, "Largest distance between control points")
+      .add("Seed", &Options::seed, limits::seed, "Seed of all random numbers: the same seed gives the same fibres");
+  return list;
+}
+
 void BundleInitializerOptions::validate() const
 {
-  requireWithin("Side", side, limits::side);
-  requireWithin("FibreVolumeFraction", fibreVolumeFraction, limits::fraction);
-  requireWithin("GrownFibreVolumeFraction", grownFibreVolumeFraction, { fibreVolumeFraction, limits::fraction.highest, "", true },
-    " (no less than FibreVolumeFraction)");
+  validateProperties(*this);
+  if (grownFibreVolumeFraction != 0.0 && grownFibreVolumeFraction < fibreVolumeFraction)
+  {
+    throw InvalidInput(text("GrownFibreVolumeFraction is ", grownFibreVolumeFraction, ": give 0 or ", fibreVolumeFraction, " to ",
+      limits::fraction.highest, " (no less than FibreVolumeFraction)"));
+  }
   radius.validate();
   if (radius.minimum * this->thinning() < limits::radius.lowest)
   {
@@ -24,25 +67,6 @@ void BundleInitializerOptions::validate() const
       text("MinimumRadius ", radius.minimum, " µm makes capsules of less than ", limits::radius.lowest, " µm where they fill ",
         fibreVolumeFraction, " to be grown to ", grownFibreVolumeFraction, ": enlarge MinimumRadius or FibreVolumeFraction"));
   }
-  requireWithin("MeanDispersion", meanDispersion, limits::meanDispersion);
-  if (dispersionModel != DispersionModel::Watson && dispersionModel != DispersionModel::Cone &&
-      dispersionModel != DispersionModel::Coherent)
-  {
-    throw InvalidInput("DispersionModel has no such choice: use Watson (0), Cone (1) or Coherent (2)");
-  }
-  requireWithin("CorrelationLength", correlationLength, limits::correlationLength);
-  requireWithin(
-    "NumberOfBundles", numberOfBundles, { 1.0, 2.0 }, "; append several sources for more bundles or other directions");
-  requireWithin("CrossingAngle", crossingAngle, limits::crossingAngle);
-  if (crossingStyle != CrossingStyle::Interwoven && crossingStyle != CrossingStyle::Sheets)
-  {
-    throw InvalidInput("CrossingStyle has no such choice: use Interwoven (0) or Sheets (1)");
-  }
-  requireWithin("SheetThickness", sheetThickness, limits::sheetThickness);
-  requireWithin("Margin", margin, limits::bundleMargin);
-  requireWithin("SpacingFactor", spacingFactor, limits::spacingFactor);
-  requireWithin("MinimumSpacing", minimumSpacing, limits::spacing);
-  requireWithin("MaximumSpacing", maximumSpacing, limits::spacing);
   if (minimumSpacing > maximumSpacing)
   {
     throw InvalidInput(text("MaximumSpacing ", maximumSpacing, " is below MinimumSpacing ", minimumSpacing, ": exchange them"));
@@ -52,53 +76,6 @@ void BundleInitializerOptions::validate() const
 double BundleInitializerOptions::thinning() const
 {
   return grownFibreVolumeFraction > 0.0 ? std::sqrt(fibreVolumeFraction / grownFibreVolumeFraction) : 1.0;
-}
-
-std::string BundleInitializerOptions::describe() const
-{
-  TextStream text;
-  text.precision(12);
-  text << "Side=" << side << " FibreVolumeFraction=" << fibreVolumeFraction
-       << " GrownFibreVolumeFraction=" << grownFibreVolumeFraction;
-  switch (radius.model)
-  {
-  case RadiusModel::Gamma:
-    text << " RadiusDistribution=Gamma GammaShape=" << radius.gammaShape << " GammaScale=" << radius.gammaScale;
-    break;
-  case RadiusModel::Lognormal:
-    text << " RadiusDistribution=Lognormal LognormalMean=" << radius.lognormalMean
-         << " LognormalDeviation=" << radius.lognormalDeviation;
-    break;
-  case RadiusModel::Table:
-    text << " RadiusDistribution=Table RadiusTable=";
-    for (std::size_t i = 0; i < radius.table.size(); ++i)
-    {
-      text << (i > 0 ? "," : "") << radius.table[i];
-    }
-    break;
-  }
-  text << " MinimumRadius=" << radius.minimum << " MaximumRadius=" << radius.maximum << " MeanDispersion=" << meanDispersion
-       << " DispersionModel="
-       << (dispersionModel == DispersionModel::Coherent ? "Coherent"
-            : dispersionModel == DispersionModel::Cone  ? "Cone"
-                                                        : "Watson");
-  if (isCoherent(*this))
-  {
-    text << " CorrelationLength=" << correlationLength;
-  }
-  text << " NumberOfBundles=" << numberOfBundles;
-  if (numberOfBundles == 2)
-  {
-    text << " CrossingAngle=" << crossingAngle
-         << " CrossingStyle=" << (crossingStyle == CrossingStyle::Interwoven ? "Interwoven" : "Sheets");
-    if (crossingStyle == CrossingStyle::Sheets)
-    {
-      text << " SheetThickness=" << sheetThickness;
-    }
-  }
-  text << " Margin=" << margin << " SpacingFactor=" << spacingFactor << " MinimumSpacing=" << minimumSpacing
-       << " MaximumSpacing=" << maximumSpacing << " Seed=" << seed;
-  return text.str();
 }
 
 bool isCoherent(const BundleInitializerOptions& options)

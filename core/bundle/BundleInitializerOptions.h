@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Properties.h"
 #include "bundle/DirectionDistribution.h"
 #include "bundle/RadiusDistribution.h"
 
 #include <cstdint>
-#include <string>
 
 namespace cactus
 {
@@ -52,12 +52,11 @@ struct BundleInitializerOptions
   double maximumSpacing = 2.0; ///< µm
   std::uint64_t seed = 1;
 
-  /// Throws InvalidInput, naming the property, unless every value is finite and within its range (see Limits.h).
+  static const PropertyList<BundleInitializerOptions>& properties();
+  /// Throws InvalidInput, naming the property, unless every value that has an effect is within its range.
   void validate() const;
   /// Radius of the capsules over the sampled target radius.
   double thinning() const;
-  /// All parameters as "Name=value" separated by blanks, under the names of the ParaView properties.
-  std::string describe() const;
 };
 
 /// Whether fibres follow a flow: the layers of two crossing bundles are too thin for one.

@@ -48,44 +48,54 @@ constexpr double smallestShare = 1e-4;
 
 } // namespace
 
+const PropertyList<RadiusDistributionOptions>& RadiusDistributionOptions::properties()
+{
+  using Options = RadiusDistributionOptions;
+  static const auto list =
+    PropertyList<Options>()
+      .add("RadiusDistribution", &Options::model, { "Gamma", "Lognormal", "Table" }, "Distribution of the fibres' outer radius")
+      .add("GammaShape", &Options::gammaShape, limits::gammaShape, "Shape of the gamma distribution")
+      .where("RadiusDistribution", { 0 })
+      .add("GammaScale", &Options::gammaScale, limits::gammaScale, "Scale of the gamma distribution")
+      .where("RadiusDistribution", { 0 })
+      .add("LognormalMean", &Options::lognormalMean, limits::lognormalMean, "Mean radius before it is cut to its limits")
+      .where("RadiusDistribution", { 1 })
+      .add("LognormalDeviation", &Options::lognormalDeviation, limits::lognormalDeviation,
+        "Standard deviation of the radius before it is cut to its limits")
+      .where("RadiusDistribution", { 1 })
+      .add("RadiusTable", &Options::table, "Radii in µm to draw from, each as likely as the others")
+      .where("RadiusDistribution", { 2 })
+      .add("MinimumRadius", &Options::minimum, limits::radius, "Smallest outer radius: what is drawn below is drawn again")
+      .add("MaximumRadius", &Options::maximum, limits::radius, "Largest outer radius: what is drawn above is drawn again");
+  return list;
+}
+
 void RadiusDistributionOptions::validate() const
 {
-  requireWithin("MinimumRadius", minimum, limits::radius);
-  requireWithin("MaximumRadius", maximum, limits::radius);
+  validateProperties(*this);
   TextStream message;
   if (minimum > maximum)
   {
     message << "MinimumRadius " << minimum << " is larger than MaximumRadius " << maximum << ": exchange them";
     throw InvalidInput(message.str());
   }
-  switch (model)
+  if (model != RadiusModel::Table)
   {
-  case RadiusModel::Gamma:
-    requireWithin("GammaShape", gammaShape, limits::gammaShape);
-    requireWithin("GammaScale", gammaScale, limits::gammaScale);
-    break;
-  case RadiusModel::Lognormal:
-    requireWithin("LognormalMean", lognormalMean, limits::lognormalMean);
-    requireWithin("LognormalDeviation", lognormalDeviation, limits::lognormalDeviation);
-    break;
-  case RadiusModel::Table:
-    if (table.empty())
+    return;
+  }
+  if (table.empty())
+  {
+    throw InvalidInput("RadiusTable is empty: list at least one radius in µm, for example \"0.4 0.5 0.7\", or name a "
+                       "RadiusTableFile");
+  }
+  for (const double radius : table)
+  {
+    if (!std::isfinite(radius) || radius < minimum || radius > maximum)
     {
-      throw InvalidInput("RadiusTable is empty: list at least one radius in µm, for example \"0.4 0.5 0.7\", or name a "
-                         "RadiusTableFile");
+      message << "RadiusTable holds " << radius << ", which is not between MinimumRadius " << minimum << " and MaximumRadius "
+              << maximum << ": change the one or the other";
+      throw InvalidInput(message.str());
     }
-    for (const double radius : table)
-    {
-      if (!std::isfinite(radius) || radius < minimum || radius > maximum)
-      {
-        message << "RadiusTable holds " << radius << ", which is not between MinimumRadius " << minimum << " and MaximumRadius "
-                << maximum << ": change the one or the other";
-        throw InvalidInput(message.str());
-      }
-    }
-    break;
-  default:
-    throw InvalidInput("RadiusDistribution has no such choice: use Gamma (0), Lognormal (1) or Table (2)");
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Properties.h"
+
 #include <cstdint>
 #include <istream>
 #include <string>
@@ -30,7 +32,8 @@ struct RadiusDistributionOptions
   double minimum = 0.2;             ///< µm
   double maximum = 2.0;             ///< µm
 
-  /// Throws InvalidInput, naming the property, unless all that the model uses is within its range (see Limits.h), minimum ≤
+  static const PropertyList<RadiusDistributionOptions>& properties();
+  /// Throws InvalidInput, naming the property, unless all that the model uses is within its range, minimum ≤
   /// maximum, and the table, where it is used, is not empty and within [minimum, maximum].
   void validate() const;
   /// The distribution of what this one's radii become when all are multiplied by `factor`.

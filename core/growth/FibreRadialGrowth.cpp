@@ -27,17 +27,6 @@ double largestRadius(const Fibres& fibres)
 
 } // namespace
 
-void validate(const FibreRadialGrowthOptions& options)
-{
-  requireWithin("VoxelSize", options.voxelSize, limits::voxelSize);
-  requireWithin("TargetFibreVolumeFraction", options.targetFibreVolumeFraction, limits::targetFraction, " (0: no target)");
-  requireWithin("GrowthIterations", options.growthIterations, limits::growthIterations);
-  requireWithin("MinimumGap", options.minimumGap, limits::gap);
-  requireWithin("SurfaceTolerance", options.surfaceTolerance, limits::surfaceTolerance);
-  requireWithin("SurfaceRoughness", options.surfaceRoughness, limits::surfaceRoughness);
-  requireWithin("Margin", options.margin, limits::imageMargin);
-}
-
 VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& options)
 {
   validate(options);

@@ -545,10 +545,20 @@ private:
 
 } // namespace
 
+const PropertyList<SubstrateCertificateOptions>& SubstrateCertificateOptions::properties()
+{
+  using Options = SubstrateCertificateOptions;
+  static const auto list =
+    PropertyList<Options>()
+      .add("MinimumGap", &Options::minimumGap, limits::gap,
+        "Distance that the outer surfaces of any two fibres have to keep; 0 asks only that they do not meet")
+      .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing, "Distance between two cross-sections along a fibre");
+  return list;
+}
+
 void SubstrateCertificateOptions::validate() const
 {
-  requireWithin("MinimumGap", minimumGap, limits::gap);
-  requireWithin("CutSpacing", cutSpacing, limits::cutSpacing);
+  validateProperties(*this);
 }
 
 std::string SubstrateCertificate::verdict() const

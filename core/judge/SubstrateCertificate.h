@@ -3,6 +3,7 @@
 
 #include "base/Context.h"
 #include "base/Domain.h"
+#include "base/Properties.h"
 #include "fibres/Fibres.h"
 #include "judge/SubstrateStatistics.h"
 #include "mesh/FibreSurfaces.h"
@@ -18,12 +19,12 @@ namespace cactus
 /// What a substrate is certified for.
 struct SubstrateCertificateOptions
 {
-  /// µm that the outer surfaces of any two fibres have to keep from each other, 0 to 10. 0 asks only that they do not
-  /// meet.
+  /// µm that the outer surfaces of any two fibres have to keep from each other. 0 asks only that they do not meet.
   double minimumGap = 0.02;
-  /// µm between two cross-sections along a fibre's centre line; 0.01 to 1000 (see Limits.h).
+  /// µm between two cross-sections along a fibre's centre line.
   double cutSpacing = 1.0;
 
+  static const PropertyList<SubstrateCertificateOptions>& properties();
   /// Throws InvalidInput naming the property.
   void validate() const;
 };

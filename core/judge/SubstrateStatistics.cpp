@@ -98,13 +98,20 @@ double gRatioOf(double innerVolume, double outerVolume)
   return innerVolume > 0.0 && outerVolume > 0.0 ? std::sqrt(innerVolume / outerVolume) : 0.0;
 }
 
+const PropertyList<SubstrateStatisticsOptions>& SubstrateStatisticsOptions::properties()
+{
+  using Options = SubstrateStatisticsOptions;
+  static const auto list =
+    PropertyList<Options>()
+      .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing, "Distance between two cross-sections along a fibre")
+      .add("ClipTolerance", &Options::clipTolerance, limits::clipTolerance, "What a surface may reach out of the domain")
+      .use(PropertyUse::Code);
+  return list;
+}
+
 void SubstrateStatisticsOptions::validate() const
 {
-  requireWithin("CutSpacing", cutSpacing, limits::cutSpacing);
-  if (!std::isfinite(clipTolerance) || clipTolerance < 0.0)
-  {
-    throw InvalidInput("the clip tolerance must be a length in µm that is not negative");
-  }
+  validateProperties(*this);
 }
 
 double lengthInDomain(const Fibres& fibres, std::size_t fibre)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Properties.h"
 #include "fibres/Fibres.h"
 #include "mesh/FibreSurfaces.h"
 #include "mesh/SurfaceCheck.h"
@@ -15,12 +16,12 @@ namespace cactus
 /// How a substrate is measured.
 struct SubstrateStatisticsOptions
 {
-  /// µm between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm); 0.01 to 1000 (see
-  /// Limits.h).
+  /// µm between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm).
   double cutSpacing = 1.0;
   /// µm that a surface may reach out of the domain, as the rounding of a clip does; not negative.
   double clipTolerance = 0.1;
 
+  static const PropertyList<SubstrateStatisticsOptions>& properties();
   /// Throws InvalidInput naming the property.
   void validate() const;
 };

@@ -764,30 +764,6 @@ void requireSegmentsToSearch(const Fibres& fibres)
 
 } // namespace
 
-void validate(const CapsuleOptimizerOptions& options)
-{
-  requireWithin("MaximumIterations", options.maximumIterations, limits::iterations);
-  requireWithin("OverlapTolerance", options.overlapTolerance, limits::overlapTolerance);
-  requireWithin("OverlapWeight", options.overlapWeight, limits::overlapWeight);
-  requireWithin("CurvatureWeight", options.weights.curvature, limits::weight);
-  requireWithin("LengthWeight", options.weights.length, limits::weight);
-  requireWithin("RadiusWeight", options.weights.radius, limits::weight);
-  requireWithin("CompactnessWeight", options.weights.compactness, limits::weight);
-  requireWithin("StepSize", options.stepSize, limits::stepSize);
-  requireWithin("Momentum", options.momentum, limits::momentum);
-  requireWithin("SafetyMargin", options.safetyMargin, limits::safetyMargin);
-  requireWithin("RadiusTolerance", options.radiusTolerance, limits::radiusTolerance);
-  requireWithin("Smoothing", options.smoothing, limits::weight);
-  requireWithin("Relaxation", options.relaxation, limits::relaxation);
-  requireWithin("PackingLimit", options.packingLimit, limits::packingLimit);
-  requireWithin("TimeBudget", options.timeBudget, limits::seconds);
-  requireWithin("CheckpointInterval", options.checkpointInterval, limits::seconds);
-  if (options.resume && options.checkpointFile.empty())
-  {
-    throw InvalidInput("Resume is on, but there is no CheckpointFile: name the one to go on from");
-  }
-}
-
 OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
   const std::function<void(int iteration, const Fibres&)>& observe)
 {

@@ -2,6 +2,7 @@
 #include "surface/GRatio.h"
 
 #include "base/Error.h"
+#include "base/Limits.h"
 #include "base/RandomVariates.h"
 
 #include <algorithm>
@@ -41,10 +42,7 @@ double distributedGRatio(double mean, double deviation, std::uint64_t seed, std:
   {
     throw InvalidInput("GRatio must be between 0.3 and 0.95 where the g-ratios of fibres are distributed about it");
   }
-  if (!(deviation >= 0.0 && deviation <= 0.3))
-  {
-    throw InvalidInput("GRatioDeviation must be between 0 and 0.3");
-  }
+  requireWithin("GRatioDeviation", deviation, limits::gRatioDeviation);
   RandomEngine engine = randomStream(seed, RandomStage::GRatio, static_cast<std::uint64_t>(fibreId));
   for (;;)
   {

@@ -7,26 +7,45 @@
 namespace cactus
 {
 
+const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
+{
+  using Options = MyelinSurfaceOptions;
+  static const auto list =
+    PropertyList<Options>()
+      .add("GRatioModel", &Options::model, { "Constant", "LogLinear", "Distributed", "TargetAxonVolumeFraction" },
+        "How thick the myelin is: by one g-ratio, by the axon's diameter (Lee 2019), by a g-ratio drawn for each fibre, or by "
+        "the "
+        "fraction that the axons fill")
+      .add("GRatio", &Options::gRatio, limits::gRatio, "Diameter of the axon over that of the fibre, or its mean (Distributed)")
+      .where("GRatioModel", { 0, 2 })
+      .add("GRatioDeviation", &Options::gRatioDeviation, limits::gRatioDeviation, "Standard deviation of the g-ratio over fibres")
+      .where("GRatioModel", { 2 })
+      .add("TargetAxonVolumeFraction", &Options::targetAxonVolumeFraction, limits::fractionOrNone,
+        "Fraction of the domain that the axons are to fill")
+      .where("GRatioModel", { 3 })
+      .add("SmoothingIterations", &Options::smoothingIterations, limits::smoothingIterations,
+        "How often each fibre's depth is averaged with its neighbours' before its surface is drawn")
+      .advise("; more would blur fibres of few voxels away")
+      .add("DecimationError", &Options::decimationError, limits::surfaceTolerance,
+        "Distance by which coarsening may move a surface, an aim and no strict bound; 0 leaves all triangles")
+      .add("ClipToDomain", &Options::clipToDomain,
+        "Cut fibres off, and close them, at the faces of the domain; else where the image ends")
+      .add("Seed", &Options::seed, limits::seed, "Seed of the fibres' g-ratios where GRatioModel is Distributed");
+  return list;
+}
+
 void validate(const MyelinSurfaceOptions& options)
 {
-  const int model = static_cast<int>(options.model);
-  require(model >= 0 && model <= 3, "GRatioModel must be Constant, LogLinear, Distributed or TargetAxonVolumeFraction");
-  if (options.model == GRatioModel::Constant)
-  {
-    requireWithin("GRatio", options.gRatio, limits::gRatio);
-  }
+  validateProperties(options);
   if (options.model == GRatioModel::Distributed)
   {
     distributedGRatio(options.gRatio, options.gRatioDeviation, 0, 1);
   }
-  if (options.model == GRatioModel::TargetAxonVolumeFraction)
+  if (options.model == GRatioModel::TargetAxonVolumeFraction && options.targetAxonVolumeFraction == 0.0)
   {
-    requireWithin("TargetAxonVolumeFraction", options.targetAxonVolumeFraction, limits::targetAxonFraction,
-      " where GRatioModel is TargetAxonVolumeFraction");
+    throw InvalidInput(text("TargetAxonVolumeFraction is 0: give ", limits::fraction.lowest, " to ", limits::fraction.highest,
+      " where GRatioModel is TargetAxonVolumeFraction"));
   }
-  requireWithin("SmoothingIterations", options.smoothingIterations, limits::smoothingIterations,
-    "; more would blur fibres of few voxels away");
-  requireWithin("DecimationError", options.decimationError, limits::surfaceTolerance);
 }
 
 } // namespace cactus

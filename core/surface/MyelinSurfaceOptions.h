@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Domain.h"
+#include "base/Properties.h"
 #include "surface/GRatio.h"
 
 #include <cstdint>
@@ -32,6 +33,8 @@ struct MyelinSurfaceOptions
   /// Cut fibres off at the faces of the domain, else where the image ends.
   bool clipToDomain = true;
   std::uint64_t seed = 1;
+
+  static const PropertyList<MyelinSurfaceOptions>& properties();
 };
 
 /// Throws InvalidInput, naming the parameter, for a value out of range.

@@ -111,7 +111,7 @@ class BundleInitializerTest(CactusTestCase):
             (r"MeanDispersion is 46", {"MeanDispersion": 46}),
             (r"NumberOfBundles is 3", {"NumberOfBundles": 3}),
             (r"CrossingAngle is 91", {"NumberOfBundles": 2, "CrossingAngle": 91}),
-            (r"SheetThickness is -1", {"SheetThickness": -1}),
+            (r"SheetThickness is -1", {"NumberOfBundles": 2, "CrossingStyle": "Sheets", "SheetThickness": -1}),
             (r"SheetThickness gives", {"NumberOfBundles": 2, "CrossingStyle": "Sheets", "SheetThickness": 1}),
             (r"Margin is -1", {"Margin": -1}),
             (r"SpacingFactor is 0", {"SpacingFactor": 0}),

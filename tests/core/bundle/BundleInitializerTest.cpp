@@ -291,12 +291,24 @@ TEST(BundleInitializer, BadParametersAreNamed)
     const std::string message = errorOf(change);
     EXPECT_NE(message.find(property), std::string::npos) << message;
   };
+  const auto sheets = [&](const char* property, const std::function<void(BundleInitializerOptions&)>& change)
+  {
+    names(property,
+      [&](auto& o)
+      {
+        o.numberOfBundles = 2;
+        o.crossingStyle = CrossingStyle::Sheets;
+        change(o);
+      });
+    // Of one bundle they are not asked for.
+    EXPECT_EQ(errorOf(change).find(property), std::string::npos);
+  };
   for (const double bad : { 0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY) })
   {
     names("Side", [&](auto& o) { o.side = bad; });
     names("FibreVolumeFraction", [&](auto& o) { o.fibreVolumeFraction = bad; });
     names("GammaScale", [&](auto& o) { o.radius.gammaScale = bad; });
-    names("CrossingAngle", [&](auto& o) { o.crossingAngle = bad; });
+    sheets("CrossingAngle", [&](auto& o) { o.crossingAngle = bad; });
     names("SpacingFactor", [&](auto& o) { o.spacingFactor = bad; });
     names("MinimumSpacing", [&](auto& o) { o.minimumSpacing = bad; });
     names("MaximumSpacing", [&](auto& o) { o.maximumSpacing = bad; });
@@ -306,14 +318,14 @@ TEST(BundleInitializer, BadParametersAreNamed)
   names("MeanDispersion", [](auto& o) { o.meanDispersion = 46.0; });
   names("NumberOfBundles", [](auto& o) { o.numberOfBundles = 3; });
   names("NumberOfBundles", [](auto& o) { o.numberOfBundles = 0; });
-  names("CrossingAngle", [](auto& o) { o.crossingAngle = 91.0; });
+  sheets("CrossingAngle", [](auto& o) { o.crossingAngle = 91.0; });
   names("Margin", [](auto& o) { o.margin = -1.0; });
-  names("SheetThickness", [](auto& o) { o.sheetThickness = -1.0; });
+  sheets("SheetThickness", [](auto& o) { o.sheetThickness = -1.0; });
   names("DispersionModel", [](auto& o) { o.dispersionModel = static_cast<DispersionModel>(3); });
   names("CorrelationLength", [](auto& o) { o.correlationLength = -1.0; });
   names("CorrelationLength", [](auto& o) { o.correlationLength = 0.01; });
   names("RadiusDistribution", [](auto& o) { o.radius.model = static_cast<RadiusModel>(3); });
-  names("CrossingStyle", [](auto& o) { o.crossingStyle = static_cast<CrossingStyle>(2); });
+  sheets("CrossingStyle", [](auto& o) { o.crossingStyle = static_cast<CrossingStyle>(2); });
   for (const double large : { 1e7, 1e300 })
   {
     names("Side is", [&](auto& o) { o.side = large; });
@@ -323,7 +335,7 @@ TEST(BundleInitializer, BadParametersAreNamed)
     names("GammaShape is", [&](auto& o) { o.radius.gammaShape = large; });
     names("GammaScale is", [&](auto& o) { o.radius.gammaScale = large; });
     names("CorrelationLength is", [&](auto& o) { o.correlationLength = large; });
-    names("SheetThickness is", [&](auto& o) { o.sheetThickness = large; });
+    sheets("SheetThickness is", [&](auto& o) { o.sheetThickness = large; });
     names("SpacingFactor is", [&](auto& o) { o.spacingFactor = large; });
     names("MaximumSpacing is", [&](auto& o) { o.maximumSpacing = large; });
   }
@@ -335,8 +347,8 @@ TEST(BundleInitializer, BadParametersAreNamed)
     names("GammaScale is", [&](auto& o) { o.radius.gammaScale = small; });
     names("MeanDispersion is", [&](auto& o) { o.meanDispersion = small; });
     names("CorrelationLength is", [&](auto& o) { o.correlationLength = small; });
-    names("CrossingAngle is", [&](auto& o) { o.crossingAngle = small; });
-    names("SheetThickness is", [&](auto& o) { o.sheetThickness = small; });
+    sheets("CrossingAngle is", [&](auto& o) { o.crossingAngle = small; });
+    sheets("SheetThickness is", [&](auto& o) { o.sheetThickness = small; });
     names("MinimumSpacing is", [&](auto& o) { o.minimumSpacing = small; });
   }
   names("MinimumRadius 0.001 µm makes capsules",

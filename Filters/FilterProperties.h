@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The properties of a VTK class, kept in the struct of the stage that describes them (core/stages/Stages.h): their defaults,
+// ranges and meanings stand there.
+#pragma once
+
+#include <vtkIndent.h>
+#include <vtkWrappingHints.h>
+
+#include <memory>
+#include <ostream>
+
+namespace cactus
+{
+
+/// The properties of some stage by name. What is set is checked when the filter runs. A name that the stage does not have, or has
+/// as a property of another type, throws std::logic_error.
+class FilterProperties
+{
+public:
+  FilterProperties() = default;
+  virtual ~FilterProperties() = default;
+  FilterProperties(const FilterProperties&) = delete;
+  FilterProperties& operator=(const FilterProperties&) = delete;
+
+  /// Each sets a value, and tells whether it was another one before. A null text is taken as an empty one.
+  virtual bool changeNumber(const char* name, double value) = 0;
+  virtual bool changeWhole(const char* name, int value) = 0; ///< and a choice
+  virtual bool changeSwitch(const char* name, bool value) = 0;
+  virtual bool changeText(const char* name, const char* value) = 0;
+  virtual double number(const char* name) const = 0;
+  virtual int whole(const char* name) const = 0;
+  virtual bool isOn(const char* name) const = 0;
+  /// Null for an empty one, as VTK has it; valid until the next call for the same name.
+  virtual const char* text(const char* name) const = 0;
+  /// All of them, a line each.
+  virtual void print(std::ostream& out, vtkIndent indent) const = 0;
+};
+
+} // namespace cactus
+
+// Set and Get methods of a class with a member `std::unique_ptr<cactus::FilterProperties> Properties`.
+#define CACTUS_NUMBER_PROPERTY(name)                                                                                             \
+  virtual void Set##name(double value)                                                                                           \
+  {                                                                                                                              \
+    if (this->Properties->changeNumber(#name, value))                                                                            \
+    {                                                                                                                            \
+      this->Modified();                                                                                                          \
+    }                                                                                                                            \
+  }                                                                                                                              \
+  virtual double Get##name()                                                                                                     \
+  {                                                                                                                              \
+    return this->Properties->number(#name);                                                                                      \
+  }
+
+#define CACTUS_WHOLE_PROPERTY(name)                                                                                              \
+  virtual void Set##name(int value)                                                                                              \
+  {                                                                                                                              \
+    if (this->Properties->changeWhole(#name, value))                                                                             \
+    {                                                                                                                            \
+      this->Modified();                                                                                                          \
+    }                                                                                                                            \
+  }                                                                                                                              \
+  virtual int Get##name()                                                                                                        \
+  {                                                                                                                              \
+    return this->Properties->whole(#name);                                                                                       \
+  }
+
+#define CACTUS_SWITCH_PROPERTY(name)                                                                                             \
+  virtual void Set##name(bool value)                                                                                             \
+  {                                                                                                                              \
+    if (this->Properties->changeSwitch(#name, value))                                                                            \
+    {                                                                                                                            \
+      this->Modified();                                                                                                          \
+    }                                                                                                                            \
+  }                                                                                                                              \
+  virtual bool Get##name()                                                                                                       \
+  {                                                                                                                              \
+    return this->Properties->isOn(#name);                                                                                        \
+  }                                                                                                                              \
+  virtual void name##On()                                                                                                        \
+  {                                                                                                                              \
+    this->Set##name(true);                                                                                                       \
+  }                                                                                                                              \
+  virtual void name##Off()                                                                                                       \
+  {                                                                                                                              \
+    this->Set##name(false);                                                                                                      \
+  }
+
+#define CACTUS_TEXT_PROPERTY(name)                                                                                               \
+  virtual void Set##name(const char* value)                                                                                      \
+  {                                                                                                                              \
+    if (this->Properties->changeText(#name, value))                                                                              \
+    {                                                                                                                            \
+      this->Modified();                                                                                                          \
+    }                                                                                                                            \
+  }                                                                                                                              \
+  virtual const char* Get##name()                                                                                                \
+  {                                                                                                                              \
+    return this->Properties->text(#name);                                                                                        \
+  }
+
+#define CACTUS_FILE_PROPERTY(name)                                                                                               \
+  virtual void Set##name(VTK_FILEPATH const char* value)                                                                         \
+  {                                                                                                                              \
+    if (this->Properties->changeText(#name, value))                                                                              \
+    {                                                                                                                            \
+      this->Modified();                                                                                                          \
+    }                                                                                                                            \
+  }                                                                                                                              \
+  virtual VTK_FILEPATH const char* Get##name()                                                                                   \
+  {                                                                                                                              \
+    return this->Properties->text(#name);                                                                                        \
+  }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Properties.h"
+
+#include <cstdint>
+
+namespace cactus
+{
+
+/// Parameters of fibre radial growth; lengths in µm.
+struct FibreRadialGrowthOptions
+{
+  /// Edge of a voxel. Where it does not divide the domain's sides, the nearest spacing that does is used.
+  double voxelSize = 0.1;
+  /// Fraction of the domain that the grown fibres fill, in [0, 1), see GrowthTarget.h; 0: grow by `growthIterations` voxels.
+  double targetFibreVolumeFraction = 0.0;
+  /// Growth in voxels where no target is given.
+  int growthIterations = 4;
+  /// Least distance between the surfaces of two fibres.
+  double minimumGap = 0.02;
+  /// Room left beside the gap on either side of it for later steps that move a surface (smoothing, decimation).
+  double surfaceTolerance = 0.0075;
+  /// How far, as a fraction of its local radius, a fibre may fall short of its capsules before it grows, in [0, 0.5].
+  double surfaceRoughness = 0.1;
+  /// Width by which the image extends beyond the domain on every side, rounded up to whole voxels.
+  double margin = 0.0;
+  std::uint64_t seed = 1;
+
+  static const PropertyList<FibreRadialGrowthOptions>& properties();
+  /// What growth really keeps between two fibres: minimumGap + 2 surfaceTolerance.
+  double gap() const { return minimumGap + 2.0 * surfaceTolerance; }
+};
+
+/// Throws InvalidInput, naming the parameter, for a value out of range.
+void validate(const FibreRadialGrowthOptions& options);
+
+} // namespace cactus

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/Stages.h"
+
+#include "base/Limits.h"
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0: all";
+
+template <typename Stage>
+StageDescription description(const char* name)
+{
+  // States refer to the facts of the list, which stays.
+  StageDescription stage = { name, {} };
+  for (const PropertyState& state : Stage::properties().states(Stage()))
+  {
+    if (state.facts->use != PropertyUse::Code)
+    {
+      stage.properties.push_back(state);
+    }
+  }
+  return stage;
+}
+
+} // namespace
+
+const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
+{
+  using Stage = BundleInitializerStage;
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::options, BundleInitializerOptions::properties())
+                             .add("RadiusTable", &Stage::radiusTable,
+                               "Radii in µm to draw from, each as likely as the others, separated by blanks or commas")
+                             .where("RadiusDistribution", { 2 })
+                             .add("RadiusTableFile", &Stage::radiusTableFile, "Text file of such radii, instead of RadiusTable")
+                             .where("RadiusDistribution", { 2 });
+  return list;
+}
+
+const PropertyList<CapsuleOptimizerStage>& CapsuleOptimizerStage::properties()
+{
+  using Stage = CapsuleOptimizerStage;
+  static const auto list =
+    PropertyList<Stage>()
+      .include(&Stage::options, CapsuleOptimizerOptions::properties())
+      .add("TrimToDomain", &Stage::trimToDomain, "Cut away what lies outside the domain, but for what growth could bring back in")
+      .add("KeepHistory", &Stage::keepHistory, "Keep states of the run and offer them as time steps")
+      .use(PropertyUse::Run)
+      .add(
+        "HistoryInterval", &Stage::historyInterval, limits::historyInterval, "Iterations from one state that is kept to the next")
+      .use(PropertyUse::Run)
+      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+      .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<FibreRadialGrowthStage>& FibreRadialGrowthStage::properties()
+{
+  using Stage = FibreRadialGrowthStage;
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::options, FibreRadialGrowthOptions::properties())
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
+{
+  using Stage = MyelinSurfaceStage;
+  static const auto list =
+    PropertyList<Stage>()
+      .include(&Stage::options, MyelinSurfaceOptions::properties())
+      .at("SmoothingIterations")
+      .where("Meshing", { 0 })
+      .at("DecimationError")
+      .where("Meshing", { 0 })
+      .add("Meshing", &Stage::meshing, { "CACTUS", "VTK filters" },
+        "What makes the surfaces: contouring, coarsening and spacing with guarantees, or filters of VTK, which promise nothing")
+      .include(&Stage::vtkMeshing, VtkMeshingOptions::properties())
+      .at("SincIterations")
+      .where("Meshing", { 1 })
+      .at("SincPassBand")
+      .where("Meshing", { 1 })
+      .at("TargetReduction")
+      .where("Meshing", { 1 })
+      .add("ReleaseInput", &Stage::releaseInput, "Give the label image's memory back as soon as the surfaces are made")
+      .use(PropertyUse::Run)
+      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+      .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<FibreFieldStage>& FibreFieldStage::properties()
+{
+  using Stage = FibreFieldStage;
+  static const auto list =
+    PropertyList<Stage>()
+      .add("Select", &Stage::select, { "One fibre", "One bundle", "All fibres" }, "Whose fields to give")
+      .add("FibreId", &Stage::fibreId, limits::id, "The fibre")
+      .where("Select", { 0 })
+      .add("BundleId", &Stage::bundleId, limits::id, "The bundle")
+      .where("Select", { 1 })
+      .add("Level", &Stage::level, limits::level, "Depth at which the field will be contoured, for which its caps are made")
+      .add("ClipToDomain", &Stage::clipToDomain, "Cut fibres off at the faces of the domain; else where the image ends")
+      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+      .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<SubstrateStatisticsStage>& SubstrateStatisticsStage::properties()
+{
+  using Stage = SubstrateStatisticsStage;
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::options, SubstrateStatisticsOptions::properties())
+                             .add("NumberOfBins", &Stage::bins, limits::bins, "Number of bins of each histogram")
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<SubstrateCertificateStage>& SubstrateCertificateStage::properties()
+{
+  using Stage = SubstrateCertificateStage;
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::options, SubstrateCertificateOptions::properties())
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
+{
+  using Stage = SubstrateWriterStage;
+  static const auto list =
+    PropertyList<Stage>()
+      .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
+      .use(PropertyUse::Run)
+      .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
+        "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
+      .add("MinimumGap", &Stage::minimumGap, limits::gap,
+        "Distance that the certificate asks of the outer surfaces of any two fibres; 0 asks only that they do not meet")
+      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+      .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<StrandReaderStage>& StrandReaderStage::properties()
+{
+  using Stage = StrandReaderStage;
+  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName, "The strand file to read");
+  return list;
+}
+
+const PropertyList<StrandWriterStage>& StrandWriterStage::properties()
+{
+  using Stage = StrandWriterStage;
+  static const auto list =
+    PropertyList<Stage>().add("FileName", &Stage::fileName, "The strand file to write").use(PropertyUse::Run);
+  return list;
+}
+
+std::vector<StageDescription> describeStages()
+{
+  return { description<BundleInitializerStage>("BundleInitializer"), description<StrandReaderStage>("StrandReader"),
+    description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
+    description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
+    description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
+    description<SubstrateWriterStage>("SubstrateWriter"), description<StrandWriterStage>("StrandWriter") };
+}
+
+} // namespace cactus

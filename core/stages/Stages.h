@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stages of the chain as their users see them: the options of the method, and what a filter asks for besides.
+#pragma once
+
+#include "base/Properties.h"
+#include "bundle/BundleInitializerOptions.h"
+#include "growth/FibreRadialGrowthOptions.h"
+#include "judge/SubstrateCertificate.h"
+#include "judge/SubstrateStatistics.h"
+#include "optimiser/CapsuleOptimizerOptions.h"
+#include "stages/VtkMeshingOptions.h"
+#include "surface/MyelinSurfaceOptions.h"
+
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+struct BundleInitializerStage
+{
+  BundleInitializerOptions options;
+  std::string radiusTable;     ///< radii (µm) as text, see parseRadiusTable(); they become those of `options`
+  std::string radiusTableFile; ///< the same as a file
+
+  static const PropertyList<BundleInitializerStage>& properties();
+};
+
+struct CapsuleOptimizerStage
+{
+  CapsuleOptimizerOptions options;
+  bool trimToDomain = true;
+  int threads = 0;
+  bool keepHistory = false;
+  int historyInterval = 10;
+
+  static const PropertyList<CapsuleOptimizerStage>& properties();
+};
+
+struct FibreRadialGrowthStage
+{
+  FibreRadialGrowthOptions options;
+  int threads = 0;
+
+  static const PropertyList<FibreRadialGrowthStage>& properties();
+};
+
+/// What makes surfaces.
+enum class Meshing
+{
+  Cactus = 0, ///< core's own contouring, coarsening and spacing, with its guarantees
+  Vtk = 1     ///< VTK's filters, which promise nothing
+};
+
+struct MyelinSurfaceStage
+{
+  MyelinSurfaceOptions options;
+  Meshing meshing = Meshing::Cactus;
+  VtkMeshingOptions vtkMeshing;
+  bool releaseInput = false;
+  int threads = 0;
+
+  static const PropertyList<MyelinSurfaceStage>& properties();
+};
+
+/// Whose fields FibreField gives.
+enum class FibreSelection
+{
+  OneFibre = 0,
+  OneBundle = 1,
+  AllFibres = 2
+};
+
+struct FibreFieldStage
+{
+  FibreSelection select = FibreSelection::OneFibre;
+  int fibreId = 1;
+  int bundleId = 1;
+  double level = 0.0; ///< µm
+  bool clipToDomain = true;
+  int threads = 0;
+
+  static const PropertyList<FibreFieldStage>& properties();
+};
+
+struct SubstrateStatisticsStage
+{
+  SubstrateStatisticsOptions options;
+  int bins = 25;
+  int threads = 0;
+
+  static const PropertyList<SubstrateStatisticsStage>& properties();
+};
+
+struct SubstrateCertificateStage
+{
+  SubstrateCertificateOptions options;
+  int threads = 0;
+
+  static const PropertyList<SubstrateCertificateStage>& properties();
+};
+
+struct SubstrateWriterStage
+{
+  std::string folderName;
+  bool allowOpenSurfaces = false;
+  double minimumGap = SubstrateCertificateOptions().minimumGap; ///< µm
+  int threads = 0;
+
+  static const PropertyList<SubstrateWriterStage>& properties();
+};
+
+struct StrandReaderStage
+{
+  std::string fileName;
+
+  static const PropertyList<StrandReaderStage>& properties();
+};
+
+struct StrandWriterStage
+{
+  std::string fileName;
+
+  static const PropertyList<StrandWriterStage>& properties();
+};
+
+/// A stage with its properties at their defaults, those of PropertyUse::Code left out.
+struct StageDescription
+{
+  std::string name;
+  std::vector<PropertyState> properties;
+};
+
+/// All stages, in the order of the chain.
+std::vector<StageDescription> describeStages();
+
+} // namespace cactus

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""properties.py TABLE XML DOCS: fails where the server-manager XML says other than the stages' descriptions, as the program TABLE
+prints them, of a property's name, type, default, range, choices or of what it depends on, or where DOCS is not what TABLE makes."""
+
+import glob
+import json
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+KINDS = {"DoubleVectorProperty": float, "IntVectorProperty": int, "StringVectorProperty": str}
+
+
+def xml_stages(folder):
+    """{stage: {property's name: XML element}} of what users set."""
+    stages = {}
+    for path in glob.glob(os.path.join(folder, "*.xml")):
+        for proxy in ElementTree.parse(path).getroot().findall("ProxyGroup/*"):
+            stages[proxy.get("name")] = {
+                one.get("name"): one for one in proxy if one.tag in KINDS and one.get("information_only") != "1"
+            }
+    return stages
+
+
+def default(one):
+    kind = KINDS[one.tag]
+    return kind(one.get("default_values", "" if kind is str else "none"))
+
+
+def limits(one):
+    """Those of the domain `limits`, else of the only one."""
+    domains = [domain for domain in one if domain.tag in ("DoubleRangeDomain", "IntRangeDomain")]
+    widest = [domain for domain in domains if domain.get("name") == "limits"] or domains
+    for domain in domains:
+        assert domain.get("min") == widest[0].get("min"), "its domains have different minima"
+    return [float(widest[0].get(end, "nan")) for end in ("min", "max")] if widest else None
+
+
+def switches(one):
+    """{property: value} of those on whose values the panel shows it."""
+    return {deep.get("property"): float(deep.get("value")) for deep in one.findall(".//PropertyWidgetDecorator[@property]")}
+
+
+def differences(facts, one):
+    """What the XML element says otherwise."""
+    kind = KINDS[one.tag]
+    if isinstance(facts["default"], str) != (kind is str) or isinstance(facts["default"], float) != (kind is float):
+        yield f"is a {one.tag}"
+    elif default(one) != facts["default"]:
+        yield f"has the default {default(one)} instead of {facts['default']}"
+    entries = [entry.get("text") for entry in one.findall("EnumerationDomain/Entry")]
+    numbers = [int(entry.get("value")) for entry in one.findall("EnumerationDomain/Entry")]
+    if entries != facts["choices"] or numbers != list(range(len(entries))):
+        yield f"has the choices {entries}"
+    if (one.find("BooleanDomain") is not None) != isinstance(facts["default"], bool):
+        yield "is a switch in one place only"
+    wanted = [facts["lowest"], facts["highest"]] if "lowest" in facts else None
+    if limits(one) != wanted:
+        yield f"has the range {limits(one)} instead of {wanted}"
+    for name, value in switches(one).items():
+        if value not in facts["conditions"].get(name, ()):
+            yield f"is shown where {name} is {value:g}, and has an effect where {facts['conditions']}"
+
+
+def main():
+    table, folder, docs = sys.argv[1:]
+    described = json.loads(subprocess.run([table, "--json"], check=True, capture_output=True, text=True).stdout)
+    shown = xml_stages(folder)
+    faults = []
+    if set(described) != set(shown):
+        faults.append(f"the XML has the stages {sorted(shown)}, described are {sorted(described)}")
+    for stage in sorted(set(described) & set(shown)):
+        facts = {one["name"]: one for one in described[stage]}
+        for name in sorted(set(facts) ^ set(shown[stage])):
+            faults.append(f"{stage}.{name} is {'not in the XML' if name in facts else 'not described'}")
+        for name in sorted(set(facts) & set(shown[stage])):
+            faults += [f"{stage}.{name} {fault}" for fault in differences(facts[name], shown[stage][name])]
+    made = subprocess.run([table], check=True, capture_output=True, text=True).stdout
+    with open(docs, encoding="utf-8") as file:
+        if file.read() != made:
+            faults.append(f"{docs} is not what is described: {table} > {docs}")
+    print("\n".join(faults) or f"{sum(map(len, described.values()))} properties of {len(described)} stages")
+    sys.exit(bool(faults) or not described)
+
+
+main()

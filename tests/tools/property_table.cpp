@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prints what the stages' descriptions say of their properties: docs/properties.md or, with --json, the same for programs.
+#include "base/Numbers.h"
+#include "stages/Stages.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <iostream>
+#include <string>
+
+namespace
+{
+
+using cactus::PropertyFacts;
+using cactus::PropertyState;
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const PropertyState& state)
+{
+  const PropertyFacts& facts = *state.facts;
+  Json json = { { "name", facts.name }, { "meaning", facts.meaning }, { "run", facts.use == cactus::PropertyUse::Run } };
+  std::visit([&](const auto& value) { json["default"] = value; }, state.value);
+  if (facts.range)
+  {
+    json["lowest"] = facts.range->orZero ? 0.0 : facts.range->lowest;
+    json["highest"] = facts.range->highest;
+  }
+  json["choices"] = facts.choices;
+  json["conditions"] = Json::object();
+  for (const cactus::PropertyCondition& condition : facts.conditions)
+  {
+    json["conditions"][condition.property] = condition.values;
+  }
+  return json;
+}
+
+void printJson()
+{
+  Json all = Json::object();
+  for (const cactus::StageDescription& stage : cactus::describeStages())
+  {
+    for (const PropertyState& state : stage.properties)
+    {
+      all[stage.name].push_back(jsonOf(state));
+    }
+  }
+  std::cout << all.dump(1) << '\n';
+}
+
+/// A number as it is read best: a hundred thousand is no 1e+05.
+std::string shortText(double value)
+{
+  return value == static_cast<double>(static_cast<long long>(value)) ? std::to_string(static_cast<long long>(value))
+                                                                     : cactus::exactText(value);
+}
+
+std::string allowed(const PropertyState& state)
+{
+  const PropertyFacts& facts = *state.facts;
+  std::string text;
+  for (const std::string& choice : facts.choices)
+  {
+    text += (text.empty() ? "" : ", ") + choice;
+  }
+  if (facts.range)
+  {
+    text = (facts.range->orZero ? "0 or " : "") + shortText(facts.range->lowest) + " to " + shortText(facts.range->highest) +
+           facts.range->unit;
+  }
+  return text.empty() ? (std::holds_alternative<bool>(state.value) ? "on, off" : "text") : text;
+}
+
+std::string conditionText(const cactus::PropertyCondition& condition, const cactus::StageDescription& stage)
+{
+  std::string text;
+  for (const PropertyState& other : stage.properties)
+  {
+    for (const double value : condition.values)
+    {
+      if (other.facts->name == condition.property)
+      {
+        const bool isNumber = std::holds_alternative<double>(other.value);
+        const cactus::PropertyValue shown =
+          isNumber ? cactus::PropertyValue(value) : cactus::PropertyValue(static_cast<std::int64_t>(value));
+        text += (text.empty() ? "" : " or ") + cactus::valueText(*other.facts, shown);
+      }
+    }
+  }
+  return condition.property + " is " + text;
+}
+
+void printTables()
+{
+  std::cout
+    << "# Properties\n\n"
+       "What every stage can be told, made from the descriptions in `core/` by `build/release/bin/cactus_property_table`.\n"
+       "A value out of its range gives one error that names the property; where another property takes away its effect, it\n"
+       "is not looked at.\n";
+  for (const cactus::StageDescription& stage : cactus::describeStages())
+  {
+    std::cout << "\n## " << stage.name << "\n\n| property | default | allowed | meaning |\n|---|---|---|---|\n";
+    for (const PropertyState& state : stage.properties)
+    {
+      std::string where;
+      for (const cactus::PropertyCondition& condition : state.facts->conditions)
+      {
+        where += (where.empty() ? " *Where " : " and ") + conditionText(condition, stage);
+      }
+      std::cout << "| " << state.facts->name << " | " << cactus::valueText(*state.facts, state.value) << " | " << allowed(state)
+                << " | " << state.facts->meaning << "." << where << (where.empty() ? "" : ".*") << " |\n";
+    }
+  }
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+  if (count == 2 && std::strcmp(arguments[1], "--json") == 0)
+  {
+    printJson();
+    return 0;
+  }
+  printTables();
+  return 0;
+}
