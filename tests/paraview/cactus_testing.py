@@ -20,6 +20,7 @@ import xml.etree.ElementTree as ElementTree
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import VTK_STRING, vtkLogger, vtkOutputWindow
 
+_ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 _REPORT = re.compile(r"(ERROR|Warning|Generic Warning): In ")
 # The pipeline's own remark after a filter has reported what is wrong.
 _FOLLOW_UP = re.compile(r"returned failure for request|Failed to execute|Could not create writer")
@@ -95,7 +96,7 @@ def produce(data):
 
 def proxies():
     """(group, XML element) of each proxy that the plugin describes."""
-    for path in sorted(glob.glob(os.path.join(os.environ["CACTUS_XML_DIR"], "*.xml"))):
+    for path in sorted(glob.glob(os.path.join(_ROOT, "xml", "*.xml"))):
         for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
             yield from ((group.get("name"), element) for element in group if element.tag.endswith("Proxy"))
 
@@ -110,20 +111,22 @@ def make(element, data):
     return getattr(simple, element.get("name"))(**inputs)
 
 
-def judged(variable, what, *arguments):
-    """The JSON that one of the programs in tests/tools prints."""
-    done = subprocess.run([os.environ[variable], *arguments], capture_output=True, text=True)
+def judged(program, *arguments):
+    """The JSON that one of the programs in tests/tools prints. CTest says in CACTUS_TOOLS where they are; by hand, they are where
+    ./cactus test has built them."""
+    path = os.path.join(os.environ.get("CACTUS_TOOLS") or os.path.join(_ROOT, "build", "release", "bin"), program)
+    done = subprocess.run([path, *arguments], capture_output=True, text=True)
     if done.returncode != 0:
-        raise AssertionError(f"the {what} failed on {arguments[-1]}: {done.stderr}")
+        raise AssertionError(f"{program} failed on {arguments[-1]}: {done.stderr}")
     return json.loads(done.stdout)
 
 
 def mesh_oracle(folder, *arguments):
     """What the independent checker finds in a folder of PLY or OFF files; see tests/tools/mesh_oracle.cpp."""
-    return judged("CACTUS_MESH_ORACLE", "mesh oracle", *arguments, folder)
+    return judged("cactus_mesh_oracle", *arguments, folder)
 
 
 def random_walk(folder, **options):
     """What becomes of walkers in a substrate folder; see tests/tools/random_walk.cpp."""
     arguments = [word for name, value in options.items() for word in (f"--{name}", repr(value))]
-    return judged("CACTUS_RANDOM_WALK", "random walk", *arguments, folder)
+    return judged("cactus_random_walk", *arguments, folder)
