@@ -264,7 +264,7 @@ bool hasDomain(vtkDataObject* data)
 
 Domain domainFrom(vtkDataObject* data)
 {
-  const Domain domain = readDomain(fieldArray(data, "Domain"));
+  Domain domain = readDomain(fieldArray(data, "Domain"));
   for (vtkDataObject* leaf : leavesOf(data))
   {
     vtkAbstractArray* array = leaf->GetFieldData() != nullptr ? leaf->GetFieldData()->GetAbstractArray("Domain") : nullptr;

@@ -43,6 +43,7 @@ namespace
 std::vector<vtkDataObject*> dataOf(vtkInformationVector* inputs)
 {
   std::vector<vtkDataObject*> data;
+  data.reserve(static_cast<std::size_t>(inputs->GetNumberOfInformationObjects()));
   for (int connection = 0; connection < inputs->GetNumberOfInformationObjects(); ++connection)
   {
     data.push_back(vtkDataObject::GetData(inputs, connection));

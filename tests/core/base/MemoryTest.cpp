@@ -15,6 +15,21 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define CACTUS_LEAKS_ARE_REPORTED
+#endif
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define CACTUS_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define CACTUS_SANITIZED
+#endif
+#ifdef CACTUS_LEAKS_ARE_REPORTED
+#include <sanitizer/lsan_interface.h>
+#endif
+
 namespace
 {
 
@@ -102,15 +117,6 @@ TEST(Memory, IsSharedByProcesses)
 namespace
 {
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define CACTUS_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define CACTUS_SANITIZED
-#endif
-
 /// Limits the address space of this process.
 void limitAddressSpace(rlim_t bytes)
 {
@@ -186,6 +192,10 @@ TEST_F(LimitedProcess, DoesWithoutThreadsThatCannotBeStarted)
 // Guarantee 5, and 4: a result never depends on the number of threads, so fewer are taken than asked for where they cannot be.
 TEST(Threads, AreNeverMoreThanAreOfUse)
 {
+#ifdef CACTUS_LEAKS_ARE_REPORTED
+  // LLVM's OpenMP library loses 2,880 bytes when 16 threads follow on 2, with empty regions, too.
+  const __lsan::ScopedDisabler leaksOfOpenMp;
+#endif
   cactus::Context context;
   for (const int asked : { 1, 2, 16, 17, 1000, 2000000000 })
   {
