@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Memory.h"
+#include "Sanitized.h"
 #include "base/Context.h"
 #include "base/Error.h"
 
@@ -15,18 +16,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define CACTUS_LEAKS_ARE_REPORTED
-#endif
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define CACTUS_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define CACTUS_SANITIZED
-#endif
-#ifdef CACTUS_LEAKS_ARE_REPORTED
+#ifdef CACTUS_ADDRESS_SANITIZED
 #include <sanitizer/lsan_interface.h>
 #endif
 
@@ -192,7 +182,7 @@ TEST_F(LimitedProcess, DoesWithoutThreadsThatCannotBeStarted)
 // Guarantee 5, and 4: a result never depends on the number of threads, so fewer are taken than asked for where they cannot be.
 TEST(Threads, AreNeverMoreThanAreOfUse)
 {
-#ifdef CACTUS_LEAKS_ARE_REPORTED
+#ifdef CACTUS_ADDRESS_SANITIZED
   // LLVM's OpenMP library loses 2,880 bytes when 16 threads follow on 2, with empty regions, too.
   const __lsan::ScopedDisabler leaksOfOpenMp;
 #endif
