@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/CirclePacking.h"
 
+#include "base/Constants.h"
+#include "base/Parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,8 +15,6 @@ namespace cactus
 
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 Rectangle boundingRectangle(const std::vector<Rectangle>& frames)
 {
@@ -73,7 +74,7 @@ struct CellGrid
 /// The direction in which the circle of the lower index is pushed where two centres coincide.
 Eigen::Vector2d tieBreak(std::size_t i, std::size_t j)
 {
-  const double angle = 2.399963229728653 * static_cast<double>(std::min(i, j));
+  const double angle = goldenAngle * static_cast<double>(std::min(i, j));
   const double sign = i < j ? 1.0 : -1.0;
   return sign * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
@@ -178,13 +179,7 @@ struct Relaxer
   template <typename Body>
   void overBlocks(Body&& body)
   {
-    const auto count = static_cast<std::ptrdiff_t>(blocks);
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (std::ptrdiff_t b = 0; b < count; ++b)
-    {
-      const auto block = static_cast<std::size_t>(b);
-      body(block, block * blockSize, std::min(n, (block + 1) * blockSize));
-    }
+    parallelBlocks(n, blockSize, threads, body);
   }
 
   /// Forces at the current centres, and the sums FIRE needs: per block in parallel, then over the blocks in order.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/OverlapCost.h"
 
+#include "base/Parallel.h"
 #include "fibres/SegmentDistance.h"
 #include "optimiser/VectorKernels.h"
 
@@ -89,30 +90,29 @@ OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& nei
   const std::size_t count = capsules.size();
   result.resize(count);
   constexpr std::size_t blockSize = 1024;
-  const std::size_t blocks = (count + blockSize - 1) / blockSize;
-  std::vector<OverlapTotals> partial(blocks);
+  std::vector<OverlapTotals> partial((count + blockSize - 1) / blockSize);
   const VectorKernels& kernels = vectorKernels();
   const bool tapered =
     std::any_of(capsules.bodies.begin(), capsules.bodies.end(), [](const Capsule& body) { return body.r0 != body.r1; });
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 4)
-  for (std::size_t block = 0; block < blocks; ++block)
-  {
-    OverlapTotals& mine = partial[block];
-    const std::size_t end = std::min(count, (block + 1) * blockSize);
-    for (std::size_t k = block * blockSize; k < end; ++k)
+  parallelBlocks(count, blockSize, threads,
+    [&](std::size_t block, std::size_t begin, std::size_t end)
     {
-      kernels.evaluateCapsule(capsules.bodies.data(), neighbours.indices.data() + neighbours.offsets[k],
-        neighbours.offsets[k + 1] - neighbours.offsets[k], capsules.bodies[k], margin, tolerance, tapered, result[k]);
-      if (result[k].penetration > 1.0 - 2.0 * meeting)
+      OverlapTotals& mine = partial[block];
+      for (std::size_t k = begin; k < end; ++k)
       {
-        partCoincident(capsules, k, neighbours.indices.data() + neighbours.offsets[k],
-          neighbours.offsets[k + 1] - neighbours.offsets[k], margin, result[k]);
+        const std::uint32_t* others = neighbours.indices.data() + neighbours.offsets[k];
+        const std::size_t othersCount = neighbours.offsets[k + 1] - neighbours.offsets[k];
+        kernels.evaluateCapsule(
+          capsules.bodies.data(), others, othersCount, capsules.bodies[k], margin, tolerance, tapered, result[k]);
+        if (result[k].penetration > 1.0 - 2.0 * meeting)
+        {
+          partCoincident(capsules, k, others, othersCount, margin, result[k]);
+        }
+        mine.cost += result[k].cost;
+        mine.penetration = std::max(mine.penetration, result[k].penetration);
+        mine.overlappingPairs += result[k].overlapping;
       }
-      mine.cost += result[k].cost;
-      mine.penetration = std::max(mine.penetration, result[k].penetration);
-      mine.overlappingPairs += result[k].overlapping;
-    }
-  }
+    });
   OverlapTotals totals;
   for (const OverlapTotals& mine : partial)
   {

@@ -56,6 +56,9 @@ struct BoxQuery
 /// by number. Contraction is off and sums are taken in the same order in each, so all give the same bits.
 struct VectorKernels
 {
+  /// What is read or written in whole vectors is there for so many numbers beyond the last.
+  static constexpr std::size_t padding = 16;
+
   /// Half the cost and the whole gradient of capsule p against bodies[neighbours[0]] … bodies[neighbours[count − 1]], see
   /// evaluateOverlap. `tapered`: whether any radius varies along its capsule; the result is the same if it is true for nothing.
   void (*evaluateCapsule)(const Capsule* bodies, const std::uint32_t* neighbours, std::size_t count, const Capsule& p,

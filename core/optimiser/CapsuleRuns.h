@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Capsules.h"
+#include "optimiser/VectorKernels.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cactus
+{
+
+/// A bounding box in single precision. Four numbers make a vector: the fourth of each corner means nothing.
+struct RunBox
+{
+  Eigen::Array4f lower;
+  Eigen::Array4f upper;
+};
+
+/// Makes `box` hold `other`, too.
+void extend(RunBox& box, const RunBox& other);
+
+/// Short runs of consecutive capsules of one fibre, which have most of their neighbours in common, and the boxes that hold what
+/// is within reach of them.
+class CapsuleRuns
+{
+public:
+  /// Capsules in a run, at most.
+  static constexpr std::size_t longest = 6;
+
+  /// reach: of each capsule, beyond its radius (µm). Boxes of capsules within reach of each other overlap.
+  CapsuleRuns(const Capsules& capsules, const std::vector<float>& reach, int threads);
+
+  std::size_t size() const { return this->Boxes.size(); }
+  /// The first capsule of each run, and one past the last capsule of all.
+  const std::vector<std::uint32_t>& first() const { return this->First; }
+  const std::vector<RunBox>& boxes() const { return this->Boxes; }
+  /// The boxes of each run's capsules.
+  const BoxBlock* blocks() const { return this->Blocks.get(); }
+
+private:
+  std::vector<std::uint32_t> First;
+  std::vector<RunBox> Boxes;
+  std::unique_ptr<BoxBlock[]> Blocks;
+};
+
+} // namespace cactus
