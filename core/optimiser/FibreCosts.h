@@ -30,6 +30,14 @@ struct FibreCostTotals
   double compactness = 0.0;
 };
 
+/// Where the terms add their derivatives, indexed by control point.
+struct FibreGradients
+{
+  std::vector<Eigen::Vector3d>& byPoint;
+  std::vector<double>& byRadius;
+  std::vector<double>& stiffness; ///< a diagonal that bounds the curvature of the cost
+};
+
 /// The terms that involve one fibre alone (the paper names them; its supplement, which defines them, is not published with it):
 ///  - curvature, per triple of control points: 3 / (r1 + r2 + r3) · (1 − cos θ)², θ the angle between the two segments;
 ///  - length, per segment: k/2 · max(0, ℓ − L)², k = 20 / (1/r1 + 1/r2), L the segment's length before optimisation;
@@ -43,23 +51,32 @@ struct FibreCostTotals
 ///  - bends, per triple: ¼ (L1 L2)² · max(0, cos θ_max − cos θ)², θ_max the angle at which the radius of curvature is 1.2 fibre
 ///  radii (at most 90°);
 ///  - compression, per segment: ½ L² · max(0, ¾ L − ℓ)².
-/// Each adds weight × its exact gradient to `gradient` (per control point) and `radiusGradient`, and a diagonal that bounds
-/// its curvature to `stiffness`. All arrays are indexed by control point; only those of fibre `f` are touched.
+/// Each adds weight × its exact gradient, and what bounds its curvature, to the control points of one fibre; no others are
+/// touched.
 class FibreCosts
 {
 public:
   /// Takes reference lengths, target radii and cuboids from the fibres as they come in.
   FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit);
 
-  /// `relaxation` scales curvature, length and compactness, but not their limits.
-  FibreCostTotals add(const Fibres& fibres, std::size_t f, double relaxation, std::vector<Eigen::Vector3d>& gradient,
-    std::vector<double>& radiusGradient, std::vector<double>& stiffness) const;
+  /// Adds the derivatives of fibre f's costs, and returns the costs. `relaxation` scales curvature, length and compactness, but
+  /// not their limits.
+  FibreCostTotals add(const Fibres& fibres, std::size_t f, double relaxation, const FibreGradients& gradients) const;
 
   const BundleBox& boxOf(std::size_t fibre) const { return this->Boxes[fibre]; }
 
 private:
-  void addLimits(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, std::vector<Eigen::Vector3d>& gradient,
-    std::vector<double>& stiffness) const;
+  void addCurvature(
+    const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addBendLimit(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addCompressionLimit(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addLength(
+    const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addChord(
+    const Fibres& fibres, std::size_t f, double relaxation, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addRadius(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addConfinement(
+    const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
 
   FibreCostWeights Weights;
   std::vector<double> ReferenceLength; ///< of the segment that starts at a control point

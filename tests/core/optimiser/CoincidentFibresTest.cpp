@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fibres whose axes meet exactly, where the overlap cost is at its peak and has no gradient.
+#include "base/Constants.h"
 #include "fibres/Capsules.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "optimiser/NeighbourSearch.h"
@@ -113,7 +114,7 @@ Fibres rings()
     fibres.addFibre(f + 1, 1, 0.5);
     for (int i = 0; i <= 32; ++i)
     {
-      const double angle = (i % 32) * 3.14159265358979323846 / 16.0;
+      const double angle = (i % 32) * cactus::pi / 16.0;
       fibres.addPoint({ 3.0 * std::cos(angle), 3.0 * std::sin(angle), 0.3 * f }, 0.5);
     }
   }

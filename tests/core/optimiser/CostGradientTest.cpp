@@ -131,7 +131,7 @@ TEST(CostGradient, ShapeTerms)
       double total = 0.0;
       for (std::size_t f = 0; f < fibres.size(); ++f)
       {
-        const cactus::FibreCostTotals part = costs.add(fibres, f, relaxation, gradient.points, gradient.radii, stiffness);
+        const cactus::FibreCostTotals part = costs.add(fibres, f, relaxation, { gradient.points, gradient.radii, stiffness });
         total += part.curvature + part.length + part.radius + part.compactness;
       }
       return total;

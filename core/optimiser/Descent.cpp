@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "optimiser/Descent.h"
+
+#include "base/Limits.h"
+#include "base/Parallel.h"
+#include "optimiser/OverlapCost.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Largest step of a control point with momentum, as a multiple of its radius: fibres that push each other away at full speed
+/// land in others, and every neighbour list is worthless at once.
+constexpr double largestStep = 0.065;
+
+/// Fibres, and control points or capsules, that one thread works on before it takes the next.
+constexpr std::size_t fibresTogether = 16;
+constexpr std::size_t pointsTogether = 4096;
+
+/// Bounds of DescentState::leastAllowance.
+constexpr double smallestLeastAllowance = 0.02;
+constexpr double largestLeastAllowance = 0.6;
+
+class Stopwatch
+{
+public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count(); }
+
+private:
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+Descent::Descent(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads)
+  : State(fibres, options.radiusTolerance > 0.0)
+  , Options(options)
+  , Threads(threads)
+  , Costs(fibres, options.weights, options.packingLimit)
+  , Bodies(capsulesOf(fibres))
+  , ReferenceRadii(fibres.radii)
+  , Gradient(fibres.points.size())
+  , RadiusGradient(fibres.points.size())
+  , Stiffness(fibres.points.size())
+  , Upper(options.method == DescentMethod::Momentum ? fibres.points.size() : 0)
+{
+}
+
+ConvergenceRow Descent::evaluate()
+{
+  this->refreshNeighbours();
+  ConvergenceRow row;
+  const Stopwatch watch;
+  const OverlapTotals overlap = evaluateOverlap(this->Bodies, this->State.neighbours, this->Options.safetyMargin,
+    this->Options.overlapTolerance, this->Threads, this->Overlaps);
+  this->State.effort.evaluationSeconds += watch.seconds();
+  this->State.effort.pairEvaluations += static_cast<double>(this->State.neighbours.indices.size());
+  row.overlapCost = this->Options.overlapWeight * overlap.cost;
+  row.maximumPenetration = std::max(0.0, overlap.penetration);
+  row.overlappingPairs = overlap.overlappingPairs;
+  const Fibres& fibres = this->State.fibres;
+  std::vector<FibreCostTotals> perFibre(fibres.size());
+  const FibreGradients gradients{ this->Gradient, this->RadiusGradient, this->Stiffness };
+  parallelForInBlocks(fibres.size(), fibresTogether, this->Threads,
+    [&](std::size_t f)
+    {
+      this->gatherOverlap(f);
+      perFibre[f] = this->Costs.add(fibres, f, this->State.relaxation, gradients);
+    });
+  for (const FibreCostTotals& totals : perFibre)
+  {
+    row.curvatureCost += totals.curvature;
+    row.lengthCost += totals.length;
+    row.radiusCost += totals.radius;
+    row.compactnessCost += totals.compactness;
+  }
+  return row;
+}
+
+void Descent::step()
+{
+  const bool momentum = this->Options.method == DescentMethod::Momentum;
+  std::vector<char> exceeded(this->State.fibres.size());
+  parallelForInBlocks(exceeded.size(), fibresTogether, this->Threads,
+    [&](std::size_t f)
+    {
+      exceeded[f] = momentum ? this->stepMomentum(f) : this->stepAdagrad(f);
+      this->copyToCapsules(f);
+    });
+  ++this->State.stepsSinceSearch;
+  this->State.exceeded = std::find(exceeded.begin(), exceeded.end(), true) != exceeded.end();
+  if (momentum)
+  {
+    this->State.relaxation = std::max(1e-8, this->State.relaxation * this->Options.relaxation);
+  }
+}
+
+/// The lists reach a little further than contact and hold until something could have come further than foreseen.
+void Descent::refreshNeighbours()
+{
+  DescentState& state = this->State;
+  if (!state.searchDue())
+  {
+    return;
+  }
+  this->setAllowances();
+  const double margin = this->Options.safetyMargin - 1.0;
+  std::vector<float> reach(this->Bodies.size());
+  parallelForInBlocks(reach.size(), pointsTogether, this->Threads,
+    [&](std::size_t k)
+    {
+      const std::size_t i = this->Bodies.first[k];
+      const double radius = std::max(state.fibres.radii[i], state.fibres.radii[i + 1]);
+      reach[k] = std::max(state.allowance[i], state.allowance[i + 1]) + static_cast<float>(margin * radius * 1.0001);
+    });
+  const Stopwatch watch;
+  findNeighbours(this->Bodies, reach, this->Threads, state.neighbours);
+  state.effort.searchSeconds += watch.seconds();
+  ++state.effort.neighbourSearches;
+  state.exceeded = false;
+  state.stepsSinceSearch = 0;
+}
+
+/// Each control point may come as far as it would in so many steps at its present speed and with its present push, and at least
+/// by some share of its radius, since another may hit it suddenly. A search costs about as much as two evaluations, a wide list
+/// costs time in every step: that share follows from letting a list hold for some eleven steps.
+void Descent::setAllowances()
+{
+  DescentState& state = this->State;
+  constexpr double foreseenSteps = 12.0;
+  constexpr double foreseenPushes = 5.0;
+  if (state.stepsSinceSearch > 0)
+  {
+    const double change = state.stepsSinceSearch < 9 ? 1.4 : state.stepsSinceSearch > 13 ? 0.75 : 1.0;
+    state.leastAllowance = std::min(std::max(change * state.leastAllowance, smallestLeastAllowance), largestLeastAllowance);
+  }
+  parallelForInBlocks(state.allowance.size(), pointsTogether, this->Threads,
+    [&](std::size_t i)
+    {
+      const double radius = state.fibres.radii[i];
+      const double foreseen =
+        foreseenSteps * std::min(double(state.speed[i]) + foreseenPushes * double(state.push[i]), largestStep * radius);
+      state.allowance[i] = static_cast<float>(std::max(foreseen, state.leastAllowance * radius));
+      state.displacement[i].setZero();
+    });
+}
+
+/// Sums what the two capsules at each control point want of it.
+void Descent::gatherOverlap(std::size_t f)
+{
+  const std::size_t begin = this->State.fibres.offsets[f];
+  const std::size_t end = this->State.fibres.offsets[f + 1];
+  const std::size_t firstCapsule = begin - f;
+  const double weight = this->Options.overlapWeight;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    double radius = 0.0;
+    double stiffness = 0.0;
+    if (i > begin)
+    {
+      const CapsuleOverlap& before = this->Overlaps[firstCapsule + (i - begin) - 1];
+      gradient += Eigen::Vector3d::Map(before.gradient1);
+      radius += before.radius1;
+      stiffness += before.stiffness1;
+    }
+    if (i + 1 < end)
+    {
+      const CapsuleOverlap& after = this->Overlaps[firstCapsule + (i - begin)];
+      gradient += Eigen::Vector3d::Map(after.gradient0);
+      radius += after.radius0;
+      stiffness += after.stiffness0;
+    }
+    this->Gradient[i] = weight * gradient;
+    this->RadiusGradient[i] = weight * radius;
+    this->Stiffness[i] = weight * stiffness;
+  }
+}
+
+/// Displaces a control point, and says whether it has come further than the neighbour lists allow.
+bool Descent::move(std::size_t i, const Eigen::Vector3d& by, double growth)
+{
+  this->State.fibres.points[i] += by;
+  this->State.speed[i] = static_cast<float>(by.norm());
+  Eigen::Vector4f& total = this->State.displacement[i];
+  total.head<3>() += by.cast<float>();
+  total[3] += static_cast<float>(std::abs(growth));
+  // Growth counts twice: for the radius and, generously, for the margin.
+  return total.head<3>().norm() + 2.0f * total[3] > this->State.allowance[i];
+}
+
+bool Descent::stepMomentum(std::size_t f)
+{
+  this->smoothGradient(f);
+  this->accelerate(f);
+  bool exceeded = false;
+  for (std::size_t i = this->State.fibres.offsets[f]; i < this->State.fibres.offsets[f + 1]; ++i)
+  {
+    this->State.push[i] = static_cast<float>(this->Options.stepSize * this->Gradient[i].norm());
+    const double growth = this->Options.radiusTolerance > 0.0 ? this->changeRadiusWithMomentum(i) : 0.0;
+    exceeded |= this->move(i, this->State.velocity[i], growth);
+  }
+  return exceeded;
+}
+
+void Descent::accelerate(std::size_t f)
+{
+  const std::size_t begin = this->State.fibres.offsets[f];
+  const std::size_t end = this->State.fibres.offsets[f + 1];
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    Eigen::Vector3d& velocity = this->State.velocity[i];
+    velocity = this->Options.momentum * velocity - this->Options.stepSize * this->Gradient[i];
+    const double speed = velocity.norm();
+    const double limit = largestStep * this->State.fibres.radii[i];
+    if (speed > limit)
+    {
+      velocity *= limit / speed;
+    }
+  }
+  this->constrainEnds(f, this->State.velocity[begin], this->State.velocity[end - 1]);
+}
+
+double Descent::changeRadiusWithMomentum(std::size_t i)
+{
+  double& velocity = this->State.radiusVelocity[i];
+  const double stiffness = this->stiffnessOfPoint(i) + 2.0 * this->Options.weights.radius;
+  velocity = this->Options.momentum * velocity - this->Options.stepSize / stiffness * this->RadiusGradient[i];
+  return this->changeRadius(i, velocity);
+}
+
+/// Replaces the gradient of a fibre by M⁻¹ · gradient, with M the diagonal stiffness plus a stiff thread along the fibre: the
+/// fibre moves as a whole where its neighbours push it as a whole, instead of kinking control point by control point.
+void Descent::smoothGradient(std::size_t f)
+{
+  const std::size_t begin = this->State.fibres.offsets[f];
+  const std::size_t end = this->State.fibres.offsets[f + 1];
+  double* upper = this->Upper.data() + begin;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const double before = i > begin ? this->stiffnessOfThread(i - 1) : 0.0;
+    const double after = i + 1 < end ? this->stiffnessOfThread(i) : 0.0;
+    double diagonal = this->stiffnessOfPoint(i) + before + after;
+    if (i > begin)
+    {
+      diagonal += before * upper[i - begin - 1];
+      this->Gradient[i] += before * this->Gradient[i - 1];
+    }
+    upper[i - begin] = -after / diagonal;
+    this->Gradient[i] /= diagonal;
+  }
+  for (std::size_t i = end - 1; i > begin; --i)
+  {
+    this->Gradient[i - 1] -= upper[i - 1 - begin] * this->Gradient[i];
+  }
+}
+
+/// Never zero, so that a point which no other fibre touches stays where it is.
+double Descent::stiffnessOfPoint(std::size_t i) const
+{
+  return this->Stiffness[i] + 1e-3 * this->State.fibres.radii[i] * this->State.fibres.radii[i];
+}
+
+/// Between a control point and the next.
+double Descent::stiffnessOfThread(std::size_t i) const
+{
+  return this->Options.smoothing * (this->State.fibres.points[i + 1] - this->State.fibres.points[i]).squaredNorm();
+}
+
+bool Descent::stepAdagrad(std::size_t f)
+{
+  const std::size_t begin = this->State.fibres.offsets[f];
+  const std::size_t end = this->State.fibres.offsets[f + 1];
+  bool exceeded = false;
+  this->constrainEnds(f, this->Gradient[begin], this->Gradient[end - 1]);
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const Eigen::Vector3d& gradient = this->Gradient[i];
+    Eigen::Vector3d& squares = this->State.velocity[i];
+    squares += gradient.cwiseAbs2();
+    const Eigen::Vector3d change = -this->Options.stepSize * gradient.cwiseQuotient((squares.array().sqrt() + 1e-12).matrix());
+    const double growth = this->Options.radiusTolerance > 0.0 ? this->changeRadiusWithAdagrad(i) : 0.0;
+    exceeded |= this->move(i, change, growth);
+  }
+  return exceeded;
+}
+
+double Descent::changeRadiusWithAdagrad(std::size_t i)
+{
+  double& squares = this->State.radiusVelocity[i];
+  squares += this->RadiusGradient[i] * this->RadiusGradient[i];
+  return this->changeRadius(i, -this->Options.stepSize * this->RadiusGradient[i] / (std::sqrt(squares) + 1e-12));
+}
+
+/// Both ends of a fibre stay in their planes across the bundle's axis, so that fibres keep spanning the domain.
+void Descent::constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector3d& last) const
+{
+  const Eigen::Vector3d& axis = this->Costs.boxOf(f).axis;
+  first -= first.dot(axis) * axis;
+  last -= last.dot(axis) * axis;
+}
+
+/// Changes a radius within its tolerance, and returns by how much.
+double Descent::changeRadius(std::size_t i, double change)
+{
+  const double reference = this->ReferenceRadii[i];
+  const double tolerance = this->Options.radiusTolerance;
+  double& radius = this->State.fibres.radii[i];
+  const double before = radius;
+  radius = std::min(std::max(radius + change, reference * (1.0 - tolerance)), reference * (1.0 + tolerance));
+  return radius - before;
+}
+
+void Descent::copyToCapsules(std::size_t f)
+{
+  const Fibres& fibres = this->State.fibres;
+  for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+  {
+    Capsule& body = this->Bodies.bodies[i - f];
+    std::copy_n(fibres.points[i].data(), 3, body.p0);
+    std::copy_n(fibres.points[i + 1].data(), 3, body.p1);
+    body.r0 = fibres.radii[i];
+    body.r1 = fibres.radii[i + 1];
+  }
+}
+
+void Descent::load(CheckpointReader& file)
+{
+  this->State.load(file);
+  file.require(this->isSound());
+  for (std::size_t f = 0; f < this->State.fibres.size(); ++f)
+  {
+    this->copyToCapsules(f);
+  }
+}
+
+bool Descent::couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const
+{
+  constexpr double farthest = 10.0 * limits::coordinate.highest; // from where fibres may start, no run gets so far
+  const double tolerance = this->Options.radiusTolerance * (1.0 + 1e-9);
+  bool good = true;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    // Written so that it does not hold for NaN.
+    good = good && points[i].cwiseAbs().maxCoeff() <= farthest && points[i].allFinite() &&
+           std::abs(radii[i] - this->ReferenceRadii[i]) <= tolerance * this->ReferenceRadii[i];
+  }
+  for (const std::uint32_t i : this->Bodies.first)
+  {
+    good = good && (points[i + 1] - points[i]).squaredNorm() > 0.0;
+  }
+  return good;
+}
+
+/// Whether what was loaded is a state that a descent can be in: no index in it leads out of an array, and no number is infinite
+/// or NaN.
+bool Descent::isSound() const
+{
+  const DescentState& state = this->State;
+  const auto isLength = [](float value) { return value >= 0.0f && std::isfinite(value); };
+  const auto isFinite = [](double value) { return std::isfinite(value); };
+  const auto all = [](const auto& values, const auto& good) { return std::all_of(values.begin(), values.end(), good); };
+  const bool adagrad = this->Options.method == DescentMethod::Adagrad;
+  return this->couldReach(state.fibres.points, state.fibres.radii) &&
+         all(state.velocity, [&](const auto& v) { return v.allFinite() && (!adagrad || v.minCoeff() >= 0.0); }) &&
+         all(state.radiusVelocity, [&](double v) { return isFinite(v) && (!adagrad || v >= 0.0); }) &&
+         all(state.speed, isLength) && all(state.push, [](float value) { return value >= 0.0f; }) && state.relaxation > 0.0 &&
+         state.relaxation <= 1.0 && state.leastAllowance >= smallestLeastAllowance &&
+         state.leastAllowance <= largestLeastAllowance && state.stepsSinceSearch >= 0 && state.effort.neighbourSearches >= 0 &&
+         isFinite(state.effort.pairEvaluations) && isFinite(state.effort.evaluationSeconds) &&
+         isFinite(state.effort.searchSeconds) &&
+         (state.exceeded || (all(state.displacement, [](const auto& d) { return d.allFinite(); }) &&
+                              all(state.allowance, isLength) && this->areNeighboursSound()));
+}
+
+bool Descent::areNeighboursSound() const
+{
+  const std::vector<std::size_t>& offsets = this->State.neighbours.offsets;
+  const std::vector<std::uint32_t>& indices = this->State.neighbours.indices;
+  if (offsets.front() != 0 || offsets.back() != indices.size() || !std::is_sorted(offsets.begin(), offsets.end()))
+  {
+    return false;
+  }
+  for (std::size_t k = 0; k < this->Bodies.size(); ++k)
+  {
+    for (std::size_t n = offsets[k]; n < offsets[k + 1]; ++n)
+    {
+      if (indices[n] >= this->Bodies.size() || this->Bodies.fibre[indices[n]] == this->Bodies.fibre[k])
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace cactus

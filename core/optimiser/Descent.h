@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Capsules.h"
+#include "fibres/Fibres.h"
+#include "optimiser/CapsuleOptimizerOptions.h"
+#include "optimiser/CapsuleOverlap.h"
+#include "optimiser/ConvergenceRow.h"
+#include "optimiser/DescentState.h"
+#include "optimiser/FibreCosts.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// Moves fibres down the gradient of all costs, step by step: evaluate(), step(), evaluate() … Same bits on any number of
+/// threads.
+class Descent
+{
+public:
+  /// From the fibres as they are, at rest; they are moved in place.
+  Descent(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads);
+
+  /// Costs and penetration at the present positions, and the gradient that the next step follows. Iteration and seconds are left
+  /// to the caller.
+  ConvergenceRow evaluate();
+
+  void step();
+
+  const DescentState& state() const { return this->State; }
+
+  void save(CheckpointWriter& file) const { this->State.save(file); }
+  /// Goes on from what was saved. Throws FileError where no descent from the fibres given can be there.
+  void load(CheckpointReader& file);
+
+  /// Whether a descent from the fibres given can have made these positions and radii.
+  bool couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const;
+
+private:
+  void refreshNeighbours();
+  void setAllowances();
+  void gatherOverlap(std::size_t f);
+  bool move(std::size_t i, const Eigen::Vector3d& by, double growth);
+  bool stepMomentum(std::size_t f);
+  void accelerate(std::size_t f);
+  double changeRadiusWithMomentum(std::size_t i);
+  void smoothGradient(std::size_t f);
+  bool stepAdagrad(std::size_t f);
+  double changeRadiusWithAdagrad(std::size_t i);
+  void constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector3d& last) const;
+  double changeRadius(std::size_t i, double change);
+  double stiffnessOfPoint(std::size_t i) const;
+  double stiffnessOfThread(std::size_t i) const;
+  void copyToCapsules(std::size_t f);
+  bool isSound() const;
+  bool areNeighboursSound() const;
+
+  DescentState State;
+  const CapsuleOptimizerOptions& Options;
+  int Threads;
+  FibreCosts Costs;
+  Capsules Bodies;
+  std::vector<double> ReferenceRadii;
+  std::vector<CapsuleOverlap> Overlaps;
+  std::vector<Eigen::Vector3d> Gradient;
+  std::vector<double> RadiusGradient;
+  std::vector<double> Stiffness;
+  std::vector<double> Upper; ///< room for the elimination in smoothGradient
+};
+
+} // namespace cactus

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "optimiser/OptimisationCheckpoints.h"
+
+#include "base/Checkpoint.h"
+#include "base/Error.h"
+
+namespace cactus
+{
+
+namespace
+{
+
+/// What the result depends on: the fibres that come in and all parameters except those that only say when to stop.
+std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
+{
+  Fingerprint print;
+  for (const double value : { options.overlapTolerance, options.overlapWeight, options.weights.curvature, options.weights.length,
+         options.weights.radius, options.weights.compactness, options.stepSize, options.momentum, options.smoothing,
+         options.relaxation, options.packingLimit, options.safetyMargin, options.radiusTolerance })
+  {
+    print.add(value);
+  }
+  print.add(static_cast<int>(options.method));
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    print.add(fibres.fibreIds[f]);
+    print.add(fibres.bundleIds[f]);
+    print.add(fibres.offsets[f + 1]);
+  }
+  for (std::size_t i = 0; i < fibres.points.size(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      print.add(fibres.points[i][axis]);
+    }
+    print.add(fibres.radii[i]);
+  }
+  return print.value();
+}
+
+} // namespace
+
+OptimisationCheckpoints::OptimisationCheckpoints(const Fibres& fibres, const CapsuleOptimizerOptions& options)
+  : Path(options.checkpointFile)
+  , Interval(options.checkpointInterval)
+  , Latest(Clock::now())
+{
+  if (!this->Path.empty())
+  {
+    this->Print = fingerprintOf(fibres, options);
+    const auto found = findCheckpoint(this->Path, this->Print);
+    this->Reached = found ? found->iteration : -1;
+    // Goes away again unless it is committed.
+    const CheckpointWriter attempt(this->Path, { this->Print, 0 });
+  }
+}
+
+void OptimisationCheckpoints::load(OptimisationRun& run) const
+{
+  run.load(this->Path, this->Print);
+}
+
+bool OptimisationCheckpoints::due(const OptimisationRun& run) const
+{
+  const auto sinceLatest = [&] { return std::chrono::duration<double>(Clock::now() - this->Latest).count(); };
+  return !this->Path.empty() &&
+         ((!this->found() && !this->Written) || (run.descent.state().searchDue() && sinceLatest() >= this->Interval));
+}
+
+void OptimisationCheckpoints::write(const OptimisationRun& run)
+{
+  this->Latest = Clock::now();
+  if (this->Path.empty() || run.iteration < this->Reached)
+  {
+    return;
+  }
+  try
+  {
+    run.save(this->Path, this->Print);
+    this->Failure.clear();
+  }
+  catch (const Error& error)
+  {
+    if (!this->Written && !this->found())
+    {
+      throw;
+    }
+    this->Failure = error.what();
+  }
+  this->Written = true;
+}
+
+} // namespace cactus

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "optimiser/CapsuleOptimizerOptions.h"
+#include "optimiser/OptimisationRun.h"
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace cactus
+{
+
+/// The file in which a run is written down every now and then, and what was in it before.
+class OptimisationCheckpoints
+{
+public:
+  /// Throws where the file is there and not a checkpoint of this run, and where it cannot be written.
+  OptimisationCheckpoints(const Fibres& fibres, const CapsuleOptimizerOptions& options);
+
+  /// Whether there was a checkpoint of this run.
+  bool found() const { return this->Reached >= 0; }
+
+  void load(OptimisationRun& run) const;
+
+  bool due(const OptimisationRun& run) const;
+
+  /// Writes the run down, unless what is there has come further (the same run, from the beginning once more). That a later
+  /// checkpoint cannot be written is no reason to give up a long run: it is noted, see failure().
+  void write(const OptimisationRun& run);
+
+  /// Why the last checkpoint could not be written; empty where it could.
+  const std::string& failure() const { return this->Failure; }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string Path;
+  double Interval;
+  Clock::time_point Latest;
+  std::uint64_t Print = 0;
+  std::int64_t Reached = -1; ///< iteration of the checkpoint that was there; −1 for none
+  bool Written = false;
+  std::string Failure;
+};
+
+} // namespace cactus

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "optimiser/CapsuleOptimizerOptions.h"
+#include "optimiser/ConvergenceRow.h"
+#include "optimiser/Descent.h"
+#include "optimiser/StoppingRule.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// A descent and all that its caller knows of it: what a checkpoint holds.
+struct OptimisationRun
+{
+  OptimisationRun(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads);
+
+  /// Notes the state that was just measured.
+  void note(const ConvergenceRow& row, double tolerance);
+
+  /// Throws FileError, and InvalidInput where another run's checkpoint is at `path`.
+  void save(const std::string& path, std::uint64_t fingerprint) const;
+  void load(const std::string& path, std::uint64_t fingerprint);
+
+  Fibres& state;
+  Descent descent;
+  int iteration = 0;    ///< the next one
+  double seconds = 0.0; ///< before this run
+  std::vector<ConvergenceRow> rows;
+  std::vector<Eigen::Vector3d> bestPoints;
+  std::vector<double> bestRadii;
+  double bestCost = std::numeric_limits<double>::infinity();
+  DescentProgress progress;
+};
+
+} // namespace cactus

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "optimiser/CapsuleOptimizerOptions.h"
+#include "optimiser/ConvergenceRow.h"
+
+#include <limits>
+#include <optional>
+
+namespace cactus
+{
+
+/// Why the descent ended.
+enum class StopReason
+{
+  Converged,
+  MaximumIterations,
+  Stagnated, ///< neither cost nor largest penetration fell any more
+  TimeBudget,
+  Stopped
+};
+
+/// When a descent last made progress: a cost, or a largest penetration, smaller by a hundredth than any before.
+struct DescentProgress
+{
+  double lowestCost = std::numeric_limits<double>::infinity(); ///< at the last step forward
+  double lowestPenetration = std::numeric_limits<double>::infinity();
+  int lastIteration = 0; ///< that made any
+
+  void note(const ConvergenceRow& row);
+};
+
+/// Why the state that was just measured, after `seconds` of this run, is the last one; nothing where it is not.
+std::optional<StopReason> reasonToStop(const ConvergenceRow& row, const DescentProgress& progress,
+  const CapsuleOptimizerOptions& options, const Context& context, double seconds);
+
+/// How far a run has come, from 0 to 0.99: by its iterations or by the logarithm of the largest penetration, whichever is more.
+double completedFraction(const ConvergenceRow& row, double firstPenetration, const CapsuleOptimizerOptions& options);
+
+} // namespace cactus
