@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Certifying a hexagonal bundle of wavy tubes, 0.05 µm apart, with axons inside; rates are triangles per second and thread.
+#include "base/Constants.h"
 #include "judge/SubstrateCertificate.h"
 
 #include <benchmark/benchmark.h>
@@ -15,7 +16,7 @@ namespace
 
 using namespace cactus;
 
-constexpr double pi = 3.14159265358979323846;
+using cactus::pi;
 
 /// A closed tube of triangles with edges of about `edge`, its middle line a wave along z.
 TriangleMesh tube(double x, double y, double radius, double lower, double upper, double edge)

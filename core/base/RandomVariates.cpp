@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/RandomVariates.h"
 
+#include "base/Constants.h"
+
 #include <cmath>
 #include <cstdint>
 
@@ -18,7 +20,7 @@ double uniformFromZero(RandomEngine& engine)
 double normal(RandomEngine& engine)
 {
   const double radius = std::sqrt(-2.0 * std::log(uniform(engine)));
-  return radius * std::cos(2.0 * 3.14159265358979323846 * uniform(engine));
+  return radius * std::cos(2.0 * pi * uniform(engine));
 }
 
 double PolarNormal::operator()(RandomEngine& engine)

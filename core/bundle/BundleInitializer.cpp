@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/BundleInitializer.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Memory.h"
@@ -16,8 +17,6 @@ namespace cactus
 
 namespace
 {
-
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 /// Two bundles with both their faces packed to a density.
 std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double density, const Context& context)

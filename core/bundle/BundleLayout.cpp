@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/BundleLayout.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "bundle/RadiusDistribution.h"
@@ -15,9 +16,6 @@ namespace cactus
 
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180.0;
 
 /// Indices in order of falling radius, ties in order of index.
 std::vector<std::size_t> largestFirst(const std::vector<double>& radii)

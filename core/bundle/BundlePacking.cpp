@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/BundlePacking.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "bundle/CirclePacking.h"
@@ -17,8 +18,6 @@ namespace cactus
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double degree = pi / 180.0;
 constexpr int trialsPerCircle = 64;
 /// How often a packing is begun anew, from other random positions, before its density counts as out of reach.
 constexpr int attempts = 4;

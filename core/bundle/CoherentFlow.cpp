@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/CoherentFlow.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Parallel.h"
 #include "base/RandomVariates.h"
@@ -14,7 +15,6 @@ namespace cactus
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
 /// Steps by which points cross one correlation length.
 constexpr double stepsPerLength = 16.0;
 /// Correlation lengths after which what has not come far enough goes round in circles.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/DirectionDistribution.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace cactus
 
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Mean angle (radians) of the Watson model: ∫θ w / ∫w with w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
 double meanWatsonAngle(double kappa)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/RadiusDistribution.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Numbers.h"
@@ -18,8 +19,6 @@ namespace cactus
 
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 double draw(const RadiusDistributionOptions& options, RandomEngine& engine)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/FibreShape.h"
 
+#include "base/Constants.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -17,7 +19,6 @@ namespace
 
 double largestCrossingAngle(const Fibres& fibres)
 {
-  constexpr double degrees = 180.0 / 3.14159265358979323846;
   std::vector<Eigen::Vector3d> axes;
   for (const auto& entry : bundleAxes(fibres))
   {
@@ -29,7 +30,7 @@ double largestCrossingAngle(const Fibres& fibres)
     for (std::size_t b = a + 1; b < axes.size(); ++b)
     {
       // The arc tangent keeps its precision where bundles are nearly parallel.
-      largest = std::max(largest, degrees * std::atan2(axes[a].cross(axes[b]).norm(), std::abs(axes[a].dot(axes[b]))));
+      largest = std::max(largest, radian * std::atan2(axes[a].cross(axes[b]).norm(), std::abs(axes[a].dot(axes[b]))));
     }
   }
   return largest;

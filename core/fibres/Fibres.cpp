@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/Fibres.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 
@@ -18,9 +19,6 @@ namespace cactus
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double degrees = 180.0 / pi;
-
 double coneVolume(double r0, double r1, double height)
 {
   return pi / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * height;
@@ -29,7 +27,7 @@ double coneVolume(double r0, double r1, double height)
 double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
 {
   // atan2 keeps full precision at small angles, where acos loses half the digits.
-  return degrees * std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
+  return radian * std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
 }
 
 Eigen::Vector3d endToEnd(const Fibres& fibres, std::size_t fibre)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/CapsuleField.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Random.h"
@@ -430,7 +431,7 @@ double CapsuleField::Data::narrowing(int fibreId, double length) const
   {
     RandomEngine engine =
       randomStream(options.seed, RandomStage::Seeds, (std::uint64_t(std::uint32_t(fibreId)) << 32) | (first + k));
-    const double sine = std::sin(3.14159265358979323846 * uniform(engine));
+    const double sine = std::sin(pi * uniform(engine));
     sum += weights[k] * sine * sine;
   }
   return sum;

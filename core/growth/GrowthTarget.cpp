@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/GrowthTarget.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "fibres/Capsules.h"
 #include "fibres/SegmentDistance.h"
@@ -23,7 +24,6 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double pi = 3.14159265358979323846;
 constexpr double samplesForFraction = 8e6;
 /// Width of the classes (µm) in which arrival times are counted.
 constexpr double growthClass = 0.00025;
@@ -151,7 +151,6 @@ double discInDomain(const Domain& domain, const Eigen::Vector3d& centre, const E
   }
   // A sunflower: each point stands for the same area, and no line of points runs along the domain's faces.
   constexpr int points = 96;
-  constexpr double goldenAngle = 2.399963229728653;
   const Eigen::Vector3d side = axis.unitOrthogonal();
   const Eigen::Vector3d other = axis.cross(side);
   int inside = 0;

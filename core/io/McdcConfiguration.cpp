@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/McdcConfiguration.h"
 
+#include "base/Constants.h"
 #include "base/Numbers.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace cactus
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double gyromagneticRatio = 267.51525e6; ///< rad/(s·T), as the simulator has it
 constexpr double millimetre = 1e-3;               ///< of one µm
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/SubstrateStatistics.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Parallel.h"
@@ -19,7 +20,6 @@ namespace cactus
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 /// µm. An outline nearer to the domain's boundary has been cut off by it; above the rounding of single-precision coordinates.
 constexpr double boundaryTolerance = 1e-3;

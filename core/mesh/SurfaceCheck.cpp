@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceCheck.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 
@@ -18,7 +19,6 @@ namespace cactus
 namespace
 {
 
-constexpr double degrees = 180.0 / 3.14159265358979323846;
 /// Twice a triangle's area over its longest edge squared: below this its normal is rounding noise.
 constexpr double degenerateRatio = 1e-12;
 
@@ -105,7 +105,7 @@ double angleAt(const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Ei
 {
   const Eigen::Vector3d u = a - corner;
   const Eigen::Vector3d v = b - corner;
-  return degrees * std::atan2(u.cross(v).norm(), u.dot(v));
+  return radian * std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/FibreMesher.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "mesh/SurfaceDecimation.h"
 #include "mesh/SurfaceDistance.h"
@@ -273,7 +274,7 @@ std::vector<LocalErrorBound> FibreMesher::boundsAround(const std::vector<Eigen::
 
 double FibreMesher::equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const
 {
-  return 2.0 * std::sqrt(std::max(0.0, pair.outerReport.volume) / (3.14159265358979323846 * this->length(field)));
+  return 2.0 * std::sqrt(std::max(0.0, pair.outerReport.volume) / (pi * this->length(field)));
 }
 
 /// An inner surface before coarsening.

@@ -2,6 +2,7 @@
 // Surfaces to try things on.
 #pragma once
 
+#include "base/Constants.h"
 #include "mesh/TriangleMesh.h"
 
 #include <cmath>
@@ -33,7 +34,7 @@ inline cactus::TriangleMesh tube(double x, double y, double radius, double lower
   {
     for (int side = 0; side < sides; ++side)
     {
-      const double angle = 2.0 * 3.14159265358979323846 * side / sides;
+      const double angle = 2.0 * cactus::pi * side / sides;
       const double sine = 2 * side % sides == 0 ? 0.0 : std::sin(angle); // the points on the x axis lie on it exactly
       mesh.points.emplace_back(x + radius * std::cos(angle) + (noise > 0.0 ? uniform(random) : 0.0),
         y + radius * sine + (noise > 0.0 ? uniform(random) : 0.0), lower + (upper - lower) * ring / rings);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/BundleInitializer.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ using namespace cactus;
 namespace
 {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
+using cactus::degree;
 
 /// First (end 0) or last control point of a fibre.
 Eigen::Vector3d endPoint(const Fibres& fibres, std::size_t f, int end)
@@ -58,7 +59,7 @@ double circleArea(const Fibres& fibres)
   double area = 0.0;
   for (const double r : fibres.targetRadii)
   {
-    area += 3.14159265358979 * r * r;
+    area += cactus::pi * r * r;
   }
   return area;
 }
@@ -376,7 +377,7 @@ TEST(BundleInitializer, EqualLimitsGiveEqualRadii)
     options.radius.model = model;
     options.radius.minimum = options.radius.maximum = 0.7;
     const Fibres fibres = initialiseBundles(options);
-    EXPECT_NEAR(static_cast<double>(fibres.size()), 0.5 * 100.0 / (3.14159265 * 0.49), 1.0);
+    EXPECT_NEAR(static_cast<double>(fibres.size()), 0.5 * 100.0 / (cactus::pi * 0.49), 1.0);
     EXPECT_TRUE(std::all_of(fibres.radii.begin(), fibres.radii.end(), [](double r) { return r == 0.7; }));
     EXPECT_TRUE(std::all_of(fibres.targetRadii.begin(), fibres.targetRadii.end(), [](double r) { return r == 0.7; }));
   }

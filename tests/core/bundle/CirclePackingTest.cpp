@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/CirclePacking.h"
+#include "base/Constants.h"
 #include "base/Random.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ Circles randomCircles(double side, double density, double spread, std::uint64_t 
   while (area < density * frame.area())
   {
     const double radius = 0.4 * std::exp(spread * (uniform(engine) - 0.5));
-    area += 3.14159265358979 * radius * radius;
+    area += cactus::pi * radius * radius;
     circles.radii.push_back(radius);
     const double x = side * uniform(engine);
     const double y = side * uniform(engine);

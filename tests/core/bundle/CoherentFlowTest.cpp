@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/CoherentFlow.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ using namespace cactus;
 namespace
 {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
+using cactus::degree;
 
 Rectangle frameOf(double width, double height)
 {

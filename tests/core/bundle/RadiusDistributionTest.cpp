@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/RadiusDistribution.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 
 #include <gtest/gtest.h>
@@ -126,7 +127,7 @@ TEST(RadiusDistribution, AreaIsMet)
     double area = 0.0;
     for (const double r : drawRadii(options, seed, 630.0))
     {
-      area += 3.14159265358979 * r * r;
+      area += cactus::pi * r * r;
     }
     EXPECT_NEAR(area, 630.0, 630.0 * 0.005) << seed;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/FibreShape.h"
+#include "base/Constants.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,7 @@
 // A circular arc has the radius it was made with, in multiples of its calibre, and the length of its chords.
 TEST(FibreShape, KnowsAnArc)
 {
-  constexpr double pi = 3.14159265358979323846;
+  using cactus::pi;
   cactus::Fibres fibres;
   fibres.addFibre(1, 1, 0.5);
   for (int i = 0; i <= 18; ++i)

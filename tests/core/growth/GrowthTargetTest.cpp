@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/GrowthTarget.h"
+#include "base/Constants.h"
 
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
@@ -23,7 +24,7 @@ namespace
 
 using namespace cactus;
 
-constexpr double pi = 3.14159265358979323846;
+using cactus::pi;
 
 Fibres emptyFibres(double side)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/SubstrateCertificate.h"
+#include "base/Constants.h"
 
 #include "ExampleSurfaces.h"
 #include "base/Error.h"
@@ -88,8 +89,8 @@ TEST(SubstrateCertificate, CertifiesWhatIsSound)
   EXPECT_NEAR(certificate.smallestGap, 0.03, 1e-12);
   EXPECT_EQ(certificate.gapFibreA, 4);
   EXPECT_EQ(certificate.gapFibreB, 5);
-  const double polygon = 12.0 * std::sin(2.0 * 3.14159265358979323846 / 24.0); // area over squared radius
-  const double apothem = std::cos(3.14159265358979323846 / 24.0);
+  const double polygon = 12.0 * std::sin(2.0 * cactus::pi / 24.0); // area over squared radius
+  const double apothem = std::cos(cactus::pi / 24.0);
   // From a corner of the axon to the flat side: the sides are parallel.
   EXPECT_NEAR(certificate.smallestMyelin, 0.15 * apothem, 1e-12);
   EXPECT_NEAR(certificate.fibreVolumeFraction, 5 * 0.25 * polygon * 4.0 / 64.0, 1e-12);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/SubstrateStatistics.h"
 #include "ExampleSurfaces.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "mesh/CrossSection.h"
@@ -16,7 +17,7 @@
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
+using cactus::pi;
 
 /// A closed prism over a regular polygon, along z from -half to half, centred on (x, y).
 cactus::TriangleMesh tube(double x, double y, double radius, double half, int sides = 24, int rings = 40)

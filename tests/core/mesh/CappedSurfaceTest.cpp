@@ -2,6 +2,7 @@
 // Guarantees: a surface is moved to just the volume asked for, by no more than allowed, and its caps stay in their faces.
 // What is coarsened or moved beside a face of the box stays in the box.
 #include "mesh/CappedSurface.h"
+#include "base/Constants.h"
 #include "mesh/Isosurface.h"
 #include "mesh/SurfaceCheck.h"
 #include "mesh/SurfaceDecimation.h"
@@ -16,7 +17,7 @@ namespace
 
 using namespace cactus;
 
-constexpr double pi = 3.14159265358979323846;
+using cactus::pi;
 
 /// The parts of a ball of radius 0.8 around `centre` and of a small ball that lie in the box [-1, 1]³.
 CappedSurface ball(

@@ -2,6 +2,7 @@
 // Guarantee: whatever the field, its contour is a closed, outward 2-manifold that does not cut itself, on the field's zero to
 // third order, flat on the box.
 #include "mesh/Isosurface.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "mesh/SurfaceCheck.h"
@@ -20,7 +21,7 @@ namespace
 
 using namespace cactus;
 
-constexpr double pi = 3.14159265358979323846;
+using cactus::pi;
 
 NodeLattice cubeLattice(int nodes, double spacing)
 {

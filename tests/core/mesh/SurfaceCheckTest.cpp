@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceCheck.h"
+#include "base/Constants.h"
 
 #include "base/Error.h"
 
@@ -12,7 +13,7 @@
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
+using cactus::pi;
 
 /// A cube of the given side with its lower corner at `at`, wound outward.
 cactus::TriangleMesh cube(double side, const Eigen::Vector3d& at)

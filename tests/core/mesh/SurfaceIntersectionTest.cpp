@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceIntersection.h"
+#include "base/Constants.h"
 
 #include "ExampleSurfaces.h"
 
@@ -284,7 +285,7 @@ TEST(SurfaceIntersection, TellsInsideFromOutside)
   const cactus::TriangleTree tree(mesh);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-2.5, 2.5);
-  const double inner = std::cos(3.14159265358979323846 / 24); // of the inscribed circle
+  const double inner = std::cos(cactus::pi / 24); // of the inscribed circle
   for (int trial = 0; trial < 5000; ++trial)
   {
     const Vector3d p(uniform(random), uniform(random), uniform(random));

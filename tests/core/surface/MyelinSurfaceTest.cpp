@@ -3,6 +3,7 @@
 // g-ratios that they state; fibres are the gap apart, and myelin as thick, even where growth left less, voxels are coarse or
 // nothing is coarsened; what is not as asked is counted.
 #include "surface/MyelinSurface.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
 #include "fibres/TrimToDomain.h"
@@ -293,7 +294,7 @@ TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
   const auto pairs = surfacesOf(fibres, growth, 0.0, growth.minimumGap);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].state, MyelinState::AsAsked);
-  const double volume = 4.0 * std::sqrt(1.0 + slope * slope) * 3.14159265358979 * radius * radius;
+  const double volume = 4.0 * std::sqrt(1.0 + slope * slope) * cactus::pi * radius * radius;
   EXPECT_NEAR(pairs[0].outerReport.volume, volume, 0.05 * volume);
   EXPECT_NEAR(pairs[0].innerReport.volume, 0.49 * pairs[0].outerReport.volume, 0.002 * volume);
 }
