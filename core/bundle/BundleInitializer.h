@@ -20,7 +20,7 @@ struct BundleInitializerReport
 /// undoing that is CapsuleOptimizer's part.
 ///
 /// The radii are drawn until the density is met (see drawRadii). On the first face circles are placed largest first and
-/// relaxed (see CirclePacking.h). With DispersionModel::Coherent a random flow (see CoherentFlow.h) then carries their middles
+/// relaxed (see CircleRelaxation.h). With DispersionModel::Coherent a random flow (see CoherentFlow.h) then carries their middles
 /// to the opposite face. Else each fibre draws its angle from the dispersion model, and its end is placed on the ring
 /// that this angle leaves on the opposite face, at the first of several random azimuths that is free, or least crowded. These
 /// circles are relaxed too. Their displacements are rescaled, and relaxed again, until the mean angle is within 0.05° (and 2 %)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bundle/BundleInitializerOptions.h"
-#include "bundle/CirclePacking.h"
+#include "bundle/Circles.h"
 
 #include <cstddef>
 #include <cstdint>

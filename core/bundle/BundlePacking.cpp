@@ -4,7 +4,8 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
-#include "bundle/CirclePacking.h"
+#include "bundle/CirclePlacement.h"
+#include "bundle/CircleRelaxation.h"
 #include "bundle/CoherentFlow.h"
 #include "bundle/DirectionDistribution.h"
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Context.h"
 #include "base/Random.h"
-#include "bundle/CirclePacking.h"
+#include "bundle/Circles.h"
 
 #include <Eigen/Core>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/BundleInitializer.h"
+
 #include "base/Constants.h"
 #include "base/Error.h"
 

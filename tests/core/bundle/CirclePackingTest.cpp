@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bundle/CirclePacking.h"
 #include "base/Constants.h"
+
 #include "base/Random.h"
+#include "bundle/CirclePlacement.h"
+#include "bundle/CircleRelaxation.h"
 
 #include <gtest/gtest.h>
 

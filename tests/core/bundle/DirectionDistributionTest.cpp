@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/DirectionDistribution.h"
+
 #include "base/Constants.h"
 #include "base/Error.h"
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "bundle/Circles.h"
+
+namespace cactus
+{
+
+/// How relaxCircles moves circles and when it gives up.
+struct RelaxationOptions
+{
+  int maximumIterations = 20000;
+  /// Radii are taken larger by this fraction while moving, so that the true circles come apart after finitely many steps.
+  double clearance = 2e-5;
+  /// Given up as jammed once the net forces are this small beside the contact forces.
+  double jammedBalance = 1e-4;
+};
+
+/// What relaxCircles reached.
+struct Relaxation
+{
+  bool separated = false;      ///< no two circles overlap
+  double largestOverlap = 0.0; ///< max 1 − d/(ri + rj) over all pairs, or 0
+  int iterations = 0;
+};
+
+/// Moves the circles apart until no two overlap, each staying inside its rectangle: harmonic repulsion of overlapping pairs,
+/// minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006) on neighbour lists with a skin. Circles that do not
+/// overlap at the start stay where they are. Same bits on any number of threads. Where the circles jam or the iterations run out
+/// the result says so, and the centres are the last ones. Throws Cancelled.
+Relaxation relaxCircles(Circles& circles, const RelaxationOptions& options = {}, const Context& context = {});
+
+} // namespace cactus

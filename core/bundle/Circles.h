@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// An axis-aligned rectangle (µm).
+struct Rectangle
+{
+  Eigen::Vector2d lower = Eigen::Vector2d::Zero();
+  Eigen::Vector2d upper = Eigen::Vector2d::Zero();
+
+  Eigen::Vector2d size() const { return upper - lower; }
+  double area() const { return size().prod(); }
+  /// Where a circle's centre may be so that the circle is wholly inside; the middle where it is too large for that.
+  Eigen::Vector2d clampCentre(const Eigen::Vector2d& centre, double radius) const
+  {
+    const Eigen::Vector2d margin = (0.5 * size()).cwiseMin(radius);
+    return centre.cwiseMax(lower + margin).cwiseMin(upper - margin);
+  }
+  bool holds(const Eigen::Vector2d& centre, double radius) const
+  {
+    return ((centre - lower).array() >= radius).all() && ((upper - centre).array() >= radius).all();
+  }
+};
+
+/// Circles (µm), each confined to one of a few rectangles. Rectangles must not overlap one another.
+struct Circles
+{
+  std::vector<double> radii;
+  std::vector<Eigen::Vector2d> centres;
+  std::vector<int> frameOf; ///< per circle, the index of its rectangle
+  std::vector<Rectangle> frames;
+
+  std::size_t size() const { return radii.size(); }
+  const Rectangle& frame(std::size_t circle) const { return frames[static_cast<std::size_t>(frameOf[circle])]; }
+  /// Sum of the circles' areas over the sum of the rectangles'.
+  double density() const;
+};
+
+/// The smallest rectangle that holds all of them, of which there is at least one.
+Rectangle boundingRectangle(const std::vector<Rectangle>& frames);
+
+} // namespace cactus
