@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fibres/Capsules.h"
-#include "optimiser/VectorKernels.h"
+#include "optimiser/SearchKernels.h"
 
 #include <Eigen/Core>
 

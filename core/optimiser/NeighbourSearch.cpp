@@ -6,7 +6,7 @@
 #include "base/Parallel.h"
 #include "optimiser/CapsuleRuns.h"
 #include "optimiser/RunGrid.h"
-#include "optimiser/VectorKernels.h"
+#include "optimiser/SearchKernels.h"
 
 #include <algorithm>
 #include <atomic>
@@ -26,7 +26,7 @@ class NearCapsules
 public:
   NearColumns columnsFor(std::size_t count)
   {
-    constexpr std::size_t multiple = VectorKernels::padding;
+    constexpr std::size_t multiple = SearchKernels::padding;
     const std::size_t padded = (count + multiple - 1) / multiple * multiple;
     if (padded > this->Stride)
     {
@@ -105,7 +105,7 @@ public:
       {
         numbers[number] = own.numbers[std::size_t(number) * own.stride + l];
       }
-      const std::size_t needed = this->Size + count + VectorKernels::padding;
+      const std::size_t needed = this->Size + count + SearchKernels::padding;
       if (this->Room.size() < needed)
       {
         this->Room.resize(2 * needed);
@@ -145,7 +145,7 @@ private:
     query.skipTo = static_cast<std::uint32_t>(this->FibreEnd);
     const std::size_t taken = this->collectRuns(this->All.runs.boxes()[run], query);
     this->sortRuns(taken);
-    this->Candidates.resize(std::max(this->Candidates.size(), 8 * taken + VectorKernels::padding));
+    this->Candidates.resize(std::max(this->Candidates.size(), 8 * taken + SearchKernels::padding));
     const std::uint32_t* end = this->Kernels.selectFromRuns(
       this->All.runs.blocks(), this->All.runs.first().data(), this->Sorted.data(), taken, query, this->Candidates.data());
     return static_cast<std::size_t>(end - this->Candidates.data());
@@ -164,7 +164,7 @@ private:
       {
         const std::size_t begin = this->All.entries.start(this->All.grid.index(first[0], query.y, query.z));
         const std::size_t end = this->All.entries.start(this->All.grid.index(last[0], query.y, query.z) + 1);
-        this->Others.resize(std::max(this->Others.size(), taken + end - begin + VectorKernels::padding));
+        this->Others.resize(std::max(this->Others.size(), taken + end - begin + SearchKernels::padding));
         const std::uint32_t* next = this->Kernels.selectBoxes(columns, begin, end, query, this->Others.data() + taken);
         taken = static_cast<std::size_t>(next - this->Others.data());
       }
@@ -208,7 +208,7 @@ private:
   }
 
   SearchedRuns All;
-  const VectorKernels& Kernels = vectorKernels();
+  const SearchKernels& Kernels = bestKernels<SearchKernels>();
   std::size_t FibreBegin = 0; ///< runs of the present fibre
   std::size_t FibreEnd = 0;
   std::vector<std::uint32_t> Others; ///< runs whose boxes overlap

@@ -3,7 +3,7 @@
 
 #include "base/Parallel.h"
 #include "fibres/SegmentDistance.h"
-#include "optimiser/VectorKernels.h"
+#include "optimiser/OverlapKernels.h"
 
 #include <Eigen/Geometry>
 
@@ -91,7 +91,7 @@ OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& nei
   result.resize(count);
   constexpr std::size_t blockSize = 1024;
   std::vector<OverlapTotals> partial((count + blockSize - 1) / blockSize);
-  const VectorKernels& kernels = vectorKernels();
+  const auto evaluateCapsule = bestKernels<OverlapKernels>().evaluateCapsule;
   const bool tapered =
     std::any_of(capsules.bodies.begin(), capsules.bodies.end(), [](const Capsule& body) { return body.r0 != body.r1; });
   parallelBlocks(count, blockSize, threads,
@@ -102,8 +102,7 @@ OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& nei
       {
         const std::uint32_t* others = neighbours.indices.data() + neighbours.offsets[k];
         const std::size_t othersCount = neighbours.offsets[k + 1] - neighbours.offsets[k];
-        kernels.evaluateCapsule(
-          capsules.bodies.data(), others, othersCount, capsules.bodies[k], margin, tolerance, tapered, result[k]);
+        evaluateCapsule(capsules.bodies.data(), others, othersCount, capsules.bodies[k], margin, tolerance, tapered, result[k]);
         if (result[k].penetration > 1.0 - 2.0 * meeting)
         {
           partCoincident(capsules, k, others, othersCount, margin, result[k]);

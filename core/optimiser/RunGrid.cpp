@@ -93,7 +93,7 @@ void RunGridEntries::count(const std::vector<RunBox>& runs, const RunGrid& grid,
 
 void RunGridEntries::allocate(std::size_t entries)
 {
-  const std::size_t padded = entries + VectorKernels::padding;
+  const std::size_t padded = entries + SearchKernels::padding;
   constexpr std::size_t many = 1000000;
   if (entries > many)
   {
@@ -105,10 +105,10 @@ void RunGridEntries::allocate(std::size_t entries)
   for (auto& column : this->Numbers)
   {
     column.reset(new float[padded]);
-    std::fill_n(column.get() + entries, VectorKernels::padding, 0.0f);
+    std::fill_n(column.get() + entries, SearchKernels::padding, 0.0f);
   }
-  std::fill_n(this->Keys.get() + entries, VectorKernels::padding, 0);
-  std::fill_n(this->Cells.get() + entries, VectorKernels::padding, -1);
+  std::fill_n(this->Keys.get() + entries, SearchKernels::padding, 0);
+  std::fill_n(this->Cells.get() + entries, SearchKernels::padding, -1);
 }
 
 /// Fills each cell from its end towards its start, which is where Start then points.

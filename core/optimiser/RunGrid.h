@@ -2,7 +2,7 @@
 #pragma once
 
 #include "optimiser/CapsuleRuns.h"
-#include "optimiser/VectorKernels.h"
+#include "optimiser/SearchKernels.h"
 
 #include <Eigen/Core>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/FibreCosts.h"
-#include "optimiser/OverlapCost.h"
 
 #include "RandomBundle.h"
 #include "fibres/SegmentDistance.h"
+#include "optimiser/OverlapCost.h"
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "optimiser/VectorKernels.h"
+#include "optimiser/SearchKernels.h"
 
 #include "RandomBundle.h"
 #include "RelativeDistance.h"
-#include "optimiser/NeighbourSearch.h"
 
 #include <gtest/gtest.h>
 
@@ -14,65 +13,9 @@
 #include <utility>
 #include <vector>
 
-#if defined(__x86_64__) && !defined(__clang__) && __GNUC__ >= 12
-// Guarantee: the level of x86-64 is told from single features as a compiler tells it that knows the levels by name.
-TEST(VectorKernels, KnowsTheLevelOfThisMachine)
-{
-  const std::size_t levels = (__builtin_cpu_supports("x86-64-v3") ? 1u : 0u) + (__builtin_cpu_supports("x86-64-v4") ? 1u : 0u);
-  EXPECT_EQ(cactus::runnableVectorKernels().size(), 1u + levels);
-}
-#endif
-
-// Guarantee: cost and gradient have the same bits on every vector unit, with radii that vary and with radii that do not, and
-// whether or not the caller knows that they do not.
-TEST(VectorKernels, SameBitsOnEveryVectorUnit)
-{
-  for (const bool tapered : { false, true })
-  {
-    cactus::Fibres fibres = randomBundle(21, 60, 12, 5.0, 0.3);
-    if (!tapered)
-    {
-      std::fill(fibres.radii.begin(), fibres.radii.end(), 0.6);
-    }
-    const cactus::Capsules capsules = cactus::capsulesOf(fibres);
-    cactus::NeighbourList list;
-    cactus::findNeighbours(capsules, 0.5, 1, list);
-    for (std::size_t k = 0; k < capsules.size(); ++k)
-    {
-      const std::uint32_t* neighbours = list.indices.data() + list.offsets[k];
-      const std::size_t count = list.offsets[k + 1] - list.offsets[k];
-      cactus::CapsuleOverlap first;
-      const auto evaluate = [&](const cactus::VectorKernels& kernels, bool flag, cactus::CapsuleOverlap& result)
-      { kernels.evaluateCapsule(capsules.bodies.data(), neighbours, count, capsules.bodies[k], 1.01, 1e-3, flag, result); };
-      evaluate(cactus::portableKernels, true, first);
-      for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
-      {
-        for (const bool flag : { tapered, true })
-        {
-          cactus::CapsuleOverlap result;
-          evaluate(*kernels, flag, result);
-          // Not by bytes: −0 is 0.
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            ASSERT_EQ(result.gradient0[axis], first.gradient0[axis]);
-            ASSERT_EQ(result.gradient1[axis], first.gradient1[axis]);
-          }
-          ASSERT_EQ(result.radius0, first.radius0);
-          ASSERT_EQ(result.radius1, first.radius1);
-          ASSERT_EQ(result.stiffness0, first.stiffness0);
-          ASSERT_EQ(result.stiffness1, first.stiffness1);
-          ASSERT_EQ(result.cost, first.cost);
-          ASSERT_EQ(result.penetration, first.penetration);
-          ASSERT_EQ(result.overlapping, first.overlapping);
-        }
-      }
-    }
-  }
-}
-
 // Guarantee: the columns of capsules near a point hold what they are said to, what fills up the last 16 is far from all of them,
 // and neither depends on the vector unit.
-TEST(VectorKernels, SameColumnsOnEveryVectorUnit)
+TEST(SearchKernels, SameColumnsOnEveryVectorUnit)
 {
   const cactus::Capsules capsules = cactus::capsulesOf(randomBundle(23, 5, 12, 5.0, 0.3));
   const double origin[3] = { 1.5, -2.0, 0.25 };
@@ -90,11 +33,11 @@ TEST(VectorKernels, SameColumnsOnEveryVectorUnit)
     }
     const std::size_t padded = (count + 15) / 16 * 16;
     std::vector<float> first;
-    for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
+    for (const cactus::SearchKernels* kernels : cactus::runnableKernels<cactus::SearchKernels>())
     {
       std::vector<float> numbers(cactus::NearColumns::count * 64, -1.0f);
       kernels->gatherNear(capsules.bodies.data(), reach.data(), indices.data(), count, origin, { numbers.data(), 64 });
-      if (kernels == &cactus::portableKernels)
+      if (kernels == &cactus::portableSearchKernels)
       {
         first = numbers;
       }
@@ -126,7 +69,7 @@ TEST(VectorKernels, SameColumnsOnEveryVectorUnit)
 
 // Guarantee: which candidates are neighbours does not depend on the vector unit, nor on how many candidates there are; those are
 // listed whose exact distance is within reach.
-TEST(VectorKernels, SameNeighboursOnEveryVectorUnit)
+TEST(SearchKernels, SameNeighboursOnEveryVectorUnit)
 {
   const cactus::Capsules capsules = cactus::capsulesOf(randomBundle(22, 60, 12, 5.0, 0.3));
   const std::vector<float> reach(capsules.size(), 0.2f);
@@ -139,7 +82,7 @@ TEST(VectorKernels, SameNeighboursOnEveryVectorUnit)
   std::size_t total = 0;
   for (const std::size_t count : { std::size_t(0), std::size_t(5), std::size_t(256), std::size_t(257), capsules.size() })
   {
-    cactus::portableKernels.gatherNear(capsules.bodies.data(), reach.data(), indices.data(), count, origin, near);
+    cactus::portableSearchKernels.gatherNear(capsules.bodies.data(), reach.data(), indices.data(), count, origin, near);
     for (std::size_t k = 0; k < count; k += 7)
     {
       float p[cactus::NearColumns::count];
@@ -148,12 +91,12 @@ TEST(VectorKernels, SameNeighboursOnEveryVectorUnit)
         p[number] = numbers[number * stride + k];
       }
       std::vector<std::uint32_t> first;
-      for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
+      for (const cactus::SearchKernels* kernels : cactus::runnableKernels<cactus::SearchKernels>())
       {
         std::vector<std::uint32_t> found(count + 16);
         found.resize(
           static_cast<std::size_t>(kernels->selectNeighbours(near, indices.data(), count, p, found.data()) - found.data()));
-        if (kernels == &cactus::portableKernels)
+        if (kernels == &cactus::portableSearchKernels)
         {
           first = found;
         }
@@ -173,7 +116,7 @@ TEST(VectorKernels, SameNeighboursOnEveryVectorUnit)
 }
 
 // Guarantee: keys come out in increasing order, whatever their number and order, on every vector unit.
-TEST(VectorKernels, SortsKeys)
+TEST(SearchKernels, SortsKeys)
 {
   for (std::size_t count = 0; count <= 130; ++count)
   {
@@ -184,7 +127,7 @@ TEST(VectorKernels, SortsKeys)
     }
     std::vector<std::uint32_t> expected(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count));
     std::sort(expected.begin(), expected.end());
-    for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
+    for (const cactus::SearchKernels* kernels : cactus::runnableKernels<cactus::SearchKernels>())
     {
       std::vector<std::uint32_t> sorted(count);
       kernels->sortKeys(keys.data(), count, sorted.data());
@@ -195,7 +138,7 @@ TEST(VectorKernels, SortsKeys)
 
 // Guarantee: which capsules of runs, full ones or not, have boxes that overlap a box does not depend on the vector unit, and is
 // what comparing one by one gives.
-TEST(VectorKernels, SameCapsulesOfRunsOnEveryVectorUnit)
+TEST(SearchKernels, SameCapsulesOfRunsOnEveryVectorUnit)
 {
   constexpr std::size_t count = 60;
   std::vector<cactus::BoxBlock> blocks(count);
@@ -242,7 +185,7 @@ TEST(VectorKernels, SameCapsulesOfRunsOnEveryVectorUnit)
     }
   }
   EXPECT_GT(expected.size(), 10u);
-  for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
+  for (const cactus::SearchKernels* kernels : cactus::runnableKernels<cactus::SearchKernels>())
   {
     std::vector<std::uint32_t> found(8 * runs.size() + 8);
     found.resize(static_cast<std::size_t>(
@@ -253,7 +196,7 @@ TEST(VectorKernels, SameCapsulesOfRunsOnEveryVectorUnit)
 
 // Guarantee: which boxes of a row of cells overlap, but for those to be skipped, does not depend on the vector unit, and is what
 // comparing one by one gives.
-TEST(VectorKernels, SameBoxesOnEveryVectorUnit)
+TEST(SearchKernels, SameBoxesOnEveryVectorUnit)
 {
   constexpr std::size_t count = 101;
   std::vector<std::vector<float>> numbers(6, std::vector<float>(count + 16));
@@ -293,7 +236,7 @@ TEST(VectorKernels, SameBoxesOnEveryVectorUnit)
       }
     }
     EXPECT_TRUE(end < count || !expected.empty());
-    for (const cactus::VectorKernels* kernels : cactus::runnableVectorKernels())
+    for (const cactus::SearchKernels* kernels : cactus::runnableKernels<cactus::SearchKernels>())
     {
       std::vector<std::uint32_t> found(end - begin + 16);
       found.resize(static_cast<std::size_t>(kernels->selectBoxes(columns, begin, end, box, found.data()) - found.data()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "optimiser/VectorKernels.h"
+#include "base/VectorUnit.h"
 
 #if defined(__x86_64__)
 #include <cpuid.h>
@@ -43,27 +43,14 @@ bool supportsX86V4()
 } // namespace
 #endif
 
-std::vector<const VectorKernels*> runnableVectorKernels()
+std::size_t runnableVectorUnits()
 {
-  std::vector<const VectorKernels*> runnable{ &portableKernels };
 #if defined(__x86_64__)
   __builtin_cpu_init();
-  if (supportsX86V3())
-  {
-    runnable.push_back(&x86V3Kernels);
-  }
-  if (supportsX86V4())
-  {
-    runnable.push_back(&x86V4Kernels);
-  }
+  return supportsX86V4() ? 3 : supportsX86V3() ? 2 : 1;
+#else
+  return 1;
 #endif
-  return runnable;
-}
-
-const VectorKernels& vectorKernels()
-{
-  static const VectorKernels& best = *runnableVectorKernels().back();
-  return best;
 }
 
 } // namespace cactus

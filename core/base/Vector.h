@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The vectors that all kernels are written in (see base/VectorUnit.h): those of one vector unit, as wide as it has them.
+//
+// They are the compiler's own vector types (GCC and Clang), so that kernels read like formulas: + - * / and comparisons work lane
+// by lane, a scalar on one side stands for all lanes, and `mask ? a : b` chooses. Only what these types cannot say is written for
+// each unit, below.
+//
+// The same bits on every unit: a lane computes what a scalar would, since each operation is rounded correctly and contraction to
+// fused multiply-add is off for the whole library; sums over lanes are for the kernel to take in an order that does not depend on
+// the width.
+//
+// A file that is compiled for one unit must not leave behind an inline function that others share, since the linker might take
+// the version for a machine that is not there: whatever kernels call is in an unnamed namespace and forced inline. No Eigen and
+// no containers of the standard library in them.
+//
+// CMake defines CACTUS_DOUBLES, the doubles in a vector, and CACTUS_VECTOR_UNIT, how the names of the unit's tables begin.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#if CACTUS_DOUBLES > 2
+#include <immintrin.h>
+#endif
+
+#define CACTUS_KERNEL_INLINE inline __attribute__((always_inline))
+
+/// The name of a table of kernels for this unit, as CACTUS_KERNEL_VERSIONS declares it.
+#define CACTUS_JOIN_NAMES(unit, table) unit##table
+#define CACTUS_JOIN(unit, table) CACTUS_JOIN_NAMES(unit, table)
+#define CACTUS_KERNELS_OF_UNIT(table) CACTUS_JOIN(CACTUS_VECTOR_UNIT, table)
+
+namespace cactus
+{
+
+namespace
+{
+
+/// How many doubles and floats fit into a vector.
+constexpr int width = CACTUS_DOUBLES;
+constexpr int floats = 2 * CACTUS_DOUBLES;
+typedef double Doubles __attribute__((vector_size(8 * width)));
+typedef long long DoubleMask __attribute__((vector_size(8 * width)));
+typedef float Floats __attribute__((vector_size(4 * floats)));
+typedef std::int32_t FloatMask __attribute__((vector_size(4 * floats)));
+typedef float NarrowFloats __attribute__((vector_size(4 * width))); ///< as many as there are doubles
+
+CACTUS_KERNEL_INLINE Doubles select(const DoubleMask& mask, const Doubles& x, const Doubles& y)
+{
+  return mask ? x : y;
+}
+
+CACTUS_KERNEL_INLINE Doubles squareRoot(const Doubles& x)
+{
+  Doubles root;
+  for (int l = 0; l < width; ++l)
+  {
+    root[l] = __builtin_sqrt(x[l]);
+  }
+  return root;
+}
+
+CACTUS_KERNEL_INLINE Floats squareRoot(const Floats& x)
+{
+  Floats root;
+  for (int l = 0; l < floats; ++l)
+  {
+    root[l] = __builtin_sqrtf(x[l]);
+  }
+  return root;
+}
+
+CACTUS_KERNEL_INLINE Floats larger(const Floats& x, const Floats& y)
+{
+  return x > y ? x : y;
+}
+
+CACTUS_KERNEL_INLINE Floats smaller(const Floats& x, const Floats& y)
+{
+  return x < y ? x : y;
+}
+
+CACTUS_KERNEL_INLINE bool any(const DoubleMask& mask)
+{
+#if CACTUS_DOUBLES == 8
+  return _mm512_movepi64_mask((__m512i)mask) != 0;
+#elif CACTUS_DOUBLES == 4
+  return _mm256_movemask_pd((__m256d)mask) != 0;
+#else
+  long long bits = 0;
+  for (int l = 0; l < width; ++l)
+  {
+    bits |= mask[l];
+  }
+  return bits != 0;
+#endif
+}
+
+/// Lane l of columns[n] becomes number n of row l. Rows are aligned to 64 bytes.
+CACTUS_KERNEL_INLINE void transpose(const double* const (&rows)[width], Doubles (&columns)[8])
+{
+#if CACTUS_DOUBLES == 8
+  // Pairs of numbers two by two, then blocks of them four by four. With masks of all lanes: GCC 12 warns of the forms without.
+  __m512d even[4], odd[4];
+  for (int pair = 0; pair < 4; ++pair)
+  {
+    const __m512d first = _mm512_load_pd(rows[2 * pair]);
+    const __m512d second = _mm512_load_pd(rows[2 * pair + 1]);
+    even[pair] = _mm512_maskz_unpacklo_pd(0xff, first, second);
+    odd[pair] = _mm512_maskz_unpackhi_pd(0xff, first, second);
+  }
+  for (int parity = 0; parity < 2; ++parity)
+  {
+    const __m512d(&x)[4] = parity == 0 ? even : odd;
+    const __m512d lower01 = _mm512_maskz_shuffle_f64x2(0xff, x[0], x[1], 0x44);
+    const __m512d upper01 = _mm512_maskz_shuffle_f64x2(0xff, x[0], x[1], 0xee);
+    const __m512d lower23 = _mm512_maskz_shuffle_f64x2(0xff, x[2], x[3], 0x44);
+    const __m512d upper23 = _mm512_maskz_shuffle_f64x2(0xff, x[2], x[3], 0xee);
+    columns[parity] = (Doubles)_mm512_maskz_shuffle_f64x2(0xff, lower01, lower23, 0x88);
+    columns[2 + parity] = (Doubles)_mm512_maskz_shuffle_f64x2(0xff, lower01, lower23, 0xdd);
+    columns[4 + parity] = (Doubles)_mm512_maskz_shuffle_f64x2(0xff, upper01, upper23, 0x88);
+    columns[6 + parity] = (Doubles)_mm512_maskz_shuffle_f64x2(0xff, upper01, upper23, 0xdd);
+  }
+#else
+  double numbers[8][width];
+  for (int l = 0; l < width; ++l)
+  {
+    for (int n = 0; n < 8; ++n)
+    {
+      numbers[n][l] = rows[l][n];
+    }
+  }
+  __builtin_memcpy(&columns, &numbers, sizeof(columns));
+#endif
+}
+
+CACTUS_KERNEL_INLINE Floats load(const float* from)
+{
+  Floats vector;
+  __builtin_memcpy(&vector, from, sizeof(vector));
+  return vector;
+}
+
+#if CACTUS_DOUBLES > 2
+/// Bit l is set if lane l is.
+CACTUS_KERNEL_INLINE unsigned bitsOf(const FloatMask& mask)
+{
+#if CACTUS_DOUBLES == 8
+  return _mm512_movepi32_mask((__m512i)mask);
+#else
+  return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
+#endif
+}
+#endif
+
+CACTUS_KERNEL_INLINE void store(float* to, const Floats& vector)
+{
+  __builtin_memcpy(to, &vector, sizeof(vector));
+}
+
+/// Writes those of the first `count` values whose lane is set to `found`, in their order, and returns the end of what it wrote;
+/// may write up to a vector beyond that.
+CACTUS_KERNEL_INLINE std::uint32_t* append(const FloatMask& mask, int count, const std::uint32_t* values, std::uint32_t* found)
+{
+#if CACTUS_DOUBLES == 8
+  const unsigned set = bitsOf(mask) & (0xffffu >> (floats - count));
+  _mm512_storeu_si512(found, _mm512_maskz_compress_epi32(static_cast<__mmask16>(set), _mm512_loadu_si512(values)));
+  return found + __builtin_popcount(set);
+#elif CACTUS_DOUBLES == 4
+  for (unsigned set = bitsOf(mask) & (0xffu >> (floats - count)); set != 0; set &= set - 1)
+  {
+    *found++ = values[__builtin_ctz(set)];
+  }
+  return found;
+#else
+  for (int l = 0; l < count; ++l)
+  {
+    *found = values[l];
+    found -= mask[l];
+  }
+  return found;
+#endif
+}
+
+} // namespace
+
+} // namespace cactus

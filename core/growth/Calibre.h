@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace cactus
+{
+
+/// How a fibre's calibre varies.
+struct CalibreOptions
+{
+  /// How far, as a fraction of the local radius, the seeded shape may fall short of the capsule: 0 seeds the capsule itself, more
+  /// makes the calibre uneven. In [0, 0.5].
+  double surfaceRoughness = 0.1;
+  std::uint64_t seed = 1;
+};
+
+/// How thick a fibre is along its axis: the radius that its seed has, as a fraction of that of its capsules, at each length from
+/// its first control point. Another way for a calibre to vary (beading) belongs here: what uses it takes these
+/// fractions and the longest piece, and knows no more.
+///
+/// The paper places seed points at random within all capsules ("FRG description"). Here the fraction is 1 - ρ u(l) with ρ the
+/// SurfaceRoughness and u a smooth random function from 0 to 1: a cubic B-spline over the length l whose coefficients follow the
+/// arcsine distribution, so that most are near 0 or 1. It depends on seed, fibre id and length alone.
+class Calibre
+{
+public:
+  /// Throws InvalidInput for options out of range.
+  explicit Calibre(const CalibreOptions& options);
+
+  /// Whether the fraction differs from 1 anywhere.
+  bool varies() const { return this->Options.surfaceRoughness > 0.0; }
+
+  /// The fraction, in (0, 1], at `length` (µm) along the fibre.
+  double fraction(int fibreId, double length) const;
+
+  /// No fraction is smaller: what is sure to be left of a fibre at any place.
+  double smallestFraction() const { return 1.0 - this->Options.surfaceRoughness; }
+
+  /// Length (µm) of a piece along which the radius may be taken to vary linearly between its ends; infinite for a calibre that
+  /// does not vary.
+  double longestPiece() const;
+
+private:
+  double narrowing(int fibreId, double length) const;
+
+  CalibreOptions Options;
+};
+
+} // namespace cactus

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth/CandidateSearch.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+void Candidates::clear()
+{
+  this->Groups.clear();
+  for (std::vector<float>& column : this->Columns)
+  {
+    column.clear();
+  }
+  this->Count = 0;
+}
+
+void Candidates::beginGroup(int rank)
+{
+  this->Groups.push_back({ rank, this->Count, this->Count, 0.0f });
+}
+
+void Candidates::add(const Cone& cone, const Eigen::Vector3d& origin)
+{
+  const Eigen::Vector3d start = cone.start - origin;
+  const double numbers[columnCount] = { start.x(), start.y(), start.z(), cone.axis.x(), cone.axis.y(), cone.axis.z(), cone.length,
+    cone.radius, cone.slope, cone.lean, 0.0 };
+  for (std::size_t n = 0; n < columnCount; ++n)
+  {
+    this->Columns[n].push_back(float(numbers[n]));
+  }
+  this->Groups.back().end = ++this->Count;
+}
+
+void Candidates::finish()
+{
+  for (std::vector<float>& column : this->Columns)
+  {
+    column.resize(this->Count + FieldKernels::padding, 0.0f);
+  }
+}
+
+ConeColumns Candidates::columns()
+{
+  const auto column = [&](std::size_t n) { return this->Columns[n].data(); };
+  return { { column(0), column(1), column(2) }, { column(3), column(4), column(5) }, column(6), column(7), column(8), column(9),
+    column(10), this->Count };
+}
+
+CandidateSearch::CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins)
+  : Seeds(seeds)
+  , Bins(bins)
+  , SeenIn(seeds.pieces.size(), 0)
+  , Fields(seeds.fibreOfRank.size(), -infinity)
+{
+}
+
+Candidates& CandidateSearch::find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance)
+{
+  double reach = extent + std::min(relevance.bestReach, extent);
+  for (;;)
+  {
+    this->collect(centre, reach);
+    this->rankFields();
+    const double needed = this->neededReach(extent, relevance);
+    if (needed <= reach)
+    {
+      break;
+    }
+    reach = needed;
+  }
+  this->keep(centre, extent);
+  return this->Kept;
+}
+
+/// Finds all pieces whose field at the centre is above -reach.
+void CandidateSearch::collect(const Eigen::Vector3d& centre, double reach)
+{
+  for (const int rank : this->Ranks)
+  {
+    this->Fields[std::size_t(rank)] = -infinity;
+  }
+  this->Ranks.clear();
+  this->Pieces.clear();
+  ++this->Collection;
+  const double half = std::max(reach, 0.0);
+  this->Bins.forEachNear(centre.array() - half, centre.array() + half,
+    [&](std::uint32_t p)
+    {
+      if (this->SeenIn[p] == this->Collection)
+      {
+        return;
+      }
+      this->SeenIn[p] = this->Collection;
+      const SeedPiece& piece = this->Seeds.pieces[p];
+      const double value = coneValue(piece.cone, centre);
+      if (value <= -reach)
+      {
+        return;
+      }
+      double& field = this->Fields[std::size_t(piece.rank)];
+      if (field == -infinity)
+      {
+        this->Ranks.push_back(piece.rank);
+      }
+      field = std::max(field, value);
+      this->Pieces.push_back({ piece.rank, p });
+    });
+}
+
+void CandidateSearch::rankFields()
+{
+  this->Best = this->Second = -infinity;
+  for (const int rank : this->Ranks)
+  {
+    const double value = this->Fields[std::size_t(rank)];
+    this->Second = std::max(this->Second, std::min(this->Best, value));
+    this->Best = std::max(this->Best, value);
+  }
+}
+
+/// How far all pieces must have been collected, given the fields at the centre and that they are 1-Lipschitz.
+double CandidateSearch::neededReach(double extent, const FieldRelevance& relevance) const
+{
+  double needed = std::min(relevance.bestReach + extent, 2.0 * extent - this->Best);
+  if (this->Best + extent > -relevance.secondReach)
+  {
+    needed = std::max(
+      needed, 2.0 * extent + std::min({ this->Best + relevance.sumReach, relevance.contrast - this->Best, -this->Second }));
+  }
+  return needed;
+}
+
+/// Keeps of the fibres found those that can be one of the two largest within `extent`, and of their pieces those that can be
+/// their largest.
+void CandidateSearch::keep(const Eigen::Vector3d& centre, double extent)
+{
+  std::sort(this->Pieces.begin(), this->Pieces.end(), [](const Found& a, const Found& b) { return a.piece < b.piece; });
+  this->Kept.clear();
+  for (auto begin = this->Pieces.begin(); begin != this->Pieces.end();)
+  {
+    const int rank = begin->rank;
+    const auto end = std::find_if(begin, this->Pieces.end(), [&](const Found& found) { return found.rank != rank; });
+    const double value = this->Fields[std::size_t(rank)];
+    if (value + 2.0 * extent >= this->Second)
+    {
+      this->Kept.beginGroup(rank);
+      for (auto found = begin; found != end; ++found)
+      {
+        const Cone& cone = this->Seeds.pieces[found->piece].cone;
+        if (coneValue(cone, centre) >= value - 2.0 * extent)
+        {
+          this->Kept.add(cone, centre);
+        }
+      }
+    }
+    begin = end;
+  }
+  this->Kept.finish();
+}
+
+} // namespace cactus

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "growth/CapsuleSeeds.h"
+#include "growth/FieldKernels.h"
+#include "growth/FieldRelevance.h"
+#include "growth/SeedBins.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// The cones that can matter in one block of samples, in single precision relative to the block's centre, grouped by fibre.
+class Candidates
+{
+public:
+  void clear();
+  /// Starts the group of one fibre; its cones follow.
+  void beginGroup(int rank);
+  void add(const Cone& cone, const Eigen::Vector3d& origin);
+  /// Makes the columns readable in whole vectors.
+  void finish();
+
+  ConeColumns columns();
+  std::vector<ConeGroup>& groups() { return this->Groups; }
+
+private:
+  static constexpr std::size_t columnCount = 11;
+
+  std::vector<ConeGroup> Groups;
+  std::vector<float> Columns[columnCount];
+  std::size_t Count = 0;
+};
+
+/// Finds the candidates of one block after the other; each thread has one of its own.
+class CandidateSearch
+{
+public:
+  CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins);
+
+  /// All that can matter within `extent` of `centre`, until the next call.
+  Candidates& find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance);
+
+private:
+  struct Found
+  {
+    int rank;
+    std::uint32_t piece;
+  };
+
+  void collect(const Eigen::Vector3d& centre, double reach);
+  void rankFields();
+  double neededReach(double extent, const FieldRelevance& relevance) const;
+  void keep(const Eigen::Vector3d& centre, double extent);
+
+  const CapsuleSeeds& Seeds;
+  const SeedBins& Bins;
+  std::vector<std::uint32_t> SeenIn; ///< per piece: the last collection that met it
+  std::uint32_t Collection = 0;
+  std::vector<Found> Pieces;  ///< those with a field above the reach at the centre
+  std::vector<double> Fields; ///< per rank: the largest field at the centre
+  std::vector<int> Ranks;     ///< of the fibres found
+  double Best = 0.0;          ///< the largest field at the centre, of the fibres found
+  double Second = 0.0;        ///< and the second largest
+  Candidates Kept;
+};
+
+} // namespace cactus

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth/CapsuleSeeds.h"
+
+#include "base/Memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace cactus
+{
+
+namespace
+{
+
+std::vector<std::size_t> byFibreId(const Fibres& fibres)
+{
+  std::vector<std::size_t> order(fibres.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fibres.fibreIds[a] < fibres.fibreIds[b]; });
+  return order;
+}
+
+/// How many pieces the segment from control point p to the next is cut into.
+int pieceCount(const Fibres& fibres, const Calibre& calibre, std::size_t p)
+{
+  const double length = (fibres.points[p + 1] - fibres.points[p]).norm();
+  const double radius = std::max(fibres.radii[p], fibres.radii[p + 1]);
+  const double longest = std::min(4.0 * radius, calibre.longestPiece());
+  return int(std::min(std::max(1.0, std::ceil(length / longest)), calibre.varies() ? 1e6 : 256.0));
+}
+
+bool isInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& region, double reach)
+{
+  Eigen::AlignedBox3d box(fibres.points[p]);
+  box.extend(fibres.points[p + 1]);
+  const double grown = reach + std::max(fibres.radii[p], fibres.radii[p + 1]);
+  return box.squaredExteriorDistance(region) <= grown * grown;
+}
+
+} // namespace
+
+CapsuleSeeds::CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach)
+  : fibreOfRank(byFibreId(fibres))
+{
+  double total = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
+    {
+      total += isInReach(fibres, p, region, reach) ? pieceCount(fibres, calibre, p) : 0.0;
+    }
+  }
+  requireMemory(total * (sizeof(SeedPiece) + 64.0), "seeding " + std::to_string(fibres.size()) + " fibres",
+    "request a smaller extent, or use fewer fibres or control points");
+  this->pieces.reserve(std::size_t(total));
+  this->pieceOffsets.assign(1, 0);
+  for (const std::size_t f : this->fibreOfRank)
+  {
+    double start = 0.0; // length of the fibre up to the segment
+    for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
+    {
+      if (isInReach(fibres, p, region, reach))
+      {
+        this->addSegment(fibres, calibre, f, p, start);
+      }
+      start += (fibres.points[p + 1] - fibres.points[p]).norm();
+    }
+    this->pieceOffsets.push_back(this->pieces.size());
+  }
+}
+
+/// Cuts the segment from control point p of fibre f to the next, `start` along the fibre, into pieces.
+void CapsuleSeeds::addSegment(const Fibres& fibres, const Calibre& calibre, std::size_t f, std::size_t p, double start)
+{
+  const int rank = int(this->pieceOffsets.size()) - 1;
+  const Eigen::Vector3d& p0 = fibres.points[p];
+  const Eigen::Vector3d along = fibres.points[p + 1] - p0;
+  const double length = along.norm();
+  const double r0 = fibres.radii[p];
+  const double widening = fibres.radii[p + 1] - r0;
+  const auto radius = [&](double t)
+  {
+    const double full = r0 + t * widening;
+    return calibre.varies() ? full * calibre.fraction(fibres.fibreIds[f], start + t * length) : full;
+  };
+  const int parts = pieceCount(fibres, calibre, p);
+  for (int part = 0; part < parts; ++part)
+  {
+    const double t0 = double(part) / parts;
+    const double t1 = part + 1 == parts ? 1.0 : double(part + 1) / parts;
+    this->pieces.push_back({ coneBetween(p0 + t0 * along, p0 + t1 * along, radius(t0), radius(t1)), rank });
+  }
+}
+
+} // namespace cactus

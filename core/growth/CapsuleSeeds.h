@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "growth/Calibre.h"
+#include "growth/Cone.h"
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// A piece of a fibre's seed. Pieces are short, so that boxes are tight and single precision is enough near one.
+struct SeedPiece
+{
+  Cone cone;
+  int rank; ///< of the fibre, see CapsuleSeeds
+};
+
+/// What growth starts from: the fibres' capsules with their calibre, cut into pieces. Fibres are ranked by increasing fibre id.
+struct CapsuleSeeds
+{
+  /// All pieces that come within `reach` of the region; segments farther away are left out. Throws OutOfMemory.
+  CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach);
+
+  std::vector<std::size_t> fibreOfRank;  ///< index into the fibres given
+  std::vector<std::size_t> pieceOffsets; ///< those of rank r are pieces[pieceOffsets[r]] … pieces[pieceOffsets[r + 1] − 1]
+  std::vector<SeedPiece> pieces;
+
+private:
+  void addSegment(const Fibres& fibres, const Calibre& calibre, std::size_t f, std::size_t p, double start);
+};
+
+} // namespace cactus

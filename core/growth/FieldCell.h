@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace cactus
+{
+
+/// The two largest fields at a small box of samples, x fastest, with fixed strides.
+struct FieldCell
+{
+  static constexpr int sizeX = 8;
+  static constexpr int sizeY = 4;
+  static constexpr int sizeZ = 4;
+  static constexpr int size = sizeX * sizeY * sizeZ;
+
+  int lower[3];        ///< grid index of the cell's first sample
+  int begin[3];        ///< the part asked for: cell-relative indices [begin, end)
+  int end[3];          ///<
+  const float* best;   ///< largest field, `size` values
+  const float* second; ///< largest field of any other fibre
+  const int* rank;     ///< whose field `best` is (rank as in CapsuleField), -1 where no fibre is near
+
+  /// visit(n) for the samples asked for: their places in `best`, `second` and `rank`.
+  template <typename Visit>
+  void forEachSample(Visit&& visit) const
+  {
+    for (int k = this->begin[2]; k < this->end[2]; ++k)
+    {
+      for (int j = this->begin[1]; j < this->end[1]; ++j)
+      {
+        const int row = sizeX * (j + sizeY * k);
+        for (int i = row + this->begin[0]; i < row + this->end[0]; ++i)
+        {
+          visit(i);
+        }
+      }
+    }
+  }
+};
+
+} // namespace cactus

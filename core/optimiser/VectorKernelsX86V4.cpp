@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Compiled with -march=x86-64-v4, see CMakeLists.txt.
-#if defined(__x86_64__)
-#define CACTUS_KERNELS x86V4Kernels
-#define CACTUS_DOUBLES 8
-#include "optimiser/VectorKernelsBody.h"
-#endif
