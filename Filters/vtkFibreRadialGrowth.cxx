@@ -12,6 +12,7 @@
 #include "base/Numbers.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
 #include "judge/SubstrateStatistics.h"
 #include "stages/Stages.h"
 

@@ -3,6 +3,7 @@
 // time.
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
 
 #include <benchmark/benchmark.h>
 

@@ -6,6 +6,7 @@
 #include "bundle/BundleInitializer.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
 #include "judge/SubstrateCertificate.h"
 #include "judge/SubstrateStatistics.h"
 #include "optimiser/CapsuleOptimizer.h"

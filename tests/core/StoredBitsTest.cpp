@@ -8,6 +8,7 @@
 #include "fibres/TrimToDomain.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "surface/MyelinSurface.h"
 

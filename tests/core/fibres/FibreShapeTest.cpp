@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/FibreShape.h"
+
 #include "base/Constants.h"
 
 #include <gtest/gtest.h>

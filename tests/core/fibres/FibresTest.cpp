@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/Fibres.h"
+
 #include "base/Error.h"
 
 #include <gtest/gtest.h>

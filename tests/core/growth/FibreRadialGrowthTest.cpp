@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/FibreRadialGrowth.h"
-#include "base/Constants.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "growth/CapsuleField.h"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/GrowthTarget.h"
-#include "base/Constants.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
 #include "fibres/TrimToDomain.h"
+#include "growth/TargetRadii.h"
 #include "judge/SubstrateStatistics.h"
 #include "optimiser/CapsuleOptimizer.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/SubstrateCertificate.h"
-#include "base/Constants.h"
 
 #include "ExampleSurfaces.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "mesh/SurfaceDistance.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/SubstrateStatistics.h"
+
 #include "ExampleSurfaces.h"
 #include "base/Constants.h"
 #include "base/Error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceCheck.h"
-#include "base/Constants.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 
 #include <gtest/gtest.h>

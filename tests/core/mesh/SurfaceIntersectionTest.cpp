@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceIntersection.h"
-#include "base/Constants.h"
 
 #include "ExampleSurfaces.h"
+#include "base/Constants.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -9,6 +9,7 @@
 #include "fibres/TrimToDomain.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
 #include "optimiser/CapsuleOptimizer.h"

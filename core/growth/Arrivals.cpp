@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth/Arrivals.h"
+
+#include "growth/CapsuleField.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Width of the classes (µm) in which arrivals are counted.
+constexpr double growthClass = 0.00025;
+
+double largestRadius(const Fibres& fibres)
+{
+  return *std::max_element(fibres.radii.begin(), fibres.radii.end());
+}
+
+} // namespace
+
+Arrivals countArrivals(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const VoxelGrid& grid, double reach, const Context& context)
+{
+  const double first = -largestRadius(fibres) - growthClass;
+  const auto classes = std::size_t(std::ceil((reach - first) / growthClass)) + 1;
+  const int threads = context.threadCount();
+  std::vector<std::vector<std::uint64_t>> perThread(std::size_t(threads), std::vector<std::uint64_t>(classes, 0));
+  FieldRelevance relevance;
+  relevance.bestReach = reach;
+  relevance.secondReach = reach;
+  relevance.contrast = options.gap();
+  const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, grid.box(), reach + options.gap() + grid.spacing);
+  const auto gap = static_cast<float>(options.gap());
+  field.sweep(grid, relevance, context, 0.3, 0.5, "finding the growth that reaches the target",
+    [&](const FieldCell& cell, int thread)
+    {
+      auto& counts = perThread[std::size_t(thread)];
+      cell.forEachSample(
+        [&](int n)
+        {
+          const double arrival = -static_cast<double>(cell.best[n]);
+          if (arrival < reach && cell.best[n] - cell.second[n] > gap)
+          {
+            ++counts[std::size_t((arrival - first) / growthClass)];
+          }
+        });
+    });
+  Arrivals arrivals;
+  arrivals.first = first;
+  arrivals.samples = grid.size();
+  arrivals.counts.assign(classes, 0);
+  for (const auto& counts : perThread)
+  {
+    for (std::size_t c = 0; c < classes; ++c)
+    {
+      arrivals.counts[c] += counts[c];
+      arrivals.reachable += counts[c];
+    }
+  }
+  return arrivals;
+}
+
+double growthAt(const Arrivals& arrivals, double target)
+{
+  const double needed = target * static_cast<double>(arrivals.samples);
+  double before = 0.0;
+  for (std::size_t c = 0; c < arrivals.counts.size(); ++c)
+  {
+    const auto count = static_cast<double>(arrivals.counts[c]);
+    if (count > 0.0 && before + count >= needed)
+    {
+      return arrivals.first + growthClass * (static_cast<double>(c) + (needed - before) / count);
+    }
+    before += count;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+VoxelGrid sampleGrid(const Domain& domain, double samples)
+{
+  const Eigen::Vector3d size = domain.size();
+  VoxelGrid grid;
+  grid.spacing = std::cbrt(domain.volume() / samples);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int count = std::max(1, static_cast<int>(std::round(size[axis] / grid.spacing)));
+    grid.count[static_cast<std::size_t>(axis)] = count;
+    // Centred: what a side leaves over is shared by its two ends.
+    grid.origin[axis] = domain.lower[axis] + 0.5 * (size[axis] - (count - 1) * grid.spacing);
+  }
+  return grid;
+}
+
+double roughGrowth(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context)
+{
+  Context quiet = context;
+  quiet.progress = nullptr;
+  const VoxelGrid grid = sampleGrid(fibres.domain, samplesForTarget / 64.0);
+  return growthAt(countArrivals(fibres, options, grid, largestGrowth, quiet), options.targetFibreVolumeFraction);
+}
+
+} // namespace cactus

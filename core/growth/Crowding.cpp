@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth/Crowding.h"
+
+#include "fibres/Capsules.h"
+#include "fibres/SegmentDistance.h"
+#include "growth/Calibre.h"
+#include "optimiser/NeighbourSearch.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+using FibrePair = std::pair<std::uint32_t, std::uint32_t>;
+
+FibrePair pairOf(const Crowding& crowding)
+{
+  return { crowding.thick, crowding.thin };
+}
+
+/// Capsules that could come so near to each other that one of the two is severed.
+NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wished, double thickening, int threads)
+{
+  std::vector<float> reaches(capsules.size());
+  for (std::size_t k = 0; k < capsules.size(); ++k)
+  {
+    const double radius = std::max(capsules.bodies[k].r0, capsules.bodies[k].r1);
+    reaches[k] = static_cast<float>(std::max(0.0, thickening * wished[capsules.fibre[k]] - 1.0) * radius);
+  }
+  NeighbourList neighbours;
+  findNeighbours(capsules, reaches, threads, neighbours);
+  return neighbours;
+}
+
+/// Of the entries of each pair of fibres makes one, the tightest in every respect.
+void joinPairs(std::vector<Crowding>& all)
+{
+  std::stable_sort(all.begin(), all.end(), [](const Crowding& a, const Crowding& b) { return pairOf(a) < pairOf(b); });
+  std::size_t pairs = 0;
+  for (const Crowding& crowding : all)
+  {
+    if (pairs > 0 && pairOf(all[pairs - 1]) == pairOf(crowding))
+    {
+      Crowding& kept = all[pairs - 1];
+      kept.radius = std::max(kept.radius, crowding.radius);
+      kept.room = std::min(kept.room, crowding.room);
+      kept.core = std::min(kept.core, crowding.core);
+    }
+    else
+    {
+      all[pairs++] = crowding;
+    }
+  }
+  all.resize(pairs);
+}
+
+} // namespace
+
+std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowthOptions& options,
+  const std::vector<double>& wished, const FactorBounds& bounds, int threads)
+{
+  const Capsules capsules = capsulesOf(fibres);
+  const NeighbourList neighbours = findNear(capsules, wished, bounds.thickening, threads);
+  const double smallestFraction = Calibre({ options.surfaceRoughness, options.seed }).smallestFraction();
+  const auto end = [](const double* p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
+  std::vector<Crowding> all;
+  for (std::size_t k = 0; k < capsules.size(); ++k)
+  {
+    const Capsule& thin = capsules.bodies[k];
+    const double thinnest = std::min(thin.r0, thin.r1);
+    const double core = smallestFraction * thinnest;
+    const double kept = options.gap() + 0.25 * thinnest;
+    for (std::size_t n = neighbours.offsets[k]; n < neighbours.offsets[k + 1]; ++n)
+    {
+      const std::size_t other = neighbours.indices[n];
+      const Capsule& thick = capsules.bodies[other];
+      if (fibres.targetRadii[capsules.fibre[other]] <= fibres.targetRadii[capsules.fibre[k]])
+      {
+        continue;
+      }
+      const double distance = closestPoints(end(thin.p0), end(thin.p1), end(thick.p0), end(thick.p1)).distance;
+      const Crowding crowding = { capsules.fibre[other], capsules.fibre[k], std::max(thick.r0, thick.r1), distance - kept, core };
+      const double farthest = bounds.thickening * wished[crowding.thick] * crowding.radius;
+      if (farthest > crowding.room + wished[crowding.thin] / bounds.thinning * core)
+      {
+        all.push_back(crowding);
+      }
+    }
+  }
+  joinPairs(all);
+  return all;
+}
+
+double largestFactor(const std::vector<Crowding>& crowding, std::size_t thick, const std::vector<double>& factors)
+{
+  const auto first = std::lower_bound(
+    crowding.begin(), crowding.end(), thick, [](const Crowding& c, std::size_t fibre) { return c.thick < fibre; });
+  double largest = std::numeric_limits<double>::infinity();
+  for (auto c = first; c != crowding.end() && c->thick == thick; ++c)
+  {
+    largest = std::min(largest, (c->room + c->core * factors[c->thin]) / c->radius);
+  }
+  return largest;
+}
+
+} // namespace cactus

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth/TargetRadii.h"
+
+#include "growth/Arrivals.h"
+#include "growth/CapsuleField.h"
+#include "growth/Crowding.h"
+#include "growth/VolumeInDomain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Rounds in which radii are corrected, and the samples that they count: per fibre, and at least.
+constexpr int rounds = 3;
+constexpr double samplesPerFibre = 2000.0;
+constexpr double fewestSamples = 5e5;
+/// How much of a shortage is made up in one round: more than all, since the surface that two fibres share moves by half of what
+/// one is thickened.
+constexpr double correction = 1.4;
+/// How far a factor may end up from the one that it starts from.
+constexpr FactorBounds factorBounds = { 1.2, 1.5 };
+/// Samples are counted in slabs of this many layers, the blocks of a sweep.
+constexpr int slabLayers = 16;
+
+/// Layers of samples along z.
+int layersOf(const Domain& domain, double spacing)
+{
+  return std::max(1, static_cast<int>(std::round(domain.size()[2] / spacing)));
+}
+
+/// The samples of one slab of the domain. Every slab is shifted across by an amount of its own, that of `round` too, so that
+/// fibres along an axis do not line up with them.
+VoxelGrid slabGrid(const Domain& domain, double spacing, int slab, int round)
+{
+  const Eigen::Array3d size = domain.size().array();
+  const int layers = layersOf(domain, spacing);
+  const int slabs = (layers + slabLayers - 1) / slabLayers;
+  // The plane's low-discrepancy sequence of the least Pisot number of degree 3.
+  const double n = slab + 0.5 + round * slabs;
+  const double across[2] = { std::fmod(n * 0.7548776662466927, 1.0), std::fmod(n * 0.5698402909980532, 1.0) };
+  VoxelGrid grid;
+  grid.spacing = spacing;
+  for (Eigen::Index axis = 0; axis < 2; ++axis)
+  {
+    grid.origin[axis] = domain.lower[axis] + across[axis] * spacing;
+    grid.count[static_cast<std::size_t>(axis)] = static_cast<int>(std::ceil(size[axis] / spacing - across[axis]));
+  }
+  grid.origin[2] = domain.lower[2] + 0.5 * (size[2] - (layers - 1) * spacing);
+  grid.lower[2] = slab * slabLayers;
+  grid.count[2] = std::min(slabLayers, layers - grid.lower[2]);
+  return grid;
+}
+
+/// How many samples of the domain, `spacing` apart, each fibre holds after growth.
+std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, double spacing,
+  int round, const Context& context, double from, double to)
+{
+  FieldRelevance relevance;
+  relevance.bestReach = growth;
+  relevance.secondReach = growth;
+  relevance.contrast = options.gap();
+  const Eigen::AlignedBox3d domain(fibres.domain.lower, fibres.domain.upper);
+  const double reach = growth + options.gap() + spacing;
+  const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, domain, std::max(reach, 0.0));
+  std::vector<std::vector<std::uint64_t>> perThread(
+    static_cast<std::size_t>(context.threadCount()), std::vector<std::uint64_t>(fibres.size(), 0));
+  const auto gap = static_cast<float>(options.gap());
+  const auto lowest = static_cast<float>(-growth);
+
+  const int slabs = (layersOf(fibres.domain, spacing) + slabLayers - 1) / slabLayers;
+  for (int slab = 0; slab < slabs; ++slab)
+  {
+    const VoxelGrid grid = slabGrid(fibres.domain, spacing, slab, round);
+    const double step = (to - from) / slabs;
+    field.sweep(grid, relevance, context, from + slab * step, from + (slab + 1) * step, "aiming at the target radii",
+      [&](const FieldCell& cell, int thread)
+      {
+        auto& counts = perThread[static_cast<std::size_t>(thread)];
+        cell.forEachSample(
+          [&](int sample)
+          {
+            if (cell.best[sample] > lowest && cell.best[sample] - cell.second[sample] > gap)
+            {
+              ++counts[static_cast<std::size_t>(cell.rank[sample])];
+            }
+          });
+      });
+  }
+  std::vector<double> samples(fibres.size(), 0.0);
+  for (std::size_t rank = 0; rank < field.size(); ++rank)
+  {
+    std::uint64_t sum = 0;
+    for (const auto& counts : perThread)
+    {
+      sum += counts[rank];
+    }
+    samples[field.fibre(static_cast<int>(rank))] = static_cast<double>(sum);
+  }
+  return samples;
+}
+
+/// How thick fibres are to become: per fibre, the factor on its radii and the volume that it is to fill.
+struct Aim
+{
+  std::vector<double> factors;
+  std::vector<double> volumes;
+
+  double volume() const { return std::accumulate(this->volumes.begin(), this->volumes.end(), 0.0); }
+};
+
+/// Each fibre at its own target radius.
+Aim aimAtOwnRadii(const Fibres& fibres)
+{
+  Aim aim;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    double sum = 0.0;
+    for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
+    {
+      sum += fibres.radii[p];
+    }
+    aim.factors.push_back(fibres.targetRadii[f] * static_cast<double>(fibres.pointCount(f)) / sum);
+    aim.volumes.push_back(volumeInDomain(fibres, f, aim.factors[f]));
+  }
+  return aim;
+}
+
+/// Changes the aim so that all capsules together fill the volume `target`, were it not for overlaps, gaps and roughness: little
+/// growth is left to come.
+void fillTarget(const Fibres& fibres, double target, Aim& aim)
+{
+  const double volume = aim.volume();
+  if (volume >= target)
+  {
+    for (double& factor : aim.factors)
+    {
+      factor *= std::sqrt(target / volume);
+    }
+    return;
+  }
+  // All thicker by δ, that of the volumes w (1 + δ / r)² which add up to the target.
+  double linear = 0.0;
+  double quadratic = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    linear += aim.volumes[f] / fibres.targetRadii[f];
+    quadratic += aim.volumes[f] / (fibres.targetRadii[f] * fibres.targetRadii[f]);
+  }
+  const double more = target - volume;
+  const double thicker = std::min(more / (linear + std::sqrt(linear * linear + quadratic * more)), largestGrowth);
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const double ratio = 1.0 + thicker / fibres.targetRadii[f];
+    aim.factors[f] *= ratio;
+    aim.volumes[f] *= ratio * ratio;
+  }
+}
+
+std::vector<std::size_t> fromThinToThick(const Fibres& fibres)
+{
+  std::vector<std::size_t> order(fibres.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(
+    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fibres.targetRadii[a] < fibres.targetRadii[b]; });
+  return order;
+}
+
+/// Keeps a fibre's factor within its bounds, and to what leaves the thinner fibres beside it whole.
+double boundedFactor(std::size_t f, const std::vector<double>& factors, double wished, const std::vector<Crowding>& crowding)
+{
+  const double factor = std::min(std::max(factors[f], wished / factorBounds.thinning), wished * factorBounds.thickening);
+  // Capsules of the radii that came leave each other room.
+  return std::min(factor, std::max(largestFactor(crowding, f, factors), std::min(1.0, wished)));
+}
+
+/// Makes those fibres thicker that hold fewer samples than their share, and those thinner that hold more.
+void correctFactors(const std::vector<double>& counted, const std::vector<double>& wished, Aim& aim)
+{
+  const double perVolume = std::accumulate(counted.begin(), counted.end(), 0.0) / aim.volume();
+  for (std::size_t f = 0; f < counted.size(); ++f)
+  {
+    const double expected = perVolume * aim.volumes[f];
+    if (expected > 0.0)
+    {
+      // Half the relative shortage of volume is that of the radius; a fibre of few samples knows its own badly.
+      const double shortage = std::max(-1.0, 1.0 - counted[f] / expected);
+      aim.factors[f] += 0.5 * correction * wished[f] * shortage * expected / (expected + 16.0);
+    }
+  }
+}
+
+} // namespace
+
+Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context)
+{
+  validate(fibres);
+  validate(options);
+  Fibres aimed = fibres;
+  if (options.targetFibreVolumeFraction <= 0.0)
+  {
+    return aimed;
+  }
+  Aim aim = aimAtOwnRadii(fibres);
+  if (aim.volume() <= 0.0)
+  {
+    return aimed;
+  }
+  fillTarget(fibres, options.targetFibreVolumeFraction * fibres.domain.volume(), aim);
+  const std::vector<double> wished = aim.factors;
+  const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
+  // Thin fibres first: how thick a fibre may become depends on those thinner than it.
+  const std::vector<std::size_t> order = fromThinToThick(fibres);
+  const double samples = std::max(fewestSamples, samplesPerFibre * static_cast<double>(fibres.size()));
+  const double spacing = std::cbrt(fibres.domain.volume() / samples);
+  double growth = 0.0;
+  for (int round = 0; round <= rounds; ++round)
+  {
+    for (const std::size_t f : order)
+    {
+      aim.factors[f] = boundedFactor(f, aim.factors, wished[f], crowding);
+      for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
+      {
+        aimed.radii[p] = aim.factors[f] * fibres.radii[p];
+      }
+    }
+    if (round == rounds)
+    {
+      break;
+    }
+    if (round == 0)
+    {
+      growth = std::min(roughGrowth(aimed, options, context), 1.0);
+    }
+    const std::vector<double> counted =
+      countPerFibre(aimed, options, growth, spacing, round, context, 0.3 * round / rounds, 0.3 * (round + 1) / rounds);
+    correctFactors(counted, wished, aim);
+  }
+  return aimed;
+}
+
+} // namespace cactus
