@@ -18,6 +18,7 @@
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -155,6 +156,30 @@ Domain readDomain(vtkAbstractArray* array)
   return domain;
 }
 
+/// Adds the colours `Direction` (red, green and blue are the parts of the tangent along x, y and z, as diffusion imaging has
+/// them), as the array that views show first.
+void addDirections(const Fibres& fibres, vtkPointData* data)
+{
+  auto colours = makeArray<vtkUnsignedCharArray>("Direction", fibres.points.size(), 3);
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const std::size_t first = fibres.offsets[f];
+    const std::size_t last = fibres.offsets[f + 1] - 1;
+    for (std::size_t i = first; i <= last; ++i)
+    {
+      const Eigen::Vector3d along = fibres.points[std::min(i + 1, last)] - fibres.points[std::max(i, first + 1) - 1];
+      const double length = along.norm();
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double part = length > 0.0 ? std::abs(along[axis]) / length : 0.0;
+        colours->SetTypedComponent(static_cast<vtkIdType>(i), axis, static_cast<unsigned char>(std::lround(255.0 * part)));
+      }
+    }
+  }
+  data->AddArray(colours);
+  data->SetActiveScalars("Direction");
+}
+
 } // namespace
 
 Fibres fibresFrom(vtkDataObject* input)
@@ -247,7 +272,7 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   fresh->SetPoints(points);
   fresh->SetLines(lines);
   addColumn<vtkDoubleArray>(fresh->GetPointData(), "Radius", pointCount, [&](std::size_t i) { return fibres.radii[i]; });
-  fresh->GetPointData()->SetActiveScalars("Radius");
+  addDirections(fibres, fresh->GetPointData());
   vtkCellData* cells = fresh->GetCellData();
   addColumn<vtkIntArray>(cells, "FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
   addColumn<vtkIntArray>(cells, "BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });

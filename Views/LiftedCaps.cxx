@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LiftedCaps.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <cmath>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Caps lie this much of the domain's side inside of its face at most, and are drawn so much outside.
+constexpr double depth = 0.05;
+constexpr double lift = 1e-3;
+constexpr double rounding = 1e-6;
+
+/// Moves the points whose coordinate is `from`, but for rounding, to `to`.
+void move(vtkDataArray* coordinates, int axis, double from, double to)
+{
+  for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
+  {
+    if (std::abs(coordinates->GetComponent(i, axis) - from) < rounding * std::abs(to))
+    {
+      coordinates->SetComponent(i, axis, to);
+    }
+  }
+}
+
+} // namespace
+
+vtkSmartPointer<vtkPolyData> withLiftedCaps(vtkPolyData* surface)
+{
+  vtkDataArray* domain = surface->GetFieldData()->GetArray("Domain");
+  if (domain == nullptr || domain->GetNumberOfValues() != 6 || surface->GetNumberOfPoints() == 0)
+  {
+    return surface;
+  }
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(surface->GetPoints());
+  double bounds[6];
+  surface->GetBounds(bounds);
+  for (int end = 0; end < 6; ++end)
+  {
+    const double face = domain->GetVariantValue(end).ToDouble();
+    const double inward = domain->GetVariantValue(end ^ 1).ToDouble() - face;
+    if (std::abs(bounds[end] - face) < depth * std::abs(inward))
+    {
+      move(points->GetData(), end / 2, bounds[end], face - lift * inward);
+    }
+  }
+  auto lifted = vtkSmartPointer<vtkPolyData>::New();
+  lifted->ShallowCopy(surface);
+  lifted->SetPoints(points);
+  return lifted;
+}
+
+} // namespace cactus

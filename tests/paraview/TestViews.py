@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-needs: display
+"""What a render view shows of each stage without a setting: tubes in their box, a section, axons in their myelin, seen at an angle."""
+
+import numpy
+from cactus_testing import CactusTestCase, main
+from paraview import simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+SIDE = 6.0
+
+
+def pixels(view):
+    """The view as rows, columns and red, green, blue."""
+    simple.Render(view)
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(view.GetRenderWindow())
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    image: vtkImageData = grab.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3].astype(int)
+
+
+def reddish(image):
+    return numpy.count_nonzero((image[:, :, 0] > 2 * image[:, :, 1]) & (image[:, :, 0] > 2 * image[:, :, 2]) & (image[:, :, 0] > 60))
+
+
+def bluish(image):
+    return numpy.count_nonzero((image[:, :, 2] > 1.4 * image[:, :, 0]) & (image[:, :, 2] > 60))
+
+
+class Views(CactusTestCase):
+    def view(self):
+        view = simple.CreateView("RenderView", ViewSize=[300, 300], UseColorPaletteForBackground=0, Background=[1, 1, 1], OrientationAxesVisibility=0)
+        self.addCleanup(simple.Delete, view)
+        return view
+
+    def bundle(self, **options):
+        return simple.BundleInitializer(**{"Side": SIDE, "Seed": 1, **options})
+
+    def test_fibres_are_tubes_in_the_colours_of_their_direction(self):
+        bundle, view = self.bundle(), self.view()
+        shown = simple.Show(bundle, view)
+        simple.ResetCamera(view)
+        self.assertEqual(shown.Representation, "Tubes")
+        self.assertEqual(list(shown.ColorArrayName), ["POINTS", "Direction"])
+        tubes = bluish(pixels(view))
+        self.assertGreater(tubes, 15000)  # of 90,000: a block, seen at an angle
+        shown.Representation = "Wireframe"
+        self.assertLess(bluish(pixels(view)), tubes / 3)
+
+    def test_direction_is_the_tangent(self):
+        crossing = self.bundle(NumberOfBundles=2, CrossingAngle=90, MeanDispersion=0, FibreVolumeFraction=0.3)
+        crossing.UpdatePipeline()
+        fibres = simple.servermanager.Fetch(crossing)
+        colours = vtk_to_numpy(fibres.GetPointData().GetArray("Direction"))
+        # Both bundles run in the x-z plane at 45 degrees to z.
+        self.assertTrue(numpy.all(abs(colours - numpy.array([255 * 0.5**0.5, 0, 255 * 0.5**0.5])) < 1.0))
+
+    def test_a_tube_has_its_fibre_radius(self):
+        view = self.view()
+        bundle = self.bundle(FibreVolumeFraction=0.0873, RadiusDistribution="Table", RadiusTable="0.5", MeanDispersion=0, Seed=3)
+        shown = simple.Show(bundle, view)
+        shown.ColorArrayName = [None, ""]
+        simple.Render(view)  # the first time, ParaView moves the camera
+        view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 30], [0, 0, 0], [0, 1, 0]
+        view.CameraParallelProjection, view.CameraParallelScale = 1, SIDE / 2
+        bundle.UpdatePipeline()
+        fibres = bundle.GetDataInformation().GetNumberOfCells()
+        area = numpy.count_nonzero(pixels(view)[:, :, 0] < 250) * (SIDE / 300) ** 2
+        box = 4 * SIDE * 2 * SIDE / 300  # its edges, two pixels wide at most
+        self.assertGreater(area, 0.95 * fibres * 3 * 0.5**2)  # polygons of twelve corners have 3 r²
+        self.assertLess(area, fibres * numpy.pi * 0.5**2 * 1.1 + box)
+
+    def test_fibres_without_radius_are_shown_as_lines(self):
+        line, view = simple.Line(), self.view()
+        shown = simple.Show(line, view, "FibreRepresentation")
+        shown.Representation = "Tubes"
+        simple.ResetCamera(view)
+        self.assertLess(numpy.count_nonzero(pixels(view)[:, :, 0] < 250), 2000)
+
+    def test_a_camera_that_was_moved_stays(self):
+        view = self.view()
+        view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [10, 0, 0], [1, 0, 0], [0, 1, 0]
+        simple.Show(self.bundle(), view)
+        simple.Render(view)
+        self.assertEqual(list(view.CameraPosition)[1:], [0, 0])  # ParaView itself may move it nearer
+
+    def test_growth_is_a_section(self):
+        grown, view = simple.FibreRadialGrowth(Input=self.bundle(), TargetFibreVolumeFraction=0.8, VoxelSize=0.2), self.view()
+        shown = simple.Show(grown, view)
+        simple.ResetCamera(view)
+        self.assertEqual(shown.Representation, "Slice")
+        self.assertGreater(numpy.count_nonzero(numpy.ptp(pixels(view), axis=2) > 30), 5000)
+
+    def test_the_faces_show_axons_within_myelin(self):
+        grown, view = simple.FibreRadialGrowth(Input=self.bundle(), TargetFibreVolumeFraction=0.8, VoxelSize=0.2), self.view()
+        surfaces = simple.MyelinSurface(Input=grown)
+        shown = simple.Show(simple.OutputPort(surfaces, 0), view)
+        self.assertEqual(shown.Representation, "Myelin")
+        simple.ResetCamera(view)
+        alone = pixels(view)
+        self.assertEqual(bluish(alone), 0)
+        self.assertGreater(reddish(alone), 15000)
+        self.assertEqual(simple.Show(simple.OutputPort(surfaces, 1), view).Representation, "Axons")
+        both = pixels(view)
+        self.assertGreater(bluish(both), reddish(alone) / 20)
+        self.assertGreater(reddish(both), reddish(alone) / 2)
+        shown.MyelinColor = [0.0, 0.0, 0.0]
+        self.assertEqual(reddish(pixels(view)), 0)
+
+
+if __name__ == "__main__":
+    main()
