@@ -52,6 +52,7 @@ const PropertyList<CapsuleOptimizerStage>& CapsuleOptimizerStage::properties()
       .use(PropertyUse::Run)
       .add(
         "HistoryInterval", &Stage::historyInterval, limits::historyInterval, "Iterations from one state that is kept to the next")
+      .where("KeepHistory", { 1.0 })
       .use(PropertyUse::Run)
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
