@@ -100,7 +100,7 @@ void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std:
 /// left. Adds what goes (µm³) to `dropped`.
 SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
 {
-  const SurfaceReport report = checkSurface(mesh);
+  SurfaceReport report = checkSurface(mesh);
   if (sound(report) || mesh.triangles.empty())
   {
     return report;
@@ -121,7 +121,7 @@ SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
     dropped += volume > 0.0 ? 0.0 : -volume;
   }
   keepPieces(mesh, nullptr, pieceOf, isKept);
-  const SurfaceReport rest = checkSurface(mesh);
+  SurfaceReport rest = checkSurface(mesh);
   if (!sound(rest))
   {
     mesh = TriangleMesh();
@@ -265,6 +265,7 @@ std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) con
 std::vector<LocalErrorBound> FibreMesher::boundsAround(const std::vector<Eigen::Vector3d>& places, int attempt) const
 {
   std::vector<LocalErrorBound> bounds;
+  bounds.reserve(places.size());
   for (const Eigen::Vector3d& place : places)
   {
     bounds.push_back({ place, 2.0 * this->Spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });

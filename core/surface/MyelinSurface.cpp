@@ -72,6 +72,7 @@ void spaceOut(const FibreMesher& mesher, const BlocksOf& blocks, double gap, boo
   const Context& context)
 {
   std::vector<TriangleMesh*> outer;
+  outer.reserve(pairs.size());
   for (FibreSurfacePair& pair : pairs)
   {
     outer.push_back(&pair.outer);
