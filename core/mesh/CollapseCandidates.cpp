@@ -38,7 +38,7 @@ Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32
 CollapseCandidates collapseCandidates(
   const EditableSurface& surface, std::int32_t u, std::int32_t v, const Eigen::AlignedBox3d& box, double margin)
 {
-  const Vector3d origin = surface.at(u); // near by, so that no digits are lost
+  const Vector3d& origin = surface.at(u); // near by, so that no digits are lost
   const Quadric sum = quadricAround(surface, u, v, origin);
   const std::uint8_t facesU = surface.facesOf(u);
   const std::uint8_t facesV = surface.facesOf(v);
