@@ -10,8 +10,8 @@
 // the width.
 //
 // A file that is compiled for one unit must not leave behind an inline function that others share, since the linker might take
-// the version for a machine that is not there: whatever kernels call is in an unnamed namespace and forced inline. No Eigen and
-// no containers of the standard library in them.
+// the version for a machine that is not there: whatever kernels call is forced inline. No Eigen and no containers of the standard
+// library in them. tests/core/kernel_symbols.py checks it.
 //
 // CMake defines CACTUS_DOUBLES, the doubles in a vector, and CACTUS_VECTOR_UNIT, how the names of the unit's tables begin.
 #pragma once

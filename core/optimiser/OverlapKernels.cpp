@@ -28,47 +28,83 @@ struct LaneSums
   DoubleMask overlapping;
 };
 
+/// The segments of p and of as many neighbours q as a vector holds, and where they come closest.
+struct ClosestPoints
+{
+  Doubles u[3];    ///< along p
+  Doubles v[3];    ///< along q
+  Doubles w[3];    ///< from q's closest point to p's
+  Doubles a;       ///< u·u
+  Doubles b;       ///< u·v
+  Doubles e;       ///< v·v
+  Doubles s;       ///< p's closest point, from 0 to 1 along u
+  Doubles t;       ///< q's, along v
+  Doubles squared; ///< w·w
+};
+
+/// What depends on p alone is written so that the compiler computes it once for all q.
+CACTUS_KERNEL_INLINE ClosestPoints closestPointsOf(const Capsule& p, const Doubles (&q)[8])
+{
+  const Doubles zero = {};
+  ClosestPoints pair = {};
+  Doubles r[3];
+  Doubles c = zero, f = zero;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    pair.u[axis] = zero + (p.p1[axis] - p.p0[axis]);
+    pair.v[axis] = q[4 + axis] - q[axis];
+    r[axis] = p.p0[axis] - q[axis];
+    pair.a += pair.u[axis] * pair.u[axis];
+    pair.b += pair.u[axis] * pair.v[axis];
+    c += pair.u[axis] * r[axis];
+    pair.e += pair.v[axis] * pair.v[axis];
+    f += pair.v[axis] * r[axis];
+  }
+  closestParameters<Doubles>(pair.a, pair.e, pair.b, c, f, pair.s, pair.t);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    pair.w[axis] = r[axis] + pair.s * pair.u[axis] - pair.t * pair.v[axis];
+    pair.squared += pair.w[axis] * pair.w[axis];
+  }
+  return pair;
+}
+
+/// How the cost changes as the closest points slide, given how it changes with the radii there along p and q. The points satisfy
+/// a·s − b·t + c = 0 and −b·s + e·t − f = 0 (whichever is not clamped); the adjoint of that system gives the slide's share.
+CACTUS_KERNEL_INLINE void slide(
+  const ClosestPoints& pair, const Doubles& alongP, const Doubles& alongQ, Doubles& adjointS, Doubles& adjointT)
+{
+  const Doubles zero = {};
+  const Doubles one = zero + 1.0;
+  const Doubles determinant = pair.a * pair.e - pair.b * pair.b;
+  const DoubleMask skew = determinant > 1e-12 * pair.a * pair.e;
+  const DoubleMask sFree = (pair.s > zero) & (pair.s < one) & skew;
+  const DoubleMask tFree = (pair.t > zero) & (pair.t < one) & skew;
+  const Doubles inverseDeterminant = select(sFree & tFree, one, zero) / select(skew, determinant, one);
+  adjointS = (pair.e * alongP + pair.b * alongQ) * inverseDeterminant + select(sFree & ~tFree, alongP / pair.a, zero);
+  adjointT = (pair.b * alongP + pair.a * alongQ) * inverseDeterminant + select(tFree & ~sFree, alongQ / pair.e, zero);
+}
+
 /// Adds the contributions of as many neighbours q as a vector holds (their eight numbers, transposed) to the sums of p.
 CACTUS_KERNEL_INLINE void addLanes(
   const Capsule& p, const Doubles (&q)[8], double margin, double tolerance, bool tapered, LaneSums& sums)
 {
-  // Nothing here that depends on p alone depends on q, so that it is computed once.
   const Doubles zero = {};
   const Doubles one = zero + 1.0;
-  Doubles u[3], v[3], r[3], w[3];
-  Doubles a = zero, b = zero, c = zero, e = zero, f = zero;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    u[axis] = zero + (p.p1[axis] - p.p0[axis]);
-    v[axis] = q[4 + axis] - q[axis];
-    r[axis] = p.p0[axis] - q[axis];
-    a += u[axis] * u[axis];
-    b += u[axis] * v[axis];
-    c += u[axis] * r[axis];
-    e += v[axis] * v[axis];
-    f += v[axis] * r[axis];
-  }
-  Doubles s, t;
-  closestParameters<Doubles>(a, e, b, c, f, s, t);
-  Doubles squared = zero;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    w[axis] = r[axis] + s * u[axis] - t * v[axis];
-    squared += w[axis] * w[axis];
-  }
+  const ClosestPoints pair = closestPointsOf(p, q);
   const Doubles taperP = zero + (p.r1 - p.r0);
   const Doubles taperQ = q[7] - q[3];
-  const Doubles rp = p.r0 + s * taperP;
-  const Doubles rq = q[3] + t * taperQ;
+  const Doubles rp = p.r0 + pair.s * taperP;
+  const Doubles rq = q[3] + pair.t * taperQ;
   // Lists reach further than contact: many have no pair to add here.
   const Doubles farthest = margin * (rp + rq);
-  if (!any(squared < farthest * farthest))
+  if (!any(pair.squared < farthest * farthest))
   {
     return;
   }
-  const Doubles distance = squareRoot(squared);
-  const Doubles lengthP = squareRoot(a);
-  const Doubles lengthQ = squareRoot(e);
+  const Doubles distance = squareRoot(pair.squared);
+  const Doubles lengthP = squareRoot(pair.a);
+  const Doubles lengthQ = squareRoot(pair.e);
   const Doubles inverseSum = one / (rp + rq);
   const Doubles ratio = distance * inverseSum;
   const Doubles depth = margin - ratio;
@@ -80,39 +116,29 @@ CACTUS_KERNEL_INLINE void addLanes(
   const Doubles push = -2.0 * D * scale * inverseSum / select(distance > 1e-12, distance, one);
   const Doubles byRp = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rq;
   const Doubles byRq = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rp;
-  // Where a radius varies along its capsule, the cost also changes as the closest points slide. They satisfy
-  // a·s − b·t + c = 0 and −b·s + e·t − f = 0 (whichever is not clamped); the adjoint of that system gives the slide's share.
   Doubles adjointS = zero;
   Doubles adjointT = zero;
   if (tapered)
   {
-    const Doubles alongP = byRp * taperP;
-    const Doubles alongQ = byRq * taperQ;
-    const Doubles determinant = a * e - b * b;
-    const DoubleMask skew = determinant > 1e-12 * a * e;
-    const DoubleMask sFree = (s > zero) & (s < one) & skew;
-    const DoubleMask tFree = (t > zero) & (t < one) & skew;
-    const Doubles inverseDeterminant = select(sFree & tFree, one, zero) / select(skew, determinant, one);
-    adjointS = (e * alongP + b * alongQ) * inverseDeterminant + select(sFree & ~tFree, alongP / a, zero);
-    adjointT = (b * alongP + a * alongQ) * inverseDeterminant + select(tFree & ~sFree, alongQ / e, zero);
+    slide(pair, byRp * taperP, byRq * taperQ, adjointS, adjointT);
   }
-  const Doubles near0 = one - s;
+  const Doubles near0 = one - pair.s;
   const Doubles alongW0 = push * near0 + adjointS;
-  const Doubles alongW1 = push * s - adjointS;
+  const Doubles alongW1 = push * pair.s - adjointS;
   const Doubles alongU0 = -adjointS * near0 - byLength;
-  const Doubles alongU1 = -adjointS * s + byLength;
+  const Doubles alongU1 = -adjointS * pair.s + byLength;
   const Doubles alongV0 = adjointT * near0;
-  const Doubles alongV1 = adjointT * s;
+  const Doubles alongV1 = adjointT * pair.s;
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.gradient0[axis] += alongW0 * w[axis] + alongU0 * u[axis] + alongV0 * v[axis];
-    sums.gradient1[axis] += alongW1 * w[axis] + alongU1 * u[axis] + alongV1 * v[axis];
+    sums.gradient0[axis] += alongW0 * pair.w[axis] + alongU0 * pair.u[axis] + alongV0 * pair.v[axis];
+    sums.gradient1[axis] += alongW1 * pair.w[axis] + alongU1 * pair.u[axis] + alongV1 * pair.v[axis];
   }
   sums.radius0 += byRp * near0;
-  sums.radius1 += byRp * s;
+  sums.radius1 += byRp * pair.s;
   const Doubles stiffness = select(depth > zero, 2.0 * scale * inverseSum * inverseSum, zero);
   sums.stiffness0 += stiffness * near0;
-  sums.stiffness1 += stiffness * s;
+  sums.stiffness1 += stiffness * pair.s;
   sums.cost += 0.5 * D * D * scale;
   const Doubles penetration = one - ratio;
   sums.penetration = penetration > sums.penetration ? penetration : sums.penetration;

@@ -100,35 +100,70 @@ void gatherNear(const Capsule* bodies, const float* reach, const std::uint32_t* 
   }
 }
 
+/// Which of the capsules n … n + floats − 1 of the columns have bounding balls that meet that of p: most candidates do not.
+CACTUS_KERNEL_INLINE FloatMask ballsMeet(const NearColumns& near, std::size_t n, const float (&p)[NearColumns::count])
+{
+  Floats q[4];
+  for (int number = 0; number < 4; ++number)
+  {
+    q[number] = load(near.numbers + std::size_t(7 + number) * near.stride + n);
+  }
+  Floats squared = {};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Floats w = p[7 + axis] - q[axis];
+    squared += w * w;
+  }
+  // Ten times as generous as the exact test.
+  const Floats limit = p[10] + q[3];
+  return squared < 1.0001f * (limit * limit);
+}
+
+/// Which of the capsules q (their numbers up to the reach) are within reach of p.
+CACTUS_KERNEL_INLINE FloatMask areClose(const Floats (&q)[7], const float (&p)[NearColumns::count])
+{
+  const Floats zero = {};
+  Floats a = zero, b = zero, c = zero, e = zero, f = zero;
+  Floats u[3], v[3], r[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    u[axis] = zero + (p[3 + axis] - p[axis]);
+    v[axis] = q[3 + axis] - q[axis];
+    r[axis] = p[axis] - q[axis];
+    a += u[axis] * u[axis];
+    b += u[axis] * v[axis];
+    c += u[axis] * r[axis];
+    e += v[axis] * v[axis];
+    f += v[axis] * r[axis];
+  }
+  Floats s, t;
+  closestParameters<Floats, float>(a, e, b, c, f, s, t);
+  Floats squared = zero;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Floats w = r[axis] + s * u[axis] - t * v[axis];
+    squared += w * w;
+  }
+  const Floats limit = p[6] + q[6];
+  // The errors of single precision in squared are below 10⁻⁶ of these squares, also where segments are nearly parallel: s may
+  // then be off, but the distance hardly depends on it.
+  return squared < limit * limit + 1e-5f * (limit * limit + a + e);
+}
+
 std::uint32_t* selectNeighbours(const NearColumns& near, const std::uint32_t* indices, std::size_t count,
   const float (&p)[NearColumns::count], std::uint32_t* found)
 {
-  // Most candidates are too far away for the balls around them to meet; the others move together, so that all lanes of the exact
-  // test have something to do.
+  // Those whose balls meet move together, so that all lanes of the exact test have something to do.
   constexpr std::size_t most = 256;
   float kept[7][most + floats];
   std::uint32_t keptIndices[most + floats];
-  const Floats zero = {};
   for (std::size_t begin = 0; begin < count; begin += most)
   {
     const std::size_t end = count - begin < most ? count : begin + most;
     std::size_t size = 0;
     for (std::size_t n = begin; n < end; n += floats)
     {
-      Floats q[4];
-      for (int number = 0; number < 4; ++number)
-      {
-        q[number] = load(near.numbers + std::size_t(7 + number) * near.stride + n);
-      }
-      Floats squared = zero;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const Floats w = p[7 + axis] - q[axis];
-        squared += w * w;
-      }
-      // Ten times as generous as the exact test.
-      const Floats limit = p[10] + q[3];
-      size = keep(squared < 1.0001f * (limit * limit), near, indices, n, kept, keptIndices, size);
+      size = keep(ballsMeet(near, n, p), near, indices, n, kept, keptIndices, size);
     }
     for (std::size_t n = 0; n < size; n += floats)
     {
@@ -137,32 +172,7 @@ std::uint32_t* selectNeighbours(const NearColumns& near, const std::uint32_t* in
       {
         q[number] = load(kept[number] + n);
       }
-      Floats a = zero, b = zero, c = zero, e = zero, f = zero;
-      Floats u[3], v[3], r[3];
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        u[axis] = zero + (p[3 + axis] - p[axis]);
-        v[axis] = q[3 + axis] - q[axis];
-        r[axis] = p[axis] - q[axis];
-        a += u[axis] * u[axis];
-        b += u[axis] * v[axis];
-        c += u[axis] * r[axis];
-        e += v[axis] * v[axis];
-        f += v[axis] * r[axis];
-      }
-      Floats s, t;
-      closestParameters<Floats, float>(a, e, b, c, f, s, t);
-      Floats squared = zero;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const Floats w = r[axis] + s * u[axis] - t * v[axis];
-        squared += w * w;
-      }
-      const Floats limit = p[6] + q[6];
-      // The errors of single precision in squared are below 10⁻⁶ of these squares, also where segments are nearly parallel: s may
-      // then be off, but the distance hardly depends on it.
-      const FloatMask close = squared < limit * limit + 1e-5f * (limit * limit + a + e);
-      found = append(close, static_cast<int>(size - n < floats ? size - n : floats), keptIndices + n, found);
+      found = append(areClose(q, p), static_cast<int>(size - n < floats ? size - n : floats), keptIndices + n, found);
     }
   }
   return found;
