@@ -56,7 +56,7 @@ private:
 
 void requireSound(const SurfaceReport& report, const std::string& what)
 {
-  if (report.closedManifold() && report.outward())
+  if (report.sound())
   {
     return;
   }
@@ -107,8 +107,7 @@ std::vector<SubstrateFile> writeSurfaces(const FibreSurfaces& surfaces, const st
       const std::string comment =
         "CACTUS " CACTUS_VERSION ", " + kind + " surface of fibre " + std::to_string(id) + ", micrometres";
       checksums[i] = writer.folder().write(path, plyText(surfaces.mesh(i), comment));
-      files[i] = { path, kind, id, surfaces.bundleIds[i], report.triangles, report.volume, report.area,
-        report.closedManifold() && report.outward() };
+      files[i] = { path, kind, id, surfaces.bundleIds[i], report.triangles, report.volume, report.area, report.sound() };
     },
     "Writing " + kind + " surfaces", from, to);
   for (std::size_t i = 0; i < files.size(); ++i)

@@ -6,6 +6,7 @@
 #include "base/Parallel.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
+#include "mesh/SurfacePieces.h"
 #include "mesh/TriangleTree.h"
 
 #include <algorithm>
@@ -195,33 +196,6 @@ private:
       radius = radiusAlongFibre(*this->Lines, line->second, surface->mesh, this->Options.cutSpacing);
     }
     return surface;
-  }
-
-  /// Whether a piece of a surface, which does not meet itself, lies inside another one of its pieces.
-  static bool holdsItself(const TriangleMesh& mesh)
-  {
-    std::vector<std::uint32_t> componentOf;
-    const std::vector<std::int32_t> pieces = checkSurface(mesh, &componentOf).pieces;
-    for (std::uint32_t around = 0; around < pieces.size(); ++around)
-    {
-      std::vector<std::uint32_t> triangles;
-      for (std::size_t t = 0; t < componentOf.size(); ++t)
-      {
-        if (componentOf[t] == around)
-        {
-          triangles.push_back(static_cast<std::uint32_t>(t));
-        }
-      }
-      const TriangleTree tree(mesh, std::move(triangles));
-      for (std::uint32_t inside = 0; inside < pieces.size(); ++inside)
-      {
-        if (inside != around && sideOf(tree, mesh.points[std::size_t(pieces[inside])]) == Side::Inside)
-        {
-          return true;
-        }
-      }
-    }
-    return false;
   }
 
   /// The triangles that are no caps on the faces of the domain.
@@ -629,7 +603,7 @@ std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certific
 {
   using Fibre = FibreCertificate;
   Columns<Fibre> columns(certificate.fibres);
-  const auto sound = [](const SurfaceReport& report) { return report.closedManifold() && report.outward() ? 1 : 0; };
+  const auto sound = [](const SurfaceReport& report) { return report.sound() ? 1 : 0; };
   columns.count("FibreId", [](const Fibre& f) { return f.fibreId; });
   columns.count("BundleId", [](const Fibre& f) { return f.bundleId; });
   columns.count("HasOuter", [](const Fibre& f) { return f.hasOuter ? 1 : 0; });

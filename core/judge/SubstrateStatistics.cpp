@@ -24,11 +24,6 @@ constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 /// µm. An outline nearer to the domain's boundary has been cut off by it; above the rounding of single-precision coordinates.
 constexpr double boundaryTolerance = 1e-3;
 
-bool sound(const SurfaceReport& report)
-{
-  return report.closedManifold() && report.outward();
-}
-
 /// The position (µm) at arc length `s` along a fibre's centre line, whose cumulative lengths are `arc`.
 Eigen::Vector3d positionAt(const Fibres& fibres, std::size_t fibre, const std::vector<double>& arc, double s)
 {
@@ -244,10 +239,10 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
     innerVolume += fibre.inner.volume;
     area += fibre.outer.area + fibre.inner.area;
     result.triangles += fibre.outer.triangles + fibre.inner.triangles;
-    result.outerClosed += fibre.hasOuter && sound(fibre.outer) ? 1 : 0;
-    result.outerOpen += fibre.hasOuter && !sound(fibre.outer) ? 1 : 0;
-    result.innerClosed += fibre.hasInner && sound(fibre.inner) ? 1 : 0;
-    result.innerOpen += fibre.hasInner && !sound(fibre.inner) ? 1 : 0;
+    result.outerClosed += fibre.hasOuter && fibre.outer.sound() ? 1 : 0;
+    result.outerOpen += fibre.hasOuter && !fibre.outer.sound() ? 1 : 0;
+    result.innerClosed += fibre.hasInner && fibre.inner.sound() ? 1 : 0;
+    result.innerOpen += fibre.hasInner && !fibre.inner.sound() ? 1 : 0;
     for (const SurfaceReport* report : { &fibre.outer, &fibre.inner })
     {
       if (report->triangles > 0)

@@ -29,16 +29,11 @@ FibreSurfaces surfacesOf(const std::vector<FibreSurfacePair>& pairs, TriangleMes
   return surfaces;
 }
 
-bool isSound(const SurfaceReport& report)
-{
-  return report.closedManifold() && report.outward();
-}
-
 bool isAtFault(const FibreCertificate& fibre, double minimumGap)
 {
-  const bool outer = fibre.hasOuter && (!isSound(fibre.outer) || fibre.outerSelfIntersections > 0 || fibre.outerSelfNested);
+  const bool outer = fibre.hasOuter && (!fibre.outer.sound() || fibre.outerSelfIntersections > 0 || fibre.outerSelfNested);
   const bool inner =
-    fibre.hasInner && (!isSound(fibre.inner) || fibre.innerSelfIntersections > 0 || fibre.innerSelfNested || fibre.innerLeaves);
+    fibre.hasInner && (!fibre.inner.sound() || fibre.innerSelfIntersections > 0 || fibre.innerSelfNested || fibre.innerLeaves);
   return outer || inner || fibre.meetingFibres > 0 || fibre.gap < minimumGap;
 }
 

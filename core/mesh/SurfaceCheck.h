@@ -37,6 +37,8 @@ struct SurfaceReport
   bool closedManifold() const { return closed() && pinchedPoints == 0 && repeatedCorners == 0; }
   /// Every component encloses a positive volume. A cavity, rightly wound, counts as inward.
   bool outward() const { return components > 0 && inwardComponents == 0; }
+  /// What a simulator needs to tell inside from outside.
+  bool sound() const { return closedManifold() && outward(); }
 };
 
 /// Measures one surface in time linear in its triangles. Volume by the divergence theorem about a point of the surface, so that a

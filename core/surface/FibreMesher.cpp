@@ -3,9 +3,11 @@
 
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "mesh/NeedleSplitting.h"
 #include "mesh/SurfaceDecimation.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
+#include "mesh/SurfacePieces.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -46,108 +48,6 @@ constexpr int repairs = 4;
 constexpr double leastRoom = 0.01;
 /// µm that a distance may lose where points are written in single precision.
 constexpr double rounding = 5e-5;
-
-bool sound(const SurfaceReport& report)
-{
-  return report.closedManifold() && report.outward();
-}
-
-/// Leaves the pieces of a surface that are to be kept, by their numbers, and of `faces`, where given, what belongs to their
-/// points.
-void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std::vector<std::uint32_t>& pieceOf,
-  const std::vector<char>& isKept)
-{
-  std::vector<std::array<std::int32_t, 3>> kept;
-  std::vector<std::int32_t> number(mesh.points.size(), -1);
-  for (std::size_t t = 0; t < pieceOf.size(); ++t)
-  {
-    if (isKept[pieceOf[t]])
-    {
-      kept.push_back(mesh.triangles[t]);
-      for (const std::int32_t p : mesh.triangles[t])
-      {
-        number[std::size_t(p)] = 0;
-      }
-    }
-  }
-  std::int32_t used = 0;
-  for (std::size_t p = 0; p < number.size(); ++p)
-  {
-    if (number[p] == 0)
-    {
-      number[p] = used;
-      mesh.points[std::size_t(used)] = mesh.points[p];
-      if (faces != nullptr)
-      {
-        (*faces)[std::size_t(used)] = (*faces)[p];
-      }
-      ++used;
-    }
-  }
-  mesh.points.resize(std::size_t(used));
-  if (faces != nullptr)
-  {
-    faces->resize(std::size_t(used));
-  }
-  for (auto& t : kept)
-  {
-    t = { { number[std::size_t(t[0])], number[std::size_t(t[1])], number[std::size_t(t[2])] } };
-  }
-  mesh.triangles = std::move(kept);
-}
-
-/// Leaves the pieces of a surface that enclose a positive volume, or nothing where it is no closed manifold, and measures what is
-/// left. Adds what goes (µm³) to `dropped`.
-SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
-{
-  SurfaceReport report = checkSurface(mesh);
-  if (sound(report) || mesh.triangles.empty())
-  {
-    return report;
-  }
-  std::vector<std::uint32_t> pieceOf;
-  std::vector<double> volumes(checkSurface(mesh, &pieceOf).pieces.size(), 0.0);
-  for (std::size_t t = 0; report.closedManifold() && t < pieceOf.size(); ++t)
-  {
-    // About a point of the same piece, as checkSurface() does.
-    const Eigen::Vector3d& origin = mesh.points[std::size_t(report.pieces[pieceOf[t]])];
-    const auto corner = [&](std::size_t i) -> Eigen::Vector3d { return mesh.points[std::size_t(mesh.triangles[t][i])] - origin; };
-    volumes[pieceOf[t]] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
-  }
-  std::vector<char> isKept;
-  for (const double volume : volumes)
-  {
-    isKept.push_back(volume > 0.0);
-    dropped += volume > 0.0 ? 0.0 : -volume;
-  }
-  keepPieces(mesh, nullptr, pieceOf, isKept);
-  SurfaceReport rest = checkSurface(mesh);
-  if (!sound(rest))
-  {
-    mesh = TriangleMesh();
-    return SurfaceReport();
-  }
-  return rest;
-}
-
-/// Leaves the pieces of a surface that do not begin outside of another one.
-void keepInside(CappedSurface& surface, const TriangleTree& around)
-{
-  std::vector<std::uint32_t> pieceOf;
-  std::vector<char> isKept;
-  for (const std::int32_t point : checkSurface(surface.mesh, &pieceOf).pieces)
-  {
-    isKept.push_back(sideOf(around, surface.mesh.points[std::size_t(point)]) == Side::Inside);
-  }
-  keepPieces(surface.mesh, &surface.faces, pieceOf, isKept);
-}
-
-/// Whether all pieces of a surface that does not meet another one lie inside that.
-bool liesInside(const TriangleMesh& mesh, const SurfaceReport& report, const TriangleTree& around)
-{
-  return std::all_of(report.pieces.begin(), report.pieces.end(),
-    [&](std::int32_t point) { return sideOf(around, mesh.points[std::size_t(point)]) == Side::Inside; });
-}
 
 Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
 {
@@ -430,7 +330,7 @@ FibreMesher::Inner FibreMesher::innerAt(const SmoothedField& field, double level
   inner.surface = this->contourAt(this->Inset, field, level);
   if (within != nullptr)
   {
-    keepInside(inner.surface, *within);
+    keepPiecesInside(inner.surface, *within);
   }
   const double dropped = keepMainPart(inner.surface, this->smallestPiece());
   const SurfaceMeasure measured = measure(inner.surface);
@@ -527,7 +427,7 @@ bool FibreMesher::finish(const SmoothedField& field, CappedSurface& surface, dou
     splitNeedles(trial, largestSquaredEdgeRatio);
     report = checkSurface(trial.mesh);
     const std::vector<Eigen::Vector3d> places = faults(trial.mesh, container);
-    if (places.empty() && report.degenerateTriangles == 0 && sound(report))
+    if (places.empty() && report.degenerateTriangles == 0 && report.sound())
     {
       pair.largestMove = std::max(pair.largestMove, this->largestMove(field, trial, level));
       surface = std::move(trial);
