@@ -89,6 +89,7 @@ public:
   SmoothedField(const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes);
 
   std::int32_t fibre() const { return this->Fibre; }
+  const NodeLattice& lattice() const { return this->Lattice; }
   const std::vector<std::uint32_t>& blocks() const { return this->Blocks; }
 
   /// The field less `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0 than

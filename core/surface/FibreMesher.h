@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mesh/SurfaceDecimation.h"
-#include "mesh/TriangleTree.h"
+#include "surface/AxonSearch.h"
+#include "surface/FibreContours.h"
 #include "surface/FibreField.h"
 #include "surface/FibreSurfacePair.h"
 #include "surface/MyelinSurfaceOptions.h"
 #include "surface/SurfaceFilters.h"
+#include "surface/SurfaceFinishing.h"
 
 #include <Eigen/Core>
 
@@ -25,13 +26,16 @@ public:
   FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
     const SurfaceFilters* filters = nullptr, const Context& context = {});
 
+  FibreMesher(const FibreMesher&) = delete;
+  FibreMesher& operator=(const FibreMesher&) = delete;
+
   const FibreField& field() const { return this->Field; }
 
   /// The field of a fibre, from the blocks that findFibres() found for it.
   SmoothedField smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const;
 
-  /// Makes the outer surface, with less coarsening in `bounds`, and `deeper` (µm) than it might be; leaves the pair's state at
-  /// NoFibre where there is none, else at NoAxon.
+  /// Makes the outer surface, coarsened within `bounds`, and `deeper` (µm) than it might be; leaves the pair's state at NoFibre
+  /// if there is none, else at NoAxon.
   void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds = {},
     double deeper = 0.0) const;
 
@@ -39,46 +43,27 @@ public:
   /// inside out go; where nothing is left, the pair's state is NoFibre.
   std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
 
-  /// What has to be coarsened less where something went wrong at some places, for the first time (0) or once more.
-  std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& places, int attempt) const;
-
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const;
 
-  /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin where it would leave it or
-  /// come nearer to its wall than promised, and without an axon where no thickness prevents that.
+  /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would leave that or
+  /// come nearer to its wall than promised, and without an axon if no thickness prevents that.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
 private:
-  struct Inner;
-
-  CappedSurface contourAt(double inset, const SmoothedField& field, double level) const;
-  Inner innerAt(const SmoothedField& field, double level, const TriangleTree* within) const;
-  MyelinState solve(
-    const SmoothedField& field, double wanted, double deepest, double guess, const TriangleTree* within, Inner& best) const;
-  bool finish(const SmoothedField& field, CappedSurface& surface, double level, double volume, const TriangleTree* container,
-    const std::vector<LocalErrorBound>& bounds, SurfaceReport& report, FibreSurfacePair& pair) const;
-  bool finishByFilters(const SmoothedField& field, double wanted, Inner& best, FibreSurfacePair& pair) const;
+  AxonLevels axonLevels(const SmoothedField& field, double gRatio) const;
+  void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
+  void finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;
-  double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
-
-  template <typename Visit>
-  void forEachSample(const SmoothedField& field, Visit&& visit) const;
-  double smallestPiece() const { return this->Spacing * this->Spacing * this->Spacing; } ///< µm³, that is kept
-  bool isSample(const std::array<int, 3>& node) const;
-  std::vector<float> depths(const SmoothedField& field) const;
-  double length(const SmoothedField& field) const;
 
   const LabelImageFacts& Facts;
   const MyelinSurfaceOptions& Options;
   const SurfaceFilters* Filters; ///< null for core's own means
   FibreField Field;
   double Spacing;
-  double Inset; ///< of the inner surfaces' caps
-  NodeLattice OuterLattice;
-  NodeLattice InnerLattice;
+  FibreContours Contours;
+  SurfaceFinishing Finishing;
   double Withdrawal;     ///< µm; outer surfaces lie so deep where growth has left next to no room between fibres
-  double Nudge;          ///< least distance of the field from its level at a sample
   double ThinnestMyelin; ///< µm; inner and outer surfaces keep apart even where both move
   double PromisedMyelin; ///< µm, least distance of inner surfaces to the walls of outer ones
 };

@@ -97,7 +97,7 @@ void spaceOut(const FibreMesher& mesher, const BlocksOf& blocks, double gap, boo
     {
       if (!faults[i].empty() && attempt < remakes)
       {
-        const std::vector<LocalErrorBound> more = mesher.boundsAround(faults[i], attempt);
+        const std::vector<LocalErrorBound> more = boundsAround(faults[i], mesher.field().image().grid.spacing, attempt);
         auto& known = bounds[spacing.moved[i]];
         known.insert(known.end(), more.begin(), more.end());
         made.push_back(spacing.moved[i]);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/FibreContours.h"
+
+#include "mesh/SurfacePieces.h"
+#include "surface/FibreImage.h"
+
+namespace cactus
+{
+
+FibreContours::FibreContours(const FibreField& field, double inset, double nudge, const SurfaceFilters* filters)
+  : Field(field)
+  , Filters(filters)
+  , Inset(inset)
+  , Nudge(nudge)
+  , SmallestPiece(field.image().grid.spacing * field.image().grid.spacing * field.image().grid.spacing)
+  , OuterLattice(field.lattice())
+  , InnerLattice(field.lattice(inset))
+{
+}
+
+CappedSurface FibreContours::contourAt(double inset, const SmoothedField& field, double level) const
+{
+  if (this->Filters != nullptr)
+  {
+    if (field.blocks().empty())
+    {
+      return {};
+    }
+    const Domain& box = this->Field.box();
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(inset);
+    return this->Filters->contour(fibreImage(this->Field, field.fibre(), field.blocks(), level, inset), level,
+      Eigen::AlignedBox3d(box.lower + margin, box.upper - margin));
+  }
+  return contour(inset > 0.0 ? this->InnerLattice : this->OuterLattice, field.blocks(),
+    [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
+}
+
+CappedSurface FibreContours::outerAt(const SmoothedField& field, double level, double& dropped) const
+{
+  CappedSurface surface = this->contourAt(0.0, field, level);
+  dropped = keepMainPart(surface, this->SmallestPiece);
+  return surface;
+}
+
+CappedSurface FibreContours::innerAt(const SmoothedField& field, double level, const TriangleTree* within, double& dropped) const
+{
+  CappedSurface surface = this->contourAt(this->Inset, field, level);
+  if (within != nullptr)
+  {
+    keepPiecesInside(surface, *within);
+  }
+  dropped = keepMainPart(surface, this->SmallestPiece);
+  return surface;
+}
+
+CappedSurface FibreContours::unsmoothed(const SmoothedField& field) const
+{
+  CappedSurface surface = contour(this->OuterLattice, field.blocks(),
+    [&](const NodeRange& around, float* out) { field.unsmoothedValues(this->Nudge, around, out); });
+  keepMainPart(surface, this->SmallestPiece);
+  return surface;
+}
+
+} // namespace cactus

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/FibreExtent.h"
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+/// The outermost nodes lie on the faces of the box, the others at samples of the image.
+bool isSample(const NodeLattice& lattice, const std::array<int, 3>& node)
+{
+  return node[0] > 0 && node[1] > 0 && node[2] > 0 && node[0] < lattice.cells(0) && node[1] < lattice.cells(1) &&
+         node[2] < lattice.cells(2);
+}
+
+/// Calls visit(node, depth) for each sample inside a fibre.
+template <typename Visit>
+void forEachSample(const SmoothedField& field, Visit&& visit)
+{
+  std::vector<float> values;
+  for (const std::uint32_t block : field.blocks())
+  {
+    NodeRange range = nodesOfBlock(field.lattice(), block);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      range.first[axis] -= 1;
+      range.count[axis] += 2;
+    }
+    values.resize(range.size());
+    field.values(0.0, 0.0, range, values.data());
+    std::size_t index = 0;
+    for (int k = 0; k < range.count[2]; ++k)
+    {
+      for (int j = 0; j < range.count[1]; ++j)
+      {
+        for (int i = 0; i < range.count[0]; ++i, ++index)
+        {
+          const std::array<int, 3> at{ { range.first[0] + i, range.first[1] + j, range.first[2] + k } };
+          // Blocks share their nodes: each counts for one of them.
+          constexpr int size = NodeLattice::blockCells;
+          const bool isOwn = i > 0 && j > 0 && k > 0 && i <= size && j <= size && k <= size;
+          if (isOwn && values[index] > 0.0f && isSample(field.lattice(), at))
+          {
+            visit(at, values[index]);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Where the samples of a fibre lie, in nodes.
+struct SampleMoments
+{
+  double count = 0.0;
+  Vector3d mean = Vector3d::Zero();
+  Vector3d axis = Vector3d::UnitZ(); ///< of the largest variance
+  double middleVariance = 0.0;       ///< the second largest
+};
+
+SampleMoments momentsOf(const SmoothedField& field)
+{
+  SampleMoments moments;
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  forEachSample(field,
+    [&](const std::array<int, 3>& at, float)
+    {
+      const Vector3d p(at[0], at[1], at[2]);
+      moments.count += 1.0;
+      moments.mean += p;
+      square += p * p.transpose();
+    });
+  if (moments.count > 0.0)
+  {
+    moments.mean /= moments.count;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(square / moments.count - moments.mean * moments.mean.transpose());
+    moments.axis = solver.eigenvectors().col(2);
+    moments.middleVariance = std::max(0.0, solver.eigenvalues()[1]);
+  }
+  return moments;
+}
+
+} // namespace
+
+std::vector<float> depthsOf(const SmoothedField& field)
+{
+  std::vector<float> result;
+  forEachSample(field, [&](const std::array<int, 3>&, float depth) { result.push_back(depth); });
+  return result;
+}
+
+double lengthOf(const SmoothedField& field, double spacing)
+{
+  const SampleMoments moments = momentsOf(field);
+  if (!(moments.count > 0.0))
+  {
+    return spacing;
+  }
+  // Slices as thick as the fibre is wide, so that centroids follow the fibre and not the voxels.
+  const double thickness = std::max(4.0, 4.0 * std::sqrt(moments.middleVariance));
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  std::map<int, std::pair<double, Vector3d>> slices; // number of samples and sum of their places
+  forEachSample(field,
+    [&](const std::array<int, 3>& at, float)
+    {
+      const Vector3d p = Vector3d(at[0], at[1], at[2]) - moments.mean;
+      const double along = moments.axis.dot(p);
+      lowest = std::min(lowest, along);
+      highest = std::max(highest, along);
+      const int number = static_cast<int>(std::floor(along / thickness));
+      auto& slice = slices.emplace(number, std::make_pair(0.0, Vector3d::Zero())).first->second;
+      slice.first += 1.0;
+      slice.second += p;
+    });
+  // The ends beyond the first and the last centroid go on along the axis.
+  double length = 1.0 + highest - lowest;
+  Vector3d before = slices.begin()->second.second / slices.begin()->second.first;
+  for (auto slice = std::next(slices.begin()); slice != slices.end(); ++slice)
+  {
+    const Vector3d centroid = slice->second.second / slice->second.first;
+    const Vector3d step = centroid - before;
+    length += step.norm() - std::abs(moments.axis.dot(step));
+    before = centroid;
+  }
+  return length * spacing;
+}
+
+} // namespace cactus

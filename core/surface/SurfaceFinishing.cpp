@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/SurfaceFinishing.h"
+
+#include "mesh/NeedleSplitting.h"
+#include "mesh/SurfaceIntersection.h"
+#include "mesh/SurfacePieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Distance of the points at which coarsening looks at the field on large triangles, in voxels.
+constexpr double samplingDistance = 6.0;
+/// MC/DC warns of triangles above 1000.
+constexpr double largestSquaredEdgeRatio = 800.0;
+/// How often a surface is made again with less coarsening where something was wrong with it.
+constexpr int repairs = 4;
+
+Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
+{
+  const auto& t = mesh.triangles[triangle];
+  return (mesh.points[std::size_t(t[0])] + mesh.points[std::size_t(t[1])] + mesh.points[std::size_t(t[2])]) / 3.0;
+}
+
+/// Whether a point is nearer to a face of the box than `distance` (µm): a regular grid bevels the edges of caps, and of the box.
+bool isBeside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p, double distance)
+{
+  return (p - box.min()).minCoeff() < distance || (box.max() - p).minCoeff() < distance;
+}
+
+} // namespace
+
+std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree* container)
+{
+  std::vector<Eigen::Vector3d> places;
+  const TriangleTree tree(mesh);
+  for (const auto& pair : selfIntersections(tree))
+  {
+    places.push_back(centreOf(mesh, pair.first));
+    places.push_back(centreOf(mesh, pair.second));
+  }
+  if (container != nullptr)
+  {
+    for (const auto& pair : meetingTriangles(tree, *container))
+    {
+      places.push_back(centreOf(mesh, pair.first));
+    }
+  }
+  return places;
+}
+
+std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& places, double spacing, int attempt)
+{
+  std::vector<LocalErrorBound> bounds;
+  for (const Eigen::Vector3d& place : places)
+  {
+    bounds.push_back({ place, 2.0 * spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });
+  }
+  return bounds;
+}
+
+SurfaceFinishing::SurfaceFinishing(double decimationError, double spacing, const SurfaceFilters* filters)
+  : DecimationError(decimationError)
+  , Spacing(spacing)
+  , Filters(filters)
+{
+}
+
+bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface,
+  SurfaceReport& report, FibreSurfacePair& pair) const
+{
+  if (this->Filters != nullptr)
+  {
+    this->Filters->finish(surface);
+    report = checkSurface(surface.mesh);
+    pair.largestMove = std::max(pair.largestMove, this->largestMove(field, surface, target.level));
+    return true;
+  }
+  if (this->DecimationError > 0.0)
+  {
+    if (this->coarsen(field, target, surface, report))
+    {
+      pair.largestMove = std::max(pair.largestMove, this->largestMove(field, surface, target.level));
+      return true;
+    }
+    splitNeedles(surface, largestSquaredEdgeRatio);
+  }
+  report = keepSoundPieces(surface.mesh, pair.droppedVolume);
+  surface.faces.clear(); // they count the points of before
+  return placesThatMeet(surface.mesh, target.container).empty();
+}
+
+/// Leaves the surface as it is, and returns false, if it cannot be coarsened.
+bool SurfaceFinishing::coarsen(
+  const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report) const
+{
+  SurfaceDecimationOptions decimation;
+  decimation.localBounds = target.bounds;
+  decimation.level = target.level;
+  decimation.maximumError = this->DecimationError;
+  decimation.sampling = samplingDistance * this->Spacing;
+  decimation.field = [&field](const Eigen::Vector3d& p) { return field.value(p); };
+  for (int attempt = 0; attempt <= repairs; ++attempt)
+  {
+    CappedSurface trial = surface;
+    decimate(trial, decimation);
+    moveToVolume(trial, target.volume, this->DecimationError);
+    splitNeedles(trial, largestSquaredEdgeRatio);
+    report = checkSurface(trial.mesh);
+    const std::vector<Eigen::Vector3d> places = placesThatMeet(trial.mesh, target.container);
+    if (places.empty() && report.degenerateTriangles == 0 && report.sound())
+    {
+      surface = std::move(trial);
+      return true;
+    }
+    if (places.empty())
+    {
+      break; // what is wrong is nowhere in particular
+    }
+    const std::vector<LocalErrorBound> more = boundsAround(places, this->Spacing, attempt);
+    decimation.localBounds.insert(decimation.localBounds.end(), more.begin(), more.end());
+  }
+  return false;
+}
+
+/// The largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps
+/// only where the field is smaller.
+double SurfaceFinishing::largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const
+{
+  const auto& points = surface.mesh.points;
+  double largest = 0.0;
+  for (const auto& t : surface.mesh.triangles)
+  {
+    const Eigen::Vector3d& a = points[std::size_t(t[0])];
+    const Eigen::Vector3d ab = points[std::size_t(t[1])] - a;
+    const Eigen::Vector3d ac = points[std::size_t(t[2])] - a;
+    const bool isCap = surface.isCap(t) || (this->Filters != nullptr && isBeside(surface.box, a, this->Spacing));
+    const double longest = std::sqrt(std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() }));
+    const int n = std::max(1, static_cast<int>(std::ceil(longest / this->Spacing)));
+    for (int i = 0; i <= n; ++i)
+    {
+      for (int j = 0; i + j <= n; ++j)
+      {
+        const double excess = field.value(a + (double(i) / n) * ab + (double(j) / n) * ac) - level;
+        largest = std::max(largest, isCap ? -excess : std::abs(excess));
+      }
+    }
+  }
+  return largest;
+}
+
+} // namespace cactus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/SurfaceDecimation.h"
+#include "mesh/TriangleTree.h"
+#include "surface/FibreField.h"
+#include "surface/FibreSurfacePair.h"
+#include "surface/SurfaceFilters.h"
+
+#include <vector>
+
+namespace cactus
+{
+
+/// Where a coarsened surface must not stay as it is, since it cuts or touches itself or `container` (may be null).
+std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree* container);
+
+/// Bounds for coarsening a surface once more of which something was wrong at some places, for the first time (attempt 0) or
+/// again.
+std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& places, double spacing, int attempt);
+
+/// What a contour is to become.
+struct SurfaceTarget
+{
+  double level = 0.0;                      ///< of the field, µm
+  double volume = 0.0;                     ///< µm³
+  const TriangleTree* container = nullptr; ///< a surface that it must not meet
+  std::vector<LocalErrorBound> bounds;     ///< where it is coarsened less
+};
+
+/// Makes surfaces to be kept out of contours of fields. May be used from several threads.
+class SurfaceFinishing
+{
+public:
+  /// `decimationError` as in MyelinSurfaceOptions; `spacing` is that of the voxels. With `filters` these coarsen. What is given
+  /// by reference has to outlive the object.
+  SurfaceFinishing(double decimationError, double spacing, const SurfaceFilters* filters);
+
+  /// Coarsens a contour, gives it its volume, and checks what comes out. If something is wrong with it, it is made again with
+  /// less coarsening around there; what cannot be repaired like that stays as contoured, without pieces that enclose no volume,
+  /// which may leave an empty mesh. Measures it in `report`; raises the pair's largestMove, and adds to its droppedVolume.
+  /// Returns whether the surface is as it has to be.
+  bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
+    FibreSurfacePair& pair) const;
+
+private:
+  bool coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report) const;
+  double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
+
+  double DecimationError;
+  double Spacing;
+  const SurfaceFilters* Filters; ///< null for decimate()
+};
+
+} // namespace cactus
