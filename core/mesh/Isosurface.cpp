@@ -418,20 +418,6 @@ private:
 
 } // namespace
 
-NodeRange nodesOfBlock(const NodeLattice& lattice, std::size_t block)
-{
-  NodeRange range;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const auto count = std::size_t(lattice.blocks(axis));
-    const int first = NodeLattice::blockCells * static_cast<int>(axis < 2 ? block % count : block);
-    block /= count;
-    range.first[std::size_t(axis)] = first;
-    range.count[std::size_t(axis)] = std::min(NodeLattice::blockCells, lattice.cells(axis) - first) + 1;
-  }
-  return range;
-}
-
 CappedSurface contour(const NodeLattice& lattice, const std::vector<std::uint32_t>& blocks,
   const std::function<void(const NodeRange&, float*)>& values)
 {
@@ -451,12 +437,7 @@ CappedSurface contour(const NodeLattice& lattice, const std::vector<std::uint32_
   for (const std::uint32_t block : blocks)
   {
     const NodeRange range = nodesOfBlock(lattice, block);
-    NodeRange around = range;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      around.first[axis] -= 1;
-      around.count[axis] += 2;
-    }
+    const NodeRange around = range.widened(1);
     buffer.resize(around.size());
     values(around, buffer.data());
     contourer.addBlock(range, buffer.data());

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "mesh/CappedSurface.h"
+#include "mesh/NodeLattice.h"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -11,35 +11,6 @@
 
 namespace cactus
 {
-
-/// A box cut into cells by planes across each axis. Its nodes are where three planes meet; the outermost planes are its faces.
-struct NodeLattice
-{
-  /// Edge of a block, in cells. Work on a lattice goes block by block, so that it can be left out where nothing is.
-  static constexpr int blockCells = 16;
-
-  std::array<std::vector<double>, 3> planes; ///< µm, increasing, at least two per axis
-
-  int nodes(int axis) const { return static_cast<int>(this->planes[std::size_t(axis)].size()); }
-  int cells(int axis) const { return this->nodes(axis) - 1; }
-  int blocks(int axis) const { return (this->cells(axis) + blockCells - 1) / blockCells; }
-  std::size_t blockCount() const
-  {
-    return std::size_t(this->blocks(0)) * std::size_t(this->blocks(1)) * std::size_t(this->blocks(2));
-  }
-};
-
-/// A box of nodes, the first and how many per axis; values on it are stored x fastest.
-struct NodeRange
-{
-  std::array<int, 3> first{ { 0, 0, 0 } };
-  std::array<int, 3> count{ { 0, 0, 0 } };
-
-  std::size_t size() const { return std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]); }
-};
-
-/// The nodes of the cells of block number `block` (x fastest): at most blockCells + 1 per axis.
-NodeRange nodesOfBlock(const NodeLattice& lattice, std::size_t block);
 
 /// Of the second differences on either side of an edge, the smaller one, or 0 where they have different signs: across a crease
 /// one side tells nothing about the other.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/FibreContours.h"
 
+#include "mesh/Isosurface.h"
 #include "mesh/SurfacePieces.h"
 #include "surface/FibreImage.h"
 

@@ -3,6 +3,7 @@
 
 #include "mesh/TriangleTree.h"
 #include "surface/FibreField.h"
+#include "surface/SmoothedField.h"
 #include "surface/SurfaceFilters.h"
 
 namespace cactus

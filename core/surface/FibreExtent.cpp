@@ -34,12 +34,7 @@ void forEachSample(const SmoothedField& field, Visit&& visit)
   std::vector<float> values;
   for (const std::uint32_t block : field.blocks())
   {
-    NodeRange range = nodesOfBlock(field.lattice(), block);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      range.first[axis] -= 1;
-      range.count[axis] += 2;
-    }
+    const NodeRange range = nodesOfBlock(field.lattice(), block).widened(1);
     values.resize(range.size());
     field.values(0.0, 0.0, range, values.data());
     std::size_t index = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "surface/FibreField.h"
+#include "surface/SmoothedField.h"
 
 #include <vector>
 

@@ -63,13 +63,13 @@ FibreMesher::FibreMesher(const LabelImageView& image, const LabelImageFacts& fac
 {
   if (options.smoothingIterations > 0)
   {
-    this->Field.spareThinFibres(context);
+    this->Thin.emplace(this->Field, context);
   }
 }
 
 SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const
 {
-  return SmoothedField(this->Field, fibreId, blocks, this->Options.smoothingIterations);
+  return SmoothedField(this->Field, fibreId, blocks, this->Options.smoothingIterations, this->Thin ? &*this->Thin : nullptr);
 }
 
 void FibreMesher::makeOuter(

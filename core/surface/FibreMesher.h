@@ -8,10 +8,12 @@
 #include "surface/MyelinSurfaceOptions.h"
 #include "surface/SurfaceFilters.h"
 #include "surface/SurfaceFinishing.h"
+#include "surface/ThinFibres.h"
 
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace cactus
@@ -60,6 +62,7 @@ private:
   const MyelinSurfaceOptions& Options;
   const SurfaceFilters* Filters; ///< null for core's own means
   FibreField Field;
+  std::optional<ThinFibres> Thin; ///< if surfaces are smoothed
   double Spacing;
   FibreContours Contours;
   SurfaceFinishing Finishing;

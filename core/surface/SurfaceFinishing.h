@@ -3,8 +3,8 @@
 
 #include "mesh/SurfaceDecimation.h"
 #include "mesh/TriangleTree.h"
-#include "surface/FibreField.h"
 #include "surface/FibreSurfacePair.h"
+#include "surface/SmoothedField.h"
 #include "surface/SurfaceFilters.h"
 
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: two smoothed fields sum to at most -gap everywhere on the grid; thin fibres stay what they are; models give the
-// g-ratios that they state; fibres are the gap apart, and myelin as thick, even where growth left less, voxels are coarse or
-// nothing is coarsened; what is not as asked is counted.
+// Guarantees: thin fibres stay what they are; models give the g-ratios that they state; fibres are the gap apart, and myelin as
+// thick, even where growth left less, voxels are coarse or nothing is coarsened; what is not as asked is counted.
 #include "surface/MyelinSurface.h"
 #include "base/Constants.h"
 #include "base/Error.h"
@@ -16,78 +15,17 @@
 #include "surface/FibreField.h"
 #include "surface/FibreMesher.h"
 #include "surface/GRatio.h"
+#include "surface/MeetingFibres.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace
 {
 
 using namespace cactus;
 
-/// Three fibres that meet in the middle of a cube of 3 µm.
-LabelImage meeting(FibreRadialGrowthOptions options)
-{
-  Fibres fibres;
-  fibres.domain = Domain::cube(3.0);
-  for (int f = 0; f < 3; ++f)
-  {
-    fibres.addFibre(f + 1, 1, 0.5);
-    const double angle = 2.1 * f;
-    fibres.addPoint({ 0.55 * std::cos(angle), 0.55 * std::sin(angle), -2.0 }, 0.5);
-    fibres.addPoint({ 0.6 * std::cos(angle + 0.3), 0.6 * std::sin(angle + 0.3), 2.0 }, 0.5);
-  }
-  return growFibres(fibres, options, 0.3, growthGrid(fibres.domain, options));
-}
-
-/// The largest sum of two of the three fibres' smoothed fields at a node.
-double largestSum(const FibreField& field, int passes)
-{
-  const NodeLattice lattice = field.lattice();
-  std::vector<std::uint32_t> all(lattice.blockCount());
-  std::iota(all.begin(), all.end(), 0u);
-  const SmoothedField one(field, 1, all, passes);
-  const SmoothedField two(field, 2, all, passes);
-  const SmoothedField three(field, 3, all, passes);
-  double largest = -1.0;
-  for (const std::uint32_t block : all)
-  {
-    NodeRange range = nodesOfBlock(lattice, block);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      range.first[axis] -= 1;
-      range.count[axis] += 2;
-    }
-    std::vector<float> a(range.size());
-    std::vector<float> b(range.size());
-    std::vector<float> c(range.size());
-    one.values(0.0, 0.0, range, a.data());
-    two.values(0.0, 0.0, range, b.data());
-    three.values(0.0, 0.0, range, c.data());
-    for (std::size_t n = 0; n < a.size(); ++n)
-    {
-      largest = std::max({ largest, double(a[n]) + b[n], double(b[n]) + c[n], double(c[n]) + a[n] });
-    }
-  }
-  return largest;
-}
-
-TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
-{
-  FibreRadialGrowthOptions options;
-  const LabelImage image = meeting(options);
-  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
-  for (const int passes : { 0, 1, 4 })
-  {
-    const double sum = largestSum(field, passes);
-    EXPECT_LE(sum, -options.gap() + 1e-6);
-    EXPECT_GE(sum, -options.gap() - 0.01);
-  }
-}
-
-// An outer surface may lie further in than the field tells, after it was moved; the axon keeps clear of it all the same.
 TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
 {
   FibreRadialGrowthOptions options;
@@ -137,97 +75,6 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   mesher.makeInner(field, pair);
   EXPECT_EQ(pair.state, MyelinState::NoAxon);
   EXPECT_TRUE(pair.inner.triangles.empty());
-}
-
-TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
-{
-  FibreRadialGrowthOptions options;
-  for (const double voxelSize : { 0.25, 0.4 }) // so that fibres are smoothed in part, and not at all
-  {
-    options.voxelSize = voxelSize;
-    const LabelImage image = meeting(options);
-    FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
-    const double smoothed = largestSum(field, 4);
-    field.spareThinFibres();
-    const double spared = largestSum(field, 4);
-    EXPECT_LE(spared, -options.gap() + 1e-6);
-    EXPECT_NE(spared, smoothed);
-  }
-}
-
-// With many passes blocks are smoothed together; what comes out does not depend on which are asked for.
-TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
-{
-  FibreRadialGrowthOptions options;
-  options.voxelSize = 0.06;
-  const LabelImage image = meeting(options);
-  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
-  const NodeLattice lattice = field.lattice();
-  std::vector<std::uint32_t> all(lattice.blockCount());
-  std::iota(all.begin(), all.end(), 0u);
-  ASSERT_GT(all.size(), 27u);
-  for (const int passes : { 2, 9, 20 })
-  {
-    const SmoothedField together(field, 1, all, passes);
-    for (const std::uint32_t block : { 0u, 21u, all.back() })
-    {
-      NodeRange range = nodesOfBlock(lattice, block);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        range.first[axis] -= 1;
-        range.count[axis] += 2;
-      }
-      std::vector<float> a(range.size());
-      std::vector<float> b(range.size());
-      together.values(0.0, 0.0, range, a.data());
-      SmoothedField(field, 1, { block }, passes).values(0.0, 0.0, range, b.data());
-      EXPECT_EQ(a, b);
-    }
-  }
-}
-
-TEST(SmoothedField, InterpolatesTheSamples)
-{
-  FibreRadialGrowthOptions options;
-  const LabelImage image = meeting(options);
-  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
-  const auto blocks = field.findFibres(0);
-  ASSERT_EQ(blocks.size(), 3u);
-  const SmoothedField one(field, 1, blocks.at(1), 0);
-  int inside = 0;
-  for (int k = 0; k < image.grid.count[2]; ++k)
-  {
-    for (int j = 0; j < image.grid.count[1]; ++j)
-    {
-      for (int i = 0; i < image.grid.count[0]; ++i)
-      {
-        if (image.fibreId[image.grid.index(i, j, k)] == 1)
-        {
-          ASSERT_NEAR(one.value(image.grid.position(i, j, k)), image.depth[image.grid.index(i, j, k)], 1e-6);
-          ++inside;
-        }
-      }
-    }
-  }
-  EXPECT_GT(inside, 1000);
-}
-
-TEST(FibreField, RefusesWhatIsNoLabelImage)
-{
-  FibreRadialGrowthOptions options;
-  LabelImage image = meeting(options);
-  const auto find = [&]
-  {
-    return FibreField({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true)
-      .findFibres(1);
-  };
-  EXPECT_NO_THROW(find());
-  const float depth = image.depth[1234];
-  image.depth[1234] = std::nanf("");
-  EXPECT_THROW(find(), InvalidInput);
-  image.depth[1234] = depth > 0.0f ? -depth : 1.0f;
-  EXPECT_THROW(find(), InvalidInput);
-  EXPECT_THROW(FibreField({ image.grid, image.fibreId.data(), nullptr, 0.03 }, Domain::cube(3.0), true), InvalidInput);
 }
 
 TEST(GRatio, LogLinearSolvesItsRelation)
@@ -336,7 +183,7 @@ struct Meeting
 
   std::vector<FibreSurfacePair> surfaces()
   {
-    this->image = meeting(this->growth);
+    this->image = example::meetingFibres(this->growth);
     this->facts.domain = Domain::cube(3.0);
     this->facts.minimumGap = this->growth.minimumGap;
     this->facts.surfaceTolerance = this->growth.surfaceTolerance;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/NodeLattice.h"
+#include "surface/FibreField.h"
+#include "surface/ThinFibres.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// The field of one fibre, smoothed, held for all blocks near the fibre.
+///
+/// Smoothing averages each node with its neighbours, (1 2 1)/4 along each axis in turn, or does so in part (see ThinFibres). That
+/// is a linear operation with weights that are positive, sum to 1 and are the same for all fibres, so what holds for all fields
+/// goes on to hold: two of them sum to at most -gap, and none changes by more than the distance between two samples. So surfaces
+/// of smoothed fields keep their gap, whatever the shape of the fibres; on average over a convex part of radius r they move
+/// inwards by passes · spacing² / (4 r).
+class SmoothedField
+{
+public:
+  /// In `passes` passes, which spare `thin` fibres, if that is given.
+  SmoothedField(
+    const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes, const ThinFibres* thin = nullptr);
+
+  std::int32_t fibre() const { return this->Fibre; }
+  const NodeLattice& lattice() const { return this->Lattice; }
+  const std::vector<std::uint32_t>& blocks() const { return this->Blocks; }
+
+  /// The field less `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0 than
+  /// `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles.
+  void values(double level, double smallest, const NodeRange& around, float* out) const;
+  /// The same of the field before it was smoothed, at level 0.
+  void unsmoothedValues(double smallest, const NodeRange& around, float* out) const;
+
+  /// The field at a point of the blocks: trilinear, and along each axis corrected for the curvature that the samples on either
+  /// side agree on, as contour() does. A point beyond the outermost samples has the value of the nearest point among them; far
+  /// from the fibre it is minus infinity.
+  double value(const Eigen::Vector3d& at) const;
+
+private:
+  using Index = std::array<int, 3>; ///< a block by its place along each axis, or a cell
+
+  /// The nodes held of a block, and where in Values they begin.
+  struct Piece
+  {
+    NodeRange range;
+    std::ptrdiff_t place;
+  };
+  /// Finds room for all blocks, and puts those together that are smoothed together: those of a cube of so many
+  /// blocks along each edge.
+  std::vector<std::vector<Piece>> layOut(int edge);
+  /// Fills Values and Unsmoothed for some blocks.
+  void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
+  /// Copies what is held of some blocks out of a larger range.
+  static void copyPieces(
+    const std::vector<float>& from, const NodeRange& range, const std::vector<Piece>& pieces, std::vector<float>& to);
+
+  /// A point by the cell between samples that holds it, or the nearest one.
+  struct Place
+  {
+    Index cell;
+    std::array<double, 3> t;              ///< how far into the cell, from 0 to 1
+    std::array<std::ptrdiff_t, 3> stride; ///< of the block's values
+    const float* corner;                  ///< value at the cell's lower corner; null far from the fibre
+  };
+  Place placeAt(const Eigen::Vector3d& at) const;
+
+  /// Number of a block in Places; none where it lies outside the box of the blocks held.
+  std::ptrdiff_t placeOf(const Index& block) const;
+  /// Copies what is held of a block, less `level` and kept off 0.
+  void copyBlock(const std::vector<float>& held, double level, double smallest, const NodeRange& around, float* out) const;
+
+  std::int32_t Fibre;
+  NodeLattice Lattice;
+  std::vector<std::uint32_t> Blocks;
+  Eigen::Vector3d FirstNode;          ///< µm
+  double NodesPerLength;              ///< per µm
+  std::vector<float> Values;          ///< of each block held, and one node beyond on every side
+  std::vector<float> Unsmoothed;      ///< the same before smoothing
+  Index First{ { 0, 0, 0 } };         ///< the box of the blocks held: first one
+  Index Count{ { 0, 0, 0 } };         ///< and how many
+  Index Cells{ { 0, 0, 0 } };         ///< of the lattice
+  std::vector<std::ptrdiff_t> Places; ///< per block of the box, where its values begin; -1: not held
+};
+
+} // namespace cactus

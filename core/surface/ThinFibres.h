@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "surface/FibreField.h"
+
+#include <cstdint>
+#include <unordered_map>
+
+namespace cactus
+{
+
+/// The fibres of a label image that smoothing spares, since it would shrink and break them: those of a radius below two voxels
+/// altogether, and less and less of the others up to four voxels. The radius is three times the mean depth of a fibre's samples,
+/// as in a round one.
+class ThinFibres
+{
+public:
+  /// `field` has to outlive the object. Throws Cancelled.
+  explicit ThinFibres(const FibreField& field, const Context& context = {});
+
+  /// How much of each pass of smoothing the nodes get that have a node before and behind in the range, from 0 to 1, which is the
+  /// same for the fields of all fibres. False if that is 1 everywhere; then `out` is not written.
+  bool smoothingAt(const NodeRange& range, float* out) const;
+
+private:
+  /// Of each node by itself, whatever is beside it; 2 outside all fibres. False if there is no thin fibre.
+  bool smoothingInside(const NodeRange& range, float* out) const;
+
+  const FibreField& Field;
+  std::unordered_map<std::int32_t, float> Smoothing; ///< of thin fibres, below 1
+};
+
+} // namespace cactus

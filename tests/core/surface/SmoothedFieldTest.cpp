@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: two smoothed fields sum to at most -gap everywhere on the grid, where thin fibres are spared, too; a field is the
+// same whichever blocks are asked for; what is no label image is refused.
+#include "surface/SmoothedField.h"
+#include "base/Error.h"
+#include "surface/MeetingFibres.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+
+using namespace cactus;
+using example::meetingFibres;
+
+/// The largest sum of two of the three fibres' smoothed fields at a node.
+double largestSum(const FibreField& field, int passes, const ThinFibres* thin = nullptr)
+{
+  const NodeLattice lattice = field.lattice();
+  std::vector<std::uint32_t> all(lattice.blockCount());
+  std::iota(all.begin(), all.end(), 0u);
+  const SmoothedField one(field, 1, all, passes, thin);
+  const SmoothedField two(field, 2, all, passes, thin);
+  const SmoothedField three(field, 3, all, passes, thin);
+  double largest = -1.0;
+  for (const std::uint32_t block : all)
+  {
+    const NodeRange range = nodesOfBlock(lattice, block).widened(1);
+    std::vector<float> a(range.size());
+    std::vector<float> b(range.size());
+    std::vector<float> c(range.size());
+    one.values(0.0, 0.0, range, a.data());
+    two.values(0.0, 0.0, range, b.data());
+    three.values(0.0, 0.0, range, c.data());
+    for (std::size_t n = 0; n < a.size(); ++n)
+    {
+      largest = std::max({ largest, double(a[n]) + b[n], double(b[n]) + c[n], double(c[n]) + a[n] });
+    }
+  }
+  return largest;
+}
+
+TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
+{
+  FibreRadialGrowthOptions options;
+  const LabelImage image = meetingFibres(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  for (const int passes : { 0, 1, 4 })
+  {
+    const double sum = largestSum(field, passes);
+    EXPECT_LE(sum, -options.gap() + 1e-6);
+    EXPECT_GE(sum, -options.gap() - 0.01);
+  }
+}
+
+// An outer surface may lie further in than the field tells, after it was moved; the axon keeps clear of it all the same.
+TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
+{
+  FibreRadialGrowthOptions options;
+  for (const double voxelSize : { 0.25, 0.4 }) // so that fibres are smoothed in part, and not at all
+  {
+    options.voxelSize = voxelSize;
+    const LabelImage image = meetingFibres(options);
+    const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+    const double smoothed = largestSum(field, 4);
+    const ThinFibres thin(field);
+    const double spared = largestSum(field, 4, &thin);
+    EXPECT_LE(spared, -options.gap() + 1e-6);
+    EXPECT_NE(spared, smoothed);
+  }
+}
+
+// With many passes blocks are smoothed together; what comes out does not depend on which are asked for.
+TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
+{
+  FibreRadialGrowthOptions options;
+  options.voxelSize = 0.06;
+  const LabelImage image = meetingFibres(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  const NodeLattice lattice = field.lattice();
+  std::vector<std::uint32_t> all(lattice.blockCount());
+  std::iota(all.begin(), all.end(), 0u);
+  ASSERT_GT(all.size(), 27u);
+  for (const int passes : { 2, 9, 20 })
+  {
+    const SmoothedField together(field, 1, all, passes);
+    for (const std::uint32_t block : { 0u, 21u, all.back() })
+    {
+      const NodeRange range = nodesOfBlock(lattice, block).widened(1);
+      std::vector<float> a(range.size());
+      std::vector<float> b(range.size());
+      together.values(0.0, 0.0, range, a.data());
+      SmoothedField(field, 1, { block }, passes).values(0.0, 0.0, range, b.data());
+      EXPECT_EQ(a, b);
+    }
+  }
+}
+
+TEST(SmoothedField, InterpolatesTheSamples)
+{
+  FibreRadialGrowthOptions options;
+  const LabelImage image = meetingFibres(options);
+  const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+  const auto blocks = field.findFibres(0);
+  ASSERT_EQ(blocks.size(), 3u);
+  const SmoothedField one(field, 1, blocks.at(1), 0);
+  int inside = 0;
+  for (int k = 0; k < image.grid.count[2]; ++k)
+  {
+    for (int j = 0; j < image.grid.count[1]; ++j)
+    {
+      for (int i = 0; i < image.grid.count[0]; ++i)
+      {
+        if (image.fibreId[image.grid.index(i, j, k)] == 1)
+        {
+          ASSERT_NEAR(one.value(image.grid.position(i, j, k)), image.depth[image.grid.index(i, j, k)], 1e-6);
+          ++inside;
+        }
+      }
+    }
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(FibreField, RefusesWhatIsNoLabelImage)
+{
+  FibreRadialGrowthOptions options;
+  LabelImage image = meetingFibres(options);
+  const auto find = [&]
+  {
+    return FibreField({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true)
+      .findFibres(1);
+  };
+  EXPECT_NO_THROW(find());
+  const float depth = image.depth[1234];
+  image.depth[1234] = std::nanf("");
+  EXPECT_THROW(find(), InvalidInput);
+  image.depth[1234] = depth > 0.0f ? -depth : 1.0f;
+  EXPECT_THROW(find(), InvalidInput);
+  EXPECT_THROW(FibreField({ image.grid, image.fibreId.data(), nullptr, 0.03 }, Domain::cube(3.0), true), InvalidInput);
+}
+
+} // namespace
