@@ -15,6 +15,7 @@
 #include "judge/SurfaceFaults.h"
 #include "stages/Stages.h"
 #include "surface/MyelinSurface.h"
+#include "surface/SurfaceRemarks.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>

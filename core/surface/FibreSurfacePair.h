@@ -34,7 +34,7 @@ struct FibreSurfacePair
   double gRatio = 0.0;        ///< reached: sqrt(inner volume / outer volume); 0 without an axon
   double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
   bool isWanted = true;       ///< false only where the centre line is known to pass by outside the domain
-  /// A surface has a fault that could not be mended: it meets itself or the other one, or is nearer than MinimumGap (and
+  /// A surface has a fault that could not be repaired: it meets itself or the other one, or is nearer than MinimumGap (and
   /// leastSeparation) to another fibre.
   bool isFlawed = false;
   double largestMove = 0.0; ///< µm, the largest |field - level| found on the final surfaces away from caps

@@ -7,7 +7,6 @@
 #include "surface/MyelinSurfaceOptions.h"
 #include "surface/SurfaceFilters.h"
 
-#include <string>
 #include <vector>
 
 namespace cactus
@@ -37,17 +36,12 @@ namespace cactus
 /// keepMainPart()).
 ///
 /// With `filters` these contour the fields, unsmoothed, and coarsen what comes out, in place of all this; surfaces are then not
-/// mended and not moved apart. What is wrong with a surface by itself is marked (isFlawed); what is wrong between two is for the
-/// certificate to find, see markFaults().
+/// repaired and not moved apart. What is wrong with a surface by itself is marked (isFlawed); what is wrong between two is for
+/// the certificate to find, see markFaults().
 ///
 /// Throws InvalidInput (options; an image that is not valid; a fibre in the image that
 /// is not in the table; decimationError above the tolerance), Infeasible (a target fraction that cannot be met), Cancelled.
 std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const LabelImageFacts& facts,
   const MyelinSurfaceOptions& options, const Context& context = {}, const SurfaceFilters* filters = nullptr);
-
-/// How many fibres did not come out as asked, in what way, and what to do about it, in one sentence; empty where all did. Fibres
-/// that pass by outside the domain are not missed.
-std::string notAsAsked(
-  const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts, bool byFilters = false);
 
 } // namespace cactus

@@ -16,6 +16,7 @@
 #include "surface/FibreMesher.h"
 #include "surface/GRatio.h"
 #include "surface/MeetingFibres.h"
+#include "surface/SurfaceRemarks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/SurfaceRemarks.h"
+
+#include "base/Error.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Size of a voxel, in radii of the thinnest fibre, above which it is the first thing to change.
+constexpr double coarsestVoxel = 0.5;
+
+constexpr char adviceOnFilters[] = "the filters of VTK promise nothing of this: choose Meshing CACTUS, fewer SincIterations or a "
+                                   "larger SincPassBand, or a smaller "
+                                   "TargetReduction";
+
+std::string adviceFor(const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts)
+{
+  double thinnest = std::numeric_limits<double>::infinity();
+  double thickest = 0.0;
+  for (const FibreSurfacePair& pair : pairs)
+  {
+    thinnest = std::min(thinnest, pair.targetRadius);
+    thickest = std::max(thickest, pair.targetRadius);
+  }
+  std::string advice;
+  const std::string radii = text(" for fibres of radii ", thinnest, " to ", thickest, " µm");
+  if (image.grid.spacing > coarsestVoxel * thinnest)
+  {
+    advice = text("VoxelSize ", image.grid.spacing, " µm is coarse", radii, ": choose ", coarsestVoxel * thinnest,
+      " or less in FibreRadialGrowth");
+  }
+  if (2.0 * (facts.minimumGap + facts.surfaceTolerance) > thinnest)
+  {
+    advice += text(advice.empty() ? "" : "; ", "MinimumGap ", facts.minimumGap, " and SurfaceTolerance ", facts.surfaceTolerance,
+      " µm are large", radii, ": choose smaller ones in FibreRadialGrowth");
+  }
+  return !advice.empty() ? advice
+                         : text("choose a smaller VoxelSize (it is ", image.grid.spacing, " µm", radii,
+                             ") in FibreRadialGrowth, or a smaller GRatio or DecimationError here");
+}
+
+} // namespace
+
+std::string notAsAsked(
+  const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts, bool byFilters)
+{
+  const auto count = [&](auto&& is) { return std::count_if(pairs.begin(), pairs.end(), is); };
+  const auto in = [&](MyelinState state)
+  { return count([state](const FibreSurfacePair& pair) { return pair.state == state && pair.isWanted; }); };
+  const auto wanted = count([](const FibreSurfacePair& pair) { return pair.isWanted; });
+  const auto bad =
+    count([](const FibreSurfacePair& pair) { return pair.isFlawed || (pair.isWanted && pair.state != MyelinState::AsAsked); });
+  if (bad == 0)
+  {
+    return {};
+  }
+  std::string ways;
+  const auto add = [&ways](std::ptrdiff_t number, const char* what)
+  { ways += number > 0 ? text(ways.empty() ? "" : ", ", number, " ", what) : std::string(); };
+  add(in(MyelinState::NoFibre), "without any surface (Myelin 4)");
+  add(in(MyelinState::NoAxon), "without an axon (3)");
+  add(in(MyelinState::Thicker), "with thicker myelin (2)");
+  add(in(MyelinState::Thinner), "with thinner myelin (1)");
+  add(count([](const FibreSurfacePair& pair) { return pair.isFlawed; }),
+    "with a surface that meets itself or is nearer than MinimumGap to another fibre (Flawed)");
+  return text(bad, " of ", wanted, " fibres are not as asked, see Fibre statistics: ", ways, "; ",
+    byFilters ? adviceOnFilters : adviceFor(pairs, image, facts));
+}
+
+} // namespace cactus
