@@ -206,6 +206,12 @@ bool liesInside(const TriangleMesh& mesh, const SurfaceReport& report, const Tri
     [&](std::int32_t point) { return sideOf(around, mesh.points[std::size_t(point)]) == Side::Inside; });
 }
 
+bool anyLiesInside(const TriangleMesh& mesh, const SurfaceReport& report, const TriangleTree& around)
+{
+  return std::any_of(report.pieces.begin(), report.pieces.end(),
+    [&](std::int32_t point) { return sideOf(around, mesh.points[std::size_t(point)]) == Side::Inside; });
+}
+
 bool holdsItself(const TriangleMesh& mesh)
 {
   std::vector<std::uint32_t> pieceOf;

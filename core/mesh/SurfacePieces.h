@@ -24,8 +24,9 @@ SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped);
 /// Leaves the pieces of a surface that begin inside another one.
 void keepPiecesInside(CappedSurface& surface, const TriangleTree& around);
 
-/// Whether all pieces of a surface that does not meet another one lie inside that.
+/// Whether all pieces of a surface that does not meet another one, or any of them, lie inside that.
 bool liesInside(const TriangleMesh& mesh, const SurfaceReport& report, const TriangleTree& around);
+bool anyLiesInside(const TriangleMesh& mesh, const SurfaceReport& report, const TriangleTree& around);
 
 /// Whether a piece of a surface, which does not meet itself, lies inside another one of its pieces.
 bool holdsItself(const TriangleMesh& mesh);

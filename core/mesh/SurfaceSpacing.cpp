@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace cactus
@@ -23,12 +24,12 @@ namespace
 
 using Eigen::Vector3d;
 
-/// A pair is moved a little farther apart than it has to be, µm: rounding, and corners that move askew, take some of it back.
-constexpr double extra = 0.0002;
-/// What meets is moved as if it were to keep this distance (µm), or the gap where that is larger: it has to get out of each other
-/// first.
-constexpr double roomToPart = 0.005;
-/// µm that a distance may lose where points are written in single precision; extra is more.
+/// µm that a pair is moved farther apart than it has to be: rounding, and corners that move askew, take some of it back.
+constexpr double extraDistance = 0.0002;
+/// Surfaces that meet are moved as if they had to keep this distance (µm), or the gap if that is larger: they have to get out of
+/// each other first.
+constexpr double distanceAfterMeeting = 0.005;
+/// µm that a distance may lose where points are written in single precision; extraDistance is more.
 constexpr double rounding = 5e-5;
 /// Most pairs take one or two; corners whose normals point askew, as on a face that cuts a fibre at a small angle, get apart
 /// slowly.
@@ -57,13 +58,13 @@ struct Pair
   std::vector<std::uint32_t> trianglesOfOther;
 };
 
-/// Which surfaces are looked at together.
-struct Watch
+/// Which pairs of surfaces are looked at.
+struct PairSelection
 {
-  std::vector<char> isGiven;   ///< by the caller
+  std::vector<char> isGiven;   ///< by the caller, or moved
   std::vector<char> isChanged; ///< since all were looked at
 
-  bool wants(std::size_t a, std::size_t b) const
+  bool holds(std::size_t a, std::size_t b) const
   {
     return (this->isGiven[a] || this->isGiven[b]) && (this->isChanged[a] || this->isChanged[b]);
   }
@@ -192,7 +193,7 @@ Part partBetween(const TriangleMesh& mesh, double lower, double upper)
 }
 
 /// Pairs of parts to look at, whose boxes come nearer than the gap. Sorts the parts.
-std::vector<Pair> neighbours(std::vector<Part>& parts, const Watch& watch, double gap)
+std::vector<Pair> neighbours(std::vector<Part>& parts, const PairSelection& selection, double gap)
 {
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.box.min()[0] < b.box.min()[0]; });
   std::vector<Pair> pairs;
@@ -202,7 +203,7 @@ std::vector<Pair> neighbours(std::vector<Part>& parts, const Watch& watch, doubl
     for (std::size_t j = i + 1; j < parts.size() && parts[j].box.min()[0] <= a.box.max()[0] + gap; ++j)
     {
       Part& b = parts[j];
-      if (watch.wants(a.surface, b.surface) && a.box.squaredExteriorDistance(b.box) < gap * gap)
+      if (selection.holds(a.surface, b.surface) && a.box.squaredExteriorDistance(b.box) < gap * gap)
       {
         pairs.push_back({ &a, &b, 0.0, {}, {} });
       }
@@ -211,10 +212,9 @@ std::vector<Pair> neighbours(std::vector<Part>& parts, const Watch& watch, doubl
   return pairs;
 }
 
-/// Adds, per surface, how far points have to move for what touches `lower` <= z <= `upper`.
-void measureSlab(double lower, double upper, const std::vector<TriangleMesh*>& surfaces,
-  const std::vector<Eigen::AlignedBox3d>& boxes, const Watch& watch, double gap, const Context& context,
-  std::map<std::size_t, Moves>& moves)
+/// The parts of surfaces that touch `lower` <= z <= `upper`.
+std::vector<Part> partsBetween(double lower, double upper, const std::vector<TriangleMesh*>& surfaces,
+  const std::vector<Eigen::AlignedBox3d>& boxes, const Context& context)
 {
   std::vector<std::size_t> present;
   for (std::size_t s = 0; s < surfaces.size(); ++s)
@@ -231,7 +231,13 @@ void measureSlab(double lower, double upper, const std::vector<TriangleMesh*>& s
       parts[i] = partBetween(*surfaces[present[i]], lower, upper);
       parts[i].surface = present[i];
     });
-  std::vector<Pair> pairs = neighbours(parts, watch, gap);
+  return parts;
+}
+
+/// Over the parts that belong to a pair.
+void growTrees(
+  const std::vector<TriangleMesh*>& surfaces, const std::vector<Pair>& pairs, std::vector<Part>& parts, const Context& context)
+{
   std::vector<char> isNear(surfaces.size(), 0);
   for (const Pair& pair : pairs)
   {
@@ -246,28 +252,57 @@ void measureSlab(double lower, double upper, const std::vector<TriangleMesh*>& s
         part.tree = std::make_unique<TriangleTree>(*surfaces[part.surface], std::move(part.triangles));
       }
     });
-  parallelFor(pairs.size(), context,
-    [&](std::size_t p)
-    {
-      Pair& pair = pairs[p];
-      const SurfaceGap nearest = smallestGap(*pair.one->tree, *pair.other->tree, gap);
-      if (nearest.found())
-      {
-        const double wanted = nearest.distance == 0.0 ? std::max(gap, roomToPart) : gap;
-        pair.missing = wanted - nearest.distance;
-        pair.trianglesOfOne = trianglesNear(*pair.one->tree, *pair.other->tree, wanted);
-        pair.trianglesOfOther = trianglesNear(*pair.other->tree, *pair.one->tree, wanted);
-      }
-    });
+}
+
+void measureGap(Pair& pair, double gap)
+{
+  const SurfaceGap nearest = smallestGap(*pair.one->tree, *pair.other->tree, gap);
+  if (nearest.found())
+  {
+    const double wanted = nearest.distance == 0.0 ? std::max(gap, distanceAfterMeeting) : gap;
+    pair.missing = wanted - nearest.distance;
+    pair.trianglesOfOne = trianglesNear(*pair.one->tree, *pair.other->tree, wanted);
+    pair.trianglesOfOther = trianglesNear(*pair.other->tree, *pair.one->tree, wanted);
+  }
+}
+
+/// Adds, per surface, how far points have to move for what touches `lower` <= z <= `upper`.
+void measureSlab(double lower, double upper, const std::vector<TriangleMesh*>& surfaces,
+  const std::vector<Eigen::AlignedBox3d>& boxes, const PairSelection& selection, double gap, const Context& context,
+  std::map<std::size_t, Moves>& moves)
+{
+  std::vector<Part> parts = partsBetween(lower, upper, surfaces, boxes, context);
+  std::vector<Pair> pairs = neighbours(parts, selection, gap);
+  growTrees(surfaces, pairs, parts, context);
+  parallelFor(pairs.size(), context, [&](std::size_t p) { measureGap(pairs[p], gap); });
   for (const Pair& pair : pairs)
   {
     if (pair.missing > 0.0)
     {
-      const double distance = 0.5 * pair.missing + extra;
+      const double distance = 0.5 * pair.missing + extraDistance;
       addMoves(moves[pair.one->surface], pair.one->tree->mesh(), pair.trianglesOfOne, distance);
       addMoves(moves[pair.other->surface], pair.other->tree->mesh(), pair.trianglesOfOther, distance);
     }
   }
+}
+
+/// Goes through `box` slab by slab. Where two surfaces are too near, both are in the slab that the place is in: each holds what
+/// is as near as the gap. `report(part)` gets how much of the work is done.
+template <typename Report>
+std::map<std::size_t, Moves> measureAll(const std::vector<TriangleMesh*>& surfaces, const PairSelection& selection, double gap,
+  const Eigen::AlignedBox3d& box, const Context& context, Report&& report)
+{
+  const std::vector<Eigen::AlignedBox3d> boxes = boxesToLookAt(surfaces, selection.isGiven, gap, context);
+  const int slabs = std::max(1, static_cast<int>(std::ceil(box.sizes()[2] / slabThickness)));
+  std::map<std::size_t, Moves> moves;
+  for (int slab = 0; slab < slabs; ++slab)
+  {
+    const double lower = slab == 0 ? -infinite : box.min()[2] + slab * slabThickness - gap;
+    const double upper = slab == slabs - 1 ? infinite : box.min()[2] + (slab + 1) * slabThickness + gap;
+    measureSlab(lower, upper, surfaces, boxes, selection, gap, context, moves);
+    report(double(slab + 1) / slabs);
+  }
+  return moves;
 }
 
 } // namespace
@@ -281,54 +316,40 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
     return report;
   }
   const double gap = smallest + rounding;
-  Watch watch;
-  watch.isGiven.resize(surfaces.size(), 0);
-  std::vector<char> isMoved(surfaces.size(), 0);
+  PairSelection selection;
+  selection.isGiven.resize(surfaces.size(), 0);
   for (const std::size_t s : changed)
   {
-    watch.isGiven[s] = 1;
+    selection.isGiven[s] = 1;
   }
-  watch.isChanged = watch.isGiven;
-  // Where two surfaces are too near, both are in the slab that the place is in: each holds what is as near as the gap.
-  const int slabs = std::max(1, static_cast<int>(std::ceil(box.sizes()[2] / slabThickness)));
+  selection.isChanged = selection.isGiven;
+  std::set<std::size_t> moved;
   // Most of the work is the first look at all surfaces.
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {
-    const std::vector<Eigen::AlignedBox3d> boxes = boxesToLookAt(surfaces, watch.isGiven, gap, context);
-    std::map<std::size_t, Moves> moves;
-    for (int slab = 0; slab < slabs; ++slab)
-    {
-      const double lower = slab == 0 ? -infinite : box.min()[2] + slab * slabThickness - gap;
-      const double upper = slab == slabs - 1 ? infinite : box.min()[2] + (slab + 1) * slabThickness + gap;
-      measureSlab(lower, upper, surfaces, boxes, watch, gap, context, moves);
-      context.report((round == 0 ? from : half) + (half - from) * (slab + 1) / slabs, "keeping fibres apart");
-    }
-    if (moves.empty() || round == rounds)
-    {
-      for (const auto& entry : moves)
-      {
-        report.tooNear.push_back(entry.first);
-      }
-      break;
-    }
+    const std::map<std::size_t, Moves> moves = measureAll(surfaces, selection, gap, box, context,
+      [&](double part) { context.report((round == 0 ? from : half) + (half - from) * part, "keeping fibres apart"); });
     std::vector<std::size_t> moving;
-    std::fill(watch.isChanged.begin(), watch.isChanged.end(), 0);
     for (const auto& entry : moves)
     {
       moving.push_back(entry.first);
-      watch.isChanged[entry.first] = isMoved[entry.first] = 1;
-      watch.isGiven[entry.first] = 1; // large triangles may come nearer to a third one as they turn
+    }
+    if (moving.empty() || round == rounds)
+    {
+      report.tooNear = moving;
+      break;
+    }
+    std::fill(selection.isChanged.begin(), selection.isChanged.end(), 0);
+    for (const std::size_t s : moving)
+    {
+      selection.isChanged[s] = 1;
+      selection.isGiven[s] = 1; // large triangles may come nearer to a third one as they turn
+      moved.insert(s);
     }
     parallelFor(moving.size(), context, [&](std::size_t m) { moveInwards(*surfaces[moving[m]], moves.at(moving[m]), box, gap); });
   }
-  for (std::size_t s = 0; s < surfaces.size(); ++s)
-  {
-    if (isMoved[s])
-    {
-      report.moved.push_back(s);
-    }
-  }
+  report.moved.assign(moved.begin(), moved.end());
   return report;
 }
 

@@ -20,7 +20,7 @@ struct SpacingReport
 };
 
 /// Moves points of closed, outward surfaces inwards, a nanometre or so at a time, until any two surfaces are at least `gap` (µm)
-/// apart: those of the triangles that come nearer. Meant for surfaces that keep the gap but for what coarsening has cost; it
+/// apart: those of the triangles that come nearer. Meant for surfaces that kept the gap before they were coarsened; it
 /// gives up on pairs that some fifty rounds do not part. Surfaces that meet are moved a few nanometres at a time. Distances are
 /// those of the triangles (see smallestGap()), no samples.
 ///
