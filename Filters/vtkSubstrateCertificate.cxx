@@ -8,6 +8,7 @@
 #include "SurfaceData.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
+#include "judge/CertificateTables.h"
 #include "judge/SubstrateCertificate.h"
 #include "stages/Stages.h"
 

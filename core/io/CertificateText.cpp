@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/CertificateText.h"
 
+#include "judge/CertificateTables.h"
+
 #include <charconv>
 #include <cmath>
 
@@ -10,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// A certificate's value: nothing where it is not a number.
+/// A certificate's value; empty if it is not a number.
 std::string cell(const CertificateColumn& column, std::size_t row)
 {
   const double value = column.values[row];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "judge/SubstrateCertificate.h"
+#include "judge/CertificateFindings.h"
 
 #include <string>
 

@@ -7,6 +7,7 @@
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
+#include "judge/CertificateTables.h"
 #include "judge/SubstrateCertificate.h"
 #include "judge/SubstrateStatistics.h"
 #include "optimiser/CapsuleOptimizer.h"

@@ -4,6 +4,7 @@
 #include "ExampleSurfaces.h"
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "judge/CertificateTables.h"
 #include "mesh/SurfaceDistance.h"
 
 #include <gtest/gtest.h>

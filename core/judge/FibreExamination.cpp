@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "judge/FibreExamination.h"
+
+#include "base/Error.h"
+#include "mesh/SurfaceDistance.h"
+#include "mesh/SurfaceIntersection.h"
+#include "mesh/SurfacePieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Pairs of triangles of a surface that are counted: a ruined one may have half a billion.
+constexpr std::size_t mostIntersections = 10000;
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+/// µm. Triangles as near as this to a face of the domain with all corners are a cap's.
+constexpr double capTolerance = 1e-6;
+
+/// The triangles that are no caps on the faces of the domain.
+std::vector<std::uint32_t> wallOf(const TriangleMesh& mesh, const Domain& box)
+{
+  Eigen::Vector3d lower = box.lower;
+  Eigen::Vector3d upper = box.upper;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  // Surfaces that were not clipped to the domain end in planes, too: those of the image.
+  const Eigen::Vector3d planes[4] = { box.lower, box.upper, lower, upper };
+  std::vector<unsigned> faces(mesh.points.size(), 0U);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    for (int face = 0; face < 12; ++face)
+    {
+      const int axis = face % 3;
+      faces[i] |= std::fabs(mesh.points[i][axis] - planes[face / 3][axis]) <= capTolerance ? 1U << face : 0U;
+    }
+  }
+  std::vector<std::uint32_t> wall;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    const auto& t = mesh.triangles[i];
+    if ((faces[std::size_t(t[0])] & faces[std::size_t(t[1])] & faces[std::size_t(t[2])]) == 0U)
+    {
+      wall.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return wall;
+}
+
+/// Whether a piece of `inside` cannot be shown to lie strictly inside `around`.
+bool leaves(
+  const TreedSurface& inside, const SurfaceReport& pieces, const TreedSurface& around, const SurfaceReport& aroundReport)
+{
+  return !aroundReport.closed() || surfacesMeet(inside.tree, around.tree) || !liesInside(inside.mesh, pieces, around.tree);
+}
+
+double reachOf(const TriangleMesh& mesh, const Domain& box)
+{
+  double reach = 0.0;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    reach = std::max(reach, -box.depth(point));
+  }
+  return reach;
+}
+
+} // namespace
+
+FibreExamination::FibreExamination(
+  const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres, double cutSpacing)
+  : Box(domain)
+  , Outer(outer)
+  , Inner(inner)
+  , Lines(fibres)
+  , CutSpacing(cutSpacing)
+  , OuterIndex(indexOf(outer.fibreIds))
+  , InnerIndex(indexOf(inner.fibreIds))
+  , LineIndex(fibres != nullptr ? indexOf(fibres->fibreIds) : Index())
+{
+}
+
+FibreExamination::Index FibreExamination::indexOf(const std::vector<int>& ids)
+{
+  Index index;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    index[ids[i]] = i;
+  }
+  return index;
+}
+
+std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre, double& reach) const
+{
+  fibre.outerRadius = fibre.innerRadius = { 0, notANumber, notANumber };
+  fibre.gap = fibre.myelinThickness = fibre.gRatio = notANumber;
+  std::unique_ptr<TreedSurface> outer;
+  const auto outerEntry = this->OuterIndex.find(fibre.fibreId);
+  if (outerEntry != this->OuterIndex.end())
+  {
+    fibre.hasOuter = true;
+    outer = this->measure(this->Outer.mesh(outerEntry->second), fibre.fibreId, "outer",
+      { fibre.outer, fibre.outerSelfIntersections, fibre.outerSelfNested, fibre.outerRadius });
+    reach = std::max(reach, reachOf(outer->mesh, this->Box));
+  }
+  const auto innerEntry = this->InnerIndex.find(fibre.fibreId);
+  if (innerEntry != this->InnerIndex.end())
+  {
+    fibre.hasInner = true;
+    const auto inner = this->measure(this->Inner.mesh(innerEntry->second), fibre.fibreId, "inner",
+      { fibre.inner, fibre.innerSelfIntersections, fibre.innerSelfNested, fibre.innerRadius });
+    reach = std::max(reach, reachOf(inner->mesh, this->Box));
+    fibre.innerLeaves = !fibre.hasOuter || leaves(*inner, fibre.inner, *outer, fibre.outer);
+    if (fibre.hasOuter)
+    {
+      fibre.gRatio = gRatioOf(fibre.inner.volume, fibre.outer.volume);
+      const TriangleTree wall(outer->mesh, wallOf(outer->mesh, this->Box));
+      const SurfaceGap gap = smallestGap(inner->tree, wall);
+      fibre.myelinThickness = gap.found() ? gap.distance : notANumber;
+    }
+  }
+  return outer;
+}
+
+std::unique_ptr<TreedSurface> FibreExamination::measure(
+  TriangleMesh mesh, int fibreId, const std::string& name, Findings findings) const
+{
+  try
+  {
+    findings.report = checkSurface(mesh);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput("the " + name + " surface of fibre " + std::to_string(fibreId) + ": " + error.what());
+  }
+  auto surface = std::make_unique<TreedSurface>(std::move(mesh));
+  findings.selfIntersections = selfIntersections(surface->tree, mostIntersections).size();
+  findings.selfNested = findings.report.pieces.size() > 1 && findings.report.closed() && findings.selfIntersections == 0 &&
+                        holdsItself(surface->mesh);
+  const auto line = this->LineIndex.find(fibreId);
+  if (line != this->LineIndex.end())
+  {
+    findings.radius = radiusAlongFibre(*this->Lines, line->second, surface->mesh, this->CutSpacing);
+  }
+  return surface;
+}
+
+} // namespace cactus

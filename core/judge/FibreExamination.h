@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Domain.h"
+#include "fibres/Fibres.h"
+#include "judge/CertificateFindings.h"
+#include "mesh/FibreSurfaces.h"
+#include "mesh/TriangleTree.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+/// A surface and the tree over it, which refers to it.
+struct TreedSurface
+{
+  explicit TreedSurface(TriangleMesh surface)
+    : mesh(std::move(surface))
+    , tree(this->mesh)
+  {
+  }
+  TreedSurface(const TreedSurface&) = delete;
+  TreedSurface& operator=(const TreedSurface&) = delete;
+
+  TriangleMesh mesh;
+  TriangleTree tree;
+};
+
+/// Finds out what a certificate says of one fibre by itself. May be used from several threads.
+class FibreExamination
+{
+public:
+  /// `fibres` may be null. What is given by reference has to outlive the object.
+  FibreExamination(
+    const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres, double cutSpacing);
+
+  /// Fills in the findings on the fibre with the id that they hold, except those that depend on other fibres, and raises `reach`
+  /// to what its surfaces reach out of the domain (µm). Returns the outer surface, or null if there is none. Throws InvalidInput
+  /// for a damaged surface, which it names.
+  std::unique_ptr<TreedSurface> examine(FibreCertificate& fibre, double& reach) const;
+
+private:
+  using Index = std::unordered_map<int, std::size_t>;
+  static Index indexOf(const std::vector<int>& ids);
+
+  /// What is measured on an outer and on an inner surface.
+  struct Findings
+  {
+    SurfaceReport& report;
+    std::size_t& selfIntersections;
+    bool& selfNested;
+    RadiusAlongFibre& radius;
+  };
+  std::unique_ptr<TreedSurface> measure(TriangleMesh mesh, int fibreId, const std::string& name, Findings findings) const;
+
+  const Domain& Box;
+  const FibreSurfaces& Outer;
+  const FibreSurfaces& Inner;
+  const Fibres* Lines;
+  double CutSpacing;
+  Index OuterIndex;
+  Index InnerIndex;
+  Index LineIndex;
+};
+
+} // namespace cactus
