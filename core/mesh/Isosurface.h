@@ -4,20 +4,12 @@
 #include "mesh/CappedSurface.h"
 #include "mesh/NodeLattice.h"
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace cactus
 {
-
-/// Of the second differences on either side of an edge, the smaller one, or 0 where they have different signs: across a crease
-/// one side tells nothing about the other.
-inline double agreedBend(double a, double b)
-{
-  return a * b <= 0.0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b;
-}
 
 /// The boundary of the region of the lattice's box in which a field is positive: its zero surface, closed by flat caps on the
 /// faces of the box.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceDistance.h"
 
-#include "mesh/SurfaceIntersection.h"
+#include "mesh/TriangleIntersection.h"
 
 #include <Eigen/Geometry>
 

@@ -1,270 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceIntersection.h"
 
-#include "mesh/ExactPredicates.h"
+#include "mesh/TriangleIntersection.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 
 namespace cactus
 {
 
 namespace
 {
-
-using Eigen::Vector3d;
-using Corners = std::array<const Vector3d*, 3>;
-
-Corners cornersOf(const TriangleMesh& mesh, std::uint32_t triangle)
-{
-  const auto& t = mesh.triangles[triangle];
-  return { { &mesh.points[std::size_t(t[0])], &mesh.points[std::size_t(t[1])], &mesh.points[std::size_t(t[2])] } };
-}
-
-/// An axis along which the triangle can be seen without becoming a line; −1 where it is one.
-int viewOf(const Corners& t)
-{
-  for (int axis = 2; axis >= 0; --axis)
-  {
-    if (orientationAlong(axis, *t[0], *t[1], *t[2]) != 0)
-    {
-      return axis;
-    }
-  }
-  return -1;
-}
-
-bool isFlat(const Corners& t)
-{
-  return viewOf(t) < 0;
-}
-
-/// For points on one line: whether p lies between q and r, or on one of them.
-bool between(const Vector3d& p, const Vector3d& q, const Vector3d& r)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (p[axis] < std::min(q[axis], r[axis]) || p[axis] > std::max(q[axis], r[axis]))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// In a plane seen along `view`: whether the closed segments p–q and r–s have a point in common.
-bool segmentsMeet(int view, const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s)
-{
-  const int atR = orientationAlong(view, p, q, r);
-  const int atS = orientationAlong(view, p, q, s);
-  const int atP = orientationAlong(view, r, s, p);
-  const int atQ = orientationAlong(view, r, s, q);
-  if (atR * atS < 0 && atP * atQ < 0)
-  {
-    return true;
-  }
-  return (atR == 0 && between(r, p, q)) || (atS == 0 && between(s, p, q)) || (atP == 0 && between(p, r, s)) ||
-         (atQ == 0 && between(q, r, s));
-}
-
-/// The same in space.
-bool segmentsMeet(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s)
-{
-  if (orientation(p, q, r, s) != 0)
-  {
-    return false;
-  }
-  for (const Corners& t : { Corners{ { &p, &q, &r } }, Corners{ { &p, &q, &s } }, Corners{ { &r, &s, &p } } })
-  {
-    const int view = viewOf(t);
-    if (view >= 0)
-    {
-      return segmentsMeet(view, p, q, r, s);
-    }
-  }
-  // All on one line.
-  return between(p, r, s) || between(q, r, s) || between(r, p, q);
-}
-
-/// For p in the plane of a triangle that is not flat.
-bool inTriangle(int view, const Vector3d& p, const Corners& t)
-{
-  const int s0 = orientationAlong(view, *t[0], *t[1], p);
-  const int s1 = orientationAlong(view, *t[1], *t[2], p);
-  const int s2 = orientationAlong(view, *t[2], *t[0], p);
-  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
-}
-
-/// Whether the closed segment p–q meets a triangle that is not flat, with the signs of p and q against the triangle's plane.
-bool segmentMeets(const Vector3d& p, int atP, const Vector3d& q, int atQ, const Corners& t)
-{
-  if (atP == atQ && atP != 0)
-  {
-    return false;
-  }
-  if (atP == 0 && atQ == 0)
-  {
-    const int view = viewOf(t);
-    return inTriangle(view, p, t) || segmentsMeet(view, p, q, *t[0], *t[1]) || segmentsMeet(view, p, q, *t[1], *t[2]) ||
-           segmentsMeet(view, p, q, *t[2], *t[0]);
-  }
-  // The line through p and q crosses the plane in one point of the segment, and passes the triangle's edges all on the same side.
-  const int s0 = orientation(p, q, *t[0], *t[1]);
-  const int s1 = orientation(p, q, *t[1], *t[2]);
-  if (s0 * s1 < 0)
-  {
-    return false;
-  }
-  const int s2 = orientation(p, q, *t[2], *t[0]);
-  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
-}
-
-bool segmentMeets(const Vector3d& p, const Vector3d& q, const Corners& t)
-{
-  if (isFlat(t))
-  {
-    return segmentsMeet(p, q, *t[0], *t[1]) || segmentsMeet(p, q, *t[1], *t[2]) || segmentsMeet(p, q, *t[2], *t[0]);
-  }
-  return segmentMeets(p, orientation(*t[0], *t[1], *t[2], p), q, orientation(*t[0], *t[1], *t[2], q), t);
-}
-
-std::array<int, 3> sidesOf(const Corners& a, const Corners& plane)
-{
-  std::array<int, 3> sides;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    sides[i] = orientation(*plane[0], *plane[1], *plane[2], *a[i]);
-  }
-  return sides;
-}
-
-bool allOnOneSide(const std::array<int, 3>& sides)
-{
-  return sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2];
-}
-
-/// Whether, seen from `origin`, all of `b` lies further in direction `across` than all of `a`, for sure: by far more than
-/// rounding can change. Most of what is asked about is told apart by this, without exact predicates.
-template <std::size_t Count>
-bool clearlyBehind(const Vector3d& origin, const Vector3d& across, const std::array<const Vector3d*, Count>& a,
-  const std::array<const Vector3d*, Count>& b)
-{
-  double last = -std::numeric_limits<double>::infinity();
-  double first = std::numeric_limits<double>::infinity();
-  double reach = 0.0;
-  for (std::size_t i = 0; i < Count; ++i)
-  {
-    const Vector3d toA = *a[i] - origin;
-    const Vector3d toB = *b[i] - origin;
-    last = std::max(last, across.dot(toA));
-    first = std::min(first, across.dot(toB));
-    reach = std::max({ reach, std::fabs(toA[0]), std::fabs(toA[1]), std::fabs(toA[2]), std::fabs(toB[0]), std::fabs(toB[1]),
-      std::fabs(toB[2]) });
-  }
-  const double rounding = 1e-14 * reach * (std::fabs(across[0]) + std::fabs(across[1]) + std::fabs(across[2]));
-  if constexpr (Count == 2)
-  {
-    return last < -rounding && first > rounding; // with the origin between them
-  }
-  return first - last > rounding;
-}
-
-/// Of two triangles that meet, an edge of one meets the other one.
-bool meet(const Corners& a, const Corners& b)
-{
-  if (clearlyBehind(*a[0], (*b[0] - *a[0]) + (*b[1] - *a[1]) + (*b[2] - *a[2]), a, b))
-  {
-    return false;
-  }
-  const std::array<int, 3> sidesA = sidesOf(a, b);
-  if (allOnOneSide(sidesA))
-  {
-    return false;
-  }
-  const std::array<int, 3> sidesB = sidesOf(b, a);
-  if (allOnOneSide(sidesB))
-  {
-    return false;
-  }
-  if (isFlat(a) || isFlat(b))
-  {
-    // A flat triangle is the union of its edges.
-    const Corners& flat = isFlat(a) ? a : b;
-    const Corners& other = isFlat(a) ? b : a;
-    return segmentMeets(*flat[0], *flat[1], other) || segmentMeets(*flat[1], *flat[2], other) ||
-           segmentMeets(*flat[2], *flat[0], other);
-  }
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const std::size_t j = (i + 1) % 3;
-    if (segmentMeets(*a[i], sidesA[i], *a[j], sidesA[j], b) || segmentMeets(*b[i], sidesB[i], *b[j], sidesB[j], a))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Whether two triangles of one mesh, neither of them flat, meet elsewhere than in the corners that they share by index.
-bool meetElsewhere(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t second)
-{
-  const auto& s = mesh.triangles[first];
-  const auto& t = mesh.triangles[second];
-  std::size_t shared = 0;
-  std::array<std::size_t, 3> inFirst{};
-  std::array<std::size_t, 3> inSecond{};
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    for (std::size_t j = 0; j < 3; ++j)
-    {
-      if (s[i] == t[j] && shared < 3)
-      {
-        inFirst[shared] = i;
-        inSecond[shared++] = j;
-      }
-    }
-  }
-  const Corners a = cornersOf(mesh, first);
-  const Corners b = cornersOf(mesh, second);
-  if (shared == 0)
-  {
-    return meet(a, b);
-  }
-  if (shared == 1)
-  {
-    // What else they have in common reaches from the shared corner to the opposite edge of one of them.
-    const std::size_t i = inFirst[0];
-    const std::size_t j = inSecond[0];
-    const std::array<const Vector3d*, 2> edgeA{ { a[(i + 1) % 3], a[(i + 2) % 3] } };
-    const std::array<const Vector3d*, 2> edgeB{ { b[(j + 1) % 3], b[(j + 2) % 3] } };
-    if (clearlyBehind(*a[i], (*edgeB[0] - *edgeA[0]) + (*edgeB[1] - *edgeA[1]), edgeA, edgeB))
-    {
-      return false;
-    }
-    const auto meets = [](const std::array<const Vector3d*, 2>& edge, const Corners& t)
-    {
-      return segmentMeets(
-        *edge[0], orientation(*t[0], *t[1], *t[2], *edge[0]), *edge[1], orientation(*t[0], *t[1], *t[2], *edge[1]), t);
-    };
-    return meets(edgeA, b) || meets(edgeB, a);
-  }
-  if (shared == 2)
-  {
-    const Vector3d& u = *a[inFirst[0]];
-    const Vector3d& v = *a[inFirst[1]];
-    const Vector3d& apexA = *a[3 - inFirst[0] - inFirst[1]];
-    const Vector3d& apexB = *b[3 - inSecond[0] - inSecond[1]];
-    if (orientation(u, v, apexA, apexB) != 0)
-    {
-      return false;
-    }
-    const int view = viewOf(a);
-    return orientationAlong(view, u, v, apexA) == orientationAlong(view, u, v, apexB);
-  }
-  return true;
-}
 
 /// Calls found(first, second) for the pairs of selfIntersections(), until it returns true.
 template <typename Found>
@@ -288,56 +33,12 @@ bool visitSelfIntersections(const TriangleTree& surface, Found&& found)
     { return !flat[s] && !flat[t] && meetElsewhere(mesh, s, t) && found(std::min(s, t), std::max(s, t)); });
 }
 
-/// A line segment against triangles: how often it crosses, whether its start lies on one, whether a crossing is not clean.
-struct Crossings
-{
-  std::size_t count = 0;
-  bool startsOn = false;
-  bool unclear = false;
-
-  void cross(const Vector3d& p, const Vector3d& q, const Corners& t)
-  {
-    const int atP = orientation(*t[0], *t[1], *t[2], p);
-    if (atP == 0)
-    {
-      this->startsOn = this->startsOn || segmentMeets(p, p, t);
-      if (this->startsOn || isFlat(t))
-      {
-        return; // a flat triangle lies on edges of its neighbours
-      }
-    }
-    const int atQ = orientation(*t[0], *t[1], *t[2], q);
-    if (atP == atQ && atP != 0)
-    {
-      return;
-    }
-    const int s0 = orientation(p, q, *t[0], *t[1]);
-    const int s1 = orientation(p, q, *t[1], *t[2]);
-    const int s2 = orientation(p, q, *t[2], *t[0]);
-    if (s0 * s1 < 0 || s1 * s2 < 0 || s2 * s0 < 0)
-    {
-      return;
-    }
-    if (s0 == 0 || s1 == 0 || s2 == 0 || atP == 0 || atQ == 0)
-    {
-      this->unclear = true; // through an edge, or along the plane
-      return;
-    }
-    ++this->count;
-  }
-};
-
 } // namespace
-
-bool trianglesMeet(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b)
-{
-  return meet({ { &a[0], &a[1], &a[2] } }, { { &b[0], &b[1], &b[2] } });
-}
 
 bool surfacesMeet(const TriangleTree& a, const TriangleTree& b)
 {
   return visitOverlaps(
-    a, b, [&](std::uint32_t s, std::uint32_t t) { return meet(cornersOf(a.mesh(), s), cornersOf(b.mesh(), t)); });
+    a, b, [&](std::uint32_t s, std::uint32_t t) { return trianglesMeet(cornersOf(a.mesh(), s), cornersOf(b.mesh(), t)); });
 }
 
 bool surfacesMeet(const TriangleMesh& a, const TriangleMesh& b)
@@ -351,7 +52,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingTriangles(const Tria
   visitOverlaps(a, b,
     [&](std::uint32_t s, std::uint32_t t)
     {
-      if (meet(cornersOf(a.mesh(), s), cornersOf(b.mesh(), t)))
+      if (trianglesMeet(cornersOf(a.mesh(), s), cornersOf(b.mesh(), t)))
       {
         pairs.emplace_back(s, t);
       }
@@ -382,53 +83,6 @@ bool meetsItself(const TriangleTree& surface)
 bool meetsItself(const TriangleMesh& mesh)
 {
   return meetsItself(TriangleTree(mesh));
-}
-
-Side sideOf(const TriangleTree& surface, const Vector3d& point)
-{
-  if (surface.empty())
-  {
-    return Side::Outside;
-  }
-  const FloatBox& box = surface.nodes()[0].box;
-  const Vector3d lower(box.lower[0], box.lower[1], box.lower[2]);
-  const Vector3d upper(box.upper[0], box.upper[1], box.upper[2]);
-  if ((point.array() < lower.array()).any() || (point.array() > upper.array()).any())
-  {
-    return Side::Outside;
-  }
-  const double size = (upper - lower).maxCoeff();
-  // To ever other points beyond the lower end of x, until the line meets no edge. A few are enough; a point from which every line
-  // meets one would lie on the surface.
-  for (int attempt = 1;; ++attempt)
-  {
-    const double turn = 0.6180339887498949 * attempt;
-    const double lift = 0.7548776662466927 * attempt;
-    const Vector3d far(lower[0] - 0.1 * size - 1.0, point[1] + 0.2 * size * (turn - std::floor(turn) - 0.5),
-      point[2] + 0.2 * size * (lift - std::floor(lift) - 0.5));
-    FloatBox reach;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      reach.lower[axis] = std::nextafter(static_cast<float>(std::min(point[axis], far[axis])), -3e38F);
-      reach.upper[axis] = std::nextafter(static_cast<float>(std::max(point[axis], far[axis])), 3e38F);
-    }
-    Crossings crossings;
-    visitTriangles(
-      surface, [&reach](const FloatBox& node) { return node.overlaps(reach); },
-      [&](std::uint32_t triangle)
-      {
-        crossings.cross(point, far, cornersOf(surface.mesh(), triangle));
-        return crossings.startsOn;
-      });
-    if (crossings.startsOn)
-    {
-      return Side::On;
-    }
-    if (!crossings.unclear)
-    {
-      return crossings.count % 2 == 1 ? Side::Inside : Side::Outside;
-    }
-  }
 }
 
 } // namespace cactus

@@ -4,9 +4,6 @@
 #include "mesh/TriangleMesh.h"
 #include "mesh/TriangleTree.h"
 
-#include <Eigen/Core>
-
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -16,12 +13,8 @@
 namespace cactus
 {
 
-// Whether surfaces meet, by exact predicates (see ExactPredicates.h): no answer here is a matter of rounding. Triangles are
-// closed sets, so that touching in a single point is meeting. Flat triangles (all corners on one line) are taken for the line
-// they are.
-
-/// Whether two triangles have a point in common.
-bool trianglesMeet(const std::array<Eigen::Vector3d, 3>& a, const std::array<Eigen::Vector3d, 3>& b);
+// Whether surfaces meet, by exact predicates (see TriangleIntersection.h): no answer here is a matter of rounding, and touching
+// in a single point is meeting.
 
 /// Whether two surfaces cut or touch each other. One inside the other does not count.
 bool surfacesMeet(const TriangleTree& a, const TriangleTree& b);
@@ -40,16 +33,5 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> selfIntersections(
 /// Whether there is any such pair.
 bool meetsItself(const TriangleTree& surface);
 bool meetsItself(const TriangleMesh& mesh);
-
-/// Where a point lies with respect to a closed surface.
-enum class Side
-{
-  Outside,
-  On,
-  Inside
-};
-
-/// By how often a line from the point to the outside crosses the surface. `surface` has to be closed.
-Side sideOf(const TriangleTree& surface, const Eigen::Vector3d& point);
 
 } // namespace cactus

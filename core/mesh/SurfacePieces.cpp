@@ -2,7 +2,7 @@
 #include "mesh/SurfacePieces.h"
 
 #include "mesh/DisjointSets.h"
-#include "mesh/SurfaceIntersection.h"
+#include "mesh/SurfaceSide.h"
 
 #include <algorithm>
 #include <array>

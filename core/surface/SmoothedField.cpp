@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/SmoothedField.h"
 
-#include "mesh/Isosurface.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,7 +20,7 @@ constexpr int blocksTogether = 4;
 
 typedef float Four __attribute__((vector_size(16)));
 
-/// agreedBend() of four pairs of second differences.
+/// agreedBend() (see mesh/ContourPoints.h) of four pairs of second differences.
 inline Four agreedBends(const Four& first, const Four& second)
 {
   const Four zero{};

@@ -2,7 +2,7 @@
 #include "mesh/SurfaceDistance.h"
 
 #include "ExampleSurfaces.h"
-#include "mesh/SurfaceIntersection.h"
+#include "mesh/TriangleIntersection.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -19,7 +19,7 @@ using Triangle = std::array<Vector3d, 3>;
 using example::both;
 using example::tube;
 
-Triangle cornersOf(const cactus::TriangleMesh& mesh, std::size_t t)
+Triangle pointsOf(const cactus::TriangleMesh& mesh, std::size_t t)
 {
   const auto& i = mesh.triangles[t];
   return { { mesh.points[std::size_t(i[0])], mesh.points[std::size_t(i[1])], mesh.points[std::size_t(i[2])] } };
@@ -116,7 +116,7 @@ TEST(SurfaceDistance, SmallestGapIsThatOfAllPairs)
       double own = std::numeric_limits<double>::infinity();
       for (std::size_t t = 0; t < b.triangles.size(); ++t)
       {
-        own = std::min(own, cactus::triangleGap(cornersOf(a, s), cornersOf(b, t)).distance);
+        own = std::min(own, cactus::triangleGap(pointsOf(a, s), pointsOf(b, t)).distance);
       }
       smallest = std::min(smallest, own);
       if (own < reach)
@@ -126,7 +126,7 @@ TEST(SurfaceDistance, SmallestGapIsThatOfAllPairs)
     }
     const auto gap = cactus::smallestGap(treeA, treeB);
     EXPECT_EQ(gap.distance, smallest);
-    EXPECT_EQ(cactus::triangleGap(cornersOf(a, gap.triangleA), cornersOf(b, gap.triangleB)).distance, smallest);
+    EXPECT_EQ(cactus::triangleGap(pointsOf(a, gap.triangleA), pointsOf(b, gap.triangleB)).distance, smallest);
     EXPECT_EQ(cactus::smallestGap(treeA, treeB, 1.01 * smallest).distance, smallest);
     EXPECT_FALSE(cactus::smallestGap(treeA, treeB, 0.99 * smallest).found());
     EXPECT_EQ(cactus::trianglesNear(treeA, treeB, reach), near);

@@ -11,6 +11,7 @@
 #include "growth/TargetRadii.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
+#include "mesh/SurfaceSide.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "surface/FibreField.h"
 #include "surface/FibreMesher.h"

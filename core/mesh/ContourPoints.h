@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/CappedSurface.h"
+#include "mesh/NodeLattice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace cactus
+{
+
+/// Of the second differences on either side of an edge, the smaller one, or 0 if they have different signs: across a crease one
+/// side does not predict the other.
+inline double agreedBend(double a, double b)
+{
+  return a * b <= 0.0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b;
+}
+
+/// A node, counted within a block.
+using LatticeNode = std::array<int, 3>;
+
+/// Corners of a cell are numbered by bits: 1 for the upper x, 2 for the upper y, 4 for the upper z. A cell is named by corner 0.
+inline LatticeNode cornerOfCell(const LatticeNode& cell, int corner)
+{
+  return { { cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1), cell[2] + (corner >> 2) } };
+}
+
+/// The values of a field at the nodes of a block, which begin one node before it on every side.
+struct BlockValues
+{
+  NodeRange range; ///< the nodes of the block itself
+  const float* values = nullptr;
+  std::array<std::size_t, 3> stride{ { 0, 0, 0 } };
+
+  BlockValues() = default;
+  BlockValues(const NodeRange& nodes, const float* field)
+    : range(nodes)
+    , values(field)
+    , stride{ { 1, std::size_t(nodes.count[0] + 2), std::size_t(nodes.count[0] + 2) * std::size_t(nodes.count[1] + 2) } }
+  {
+  }
+
+  const float* at(const LatticeNode& node) const
+  {
+    return this->values + std::size_t(node[0] + 1) + this->stride[1] * std::size_t(node[1] + 1) +
+           this->stride[2] * std::size_t(node[2] + 1);
+  }
+};
+
+/// The points of a contour on the edges of a lattice's cells, and those of its caps at nodes. Cells and blocks that share an edge
+/// share its point.
+class ContourPoints
+{
+public:
+  /// Points are added to `surface`. What is given has to outlive the object.
+  ContourPoints(const NodeLattice& lattice, CappedSurface& surface)
+    : Lattice(lattice)
+    , Surface(surface)
+  {
+  }
+
+  /// Goes on to another block.
+  void begin(const BlockValues& block)
+  {
+    this->Block = block;
+    for (const std::size_t local : this->Used)
+    {
+      this->Local[local] = -1;
+    }
+    this->Used.clear();
+    this->Local.resize(std::max(this->Local.size(), pointsPerNode * block.range.size()), -1);
+  }
+
+  /// The point where the field is 0 between two corners of a cell, or the corner itself if both are the same.
+  std::int32_t between(const LatticeNode& cell, int one, int other)
+  {
+    const int lowerCorner = one & other;
+    const int direction = one == other ? 0 : 1 + (one ^ other) / 2;
+    const LatticeNode lower = cornerOfCell(cell, lowerCorner);
+    const LatticeNode upper = cornerOfCell(cell, one | other);
+    const std::size_t local = pointsPerNode * this->localIndex(lower) + std::size_t(direction);
+    std::int32_t& known = this->Local[local];
+    if (known >= 0)
+    {
+      return known;
+    }
+    this->Used.push_back(local);
+    bool shared = false; // with a block beside this one
+    std::uint64_t node = 0;
+    for (std::size_t axis = 3; axis-- > 0;)
+    {
+      shared = shared || (lower[axis] == upper[axis] && (lower[axis] == 0 || lower[axis] + 1 == this->Block.range.count[axis]));
+      node = node * std::uint64_t(this->Lattice.nodes(int(axis))) + std::uint64_t(this->Block.range.first[axis] + lower[axis]);
+    }
+    if (!shared)
+    {
+      return known = this->addPoint(lower, upper);
+    }
+    const auto entry = this->Shared.emplace(pointsPerNode * node + std::uint64_t(direction), -1).first;
+    if (entry->second < 0)
+    {
+      entry->second = this->addPoint(lower, upper);
+    }
+    return known = entry->second;
+  }
+
+private:
+  /// Points of a node: the node itself, and one on the edge that leads up from it along each axis.
+  static constexpr int pointsPerNode = 4;
+
+  std::size_t localIndex(const LatticeNode& node) const
+  {
+    const auto& count = this->Block.range.count;
+    return std::size_t(node[0]) + std::size_t(count[0]) * (std::size_t(node[1]) + std::size_t(count[1]) * std::size_t(node[2]));
+  }
+
+  std::int32_t addPoint(const LatticeNode& lower, const LatticeNode& upper)
+  {
+    const double t = this->crossing(lower, upper);
+    Eigen::Vector3d point;
+    int faces = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto& planes = this->Lattice.planes[axis];
+      const int first = this->Block.range.first[axis] + lower[axis];
+      const int last = this->Block.range.first[axis] + upper[axis];
+      const double from = planes[std::size_t(first)];
+      point[Eigen::Index(axis)] = from + t * (planes[std::size_t(last)] - from);
+      if (first == last && first == 0)
+      {
+        faces |= 1 << (2 * axis);
+      }
+      if (first == last && std::size_t(last) + 1 == planes.size())
+      {
+        faces |= 2 << (2 * axis);
+      }
+    }
+    this->Surface.mesh.points.push_back(point);
+    this->Surface.faces.push_back(static_cast<std::uint8_t>(faces));
+    return static_cast<std::int32_t>(this->Surface.mesh.points.size() - 1);
+  }
+
+  /// Where on an edge the field is 0, as a part of it.
+  double crossing(const LatticeNode& lower, const LatticeNode& upper) const
+  {
+    if (lower == upper)
+    {
+      return 0.0;
+    }
+    const float* first = this->Block.at(lower);
+    const float* last = this->Block.at(upper);
+    const double a = *first;
+    const double b = *last;
+    // The nodes before and behind in line. A cell at a face is flat, and the field the same on both sides of it: nothing bends
+    // there.
+    const std::size_t axis = lower[0] != upper[0] ? 0 : lower[1] != upper[1] ? 1 : 2;
+    const std::size_t step = this->Block.stride[axis];
+    const int node = this->Block.range.first[axis] + lower[axis];
+    const int end = this->Lattice.nodes(int(axis)) - 1;
+    const bool before = node > 1 && node + 1 < end;
+    const bool behind = node > 0 && node + 2 < end;
+    const double bendBefore = before ? double(*(first - step)) - 2.0 * a + b : 0.0;
+    const double bendBehind = behind ? a - 2.0 * b + double(*(last + step)) : 0.0;
+    const double bend = !behind ? bendBefore : !before ? bendBehind : agreedBend(bendBefore, bendBehind);
+    // a + linear t + bend/2 t², of which just one root lies between the ends, since their signs differ.
+    const double linear = b - a - 0.5 * bend;
+    const double root = std::sqrt(std::max(0.0, linear * linear - 2.0 * bend * a));
+    const double q = -0.5 * (linear + std::copysign(root, linear));
+    const double t = linear == 0.0 && root == 0.0 ? 0.5 : a / q;
+    return t > 0.0 && t < 1.0 ? t : 2.0 * q / bend;
+  }
+
+  const NodeLattice& Lattice;
+  CappedSurface& Surface;
+  BlockValues Block;
+  std::vector<std::int32_t> Local;                        ///< points of the block, by lower node and direction, or -1
+  std::vector<std::size_t> Used;                          ///< which of them are not -1
+  std::unordered_map<std::uint64_t, std::int32_t> Shared; ///< points on planes between blocks
+};
+
+} // namespace cactus
