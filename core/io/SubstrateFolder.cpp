@@ -31,7 +31,7 @@ std::string padded(int id)
 class FolderWriter
 {
 public:
-  explicit FolderWriter(FolderReplacement& folder)
+  explicit FolderWriter(const StagingFolder& folder)
     : Folder(folder)
   {
   }
@@ -46,11 +46,11 @@ public:
     this->remember(path, this->Folder.writeBy(path, how));
   }
   void remember(const std::string& path, const std::string& checksum) { this->Written.checksums[path] = checksum; }
-  const FolderReplacement& folder() const { return this->Folder; }
+  const StagingFolder& folder() const { return this->Folder; }
   const WrittenFiles& written() const { return this->Written; }
 
 private:
-  FolderReplacement& Folder;
+  const StagingFolder& Folder;
   WrittenFiles Written;
 };
 
@@ -191,7 +191,7 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
 {
   requireWritable(contents, folder);
   FolderReplacement replacement(folder, context);
-  FolderWriter writer(replacement);
+  FolderWriter writer(replacement.staging());
   // Judging takes about as long as writing.
   constexpr double judged = 0.5;
   Context judging = context;

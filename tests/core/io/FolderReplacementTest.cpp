@@ -207,7 +207,7 @@ TEST_F(FolderReplacement, KeepsWhatTheUserChangesMeanwhile)
 {
   ASSERT_EQ(write(this->Folder), "");
   cactus::FolderReplacement replacement(this->Folder.string());
-  replacement.write("README.txt", "new");
+  replacement.staging().write("README.txt", "new");
   put(this->Folder / "mcdc/intra.conf", "precious");
   EXPECT_THROW(replacement.commit(), cactus::FileError);
   EXPECT_EQ(textOf(this->Folder / "mcdc/intra.conf"), "precious");
@@ -552,8 +552,8 @@ TEST_F(FolderReplacement, LeavesAloneWhatMayBeAnothers)
   fs::create_directory(this->Scratch / "s.partial-00000001-00000000");
   put(this->Scratch / "s.partial-00000001-00000000/notes", "precious");
   cactus::FolderReplacement living(this->Folder.string());
-  living.makeFolder("outer");
-  living.write("outer/fibre_00001.ply", "still being written");
+  living.staging().makeFolder("outer");
+  living.staging().write("outer/fibre_00001.ply", "still being written");
   const auto before = snapshot(this->Scratch);
   ASSERT_EQ(write(this->Folder), "");
   fs::remove_all(this->Folder);
