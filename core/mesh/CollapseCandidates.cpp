@@ -18,18 +18,20 @@ using Eigen::Vector3d;
 Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32_t v, const Vector3d& origin)
 {
   Quadric sum;
-  for (const std::int32_t c : surface.cornersAt(u, v))
-  {
-    const auto& corners = surface.cornersOf(std::size_t(c) / 3);
-    // A triangle at both comes as one of u, too.
-    const bool isCounted = corners[std::size_t(c) % 3] == v && (corners[0] == u || corners[1] == u || corners[2] == u);
-    // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
-    if (!isCounted && !surface.isCap(corners))
+  surface.visitCornersAt(u, v,
+    [&](std::int32_t c, std::int32_t point)
     {
-      const Vector3d& a = surface.at(corners[0]);
-      sum.addPlane((surface.at(corners[1]) - a).cross(surface.at(corners[2]) - a), a - origin);
-    }
-  }
+      const auto& corners = surface.cornersOf(std::size_t(c) / 3);
+      // A triangle at both comes as one of u, too.
+      const bool isCounted = point == v && (corners[0] == u || corners[1] == u || corners[2] == u);
+      // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
+      if (!isCounted && !surface.isCap(corners))
+      {
+        const Vector3d& a = surface.at(corners[0]);
+        sum.addPlane((surface.at(corners[1]) - a).cross(surface.at(corners[2]) - a), a - origin);
+      }
+      return false;
+    });
   return sum;
 }
 

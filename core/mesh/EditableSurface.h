@@ -15,10 +15,6 @@ namespace cactus
 ///
 ///     for (std::int32_t c = surface.firstCorner(p); c >= 0; c = surface.nextCorner(c))
 ///
-/// Those of two points, as around an edge, are had by
-///
-///     for (const std::int32_t c : surface.cornersAt(u, v))
-///
 /// Triangles that a collapse removes stay in their place, dead, until compact().
 class EditableSurface
 {
@@ -41,7 +37,8 @@ public:
   std::array<std::int32_t, 2> oppositeEdge(std::int32_t corner) const
   {
     const auto& corners = this->cornersOf(std::size_t(corner) / 3);
-    return { { corners[(std::size_t(corner) + 1) % 3], corners[(std::size_t(corner) + 2) % 3] } };
+    const std::size_t i = std::size_t(corner) % 3;
+    return { { corners[i == 2 ? 0 : i + 1], corners[i == 0 ? 2 : i - 1] } };
   }
 
   /// Whether a triangle at u or v, by the edge opposite to that corner, is left when u and v become one.
@@ -53,9 +50,10 @@ public:
   std::int32_t firstCorner(std::int32_t point) const { return this->First[std::size_t(point)]; }
   std::int32_t nextCorner(std::int32_t corner) const { return this->Next[std::size_t(corner)]; }
 
-  /// The corners of one point and then those of another, for a range-based loop. A triangle at both points comes twice.
-  class CornersOfTwo;
-  CornersOfTwo cornersAt(std::int32_t u, std::int32_t v) const;
+  /// Calls visit(corner, point) for the corners of u and then those of v, until it returns true. Returns whether it did. A
+  /// triangle at both comes twice.
+  template <typename Visit>
+  bool visitCornersAt(std::int32_t u, std::int32_t v, Visit&& visit) const;
 
   /// Whether two points are the ends of an edge.
   bool areLinked(std::int32_t u, std::int32_t v) const;
@@ -91,55 +89,20 @@ private:
   std::size_t Alive;
 };
 
-class EditableSurface::CornersOfTwo
+template <typename Visit>
+bool EditableSurface::visitCornersAt(std::int32_t u, std::int32_t v, Visit&& visit) const
 {
-public:
-  class Iterator
+  for (const std::int32_t point : { u, v })
   {
-  public:
-    Iterator(const EditableSurface& surface, std::int32_t corner, std::int32_t then)
-      : Surface(&surface)
-      , Corner(corner)
-      , Then(then)
+    for (std::int32_t c = this->firstCorner(point); c >= 0; c = this->nextCorner(c))
     {
-    }
-    std::int32_t operator*() const { return this->Corner; }
-    bool operator!=(const Iterator& other) const { return this->Corner != other.Corner; }
-    Iterator& operator++()
-    {
-      this->Corner = this->Surface->nextCorner(this->Corner);
-      if (this->Corner < 0)
+      if (visit(c, point))
       {
-        this->Corner = this->Then;
-        this->Then = -1;
+        return true;
       }
-      return *this;
     }
-
-  private:
-    const EditableSurface* Surface;
-    std::int32_t Corner; ///< -1 behind the last one
-    std::int32_t Then;   ///< first corner of the second point, until that is reached
-  };
-
-  CornersOfTwo(const EditableSurface& surface, std::int32_t u, std::int32_t v)
-    : Surface(surface)
-    , U(u)
-    , V(v)
-  {
   }
-  Iterator begin() const { return { this->Surface, this->Surface.firstCorner(this->U), this->Surface.firstCorner(this->V) }; }
-  Iterator end() const { return { this->Surface, -1, -1 }; }
-
-private:
-  const EditableSurface& Surface;
-  std::int32_t U;
-  std::int32_t V;
-};
-
-inline EditableSurface::CornersOfTwo EditableSurface::cornersAt(std::int32_t u, std::int32_t v) const
-{
-  return { *this, u, v };
+  return false;
 }
 
 } // namespace cactus

@@ -33,17 +33,14 @@ bool FieldBounds::holdWithin(const std::array<Vector3d, 3>& corners, const std::
 bool FieldBounds::holdAfterCollapse(std::int32_t u, std::int32_t v, const Vector3d& place) const
 {
   const std::uint8_t facesOfBoth = this->Surface.facesOf(u) | this->Surface.facesOf(v);
-  for (const std::int32_t c : this->Surface.cornersAt(u, v))
-  {
-    const std::array<std::int32_t, 2> edge = this->Surface.oppositeEdge(c);
-    if (EditableSurface::outlivesCollapse(edge, u, v) &&
-        !this->holdWithin({ { place, this->Surface.at(edge[0]), this->Surface.at(edge[1]) } },
-          { { facesOfBoth, this->Surface.facesOf(edge[0]), this->Surface.facesOf(edge[1]) } }))
+  return !this->Surface.visitCornersAt(u, v,
+    [&](std::int32_t c, std::int32_t)
     {
-      return false;
-    }
-  }
-  return true;
+      const std::array<std::int32_t, 2> edge = this->Surface.oppositeEdge(c);
+      return EditableSurface::outlivesCollapse(edge, u, v) &&
+             !this->holdWithin({ { place, this->Surface.at(edge[0]), this->Surface.at(edge[1]) } },
+               { { facesOfBoth, this->Surface.facesOf(edge[0]), this->Surface.facesOf(edge[1]) } });
+    });
 }
 
 double FieldBounds::largestError(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) const

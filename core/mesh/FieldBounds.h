@@ -121,19 +121,17 @@ FieldFit FieldBounds::fitAfterCollapse(std::int32_t u, std::int32_t v, const Eig
   FieldFit fit;
   const std::uint8_t faces = this->Surface.facesOf(u) | this->Surface.facesOf(v);
   this->add(fit, place, faces, 1.0);
-  for (const std::int32_t c : this->Surface.cornersAt(u, v))
-  {
-    const std::array<std::int32_t, 2> edge = this->Surface.oppositeEdge(c);
-    if (!EditableSurface::outlivesCollapse(edge, u, v))
+  this->Surface.visitCornersAt(u, v,
+    [&](std::int32_t c, std::int32_t)
     {
-      continue;
-    }
-    this->addTriangle(fit, place, faces, edge);
-    if (isEnough(fit))
-    {
-      return fit;
-    }
-  }
+      const std::array<std::int32_t, 2> edge = this->Surface.oppositeEdge(c);
+      if (!EditableSurface::outlivesCollapse(edge, u, v))
+      {
+        return false;
+      }
+      this->addTriangle(fit, place, faces, edge);
+      return isEnough(fit);
+    });
   return fit;
 }
 

@@ -20,15 +20,17 @@ constexpr double leastTurn = 0.3;
 Vector3d ShapeBounds::normalAround(std::int32_t u, std::int32_t v) const
 {
   Vector3d sum = Vector3d::Zero();
-  for (const std::int32_t c : this->Surface.cornersAt(u, v))
-  {
-    const auto& corners = this->Surface.cornersOf(std::size_t(c) / 3);
-    if (!this->Surface.isCap(corners))
+  this->Surface.visitCornersAt(u, v,
+    [&](std::int32_t c, std::int32_t)
     {
-      const Vector3d& a = this->Surface.at(corners[0]);
-      sum += (this->Surface.at(corners[1]) - a).cross(this->Surface.at(corners[2]) - a);
-    }
-  }
+      const auto& corners = this->Surface.cornersOf(std::size_t(c) / 3);
+      if (!this->Surface.isCap(corners))
+      {
+        const Vector3d& a = this->Surface.at(corners[0]);
+        sum += (this->Surface.at(corners[1]) - a).cross(this->Surface.at(corners[2]) - a);
+      }
+      return false;
+    });
   return sum;
 }
 
@@ -36,12 +38,14 @@ Vector3d ShapeBounds::normalAround(std::int32_t u, std::int32_t v) const
 TriangleShape ShapeBounds::worstAround(std::int32_t u, std::int32_t v) const
 {
   TriangleShape worst{ this->LargestEdgeRatio, flattestTriangle };
-  for (const std::int32_t c : this->Surface.cornersAt(u, v))
-  {
-    const TriangleShape shape = this->shapeOf(this->Surface.cornersOf(std::size_t(c) / 3));
-    worst.edgeRatio = std::max(worst.edgeRatio, shape.edgeRatio);
-    worst.flatness = std::min(worst.flatness, shape.flatness);
-  }
+  this->Surface.visitCornersAt(u, v,
+    [&](std::int32_t c, std::int32_t)
+    {
+      const TriangleShape shape = this->shapeOf(this->Surface.cornersOf(std::size_t(c) / 3));
+      worst.edgeRatio = std::max(worst.edgeRatio, shape.edgeRatio);
+      worst.flatness = std::min(worst.flatness, shape.flatness);
+      return false;
+    });
   return worst;
 }
 
@@ -50,17 +54,16 @@ bool ShapeBounds::allowCollapse(std::int32_t u, std::int32_t v, const Vector3d& 
   Vector3d around = Vector3d::Zero();
   bool isAroundKnown = false;
   TriangleShape worst{ 0.0, 1.0 };
-  for (const std::int32_t c : this->Surface.cornersAt(u, v))
+  const auto isTurnedOver = [&](std::int32_t c, std::int32_t point)
   {
     const std::array<std::int32_t, 2> opposite = this->Surface.oppositeEdge(c);
     if (!EditableSurface::outlivesCollapse(opposite, u, v))
     {
-      continue;
+      return false; // goes with the edge
     }
-    const auto& corners = this->Surface.cornersOf(std::size_t(c) / 3);
     const Vector3d& b = this->Surface.at(opposite[0]);
     const Vector3d edge = this->Surface.at(opposite[1]) - b;
-    const Vector3d before = this->Surface.at(corners[std::size_t(c) % 3]) - b;
+    const Vector3d before = this->Surface.at(point) - b;
     const Vector3d after = place - b;
     const Vector3d normalBefore = edge.cross(before);
     const Vector3d normalAfter = edge.cross(after);
@@ -68,7 +71,8 @@ bool ShapeBounds::allowCollapse(std::int32_t u, std::int32_t v, const Vector3d& 
     const double normalSquared = normalAfter.squaredNorm();
     // The normal of a very low triangle is mostly noise: that of the surroundings is taken in its place.
     const double longestBefore = std::max({ edgeSquared, before.squaredNorm(), (before - edge).squaredNorm() });
-    const bool isNoise = normalBefore.squaredNorm() < this->Noise * this->Noise * longestBefore && !this->Surface.isCap(corners);
+    const bool isNoise = normalBefore.squaredNorm() < this->Noise * this->Noise * longestBefore &&
+                         !this->Surface.isCap(this->Surface.cornersOf(std::size_t(c) / 3));
     if (isNoise && !isAroundKnown)
     {
       around = this->normalAround(u, v);
@@ -78,13 +82,18 @@ bool ShapeBounds::allowCollapse(std::int32_t u, std::int32_t v, const Vector3d& 
     const double turn = normalAfter.dot(reference);
     if (!(normalSquared > 0.0) || !(turn > 0.0) || turn * turn < leastTurn * leastTurn * normalSquared * reference.squaredNorm())
     {
-      return false;
+      return true;
     }
     const double edges[2] = { after.squaredNorm(), (after - edge).squaredNorm() };
     const double longest = std::max({ edgeSquared, edges[0], edges[1] });
     const double shortest = std::min({ edgeSquared, edges[0], edges[1] });
     worst.edgeRatio = std::max(worst.edgeRatio, longest / shortest);
     worst.flatness = std::min(worst.flatness, normalSquared / (longest * longest));
+    return false;
+  };
+  if (this->Surface.visitCornersAt(u, v, isTurnedOver))
+  {
+    return false;
   }
   worst.flatness = std::sqrt(worst.flatness);
   if (this->allow(worst) && (flatAllowed || worst.flatness >= flattestTriangle))

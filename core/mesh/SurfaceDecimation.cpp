@@ -269,14 +269,7 @@ private:
   /// Whether the triangles at u and v have been found to keep the field in its range.
   bool isKnown(std::int32_t u, std::int32_t v) const
   {
-    for (const std::int32_t c : this->Mesh.cornersAt(u, v))
-    {
-      if (!this->Known[std::size_t(c) / 3])
-      {
-        return false;
-      }
-    }
-    return true;
+    return !this->Mesh.visitCornersAt(u, v, [&](std::int32_t c, std::int32_t) { return !this->Known[std::size_t(c) / 3]; });
   }
 
   void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, bool isKnown)
