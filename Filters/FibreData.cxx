@@ -5,6 +5,7 @@
 #include "InputBlocks.h"
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "fibres/JoinFibres.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -25,7 +26,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <unordered_set>
 #include <utility>
 
 namespace cactus
@@ -100,45 +100,6 @@ Domain boundingBox(const Fibres& fibres)
   return box;
 }
 
-/// The ids of `added`, all moved above the largest of `taken` where one of them is in use.
-std::vector<int> freeIds(const std::vector<int>& taken, const std::vector<int>& added)
-{
-  const std::unordered_set<int> used(taken.begin(), taken.end());
-  const bool isFree = std::none_of(added.begin(), added.end(), [&](int id) { return used.count(id) > 0; });
-  const std::int64_t shift = isFree ? 0 : *std::max_element(taken.begin(), taken.end());
-  std::vector<int> ids;
-  for (const int id : added)
-  {
-    if (id + shift > std::numeric_limits<int>::max())
-    {
-      throw InvalidInput("id " + std::to_string(id) + " is in use by another input or block, and there is none free above " +
-                         std::to_string(shift) + ": give the fibres smaller ids");
-    }
-    ids.push_back(static_cast<int>(id + shift));
-  }
-  return ids;
-}
-
-/// Adds fibres, with ids of their own.
-void append(const Fibres& added, Fibres& all)
-{
-  const std::vector<int> fibreIds = freeIds(all.fibreIds, added.fibreIds);
-  const std::vector<int> bundleIds = freeIds(all.bundleIds, added.bundleIds);
-  for (std::size_t f = 0; f < added.size(); ++f)
-  {
-    all.addFibre(fibreIds[f], bundleIds[f], added.targetRadii[f]);
-    for (std::size_t i = added.offsets[f]; i < added.offsets[f + 1]; ++i)
-    {
-      all.addPoint(added.points[i], added.radii[i]);
-    }
-  }
-}
-
-bool isSame(const Domain& a, const Domain& b)
-{
-  return (a.lower - b.lower).cwiseAbs().maxCoeff() <= 1e-9 && (a.upper - b.upper).cwiseAbs().maxCoeff() <= 1e-9;
-}
-
 Domain readDomain(vtkAbstractArray* array)
 {
   auto* numbers = vtkDataArray::SafeDownCast(array);
@@ -204,7 +165,7 @@ Fibres fibresFrom(vtkDataObject* input)
     }
     else
     {
-      append(part, fibres);
+      appendFibres(part, fibres);
     }
   }
   if (fibres.size() == 0)
@@ -231,7 +192,7 @@ Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs)
     {
       throw InvalidInput("input " + std::to_string(i + 1) + " has another Domain than the first: give all bundles the same Side");
     }
-    append(fibres, all);
+    appendFibres(fibres, all);
   }
   validate(all);
   return all;

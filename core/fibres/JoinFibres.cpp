@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibres/JoinFibres.h"
+
+#include "base/Error.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// The ids of `added`, all moved above the largest of `taken` if one of them is in use.
+std::vector<int> freeIds(const std::vector<int>& taken, const std::vector<int>& added)
+{
+  const std::unordered_set<int> used(taken.begin(), taken.end());
+  const bool isFree = std::none_of(added.begin(), added.end(), [&](int id) { return used.count(id) > 0; });
+  const std::int64_t shift = isFree ? 0 : *std::max_element(taken.begin(), taken.end());
+  std::vector<int> ids;
+  for (const int id : added)
+  {
+    if (id + shift > std::numeric_limits<int>::max())
+    {
+      throw InvalidInput("id " + std::to_string(id) + " is in use by another input or block, and there is none free above " +
+                         std::to_string(shift) + ": give the fibres smaller ids");
+    }
+    ids.push_back(static_cast<int>(id + shift));
+  }
+  return ids;
+}
+
+} // namespace
+
+void appendFibres(const Fibres& added, Fibres& all)
+{
+  const std::vector<int> fibreIds = freeIds(all.fibreIds, added.fibreIds);
+  const std::vector<int> bundleIds = freeIds(all.bundleIds, added.bundleIds);
+  for (std::size_t f = 0; f < added.size(); ++f)
+  {
+    all.addFibre(fibreIds[f], bundleIds[f], added.targetRadii[f]);
+    for (std::size_t i = added.offsets[f]; i < added.offsets[f + 1]; ++i)
+    {
+      all.addPoint(added.points[i], added.radii[i]);
+    }
+  }
+}
+
+bool isSame(const Domain& a, const Domain& b)
+{
+  return (a.lower - b.lower).cwiseAbs().maxCoeff() <= 1e-9 && (a.upper - b.upper).cwiseAbs().maxCoeff() <= 1e-9;
+}
+
+} // namespace cactus
