@@ -34,7 +34,7 @@ struct FolderInspection
   bool asWritten() const { return added.empty() && changed.empty() && writeProtected.empty(); }
 };
 
-/// Looks at a folder and reads every file that the manifest lists, but for those that `earlier`, an inspection of the same
+/// Looks at a folder and reads every file that the manifest lists, except those that `earlier`, an inspection of the same
 /// folder, has read and that have not been touched since. Throws FileError where something in it cannot be read, and Cancelled.
 FolderInspection inspectFolder(
   const std::filesystem::path& folder, const Context& context = {}, const FolderInspection& earlier = {});
