@@ -180,53 +180,27 @@ RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const
   return result;
 }
 
-SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& outer, const FibreSurfaces& inner,
-  const SubstrateStatisticsOptions& options, const Context& context)
+namespace
 {
-  options.validate();
-  validate(fibres);
-  const auto outerIndex = indexOf(outer, fibres, "Outer");
-  const auto innerIndex = indexOf(inner, fibres, "Inner");
 
-  SubstrateStatistics result;
-  result.fibres.resize(fibres.size());
-  parallelFor(
-    fibres.size(), context,
-    [&](std::size_t f)
-    {
-      FibreStatistics& fibre = result.fibres[f];
-      fibre.fibreId = fibres.fibreIds[f];
-      fibre.bundleId = fibres.bundleIds[f];
-      fibre.targetRadius = fibres.targetRadii[f];
-      fibre.length = lengthInDomain(fibres, f);
-      const auto measure = [&](const FibreSurfaces& surfaces, const std::unordered_map<int, std::size_t>& index, bool& has,
-                             SurfaceReport& report, RadiusAlongFibre& radius, const std::string& name)
-      {
-        radius = { 0, notANumber, notANumber };
-        const auto found = index.find(fibre.fibreId);
-        has = found != index.end();
-        if (has)
-        {
-          const std::string what = "the " + name + " surface of fibre " + std::to_string(fibre.fibreId);
-          const TriangleMesh mesh = surfaces.mesh(found->second);
-          try
-          {
-            report = checkSurface(mesh);
-          }
-          catch (const InvalidInput& error)
-          {
-            throw InvalidInput(what + ": " + error.what());
-          }
-          requireClipped(mesh, fibres.domain, options.clipTolerance, what);
-          radius = radiusAlongFibre(fibres, f, mesh, options.cutSpacing);
-        }
-      };
-      measure(outer, outerIndex, fibre.hasOuter, fibre.outer, fibre.outerRadius, "outer");
-      measure(inner, innerIndex, fibre.hasInner, fibre.inner, fibre.innerRadius, "inner");
-      fibre.gRatio = fibre.hasOuter && fibre.hasInner ? gRatioOf(fibre.inner.volume, fibre.outer.volume) : notANumber;
-    },
-    "Measuring surfaces");
+void measureSurface(const Fibres& fibres, std::size_t fibre, const TriangleMesh& mesh, const std::string& what,
+  const SubstrateStatisticsOptions& options, SurfaceReport& report, RadiusAlongFibre& radius)
+{
+  try
+  {
+    report = checkSurface(mesh);
+  }
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput(what + ": " + error.what());
+  }
+  requireClipped(mesh, fibres.domain, options.clipTolerance, what);
+  radius = radiusAlongFibre(fibres, fibre, mesh, options.cutSpacing);
+}
 
+/// What the surfaces of all fibres come to; of surfaces that are not given fractions are NaN.
+void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, SubstrateStatistics& result)
+{
   // Sums in the order of the fibres: the same bits on any number of threads.
   double outerVolume = 0.0;
   double innerVolume = 0.0;
@@ -252,24 +226,65 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
       }
     }
   }
-  const double domainVolume = fibres.domain.volume();
-  const bool hasOuter = outer.given();
-  const bool hasBoth = hasOuter && inner.given();
+  const double domainVolume = domain.volume();
+  const bool hasBoth = hasOuter && hasInner;
   result.fibreVolumeFraction = hasOuter ? outerVolume / domainVolume : notANumber;
-  result.axonVolumeFraction = inner.given() ? innerVolume / domainVolume : notANumber;
+  result.axonVolumeFraction = hasInner ? innerVolume / domainVolume : notANumber;
   result.myelinVolumeFraction = hasBoth ? (outerVolume - innerVolume) / domainVolume : notANumber;
   result.aggregateGRatio = !hasBoth ? notANumber
                            : outerVolume > 0.0
                              ? std::sqrt(std::max(0.0, 1.0 - result.myelinVolumeFraction / result.fibreVolumeFraction))
                              : 0.0;
-  result.capsuleVolumeFraction = capsuleVolumeInDomain(fibres) / domainVolume;
+  result.trianglesPerArea = area > 0.0 ? static_cast<double>(result.triangles) / area : notANumber;
+}
+
+} // namespace
+
+SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& outer, const FibreSurfaces& inner,
+  const SubstrateStatisticsOptions& options, const Context& context)
+{
+  options.validate();
+  validate(fibres);
+  const auto outerIndex = indexOf(outer, fibres, "Outer");
+  const auto innerIndex = indexOf(inner, fibres, "Inner");
+
+  SubstrateStatistics result;
+  result.fibres.resize(fibres.size());
+  parallelFor(
+    fibres.size(), context,
+    [&](std::size_t f)
+    {
+      FibreStatistics& fibre = result.fibres[f];
+      fibre.fibreId = fibres.fibreIds[f];
+      fibre.bundleId = fibres.bundleIds[f];
+      fibre.targetRadius = fibres.targetRadii[f];
+      fibre.length = lengthInDomain(fibres, f);
+      const auto measure = [&](const FibreSurfaces& surfaces, const std::unordered_map<int, std::size_t>& index,
+                             const std::string& name, SurfaceReport& report, RadiusAlongFibre& radius)
+      {
+        const auto found = index.find(fibre.fibreId);
+        radius = { 0, notANumber, notANumber };
+        if (found != index.end())
+        {
+          const std::string what = "the " + name + " surface of fibre " + std::to_string(fibre.fibreId);
+          measureSurface(fibres, f, surfaces.mesh(found->second), what, options, report, radius);
+        }
+        return found != index.end();
+      };
+      fibre.hasOuter = measure(outer, outerIndex, "outer", fibre.outer, fibre.outerRadius);
+      fibre.hasInner = measure(inner, innerIndex, "inner", fibre.inner, fibre.innerRadius);
+      fibre.gRatio = fibre.hasOuter && fibre.hasInner ? gRatioOf(fibre.inner.volume, fibre.outer.volume) : notANumber;
+    },
+    "Measuring surfaces");
+
+  sumUpSurfaces(fibres.domain, outer.given(), inner.given(), result);
+  result.capsuleVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
   result.largestPenetration = measureOverlap(fibres, 0.0, context.threadCount()).largestPenetration;
   result.meanDispersion = meanDispersion(fibres);
   result.tangentDispersion = meanTangentDispersion(fibres);
   result.meanTargetRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.targetRadius; });
   result.meanOuterRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerRadius.mean; });
   result.meanInnerRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerRadius.mean; });
-  result.trianglesPerArea = area > 0.0 ? static_cast<double>(result.triangles) / area : notANumber;
   return result;
 }
 
