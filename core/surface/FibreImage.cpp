@@ -58,7 +58,6 @@ NodeRange rangeOf(const NodeLattice& lattice, const std::vector<std::uint32_t>& 
 /// Layers beyond one face of the box.
 struct Face
 {
-  bool isHeld = false; ///< the samples reach up to it
   int layers = 0;      ///< added there
   double distance = 0; ///< from the outermost sample to where the cap lies, in voxels
 };
@@ -80,6 +79,84 @@ float beyond(float inside, const Face& face, int layer, double level, double spa
   return below(level - std::max(across, 0.1 * leastAcross * spacing), level);
 }
 
+using Faces = std::array<std::array<Face, 2>, 3>;
+
+/// The samples among the nodes of a range; nodes on faces of the box are none.
+NodeRange samplesOf(const NodeLattice& lattice, const NodeRange& range, double spacing, Faces& faces)
+{
+  NodeRange samples = range;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto& planes = lattice.planes[axis];
+    const auto place = [&](Face& face, double distance)
+    {
+      face.distance = distance / spacing;
+      face.layers = face.distance > 1.0 ? 2 : 1;
+    };
+    if (range.first[axis] == 0)
+    {
+      place(faces[axis][0], planes[1] - planes[0]);
+      ++samples.first[axis];
+      --samples.count[axis];
+    }
+    if (range.first[axis] + range.count[axis] == lattice.nodes(static_cast<int>(axis)))
+    {
+      place(faces[axis][1], planes.back() - *(planes.end() - 2));
+      --samples.count[axis];
+    }
+  }
+  return samples;
+}
+
+/// The value at a place of the image, by the nearest sample, whose value is `inside`.
+float valueAt(
+  const std::array<int, 3>& at, float inside, const NodeRange& samples, const Faces& faces, double level, double spacing)
+{
+  float value = inside;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const int before = faces[axis][0].layers - 1 - at[axis]; // 0 in the layer next to the samples
+    const int after = at[axis] - faces[axis][0].layers - samples.count[axis];
+    if (before >= 0)
+    {
+      value = std::min(value, beyond(inside, faces[axis][0], before, level, spacing));
+    }
+    if (after >= 0)
+    {
+      value = std::min(value, beyond(inside, faces[axis][1], after, level, spacing));
+    }
+  }
+  return value;
+}
+
+/// Fills the image, and closes the fibre where no face cuts it off: it ends before, but its field may be just `level` there.
+void fill(const std::vector<float>& held, const NodeRange& samples, const Faces& faces, double level, FibreImage& image)
+{
+  const auto& count = image.grid.count;
+  image.values.resize(image.grid.size());
+  std::size_t out = 0;
+  for (int k = 0; k < count[2]; ++k)
+  {
+    for (int j = 0; j < count[1]; ++j)
+    {
+      for (int i = 0; i < count[0]; ++i)
+      {
+        const std::array<int, 3> at{ { i, j, k } };
+        std::array<std::size_t, 3> nearest{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          nearest[axis] = std::size_t(std::clamp(at[axis] - faces[axis][0].layers, 0, samples.count[axis] - 1));
+        }
+        const std::size_t row = nearest[1] + std::size_t(samples.count[1]) * nearest[2];
+        const float inside = held[nearest[0] + std::size_t(samples.count[0]) * row];
+        const float value = valueAt(at, inside, samples, faces, level, image.grid.spacing);
+        const bool isLast = i == 0 || j == 0 || k == 0 || i + 1 == count[0] || j + 1 == count[1] || k + 1 == count[2];
+        image.values[out++] = isLast ? below(double(value), level) : value;
+      }
+    }
+  }
+}
+
 } // namespace
 
 FibreImage fibreImage(
@@ -89,86 +166,26 @@ FibreImage fibreImage(
   require(std::isfinite(level) && level >= 0.0, "the level of a contour must be a depth of 0 or more");
   const NodeLattice lattice = field.lattice(inset);
   const double spacing = field.image().grid.spacing;
-  const Eigen::Vector3d firstNode = field.firstNode();
-  const NodeRange range = rangeOf(lattice, blocks);
+  Faces faces;
+  const NodeRange samples = samplesOf(lattice, rangeOf(lattice, blocks), spacing, faces);
 
-  // Nodes 0 and n - 1 of an axis are the faces, the others samples.
-  std::array<std::array<Face, 2>, 3> faces;
-  NodeRange samples = range;
   FibreImage image;
   image.grid.spacing = spacing;
   image.grid.origin = field.image().grid.origin;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto a = Eigen::Index(axis);
-    const int lastNode = lattice.nodes(static_cast<int>(axis)) - 1;
-    const int end = range.first[axis] + range.count[axis] - 1;
-    const auto place = [&](Face& face, double distance)
-    {
-      face.isHeld = true;
-      face.distance = distance / spacing;
-      face.layers = face.distance > 1.0 ? 2 : 1;
-    };
-    if (range.first[axis] == 0)
-    {
-      place(faces[axis][0], lattice.planes[axis][1] - lattice.planes[axis][0]);
-      ++samples.first[axis];
-      --samples.count[axis];
-    }
-    if (end == lastNode)
-    {
-      place(faces[axis][1], lattice.planes[axis].back() - *(lattice.planes[axis].end() - 2));
-      --samples.count[axis];
-    }
-    const int shift = static_cast<int>(std::lround((firstNode[a] - image.grid.origin[a]) / spacing));
+    const int shift = static_cast<int>(std::lround((field.firstNode()[a] - image.grid.origin[a]) / spacing));
     image.grid.lower[axis] = shift + samples.first[axis] - faces[axis][0].layers;
     image.grid.count[axis] = samples.count[axis] + faces[axis][0].layers + faces[axis][1].layers;
   }
-
   requireMemory(bytesPerSample * double(image.grid.size()),
     text("the field of fibre ", fibre, " needs ", image.grid.count[0], " x ", image.grid.count[1], " x ", image.grid.count[2],
       " samples"),
     "choose a larger VoxelSize in FibreRadialGrowth, fewer fibres at once, or fewer threads");
   std::vector<float> held(samples.size());
   field.atNodes(fibre, samples, held.data());
-  image.values.resize(image.grid.size());
-  std::size_t out = 0;
-  for (int k = 0; k < image.grid.count[2]; ++k)
-  {
-    for (int j = 0; j < image.grid.count[1]; ++j)
-    {
-      for (int i = 0; i < image.grid.count[0]; ++i)
-      {
-        const std::array<int, 3> at{ { i, j, k } };
-        std::array<int, 3> nearest{};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          nearest[axis] = std::clamp(at[axis] - faces[axis][0].layers, 0, samples.count[axis] - 1);
-        }
-        const float inside =
-          held[std::size_t(nearest[0]) + std::size_t(samples.count[0]) *
-                                           (std::size_t(nearest[1]) + std::size_t(samples.count[1]) * std::size_t(nearest[2]))];
-        float value = inside;
-        const bool isLast = i == 0 || j == 0 || k == 0 || i + 1 == image.grid.count[0] || j + 1 == image.grid.count[1] ||
-                            k + 1 == image.grid.count[2];
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          const int before = faces[axis][0].layers - 1 - at[axis]; // 0 in the layer next to the samples
-          const int after = at[axis] - faces[axis][0].layers - samples.count[axis];
-          if (before >= 0)
-          {
-            value = std::min(value, beyond(inside, faces[axis][0], before, level, spacing));
-          }
-          if (after >= 0)
-          {
-            value = std::min(value, beyond(inside, faces[axis][1], after, level, spacing));
-          }
-        }
-        // Where no face cuts it off, the fibre ends before; its field may be just 0 there.
-        image.values[out++] = isLast ? below(double(value), level) : value;
-      }
-    }
-  }
+  fill(held, samples, faces, level, image);
   return image;
 }
 
