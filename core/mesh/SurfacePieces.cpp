@@ -159,7 +159,7 @@ double keepMainPart(CappedSurface& surface, double smallest)
 
 SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
 {
-  const SurfaceReport report = checkSurface(mesh);
+  SurfaceReport report = checkSurface(mesh);
   if (report.sound() || mesh.triangles.empty())
   {
     return report;
@@ -180,7 +180,7 @@ SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
     dropped += volume > 0.0 ? 0.0 : -volume;
   }
   keepPieces(mesh, nullptr, pieceOf, isKept);
-  const SurfaceReport rest = checkSurface(mesh);
+  SurfaceReport rest = checkSurface(mesh);
   if (!rest.sound())
   {
     mesh = TriangleMesh();

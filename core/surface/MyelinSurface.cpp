@@ -148,6 +148,7 @@ void SurfaceMaker::spaceOut()
   const bool isCoarsened = this->Options.decimationError > 0.0;
   const Domain& box = this->Mesher.field().box();
   std::vector<TriangleMesh*> outer;
+  outer.reserve(this->Pairs.size());
   for (FibreSurfacePair& pair : this->Pairs)
   {
     outer.push_back(&pair.outer);

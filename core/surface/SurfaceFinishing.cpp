@@ -58,6 +58,7 @@ std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const Tria
 std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& places, double spacing, int attempt)
 {
   std::vector<LocalErrorBound> bounds;
+  bounds.reserve(places.size());
   for (const Eigen::Vector3d& place : places)
   {
     bounds.push_back({ place, 2.0 * spacing * (1 + attempt), std::pow(0.25, 1 + attempt) });
