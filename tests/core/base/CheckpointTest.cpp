@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Checkpoint.h"
+#include "ScratchPath.h"
 
 #include "RandomBundle.h"
 #include "base/Error.h"
@@ -231,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, CheckpointFiles, testing::Values(DescentMethod
 // only by one that has come as far.
 TEST(Checkpoint, OfARunIsNotLostToAnother)
 {
-  const std::string path = testing::TempDir() + "cactus-checkpoint-kept";
+  const std::string path = cactus_testing::scratchPath("checkpoint-kept");
   std::remove(path.c_str());
   const Fibres start = randomBundle(5, 4, 6, 3.0, 0.1);
   CapsuleOptimizerOptions options;
@@ -292,7 +293,7 @@ TEST(Checkpoint, OfARunIsNotLostToAnother)
 // Guarantee: what is no file, such as a folder or a device, is refused at once, and nothing is left beside it.
 TEST(Checkpoint, IsAFile)
 {
-  const std::string folder = testing::TempDir() + "cactus-checkpoint-folder";
+  const std::string folder = cactus_testing::scratchPath("checkpoint-folder");
   std::filesystem::create_directories(folder + "/occupied");
   for (const bool resume : { true, false })
   {

@@ -16,10 +16,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#ifdef CACTUS_ADDRESS_SANITIZED
-#include <sanitizer/lsan_interface.h>
-#endif
-
 namespace
 {
 
@@ -182,10 +178,6 @@ TEST_F(LimitedProcess, DoesWithoutThreadsThatCannotBeStarted)
 // Guarantee 5, and 4: a result never depends on the number of threads, so fewer are taken than asked for where they cannot be.
 TEST(Threads, AreNeverMoreThanAreOfUse)
 {
-#ifdef CACTUS_ADDRESS_SANITIZED
-  // LLVM's OpenMP library loses 2,880 bytes when 16 threads follow on 2, with empty regions, too.
-  const __lsan::ScopedDisabler leaksOfOpenMp;
-#endif
   cactus::Context context;
   for (const int asked : { 1, 2, 16, 17, 1000, 2000000000 })
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Numbers.h"
+#include "ScratchPath.h"
 
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
@@ -62,7 +63,7 @@ public:
   GermanLocale()
     : Before(std::locale::global(std::locale(std::locale::classic(), new German)))
   {
-    const std::string folder = testing::TempDir() + "cactus-locales";
+    const std::string folder = cactus_testing::scratchPath("locales");
     std::filesystem::create_directories(folder);
     const std::string command = "localedef -i de_DE -f UTF-8 '" + folder + "/de_DE.UTF-8' >/dev/null 2>&1";
     this->HasC = std::system(command.c_str()) != -1 && ::setenv("LOCPATH", folder.c_str(), 1) == 0 &&
@@ -73,7 +74,7 @@ public:
     std::locale::global(this->Before);
     std::setlocale(LC_ALL, "C");
     ::unsetenv("LOCPATH");
-    std::filesystem::remove_all(testing::TempDir() + "cactus-locales");
+    std::filesystem::remove_all(cactus_testing::scratchPath("locales"));
   }
   GermanLocale(const GermanLocale&) = delete;
   GermanLocale& operator=(const GermanLocale&) = delete;
@@ -114,7 +115,7 @@ std::string everyText()
   {
     fibres.addPoint({ 0.25, -1000.125, 0.75 * i }, 1.5);
   }
-  const std::string path = testing::TempDir() + "cactus-numbers.strands";
+  const std::string path = cactus_testing::scratchPath("numbers.strands");
   writeStrandFile(fibres, path);
   std::string all = contentOf(path);
   const Fibres back = readStrandFile(path);

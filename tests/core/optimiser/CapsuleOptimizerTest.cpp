@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/CapsuleOptimizer.h"
+#include "ScratchPath.h"
 
 #include "RandomBundle.h"
 #include "base/Error.h"
@@ -298,7 +299,7 @@ namespace
 struct TemporaryFile
 {
   explicit TemporaryFile(const std::string& name)
-    : path(testing::TempDir() + name)
+    : path(cactus_testing::scratchPath(name))
   {
     std::remove(this->path.c_str());
   }
