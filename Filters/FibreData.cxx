@@ -275,25 +275,4 @@ void setDomain(vtkDataObject* data, const Domain& domain)
   data->GetFieldData()->AddArray(array);
 }
 
-void addProvenance(vtkDataObject* from, vtkDataObject* to, const std::string& stage, const std::vector<PropertyState>& parameters,
-  const std::string& reached)
-{
-  vtkNew<vtkStringArray> lines;
-  lines->SetName("Provenance");
-  if (auto* before = vtkStringArray::SafeDownCast(fieldArray(from, "Provenance")))
-  {
-    lines->DeepCopy(before);
-  }
-  std::string line = stage + " " CACTUS_VERSION ":";
-  for (const auto& [facts, value] : parameters)
-  {
-    if (facts->use == PropertyUse::Result && hasEffect(*facts, parameters))
-    {
-      line += " " + facts->name + "=" + valueText(*facts, value);
-    }
-  }
-  lines->InsertNextValue(line + (reached.empty() ? "" : " reached: " + reached));
-  to->GetFieldData()->AddArray(lines);
-}
-
 } // namespace cactus

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/Domain.h"
-#include "base/Properties.h"
 #include "fibres/Fibres.h"
 
 #include <vtkType.h>
@@ -41,18 +40,5 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output);
 bool hasDomain(vtkDataObject* data);
 Domain domainFrom(vtkDataObject* data);
 void setDomain(vtkDataObject* data, const Domain& domain);
-
-/// Copies the provenance (field data `Provenance`, one string per stage so far) of `from`, if any, and appends
-/// "stage version: parameters", of those that have an effect on the result, to it.
-void addProvenance(vtkDataObject* from, vtkDataObject* to, const std::string& stage, const std::vector<PropertyState>& parameters,
-  const std::string& reached);
-
-/// The same for the properties of a stage.
-template <typename Stage>
-void addProvenance(
-  vtkDataObject* from, vtkDataObject* to, const std::string& name, const Stage& stage, const std::string& reached = "")
-{
-  addProvenance(from, to, name, Stage::properties().states(stage), reached);
-}
 
 } // namespace cactus

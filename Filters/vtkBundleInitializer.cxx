@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBundleInitializer.h"
 
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
@@ -37,6 +38,29 @@ cactus::BundleInitializerOptions optionsFrom(const cactus::BundleInitializerStag
   return options;
 }
 
+/// What was asked for and reached. A table of radii is kept as numbers, a file of them by its name and checksum.
+cactus::Provenance recordOf(const cactus::BundleInitializerStage& stage, const cactus::BundleInitializerOptions& options,
+  std::size_t fibres, const cactus::BundleInitializerReport& report)
+{
+  cactus::StageRecord record;
+  record.filter = "BundleInitializer";
+  record.properties = cactus::BundleInitializerStage::properties().states(stage);
+  for (cactus::PropertyState& state : record.properties)
+  {
+    if (state.facts->name == "RadiusTable" && stage.radiusTableFile.empty())
+    {
+      state.value = options.radius.table;
+    }
+  }
+  if (options.radius.model == cactus::RadiusModel::Table && !stage.radiusTableFile.empty())
+  {
+    record.files.push_back({ "RadiusTableFile", stage.radiusTableFile });
+  }
+  record.reached = { { "Fibres", static_cast<std::int64_t>(fibres) }, { "FibreVolumeFraction", report.fibreVolumeFraction },
+    { "MeanDispersion", report.meanDispersion } };
+  return cactus::provenanceOf(record);
+}
+
 } // namespace
 
 vtkBundleInitializer::vtkBundleInitializer()
@@ -64,9 +88,7 @@ int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, v
       const cactus::Fibres fibres = cactus::initialiseBundles(options, cactus::contextFor(this), &report);
       auto* output = vtkPolyData::GetData(outputs);
       cactus::toPolyData(fibres, output);
-      cactus::addProvenance(nullptr, output, "BundleInitializer", stage,
-        cactus::text("Fibres=", fibres.size(), " FibreVolumeFraction=", report.fibreVolumeFraction,
-          " MeanDispersion=", report.meanDispersion));
+      cactus::setProvenance(output, recordOf(stage, options, fibres.size(), report), 0);
     });
 }
 

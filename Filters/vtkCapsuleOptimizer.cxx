@@ -2,6 +2,7 @@
 #include "vtkCapsuleOptimizer.h"
 
 #include "Columns.h"
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
@@ -81,6 +82,24 @@ vtkMTimeType inputTime(vtkInformationVector* inputs)
     newest = std::max(newest, cactus::changeTime(data));
   }
   return newest;
+}
+
+/// For the provenance.
+const char* reasonName(cactus::StopReason reason)
+{
+  switch (reason)
+  {
+  case cactus::StopReason::MaximumIterations:
+    return "MaximumIterations";
+  case cactus::StopReason::Stagnated:
+    return "Stagnated";
+  case cactus::StopReason::TimeBudget:
+    return "TimeBudget";
+  case cactus::StopReason::Stopped:
+    return "Stopped";
+  default:
+    return "Converged";
+  }
 }
 
 const char* reasonText(cactus::StopReason reason)
@@ -275,7 +294,7 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgr
   }
 }
 
-void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformationVector** inputs, vtkInformationVector* outputs)
+void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformationVector* outputs)
 {
   const cactus::CapsuleOptimizerStage& stage = this->Stage();
   const bool isResult = state >= run.States.size();
@@ -330,8 +349,11 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   cactus::addNumber(data, "RadiusDistance", run.RadiusDistance);
 
   const int iterations = isResult ? run.lastIteration() : run.States[state].Iteration;
-  cactus::addProvenance(vtkDataObject::GetData(inputs[0]), output, "CapsuleOptimizer", stage,
-    "Iterations=" + std::to_string(iterations) + " MaximumPenetration=" + cactus::exactText(penetration));
+  cactus::setProvenance(output,
+    cactus::recordOf(this, "CapsuleOptimizer", stage, { "Input" },
+      { { "Iterations", std::int64_t(iterations) }, { "MaximumPenetration", penetration },
+        { "Ended", std::string(reasonName(run.Optimisation.reason)) }, { "IsResult", isResult } }),
+    0);
   fillTable(run.Optimisation.convergence, vtkTable::GetData(outputs, 1));
 }
 
@@ -363,7 +385,7 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
         const auto after = std::upper_bound(times.begin(), times.end(), time);
         state = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
       }
-      this->Show(run, state, inputs, outputs);
+      this->Show(run, state, outputs);
       if (this->Stage().keepHistory)
       {
         for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)

@@ -95,7 +95,7 @@ private:
   /** Runs the optimisation. */
   void Optimise(vtkInformationVector* inputs, cactus::RankAgreement& agreement, Run& run);
   /** Fills the outputs with a state of the run. */
-  void Show(const Run& run, std::size_t state, vtkInformationVector** inputs, vtkInformationVector* outputs);
+  void Show(const Run& run, std::size_t state, vtkInformationVector* outputs);
   /** Says which times there are. */
   void OfferTimes(vtkInformationVector* outputs) const;
 

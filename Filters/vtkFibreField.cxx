@@ -2,6 +2,7 @@
 #include "vtkFibreField.h"
 
 #include "Columns.h"
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "LabelImageData.h"
@@ -141,6 +142,7 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
           }
         },
         "sampling fibres");
+      const cactus::Provenance provenance = cactus::recordOf(this, "FibreField", stage, { "Input" });
       std::size_t missing = 0;
       for (std::size_t i = 0; i < chosen.size(); ++i)
       {
@@ -153,8 +155,8 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
         }
         cactus::addCount(images[i]->GetFieldData(), "FibreId", chosen[i].fibreId);
         cactus::addCount(images[i]->GetFieldData(), "BundleId", chosen[i].bundleId);
-        cactus::addProvenance(labels.image, images[i], "FibreField", stage);
         cactus::setDomain(images[i], labels.facts.domain);
+        cactus::setProvenance(images[i], provenance, 0);
         output->SetBlock(block, images[i]);
       }
       cactus::setDomain(output, labels.facts.domain);

@@ -2,6 +2,7 @@
 #include "vtkFibreRadialGrowth.h"
 
 #include "Columns.h"
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
@@ -208,8 +209,10 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       cactus::addColumn<vtkDoubleArray>(
         data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });
 
-      cactus::addProvenance(input, output, "FibreRadialGrowth", stage,
-        "Spacing=" + cactus::exactText(grid.spacing) + " Growth=" + cactus::exactText(this->Growth));
+      cactus::setProvenance(output,
+        cactus::recordOf(
+          this, "FibreRadialGrowth", stage, { "Input" }, { { "Spacing", grid.spacing }, { "Growth", this->Growth } }),
+        0);
     });
 }
 

@@ -2,6 +2,7 @@
 #include "vtkMyelinSurface.h"
 
 #include "Columns.h"
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "LabelImageData.h"
@@ -160,8 +161,8 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       {
         vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
         cactus::setDomain(output, facts.domain);
-        cactus::addProvenance(image, output, "MyelinSurface", stage);
       }
+      const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
       const std::string remarks = cactus::notAsAsked(fibres, view, facts, byVtk);
       if (stage.releaseInput)
       {
@@ -185,6 +186,11 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       cactus::toPolyData(std::move(inner), 1, vtkPolyData::GetData(outputs, 1));
       cactus::setSurfaceFacts(outputs->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT()), wanted, facts.minimumGap);
       cactus::setSurfaceFacts(outputs->GetInformationObject(1)->Get(vtkDataObject::DATA_OBJECT()), {}, facts.minimumGap);
+      for (int port = 0; port < 3; ++port)
+      {
+        vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
+        cactus::setProvenance(output, provenance, port);
+      }
       if (!remarks.empty())
       {
         vtkWarningMacro(<< remarks);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkStrandReader.h"
 
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
@@ -31,7 +32,11 @@ int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInf
       }
       auto* output = vtkPolyData::GetData(outputs);
       cactus::toPolyData(cactus::readStrandFile(stage.fileName), output);
-      cactus::addProvenance(nullptr, output, "StrandReader", stage);
+      cactus::StageRecord record;
+      record.filter = "StrandReader";
+      record.properties = cactus::StrandReaderStage::properties().states(stage);
+      record.files.push_back({ "FileName", stage.fileName });
+      cactus::setProvenance(output, cactus::provenanceOf(record), 0);
     });
 }
 

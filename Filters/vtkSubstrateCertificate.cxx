@@ -2,6 +2,7 @@
 #include "vtkSubstrateCertificate.h"
 
 #include "Columns.h"
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
@@ -105,9 +106,10 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       }
       fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
       fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
+      const auto provenance = cactus::recordOf(this, "SubstrateCertificate", stage, { "Outer", "Inner", "Fibres" });
       for (int port = 0; port < 2; ++port)
       {
-        cactus::addProvenance(outer, vtkTable::GetData(outputs, port), "SubstrateCertificate", stage);
+        cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
       }
     });
 }

@@ -2,6 +2,7 @@
 #include "vtkSubstrateStatistics.h"
 
 #include "Columns.h"
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
@@ -183,10 +184,10 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       fillSubstrate(vtkTable::GetData(outputs, 0), statistics);
       fillFibres(vtkTable::GetData(outputs, 1), statistics.fibres);
       fillHistograms(vtkTable::GetData(outputs, 2), statistics.fibres, static_cast<std::size_t>(stage.bins));
-      vtkDataObject* last = outerData != nullptr ? outerData : lines;
+      const auto provenance = cactus::recordOf(this, "SubstrateStatistics", stage, { "Fibres", "Outer", "Inner" });
       for (int port = 0; port < 3; ++port)
       {
-        cactus::addProvenance(last, vtkTable::GetData(outputs, port), "SubstrateStatistics", stage);
+        cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
       }
     });
 }

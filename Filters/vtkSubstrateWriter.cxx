@@ -2,6 +2,7 @@
 #include "vtkSubstrateWriter.h"
 
 #include "Columns.h"
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
@@ -41,19 +42,6 @@ void fill(vtkTable* table, const std::vector<cactus::SubstrateFile>& files)
   cactus::addColumn<vtkDoubleArray>(table, "Volume_um3", rows, from([](const File& f) { return f.volume; }));
   cactus::addColumn<vtkDoubleArray>(table, "Area_um2", rows, from([](const File& f) { return f.area; }));
   cactus::addColumn<vtkIntArray>(table, "Closed", rows, from([](const File& f) { return f.closed ? 1 : 0; }));
-}
-
-std::vector<std::string> provenanceOf(vtkDataObject* data)
-{
-  std::vector<std::string> lines;
-  if (auto* array = vtkStringArray::SafeDownCast(cactus::fieldArray(data, "Provenance")))
-  {
-    for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
-    {
-      lines.push_back(array->GetValue(i));
-    }
-  }
-  return lines;
 }
 
 } // namespace
@@ -109,7 +97,7 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
         fibres = cactus::fibresFrom(lines);
         contents.fibres = &fibres;
       }
-      contents.provenance = provenanceOf(outer);
+      contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
       contents.allowOpenSurfaces = stage.allowOpenSurfaces;
       contents.certificate.minimumGap = stage.minimumGap;
       const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads));
@@ -123,7 +111,7 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       }
       auto* table = vtkTable::GetData(outputs);
       fill(table, written.files);
-      cactus::addProvenance(outer, table, "SubstrateWriter", stage);
+      cactus::setProvenance(table, contents.provenance, 0);
     });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Domain.h"
+#include "base/Provenance.h"
 #include "fibres/Fibres.h"
 #include "io/McdcConfiguration.h"
 #include "judge/SubstrateCertificate.h"
@@ -19,9 +20,9 @@ struct SubstrateFolderContents
   Domain domain;
   FibreSurfaces outer;
   FibreSurfaces inner;
-  const Fibres* fibres = nullptr;      ///< centre lines, if they are to be written too (`fibres.strands`)
-  std::vector<std::string> provenance; ///< one line per stage so far
-  bool allowOpenSurfaces = false;      ///< write surfaces that leak, too
+  const Fibres* fibres = nullptr; ///< centre lines, if they are to be written too (`fibres.strands`)
+  Provenance provenance;          ///< of the surfaces, and what is to be written of them
+  bool allowOpenSurfaces = false; ///< write surfaces that leak, too
   SubstrateCertificateOptions certificate;
   McdcOptions mcdc;
 };

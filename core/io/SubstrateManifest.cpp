@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateManifest.h"
 
+#include "base/JsonText.h"
 #include "base/Sha256.h"
-
-#include <nlohmann/json.hpp>
 
 namespace cactus
 {
@@ -11,18 +10,10 @@ namespace cactus
 namespace
 {
 
-using Json = nlohmann::ordered_json;
-
 /// What the manifest says it is; by this a folder is known as one of ours.
 constexpr char format[] = "CACTUS substrate folder";
 constexpr char ownChecksum[] = "manifest_sha256";
 constexpr std::size_t checksumDigits = 64;
-
-/// JSON on one line. Text that is not UTF-8 (a file's name in the provenance may be anything) is marked where it is not.
-std::string line(const Json& value)
-{
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 /// One line for each property and for each thing in a list, which a person can read and `grep` can find.
 std::string laidOut(const Json& manifest)
@@ -30,10 +21,10 @@ std::string laidOut(const Json& manifest)
   std::string text = "{";
   for (const auto& [name, value] : manifest.items())
   {
-    text += (text.size() > 1 ? ",\n  " : "\n  ") + line(name) + ": ";
+    text += (text.size() > 1 ? ",\n  " : "\n  ") + singleLine(Json(name)) + ": ";
     if (value.empty() || !value.is_structured() || value.front().is_number())
     {
-      text += line(value);
+      text += singleLine(value);
       continue;
     }
     const char* before = "";
@@ -41,7 +32,7 @@ std::string laidOut(const Json& manifest)
     for (const auto& [key, part] : value.items())
     {
       text += before;
-      text += "\n    " + (value.is_array() ? "" : line(key) + ": ") + line(part);
+      text += "\n    " + (value.is_array() ? "" : singleLine(Json(key)) + ": ") + singleLine(part);
       before = ",";
     }
     text += value.is_array() ? "\n  ]" : "\n  }";
@@ -53,6 +44,17 @@ Json fileEntry(const SubstrateFile& file)
 {
   return { { "path", file.path }, { "surface", file.surface }, { "fibre", file.fibreId }, { "bundle", file.bundleId },
     { "triangles", file.triangles }, { "volume_um3", file.volume }, { "area_um2", file.area }, { "closed", file.closed } };
+}
+
+/// The record of each stage as a value; what is no record stays as it is.
+Json stagesOf(const Provenance& provenance)
+{
+  Json stages = Json::array();
+  for (const std::string& stage : provenance)
+  {
+    stages.push_back(parsedJson(stage).value_or(Json(stage)));
+  }
+  return stages;
 }
 
 bool isText(const Json& object, const char* name)
@@ -101,7 +103,7 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   manifest["inner_volume_um3"] = innerVolume;
   manifest["certified"] = substrate.certificate.certified();
   manifest["faults"] = substrate.certificate.faults;
-  manifest["provenance"] = contents.provenance;
+  manifest["provenance"] = stagesOf(contents.provenance);
   manifest["files"] = std::move(files);
   manifest["folders"] = written.folders;
   manifest["sha256"] = written.checksums;

@@ -57,7 +57,7 @@ class Blocks(CactusTestCase):
             self.assertEqual(next(same), next(same))
         both = fetch(FibreRadialGrowth(Input=GroupDatasets(Input=[one, two]), VoxelSize=0.3))
         self.assertEqual(table_ids(both), list(range(1, sum(counts) + 1)))
-        self.assertEqual(both.GetFieldData().GetAbstractArray("Provenance").GetNumberOfValues(), 2)
+        self.assertEqual(both.GetFieldData().GetAbstractArray("Provenance").GetNumberOfValues(), 3)
 
     def test_growth_of_one_block_and_of_grouped_times(self):
         group = GroupDatasets(Input=[self.bundle(), self.bundle(Seed=2)], BlockNames=["first", "second"])

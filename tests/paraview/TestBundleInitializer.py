@@ -49,7 +49,7 @@ class BundleInitializerTest(CactusTestCase):
             self.assertLessEqual((np.abs(face[:, :2]) + radii[:, None]).max(), 15 + 1e-9)
         self.assertAlmostEqual(angles_to(first, last, np.array([0, 0, 1])).mean(), 10, delta=0.25)
         provenance = data.GetFieldData().GetAbstractArray("Provenance").GetValue(0)
-        for parameter in ("Side=30", "MeanDispersion=10", "GammaShape=2.4", "Seed=1"):
+        for parameter in ('"Side": 30.0', '"MeanDispersion": 10.0', '"GammaShape": 2.4', '"Seed": 1'):
             self.assertIn(parameter, provenance)
         domain = data.GetFieldData().GetArray("Domain")
         self.assertEqual([domain.GetValue(i) for i in range(6)], [-15, 15] * 3)

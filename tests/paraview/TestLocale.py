@@ -77,7 +77,7 @@ class Locale(CactusTestCase):
         german, german_said = self.chain("german")
         self.assertEqual(german, plain)
         self.assertEqual(german_said, said)
-        self.assertTrue(any("OverlapTolerance=0.0015" in line for lines in said for line in lines), said)
+        self.assertTrue(any('"OverlapTolerance": 0.0015' in line for lines in said for line in lines), said)
 
 
 if __name__ == "__main__":

@@ -284,7 +284,7 @@ TEST_F(SubstrateFolder, LeavesNothingBehindWhereItFails)
   this->Contents.outer = surfacesOf({ 9 }, { open });
   this->Contents.allowOpenSurfaces = true;
   EXPECT_EQ(this->write(this->Scratch / "s"), "");
-  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"closed\":false"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"closed\": false"), std::string::npos);
 }
 
 TEST_F(SubstrateFolder, StopsWithoutATrace)

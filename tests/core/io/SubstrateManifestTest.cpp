@@ -37,8 +37,8 @@ TEST(SubstrateManifest, SaysWhatWasWritten)
   EXPECT_EQ(manifest->written.checksums.size(), 2u);
   EXPECT_EQ(manifest->written.checksums.at("README.txt"), cactus::sha256("read me"));
   EXPECT_EQ(manifest->written.folders, std::set<std::string>{ "outer" });
-  EXPECT_NE(text.find("\n  \"domain\": [-15.0,15.0,-15.0,15.0,-15.0,15.0],\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\"volume_um3\":null,\"area_um2\":0.1,"), std::string::npos) << "JSON has no NaN";
+  EXPECT_NE(text.find("\n  \"domain\": [-15.0, 15.0, -15.0, 15.0, -15.0, 15.0],\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"volume_um3\": null, \"area_um2\": 0.1,"), std::string::npos) << "JSON has no NaN";
 }
 
 TEST(SubstrateManifest, ShowsEveryChangeToIt)

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DataProvenance.h"
+
+#include "InputBlocks.h"
+#include "base/FastChecksum.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+
+#include <cstdint>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr const char* arrayName = "Provenance";
+/// Filters between two stages that are looked through at most: pipelines may branch and meet again.
+constexpr int mostFilters = 100;
+
+void add(FastChecksum& checksum, vtkDataArray* array)
+{
+  if (array == nullptr)
+  {
+    checksum.add(std::uint64_t(0));
+    return;
+  }
+  checksum.add(static_cast<std::uint64_t>(array->GetDataType()));
+  checksum.add(array->GetVoidPointer(0),
+    static_cast<std::size_t>(array->GetNumberOfValues()) * static_cast<std::size_t>(array->GetDataTypeSize()));
+}
+
+/// What data of ours are known by: their points, and the arrays that later stages use. Empty for data of another type.
+std::string checksumOfData(vtkDataObject* data)
+{
+  FastChecksum checksum;
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    checksum.add(static_cast<std::uint64_t>(surface->GetNumberOfCells()));
+    add(checksum, surface->GetPoints() != nullptr ? surface->GetPoints()->GetData() : nullptr);
+    add(checksum, surface->GetPointData()->GetArray("Radius"));
+    for (const char* name : { "FibreId", "BundleId", "TargetRadius", "Surface" })
+    {
+      add(checksum, surface->GetCellData()->GetArray(name));
+    }
+    return checksum.digest();
+  }
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    checksum.add(image->GetExtent(), 6 * sizeof(int));
+    checksum.add(image->GetOrigin(), 3 * sizeof(double));
+    checksum.add(image->GetSpacing(), 3 * sizeof(double));
+    for (const char* name : { "FibreId", "Depth", "Field" })
+    {
+      add(checksum, image->GetPointData()->GetArray(name));
+    }
+    return checksum.digest();
+  }
+  return "";
+}
+
+Provenance recordsIn(vtkDataObject* data)
+{
+  Provenance records;
+  auto* array = vtkStringArray::SafeDownCast(
+    data != nullptr && data->GetFieldData() != nullptr ? data->GetFieldData()->GetAbstractArray(arrayName) : nullptr);
+  for (vtkIdType i = 0; array != nullptr && i < array->GetNumberOfValues(); ++i)
+  {
+    records.push_back(array->GetValue(i));
+  }
+  return records;
+}
+
+/// By the data alone.
+DataOrigin originOf(vtkDataObject* data)
+{
+  DataOrigin origin;
+  const std::vector<vtkDataObject*> leaves = leavesOf(data);
+  if (leaves.size() == 1 && leaves.front() == data)
+  {
+    origin.records = recordsIn(data);
+    origin.isChanged = origin.isKnown() && checksumOf(origin.records) != checksumOfData(data);
+    return origin;
+  }
+  for (vtkDataObject* leaf : leaves)
+  {
+    origin.parts.push_back(originOf(leaf));
+  }
+  return origin;
+}
+
+bool isAsMade(const DataOrigin& origin)
+{
+  if (origin.parts.empty())
+  {
+    return origin.isKnown() && !origin.isChanged;
+  }
+  for (const DataOrigin& part : origin.parts)
+  {
+    if (!isAsMade(part))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+DataOrigin originAt(vtkAlgorithm* consumer, int port, int connection, int& filtersLeft);
+
+/// What the filter was given that has made data which do not tell of themselves.
+DataOrigin originBefore(vtkAlgorithm* filter, int& filtersLeft)
+{
+  DataOrigin origin;
+  origin.filter = filter->GetClassName();
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int connection = 0; connection < filter->GetNumberOfInputConnections(port); ++connection)
+    {
+      origin.parts.push_back(originAt(filter, port, connection, filtersLeft));
+    }
+  }
+  return origin;
+}
+
+DataOrigin originAt(vtkAlgorithm* consumer, int port, int connection, int& filtersLeft)
+{
+  DataOrigin origin = originOf(consumer->GetInputDataObject(port, connection));
+  int producerPort = 0;
+  vtkAlgorithm* producer = consumer->GetInputAlgorithm(port, connection, producerPort);
+  if (isAsMade(origin) || producer == nullptr || producer->GetTotalNumberOfInputConnections() == 0 || filtersLeft-- <= 0)
+  {
+    return origin;
+  }
+  DataOrigin before = originBefore(producer, filtersLeft);
+  // ParaView puts filters of its own behind every other, which hand data on.
+  const bool isPassage = before.filter == "vtkPVPostFilter" && before.parts.size() == 1;
+  if (isPassage)
+  {
+    return before.parts.front();
+  }
+  return before.isKnown() ? before : origin;
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::vector<DataOrigin>>> originsOf(vtkAlgorithm* self, const std::vector<std::string>& ports)
+{
+  std::vector<std::pair<std::string, std::vector<DataOrigin>>> origins;
+  for (int port = 0; port < self->GetNumberOfInputPorts(); ++port)
+  {
+    std::vector<DataOrigin> data;
+    for (int connection = 0; connection < self->GetNumberOfInputConnections(port); ++connection)
+    {
+      int filtersLeft = mostFilters;
+      data.push_back(originAt(self, port, connection, filtersLeft));
+    }
+    if (!data.empty())
+    {
+      origins.emplace_back(ports.at(static_cast<std::size_t>(port)), std::move(data));
+    }
+  }
+  return origins;
+}
+
+void setProvenance(vtkDataObject* data, const Provenance& records, int port)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(arrayName);
+  for (const std::string& record : provenanceOfOutput(records, port, checksumOfData(data)))
+  {
+    array->InsertNextValue(record);
+  }
+  data->GetFieldData()->AddArray(array);
+}
+
+} // namespace cactus

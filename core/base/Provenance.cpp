@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Provenance.h"
+
+#include "base/Error.h"
+#include "base/JsonText.h"
+#include "base/Sha256.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr std::size_t idDigits = 16;
+
+/// A stage's record out of a text; nothing for any other text.
+std::optional<Json> recordFrom(const std::string& text)
+{
+  std::optional<Json> record = parsedJson(text);
+  const bool isRecord = record && record->is_object() && record->contains("id") && (*record)["id"].is_string() &&
+                        record->contains("filter") && (*record)["filter"].is_string();
+  return isRecord ? record : std::nullopt;
+}
+
+Json jsonOf(const PropertyValue& value)
+{
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+Json propertiesOf(const std::vector<PropertyState>& states)
+{
+  Json properties = Json::object();
+  for (const auto& [facts, value] : states)
+  {
+    if (facts->use == PropertyUse::Result && hasEffect(*facts, states))
+    {
+      properties[facts->name] = facts->choices.empty() ? jsonOf(value) : Json(valueText(*facts, value));
+    }
+  }
+  return properties;
+}
+
+std::string fileChecksum(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  Sha256 checksum;
+  std::vector<char> piece(std::size_t(1) << 16);
+  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())), file.gcount() > 0)
+  {
+    checksum.add(piece.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.is_open() || file.bad())
+  {
+    throw FileError("cannot read " + path + " again for its checksum");
+  }
+  return checksum.digest();
+}
+
+Json filesOf(const std::vector<FileRead>& files)
+{
+  Json all = Json::array();
+  for (const FileRead& file : files)
+  {
+    all.push_back({ { "property", file.property }, { "path", std::filesystem::absolute(file.path).string() },
+      { "sha256", fileChecksum(file.path) } });
+  }
+  return all;
+}
+
+/// Puts the records of all stages that an input comes from together, each once, without what they say of an output.
+class Ancestors
+{
+public:
+  /// What refers to the data in the record of the stage that takes them.
+  Json add(const DataOrigin& origin)
+  {
+    if (!origin.parts.empty())
+    {
+      return this->addParts(origin);
+    }
+    Json reference = Json::object();
+    for (const std::string& text : origin.records)
+    {
+      std::optional<Json> record = recordFrom(text);
+      if (!record)
+      {
+        this->insert(text, text);
+        reference = Json::object();
+        continue;
+      }
+      reference = { { "stage", (*record)["id"] } };
+      if (record->contains("output") && (*record)["output"].is_object())
+      {
+        reference.update((*record)["output"]);
+        record->erase("output");
+      }
+      this->insert((*record)["id"].get<std::string>(), singleLine(*record));
+    }
+    if (origin.isChanged && !reference.empty())
+    {
+      reference["changed"] = true;
+    }
+    if (!origin.filter.empty())
+    {
+      reference = { { "filter", origin.filter }, { "inputs", Json::array() } };
+    }
+    return reference;
+  }
+
+  Provenance take() { return std::move(this->Records); }
+
+private:
+  Json addParts(const DataOrigin& origin)
+  {
+    Json parts = Json::array();
+    for (const DataOrigin& part : origin.parts)
+    {
+      parts.push_back(this->add(part));
+    }
+    if (!origin.filter.empty())
+    {
+      return { { "filter", origin.filter }, { "inputs", std::move(parts) } };
+    }
+    const bool isOne = std::all_of(parts.begin(), parts.end(), [&](const Json& part) { return part == parts.front(); });
+    // Blocks that are all of one output are that output.
+    return isOne ? parts.front() : Json{ { "blocks", std::move(parts) } };
+  }
+
+  void insert(const std::string& id, std::string record)
+  {
+    if (this->Known.insert(id).second)
+    {
+      this->Records.push_back(std::move(record));
+    }
+  }
+
+  Provenance Records;
+  std::set<std::string> Known;
+};
+
+} // namespace
+
+bool DataOrigin::isKnown() const
+{
+  return (!this->records.empty() && recordFrom(this->records.back())) ||
+         std::any_of(this->parts.begin(), this->parts.end(), [](const DataOrigin& part) { return part.isKnown(); });
+}
+
+Provenance provenanceOf(const StageRecord& stage)
+{
+  Ancestors ancestors;
+  Json inputs = Json::object();
+  for (const auto& [name, data] : stage.inputs)
+  {
+    inputs[name] = Json::array();
+    for (const DataOrigin& origin : data)
+    {
+      inputs[name].push_back(ancestors.add(origin));
+    }
+  }
+  Json record;
+  record["id"] = "";
+  record["filter"] = stage.filter;
+  record["version"] = CACTUS_VERSION;
+  record["properties"] = propertiesOf(stage.properties);
+  if (!stage.reached.empty())
+  {
+    record["reached"] = Json::object();
+    for (const auto& [name, value] : stage.reached)
+    {
+      record["reached"][name] = jsonOf(value);
+    }
+  }
+  if (!stage.files.empty())
+  {
+    record["files"] = filesOf(stage.files);
+  }
+  record["inputs"] = std::move(inputs);
+  record["id"] = sha256(singleLine(record)).substr(0, idDigits);
+  Provenance all = ancestors.take();
+  all.push_back(singleLine(record));
+  return all;
+}
+
+Provenance provenanceOfOutput(Provenance stages, int output, const std::string& checksum)
+{
+  std::optional<Json> last = stages.empty() ? std::nullopt : recordFrom(stages.back());
+  if (last)
+  {
+    (*last)["output"] = { { "port", output }, { "checksum", checksum } };
+    stages.back() = singleLine(*last);
+  }
+  return stages;
+}
+
+std::string checksumOf(const Provenance& records)
+{
+  const std::optional<Json> last = records.empty() ? std::nullopt : recordFrom(records.back());
+  if (!last || !last->contains("output") || !(*last)["output"].is_object())
+  {
+    return "";
+  }
+  const auto checksum = (*last)["output"].find("checksum");
+  return checksum != (*last)["output"].end() && checksum->is_string() ? checksum->get<std::string>() : "";
+}
+
+} // namespace cactus
