@@ -3,10 +3,9 @@
 
 #include "Columns.h"
 #include "DataProvenance.h"
-#include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
-#include "SurfaceData.h"
+#include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
 #include "judge/CertificateTables.h"
@@ -70,7 +69,7 @@ int vtkSubstrateCertificate::ComputePipelineMTime(
   return cactus::pipelineTime(this, time);
 }
 
-int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
@@ -81,20 +80,8 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
       }
-      vtkDataObject* outer = vtkDataObject::GetData(inputs[0]);
-      vtkDataObject* inner = vtkDataObject::GetData(inputs[1]);
-      vtkDataObject* lines = vtkDataObject::GetData(inputs[2]);
-      const cactus::FibreSurfaces outerSurfaces = cactus::surfacesFrom(outer, "Outer", 0);
-      const cactus::FibreSurfaces innerSurfaces = cactus::surfacesFrom(inner, "Inner", 1);
-      const cactus::Domain domain = cactus::domainFrom(outer);
-      cactus::requireSameDomain(domain, inner, "Inner");
-      cactus::requireSameDomain(domain, lines, "Fibres");
-      cactus::Fibres fibres;
-      if (lines != nullptr)
-      {
-        fibres = cactus::fibresFrom(lines);
-      }
-      const auto certificate = cactus::certify(domain, outerSurfaces, innerSurfaces, lines != nullptr ? &fibres : nullptr,
+      const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
+      const auto certificate = cactus::certify(substrate.domain, substrate.outer, substrate.inner, substrate.fibresOrNull(),
         stage.options, cactus::contextFor(this, stage.threads));
       if (!certificate.certified())
       {

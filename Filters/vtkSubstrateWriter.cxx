@@ -3,11 +3,10 @@
 
 #include "Columns.h"
 #include "DataProvenance.h"
-#include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
 #include "StageProperties.h"
-#include "SurfaceData.h"
+#include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
 #include "io/SubstrateFolder.h"
@@ -71,7 +70,7 @@ int vtkSubstrateWriter::ComputePipelineMTime(
   return cactus::pipelineTime(this, time);
 }
 
-int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
@@ -82,21 +81,12 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       {
         return;
       }
-      vtkDataObject* outer = vtkDataObject::GetData(inputs[0]);
-      vtkDataObject* inner = vtkDataObject::GetData(inputs[1]);
-      vtkDataObject* lines = vtkDataObject::GetData(inputs[2]);
+      cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
       cactus::SubstrateFolderContents contents;
-      contents.outer = cactus::surfacesFrom(outer, "Outer", 0);
-      contents.inner = cactus::surfacesFrom(inner, "Inner", 1);
-      contents.domain = cactus::domainFrom(outer);
-      cactus::requireSameDomain(contents.domain, inner, "Inner");
-      cactus::requireSameDomain(contents.domain, lines, "Fibres");
-      cactus::Fibres fibres;
-      if (lines != nullptr)
-      {
-        fibres = cactus::fibresFrom(lines);
-        contents.fibres = &fibres;
-      }
+      contents.outer = std::move(substrate.outer);
+      contents.inner = std::move(substrate.inner);
+      contents.domain = substrate.domain;
+      contents.fibres = substrate.fibresOrNull();
       contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
       contents.allowOpenSurfaces = stage.allowOpenSurfaces;
       contents.certificate.minimumGap = stage.minimumGap;

@@ -70,6 +70,20 @@ std::string withoutOwnChecksum(std::string text, const std::string& checksum)
   return place == std::string::npos ? text : text.replace(place, checksum.size(), std::string(checksumDigits, '0'));
 }
 
+Json judgedSurfaces(const SubstrateCertificate& certificate)
+{
+  Json judged = Json::array();
+  if (certificate.outerJudged)
+  {
+    judged.push_back("outer");
+  }
+  if (certificate.innerJudged)
+  {
+    judged.push_back("inner");
+  }
+  return judged;
+}
+
 } // namespace
 
 std::string manifestText(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, const WrittenFiles& written)
@@ -93,6 +107,8 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   Json manifest;
   manifest["format"] = format;
   manifest["version"] = CACTUS_VERSION;
+  manifest["certified"] = substrate.certificate.certified();
+  manifest["judged"] = judgedSurfaces(substrate.certificate);
   manifest["length_unit"] = "micrometre";
   manifest["domain"] = domain;
   manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();
@@ -101,7 +117,6 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   manifest["triangles"] = triangles;
   manifest["outer_volume_um3"] = outerVolume;
   manifest["inner_volume_um3"] = innerVolume;
-  manifest["certified"] = substrate.certificate.certified();
   manifest["faults"] = substrate.certificate.faults;
   manifest["provenance"] = stagesOf(contents.provenance);
   manifest["files"] = std::move(files);

@@ -10,11 +10,13 @@ std::string readmeText(const SubstrateFolderContents& contents, const SubstrateC
 {
   const bool hasInner = contents.inner.size() > 0;
   const bool hasOuter = contents.outer.size() > 0;
-  std::string text = "A substrate of " + std::to_string(std::max(contents.outer.size(), contents.inner.size())) +
-                     " fibres, written by CACTUS " CACTUS_VERSION ".\n\n";
-  text += certificate.certified()
-            ? "CERTIFIED: every surface is closed, no two meet, and no walker can leak (certificate.csv).\n\n"
-            : "NOT CERTIFIED (certificate.csv):\n\n";
+  std::string text = "A substrate of " + std::to_string(std::max(contents.outer.size(), contents.inner.size())) + " fibres" +
+                     (hasInner ? "" : " without inner surfaces") + (hasOuter ? "" : " without outer surfaces") +
+                     ", written by CACTUS " CACTUS_VERSION ".\n\n";
+  const std::string scope = certificate.scope();
+  text += certificate.certified() ? "CERTIFIED" + (scope.empty() ? "" : " " + scope) +
+                                      ": every surface is closed, no two meet, and no walker can leak (certificate.csv).\n\n"
+                                  : "NOT CERTIFIED (certificate.csv):\n\n";
   for (const std::string& fault : certificate.faults)
   {
     text += "  - " + fault + "\n";

@@ -14,4 +14,14 @@ std::string SubstrateCertificate::verdict() const
   return text;
 }
 
+std::string SubstrateCertificate::scope() const
+{
+  if (this->outerJudged == this->innerJudged)
+  {
+    return "";
+  }
+  return this->outerJudged ? "for its outer surfaces alone, as there are no inner ones"
+                           : "for its inner surfaces alone, as there are no outer ones";
+}
+
 } // namespace cactus

@@ -37,6 +37,8 @@ struct FibreCertificate
 /// What was found on a substrate, and the verdict. All yes-or-no answers come from exact predicates; none depends on rounding.
 struct SubstrateCertificate
 {
+  bool outerJudged = false; ///< whether there were outer surfaces to judge; fibres that lack one of them are counted below
+  bool innerJudged = false; ///< the same for inner ones
   std::size_t outerSurfaces = 0;
   std::size_t innerSurfaces = 0;
   std::size_t notClosed = 0;        ///< surfaces, outer or inner, with an edge that is not two triangles', in opposite senses
@@ -78,6 +80,9 @@ struct SubstrateCertificate
   bool certified() const { return this->faults.empty(); }
   /// The faults in one sentence; "certified" without any.
   std::string verdict() const;
+  /// Which kind of surfaces was judged, as words that follow "certified": empty where both were, else "for its outer surfaces
+  /// alone, as there are no inner ones" or the reverse.
+  std::string scope() const;
 };
 
 } // namespace cactus

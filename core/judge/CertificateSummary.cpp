@@ -64,6 +64,8 @@ std::string first(const SubstrateCertificate& all, Is&& is)
 void summarise(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, double minimumGap, double reach,
   SubstrateCertificate& all)
 {
+  all.outerJudged = outer.given();
+  all.innerJudged = inner.given();
   all.outerSurfaces = outer.size();
   all.innerSurfaces = inner.size();
   all.requiredGap = minimumGap;

@@ -57,6 +57,8 @@ std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& cert
   const std::vector<const All*> row{ &certificate };
   Columns<const All*> columns(row);
   columns.count("Certified", [](const All* c) { return c->certified() ? 1 : 0; });
+  columns.count("OuterJudged", [](const All* c) { return c->outerJudged ? 1 : 0; });
+  columns.count("InnerJudged", [](const All* c) { return c->innerJudged ? 1 : 0; });
   columns.count("OuterSurfaces", [](const All* c) { return c->outerSurfaces; });
   columns.count("InnerSurfaces", [](const All* c) { return c->innerSurfaces; });
   columns.count("NotClosed", [](const All* c) { return c->notClosed; });

@@ -152,7 +152,9 @@ TEST_F(SubstrateFolder, HoldsItsCertificate)
   EXPECT_TRUE(written.certificate.certified());
   EXPECT_EQ(textOf(this->Scratch / "s/certificate.csv").substr(0, 27), "quantity,value\nCertified,1\n");
   EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": true"), std::string::npos);
-  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("\nCERTIFIED"), std::string::npos);
+  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("\nCERTIFIED: "), std::string::npos);
+  EXPECT_NE(
+    textOf(this->Scratch / "s/manifest.json").find("\"judged\": [\n    \"outer\",\n    \"inner\"\n  ]"), std::string::npos);
   std::istringstream fibres(textOf(this->Scratch / "s/certificate_fibres.csv"));
   std::string names;
   std::string row;
@@ -175,6 +177,20 @@ TEST_F(SubstrateFolder, HoldsItsCertificate)
   EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": false"), std::string::npos);
   EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("NOT CERTIFIED"), std::string::npos);
   EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("1 pairs of outer surfaces cut or touch"), std::string::npos);
+}
+
+// Half a substrate is not passed off as a whole one.
+TEST_F(SubstrateFolder, SaysFirstWhatWasNotJudged)
+{
+  this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(1.0) });
+  this->Contents.inner = {};
+  const auto written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
+  EXPECT_TRUE(written.certificate.certified());
+  const std::string readme = textOf(this->Scratch / "s/README.txt");
+  EXPECT_EQ(readme.find("A substrate of 1 fibres without inner surfaces"), 0u) << readme;
+  EXPECT_NE(readme.find("\nCERTIFIED for its outer surfaces alone, as there are no inner ones: "), std::string::npos) << readme;
+  EXPECT_EQ(textOf(this->Scratch / "s/certificate.csv").find("quantity,value\nCertified,1\nOuterJudged,1\nInnerJudged,0\n"), 0u);
+  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"judged\": [\n    \"outer\"\n  ]"), std::string::npos);
 }
 
 // The simulator takes similar keys for each other and ignores the rest: only ones that it knows, spelt as it spells them.

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SubstrateInputs.h"
+
+#include "FibreData.h"
+#include "SurfaceData.h"
+#include "vtkFibreRadialGrowth.h"
+#include "vtkMyelinSurface.h"
+
+#include <vtkAlgorithm.h>
+#include <vtkDataObject.h>
+
+#include <cstring>
+
+namespace cactus
+{
+
+namespace
+{
+
+vtkDataObject* connectedTo(vtkAlgorithm* consumer, int port)
+{
+  return consumer->GetNumberOfInputConnections(port) == 1 ? consumer->GetInputDataObject(port, 0) : nullptr;
+}
+
+/// Memory may have been given back.
+vtkDataObject* unlessReleased(vtkDataObject* data)
+{
+  return data != nullptr && data->GetDataReleased() == 0 ? data : nullptr;
+}
+
+/// Which filter made the data at a port, as its output `wantedOutput`. ParaView puts filters of its own, which hand data on,
+/// behind every other. Null where that is no `Filter`.
+template <typename Filter>
+Filter* makerOf(vtkAlgorithm* consumer, int port, int wantedOutput)
+{
+  int output = 0;
+  vtkAlgorithm* maker = consumer->GetNumberOfInputConnections(port) == 1 ? consumer->GetInputAlgorithm(port, 0, output) : nullptr;
+  if (maker != nullptr && std::strcmp(maker->GetClassName(), "vtkPVPostFilter") == 0 &&
+      maker->GetNumberOfInputConnections(0) == 1)
+  {
+    maker = maker->GetInputAlgorithm(0, 0, output);
+  }
+  return output == wantedOutput ? Filter::SafeDownCast(maker) : nullptr;
+}
+
+} // namespace
+
+SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort)
+{
+  SubstrateData data{ connectedTo(self, outerPort), connectedTo(self, innerPort), connectedTo(self, fibrePort) };
+  auto* surfaces = makerOf<vtkMyelinSurface>(self, outerPort, 0);
+  if (surfaces == nullptr)
+  {
+    return data;
+  }
+  if (data.inner == nullptr)
+  {
+    data.inner = unlessReleased(surfaces->GetOutputDataObject(1));
+  }
+  auto* growth = makerOf<vtkFibreRadialGrowth>(surfaces, 0, 0);
+  if (data.fibres == nullptr && growth != nullptr)
+  {
+    data.fibres = unlessReleased(connectedTo(growth, 0));
+  }
+  return data;
+}
+
+Substrate substrateFrom(const SubstrateData& data)
+{
+  Substrate substrate;
+  substrate.outer = surfacesFrom(data.outer, "Outer", 0);
+  substrate.inner = surfacesFrom(data.inner, "Inner", 1);
+  substrate.domain = domainFrom(data.outer);
+  requireSameDomain(substrate.domain, data.inner, "Inner");
+  requireSameDomain(substrate.domain, data.fibres, "Fibres");
+  if (data.fibres != nullptr)
+  {
+    substrate.fibres = fibresFrom(data.fibres);
+  }
+  return substrate;
+}
+
+} // namespace cactus

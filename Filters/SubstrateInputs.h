@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surfaces and fibres of a substrate, for the filters that judge and write it.
+#pragma once
+
+#include "base/Domain.h"
+#include "fibres/Fibres.h"
+#include "mesh/FibreSurfaces.h"
+
+#include <optional>
+
+class vtkAlgorithm;
+class vtkDataObject;
+
+namespace cactus
+{
+
+/// The data of a substrate; null for what there is none of. They have to stay as they are while surfaces taken from them are
+/// used.
+struct SubstrateData
+{
+  vtkDataObject* outer = nullptr;
+  vtkDataObject* inner = nullptr;
+  vtkDataObject* fibres = nullptr;
+};
+
+/// What is connected to the ports `Outer`, `Inner` and `Fibres` of a filter. Where Outer comes straight from MyelinSurface, what
+/// is not connected is that filter's own: its inner surfaces, and the fibres that FibreRadialGrowth was given before it. So who
+/// connects the outer surfaces alone has the whole substrate judged, not a half of it.
+SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort);
+
+/// The same, read.
+struct Substrate
+{
+  Domain domain;
+  FibreSurfaces outer;
+  FibreSurfaces inner;
+  std::optional<Fibres> fibres;
+
+  const Fibres* fibresOrNull() const { return this->fibres ? &*this->fibres : nullptr; }
+};
+
+/// Throws InvalidInput for data that are no surfaces or fibres, or that have different domains.
+Substrate substrateFrom(const SubstrateData& data);
+
+} // namespace cactus

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Who connects MyelinSurface's outer surfaces alone has the whole substrate judged and written."""
+
+import filecmp
+import json
+import os
+
+from cactus_testing import CactusTestCase, fetch, main
+from paraview import simple
+
+
+def table(proxy, port=0):
+    columns = fetch(proxy, port)
+    names = [columns.GetColumnName(i) for i in range(columns.GetNumberOfColumns())]
+    return [[str(columns.GetValueByName(row, name)) for name in names] for row in range(columns.GetNumberOfRows())]
+
+
+def files(folder):
+    return sorted(os.path.relpath(os.path.join(place, name), folder) for place, _, names in os.walk(folder) for name in names)
+
+
+class WholeSubstrate(CactusTestCase):
+    def setUp(self):
+        super().setUp()
+        self.fibres = simple.BundleInitializer(Side=5, FibreVolumeFraction=0.5)
+        grown = simple.FibreRadialGrowth(Input=self.fibres, TargetFibreVolumeFraction=0.6, VoxelSize=0.2)
+        surfaces = simple.MyelinSurface(Input=grown)
+        self.outer, self.inner = simple.OutputPort(surfaces, 0), simple.OutputPort(surfaces, 1)
+        self.all = {"Outer": self.outer, "Inner": self.inner, "Fibres": self.fibres}
+
+    def test_certificate(self):
+        whole = simple.SubstrateCertificate(**self.all)
+        alone = simple.SubstrateCertificate(Outer=self.outer)
+        for port in (0, 1):
+            self.assertEqual(table(alone, port), table(whole, port))
+        verdict = fetch(alone)
+        self.assertEqual(verdict.GetColumnName(0), "Certified")
+        self.assertEqual(verdict.GetValueByName(0, "Certified").ToInt(), 1)
+        self.assertEqual(verdict.GetValueByName(0, "InnerJudged").ToInt(), 1)
+
+    def test_writer(self):
+        for name, inputs in (("whole", self.all), ("alone", {"Outer": self.outer})):
+            simple.SubstrateWriter(FolderName=os.path.join(self.folder, name), **inputs).UpdatePipeline()
+        whole, alone = os.path.join(self.folder, "whole"), os.path.join(self.folder, "alone")
+        self.assertEqual(files(alone), files(whole))
+        self.assertTrue(any(name.startswith("inner") for name in files(alone)))
+        different = [name for name in files(whole) if not filecmp.cmp(os.path.join(whole, name), os.path.join(alone, name), shallow=False)]
+        self.assertEqual(different, ["manifest.json"])  # which tells of the connections
+
+    def test_other_outer_surfaces_are_judged_alone(self):
+        through = simple.Transform(Input=self.outer)
+        certificate = fetch(simple.SubstrateCertificate(Outer=through))
+        judged = [certificate.GetValueByName(0, name).ToInt() for name in ("Certified", "OuterJudged", "InnerJudged")]
+        self.assertEqual(judged, [1, 1, 0])
+        folder = os.path.join(self.folder, "outer")
+        simple.SubstrateWriter(Outer=through, FolderName=folder).UpdatePipeline()
+        with open(os.path.join(folder, "README.txt")) as file:
+            self.assertIn("without inner surfaces", file.readline())
+        with open(os.path.join(folder, "manifest.json")) as file:
+            self.assertEqual(json.load(file)["judged"], ["outer"])
+
+
+if __name__ == "__main__":
+    main()
