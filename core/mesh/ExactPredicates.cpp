@@ -31,11 +31,11 @@ struct ExactSum
 };
 
 /// A number as the exact sum of `count` doubles that do not overlap, in increasing order of size, none of them 0; at most
-/// Capacity.
-template <std::size_t Capacity>
+/// capacity.
+template <std::size_t capacity>
 struct Expansion
 {
-  std::array<double, Capacity> part;
+  std::array<double, capacity> part;
   std::size_t count = 0;
 
   /// Adds one double (Shewchuk's grow-expansion, with zeros left out).
@@ -72,10 +72,10 @@ Expansion<2> difference(double a, double b)
   return result;
 }
 
-template <std::size_t N, std::size_t M>
-Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b)
+template <std::size_t n, std::size_t m>
+Expansion<2 * n * m> product(const Expansion<n>& a, const Expansion<m>& b)
 {
-  Expansion<2 * N * M> result;
+  Expansion<2 * n * m> result;
   for (std::size_t i = 0; i < a.count; ++i)
   {
     for (std::size_t j = 0; j < b.count; ++j)
@@ -89,10 +89,10 @@ Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b)
 }
 
 /// a + sign · b
-template <std::size_t N, std::size_t M>
-Expansion<N + M> sum(const Expansion<N>& a, const Expansion<M>& b, double sign)
+template <std::size_t n, std::size_t m>
+Expansion<n + m> sum(const Expansion<n>& a, const Expansion<m>& b, double sign)
 {
-  Expansion<N + M> result;
+  Expansion<n + m> result;
   for (std::size_t i = 0; i < a.count; ++i)
   {
     result.part[i] = a.part[i];

@@ -331,6 +331,7 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
     const std::map<std::size_t, Moves> moves = measureAll(surfaces, selection, gap, box, context,
       [&](double part) { context.report((round == 0 ? from : half) + (half - from) * part, "keeping fibres apart"); });
     std::vector<std::size_t> moving;
+    moving.reserve(moves.size());
     for (const auto& entry : moves)
     {
       moving.push_back(entry.first);

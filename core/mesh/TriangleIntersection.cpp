@@ -126,14 +126,14 @@ bool allOnOneSide(const std::array<int, 3>& sides)
 
 /// Whether, seen from `origin`, all of `b` lies further in direction `across` than all of `a`, for sure: by far more than
 /// rounding can change. Most of what is asked about is told apart by this, without exact predicates.
-template <std::size_t Count>
-bool clearlyBehind(const Vector3d& origin, const Vector3d& across, const std::array<const Vector3d*, Count>& a,
-  const std::array<const Vector3d*, Count>& b)
+template <std::size_t corners>
+bool clearlyBehind(const Vector3d& origin, const Vector3d& across, const std::array<const Vector3d*, corners>& a,
+  const std::array<const Vector3d*, corners>& b)
 {
   double last = -std::numeric_limits<double>::infinity();
   double first = std::numeric_limits<double>::infinity();
   double reach = 0.0;
-  for (std::size_t i = 0; i < Count; ++i)
+  for (std::size_t i = 0; i < corners; ++i)
   {
     const Vector3d toA = *a[i] - origin;
     const Vector3d toB = *b[i] - origin;
@@ -143,7 +143,7 @@ bool clearlyBehind(const Vector3d& origin, const Vector3d& across, const std::ar
       std::fabs(toB[2]) });
   }
   const double rounding = 1e-14 * reach * (std::fabs(across[0]) + std::fabs(across[1]) + std::fabs(across[2]));
-  if constexpr (Count == 2)
+  if constexpr (corners == 2)
   {
     return last < -rounding && first > rounding; // with the origin between them
   }

@@ -97,6 +97,7 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(int edge)
   this->Values.resize(std::size_t(place));
   this->Unsmoothed.resize(std::size_t(place));
   std::vector<std::vector<Piece>> result;
+  result.reserve(groups.size());
   for (auto& group : groups)
   {
     result.push_back(std::move(group.second));

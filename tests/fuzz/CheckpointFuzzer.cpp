@@ -67,6 +67,7 @@ void run(const CapsuleOptimizerOptions& options, Fibres& fibres)
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
+  path(); // made before, so that it is still there at the exit
   std::atexit([] { std::remove(path().c_str()); });
   std::vector<std::string> seeds;
   for (int m = 0; m < 2; ++m)
