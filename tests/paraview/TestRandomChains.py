@@ -213,7 +213,7 @@ class Chains:
     """Runs chains by name, chain/SEED/INDEX."""
 
     def __init__(self):
-        from torture.cases import Reports
+        from torture.answers import Reports
 
         self.reports = Reports()
         self.folder = tempfile.mkdtemp(prefix="cactus-chains-")
@@ -270,13 +270,13 @@ class Chains:
         return self._compare(drawn, surfaces, certificate, warnings, folder)
 
     def _refused(self, refused):
-        from torture.cases import _CPLUSPLUS, _PIPELINE
+        from torture.answers import CPLUSPLUS, PIPELINE
 
         self.note = f"refused by {refused.stage}: {refused.errors[0]}"
         faults = []
         if len(refused.errors) != 1:
             faults.append(f"{refused.stage} gives {len(refused.errors)} errors for one fault: " + " | ".join(refused.errors))
-        if any(_CPLUSPLUS.search(text) or _PIPELINE.search(text) for text in refused.errors):
+        if any(CPLUSPLUS.search(text) or PIPELINE.search(text) for text in refused.errors):
             faults.append(f"{refused.stage} does not say it in a user's words: " + " | ".join(refused.errors))
         if "report this" in refused.errors[0]:
             faults.append(f"{refused.stage} calls it a fault of its own: {refused.errors[0]}")

@@ -22,20 +22,19 @@ import re
 import resource
 import shutil
 import socket
-import stat
 import subprocess
 import tempfile
 import zlib
 
-import numpy as np
-from cactus_testing import produce, proxies
+from cactus_testing import produce
 from paraview import servermanager, simple
 from paraview.servermanager import vtkSMPropertyHelper
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_STRING, vtkDataArray, vtkLogger, vtkOutputWindow
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 from torture import inputs
+from torture.answers import CLASS_MISMATCH, CPLUSPLUS, PIPELINE, THINGS, Reports, fingerprint, is_empty, leaves, marks, not_finite
+from torture.files import kept, playground, spoilt_files
+from torture.targets import is_legal, limits, targets, values
 
 # Small enough that every stage takes a fraction of a second.
 SMALL = {
@@ -65,273 +64,6 @@ MEGABYTES = (0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64)
 SERVER_SECONDS = 120  # for a client to start and to run a chain three times; a server that hangs never comes back
 COLD_MEGABYTES = (2, 5, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240)
 CHAIN = ("BundleInitializer", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", "SubstrateStatistics", "SubstrateCertificate", "SubstrateWriter")
-
-_PREFIX = re.compile(r"^(ERROR|Warning|Generic Warning): In [^\n]*, line \d+\n(?:[\w:<> ]+ \((?:0x)?[0-9a-fA-F]+\): )?")
-_DUMP = re.compile(r": vtkInformation \(.*", re.S)  # what the pipeline adds to its own remarks
-_CPLUSPLUS = re.compile(
-    r"std::|St\d|\bstd_|bad_alloc|basic_string|basic_filebuf|vector::|_M_|length_error|what\(\)|Eigen|_ZN|filesystem error|cannot create std|Assertion|terminate"
-)
-_PIPELINE = re.compile(r"returned failure for request|Failed to execute|Could not create")
-_CLASS_MISMATCH = re.compile(r"^Input for connection index \d+ on input port index \d+ for algorithm .* is of type \w+, but an? .* is required\.$", re.S)
-# Measures that need not exist: of cuts where none lies wholly inside the domain, of axons without any, over an edge of no length.
-_MAY_BE_MISSING = re.compile(r"row\..*(Radius|Circularity|SmallestMyelin|GRatio|EdgeRatio|Aspect)")
-_THINGS = re.compile(
-    r"fibre|point|cell|array|field data|Domain|voxel|surface|triangle|input|block|image|extent|polyline|segment|file|line|folder|link|memory|Radius|Side|Id\b",
-    re.I,
-)
-
-
-# The plugin as its XML describes it ----------------------------------------------------------------------------------------------
-
-
-class Target:
-    """A proxy of the plugin: its ports, its properties, and which values they may have."""
-
-    def __init__(self, group, element):
-        self.group, self.element, self.name = group, element, element.get("name")
-        self.ports = {port.get("name"): self._kind(port) for port in element.findall("InputProperty")}
-        self.optional = {port.get("name") for port in element.findall("InputProperty") if port.find("Hints/Optional") is not None}
-        settable = [one for one in element if one.tag.endswith("VectorProperty") and one.get("information_only") != "1"]
-        self.numbers = [one for one in settable if one.tag in ("DoubleVectorProperty", "IntVectorProperty")]
-        self.texts = [one for one in settable if one.tag == "StringVectorProperty"]
-        reader = element.find("Hints/ReaderFactory")
-        self.reads = reader.get("extensions").split()[0] if reader is not None else None
-        self.writes = [one.get("name") for one in self.texts if group == "writers" or "Folder" in one.get("name")]
-
-    @staticmethod
-    def _kind(port):
-        """Which good data object belongs to an input."""
-        types = [kind.get("value") for kind in port.findall("DataTypeDomain/DataType")]
-        return "image" if "vtkImageData" in types else {"Outer": "outer", "Inner": "inner"}.get(port.get("name"), "fibres")
-
-    def number(self, name):
-        return next(one for one in self.numbers if one.get("name") == name)
-
-    def switches(self, one):
-        """{property: value} of the choices that make a property count."""
-        found, pending = {}, [one]
-        while pending:
-            for hint in pending.pop().findall("Hints//PropertyWidgetDecorator[@value]"):
-                if hint.get("property") not in found:
-                    found[hint.get("property")] = float(hint.get("value"))
-                    pending += self.element.findall(f"*[@name='{hint.get('property')}']")
-        return found
-
-
-def targets():
-    return {element.get("name"): Target(group, element) for group, element in proxies()}
-
-
-def limits(one):
-    """(smallest, largest) that the XML allows; None where it has no limit."""
-    domain = next((each for each in one if each.tag in ("DoubleRangeDomain", "IntRangeDomain")), None)
-    if domain is not None:
-        return tuple(None if domain.get(end) is None else float(domain.get(end)) for end in ("min", "max"))
-    values = [int(entry.get("value")) for entry in one.findall("EnumerationDomain/Entry")]
-    return (min(values), max(values)) if values else (None, None)
-
-
-def values(one):
-    """{name: number} of what a numeric property is set to."""
-    low, high = limits(one)
-    if one.tag == "IntVectorProperty":
-        result = {"0": 0, "-1": -1, "2^31-1": 2**31 - 1, "-2^31": -(2**31), "1": 1, "7": 7}
-        near = 1
-    else:
-        result = {
-            "0": 0.0, "-1": -1.0, "1e-300": 1e-300, "1e-6": 1e-6, "1e40": 1e40, "1e300": 1e300, "-1e300": -1e300, "nan": math.nan,
-            "inf": math.inf, "-inf": -math.inf,
-        }
-        near = 1e-9
-    kind = int if near == 1 else float
-    for end, limit, sign in (("min", low, -1), ("max", high, 1)):
-        if limit is not None:
-            result[end] = kind(limit)
-            result["beyond-" + end] = kind(limit) + sign * (1 if near == 1 else max(near * abs(limit), 1e-12))
-    return result
-
-
-def is_legal(one, value):
-    low, high = limits(one)
-    return math.isfinite(value) and (low is None or value >= low) and (high is None or value <= high)
-
-
-# Files and folders ---------------------------------------------------------------------------------------------------------------
-
-
-def playground(folder, good):
-    """A folder with what a name may lead to, and {case: text that a file or folder property is set to}."""
-    os.makedirs(os.path.join(folder, "has", "something"))
-    for name in ("file.txt", "has/note.txt", "has/something/more.txt"):
-        with open(os.path.join(folder, name), "w") as file:
-            file.write("dear to somebody\n")
-    os.makedirs(os.path.join(folder, "empty"))
-    os.symlink("file.txt", os.path.join(folder, "link"))
-    os.symlink("has", os.path.join(folder, "link-to-folder"))
-    os.symlink("nowhere", os.path.join(folder, "broken-link"))
-    os.symlink("circle", os.path.join(folder, "circle"))
-    os.mkfifo(os.path.join(folder, "fifo"))
-    names = {
-        "empty": "", "blank": " ", "question": "?", "newline": "a\nb", "letters": "äöü-ø-漢字", "long": "x" * 300, "very-long": "x" * 100000,
-        "percent": "%s%n%p%d", "control": "a\x01\x7f", "quote": "a\"'`$(x)", "dot": ".", "dots": "..", "dot-slash": "./",
-        "slashes": "a//b", "through-dots": "has/..", "nowhere": "no/such/folder/x", "under-a-file": "file.txt/x", "existing": "file.txt",
-        "existing-folder": "has", "empty-folder": "empty", "link": "link", "link-to-folder": "link-to-folder", "broken-link": "broken-link",
-        "circle": "circle", "fifo": "fifo", "proc": "/proc/no-such-thing", "minus": "-1", "nan": "nan", "overflow": "1e999",
-        "numbers": "0.5, 1e300", "list": "0.5;0.6", "many": "0.5 " * 20000, "comma": ",,,,", "hexadecimal": "0x1p4", "negative": "-0.5 0.5",
-    }
-    if os.geteuid() == 0:  # devices of our own: were one replaced, nobody would miss it
-        for name, minor in (("null", 3), ("full", 7)):
-            try:
-                os.mknod(os.path.join(folder, name), stat.S_IFCHR | 0o666, os.makedev(1, minor))
-                names[name] = name
-            except PermissionError:
-                pass
-    return names
-
-
-def kept(folder):
-    """What nobody may have touched."""
-    result = {}
-    for name in ("has/note.txt", "has/something/more.txt"):
-        with contextlib.suppress(OSError), open(os.path.join(folder, name)) as file:
-            result[name] = file.read()
-    return result
-
-
-def spoilt_files(good):
-    """{name: bytes} of files in the place of a good one."""
-    lines = good.split(b"\n")
-    words = good.split()
-
-    def line(number, text):
-        return b"\n".join(lines[:number] + [text] + lines[number + 1 :])
-
-    result = {
-        "empty": b"", "blank": b" \n\t\n", "one-byte": b"\x00", "zeros": bytes(5000), "noise": np.random.default_rng(1).bytes(5000),
-        "text": b"Dear reader,\nthis is no such file.\n", "half": good[: len(good) // 2], "cut-in-a-number": good[: len(good) // 3],
-        "last-line-missing": b"\n".join(lines[:-2]), "twice": good + good, "and-more": good + b"1 2 3\n", "windows": good.replace(b"\n", b"\r\n"),
-        "one-line": b" ".join(words), "word-per-line": b"\n".join(words), "commas": good.replace(b".", b","), "marked": b"\xef\xbb\xbf" + good,
-        "utf-16": good.decode().encode("utf-16"), "swapped": b"\n".join([lines[1], lines[0]] + lines[2:]), "long-line": b"1" * 10**7,
-        "extra-column": good.replace(b"\n", b" 1\n"), "comment": b"# comment\n" + good,
-    }
-    for value in (b"nan", b"inf", b"-1", b"0", b"1e40", b"1e300", b"1e999", b"99999999999999999999", b"2147483648", b"-0", b"1.5", b"x", b""):
-        for number in (0, 1, 2):
-            result[f"line{number + 1}={value.decode()}"] = line(number, value)
-        columns = lines[4].split()
-        for column in range(len(columns)):
-            result[f"line5.{column + 1}={value.decode()}"] = line(4, b" ".join(columns[:column] + [value] + columns[column + 1 :]))
-    return result
-
-
-# Running -------------------------------------------------------------------------------------------------------------------------
-
-
-class Reports:
-    """VTK's errors and warnings while it is watched."""
-
-    def __init__(self):
-        self.errors, self.warnings = [], []
-
-        def listen(window, event, text):
-            if _PREFIX.match(text):
-                text = _DUMP.sub("", _PREFIX.sub("", text)).strip()
-                (self.errors if event == "ErrorEvent" else self.warnings).append(text)
-
-        listen.CallDataType = VTK_STRING
-        for event in ("ErrorEvent", "WarningEvent"):
-            vtkOutputWindow.GetInstance().AddObserver(event, listen)
-        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
-
-    def take(self):
-        result = (self.errors, self.warnings)
-        self.errors, self.warnings = [], []
-        return result
-
-
-def leaves(data):
-    """The data sets of a composite, or the data object itself; None for nothing."""
-    if data is None:
-        return []
-    if data.IsA("vtkCompositeDataSet"):
-        iterator = data.NewIterator()
-        iterator.InitTraversal()
-        result = []
-        while not iterator.IsDoneWithTraversal():
-            result.append(iterator.GetCurrentDataObject())
-            iterator.GoToNextItem()
-        return result
-    return [data]
-
-
-def holders(data):
-    """(name, vtkFieldData) of the attributes of a data object, and of a table its columns."""
-    yield from ((where, holder) for where, holder, _ in inputs.attributes(data))
-    if data.IsA("vtkTable"):
-        yield "row", data.GetRowData()
-
-
-def is_empty(data):
-    return all(
-        (each.GetNumberOfPoints() == 0 and each.GetNumberOfCells() == 0) if each.IsA("vtkDataSet") else each.GetNumberOfElements(6) == 0
-        for each in leaves(data)
-    )
-
-
-def contents(data):
-    """(name, numbers or text) of all that a data object holds, but for times."""
-    for number, each in enumerate(leaves(data)):
-        if each.IsA("vtkPointSet") and each.GetNumberOfPoints():
-            yield f"{number}.points", vtk_to_numpy(each.GetPoints().GetData())
-        if each.IsA("vtkPolyData"):
-            for kind in ("Verts", "Lines", "Polys", "Strips"):
-                yield f"{number}.{kind}", vtk_to_numpy(getattr(each, "Get" + kind)().GetConnectivityArray())
-        if each.IsA("vtkImageData"):
-            yield f"{number}.grid", np.array(each.GetExtent() + each.GetOrigin() + each.GetSpacing())
-        for where, holder in holders(each):
-            for i in range(holder.GetNumberOfArrays()):
-                array = holder.GetAbstractArray(i)
-                name = f"{number}.{where}.{array.GetName()}"
-                if "Seconds" in name:
-                    continue
-                if isinstance(array, vtkDataArray):
-                    yield name, vtk_to_numpy(array)
-                else:
-                    yield name, "\n".join(str(array.GetVariantValue(j).ToString()) for j in range(array.GetNumberOfValues()))
-
-
-def fingerprint(outputs):
-    """A hash of all that the outputs hold."""
-    digest = hashlib.sha256()
-    for data in outputs:
-        for name, value in sorted(contents(data), key=lambda item: item[0]):  # (in which order VTK keeps arrays is its own affair)
-            digest.update(name.encode())
-            digest.update(value.encode() if isinstance(value, str) else np.ascontiguousarray(value).tobytes())
-    return digest.hexdigest()
-
-
-def not_finite(outputs):
-    """Names of arrays with a number that is not finite, or beyond all reason."""
-    result = set()
-    for port, data in enumerate(outputs):
-        for name, value in contents(data):
-            if not isinstance(value, str) and value.dtype.kind == "f" and value.size:
-                with np.errstate(all="ignore"):
-                    fine = np.abs(value) < 1e15
-                    if _MAY_BE_MISSING.search(name):
-                        fine |= ~np.isfinite(value)
-                    if not np.all(fine):
-                        result.add(f"{port}.{name.split('.', 1)[1]}")
-    return result
-
-
-def marks(data):
-    """The texts of field data `Error`, in the data object or its blocks."""
-    found = []
-    for each in leaves(data) + ([data] if data is not None else []):
-        array = each.GetFieldData().GetAbstractArray("Error")
-        if array is not None and array.GetNumberOfValues():
-            found.append(str(array.GetVariantValue(0).ToString()))
-    return found
 
 
 class Standing:
@@ -499,13 +231,13 @@ class Bench:
         if len(warnings) > 2:
             faults.append(f"{len(warnings)} warnings: " + " | ".join(warnings))
         for text in errors + warnings:
-            if _CPLUSPLUS.search(text):
+            if CPLUSPLUS.search(text):
                 faults.append("speaks C++: " + text)
-        mismatch = bool(errors) and _CLASS_MISMATCH.match(errors[0])  # VTK's own words, before any filter is asked
+        mismatch = bool(errors) and CLASS_MISMATCH.match(errors[0])  # VTK's own words, before any filter is asked
         if errors:
             if naming and not re.search(naming, errors[0]):
                 faults.append(f"does not name {naming}: {errors[0]}")
-            elif not naming and not (_THINGS.search(errors[0]) or mismatch or standing.names_property(errors[0])) or _PIPELINE.search(errors[0]):
+            elif not naming and not (THINGS.search(errors[0]) or mismatch or standing.names_property(errors[0])) or PIPELINE.search(errors[0]):
                 faults.append(f"does not say what is wrong: {errors[0]}")
             for port, data in enumerate(outputs):
                 if not is_empty(data):
@@ -872,7 +604,7 @@ def cold(megabytes):
             made[stage].UpdatePipeline()
     errors, _ = reports.take()
     faults = [f"{len(errors)} errors: " + " | ".join(errors)] if len(errors) > 1 else []
-    faults += ["speaks C++: " + text for text in errors if _CPLUSPLUS.search(text)]
+    faults += ["speaks C++: " + text for text in errors if CPLUSPLUS.search(text)]
     for proxy in made.values():
         proxy.GetClientSideObject().Modified()
         proxy.SMProxy.MarkDirty(None)

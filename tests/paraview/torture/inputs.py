@@ -10,9 +10,9 @@ import math
 import numpy as np
 from paraview.modules.vtkRemotingViews import vtkPVView  # noqa: F401  (loads the classes of ParaView's own data objects)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDataArray, vtkDoubleArray, vtkIdList, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkIdList, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
-    vtkCellArray, vtkDataObject, vtkDataObjectTypes, vtkHyperTreeGrid, vtkImageData, vtkMolecule, vtkMultiBlockDataSet,
+    vtkCellArray, vtkDataObjectTypes, vtkHyperTreeGrid, vtkImageData, vtkMolecule, vtkMultiBlockDataSet,
     vtkMutableUndirectedGraph, vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid,
     vtkStructuredGrid, vtkTable, vtkUnstructuredGrid,
 )

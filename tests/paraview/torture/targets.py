@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin as its XML describes it: its proxies, their inputs and properties, and which values these may have."""
+
+import math
+
+from cactus_testing import proxies
+
+
+class Target:
+    """A proxy of the plugin: its ports, its properties, and which values they may have."""
+
+    def __init__(self, group, element):
+        self.group, self.element, self.name = group, element, element.get("name")
+        self.ports = {port.get("name"): self._kind(port) for port in element.findall("InputProperty")}
+        self.optional = {port.get("name") for port in element.findall("InputProperty") if port.find("Hints/Optional") is not None}
+        settable = [one for one in element if one.tag.endswith("VectorProperty") and one.get("information_only") != "1"]
+        self.numbers = [one for one in settable if one.tag in ("DoubleVectorProperty", "IntVectorProperty")]
+        self.texts = [one for one in settable if one.tag == "StringVectorProperty"]
+        reader = element.find("Hints/ReaderFactory")
+        self.reads = reader.get("extensions").split()[0] if reader is not None else None
+        self.writes = [one.get("name") for one in self.texts if group == "writers" or "Folder" in one.get("name")]
+
+    @staticmethod
+    def _kind(port):
+        """Which good data object belongs to an input."""
+        types = [kind.get("value") for kind in port.findall("DataTypeDomain/DataType")]
+        return "image" if "vtkImageData" in types else {"Outer": "outer", "Inner": "inner"}.get(port.get("name"), "fibres")
+
+    def number(self, name):
+        return next(one for one in self.numbers if one.get("name") == name)
+
+    def switches(self, one):
+        """{property: value} of the choices that make a property count."""
+        found, pending = {}, [one]
+        while pending:
+            for hint in pending.pop().findall("Hints//PropertyWidgetDecorator[@value]"):
+                if hint.get("property") not in found:
+                    found[hint.get("property")] = float(hint.get("value"))
+                    pending += self.element.findall(f"*[@name='{hint.get('property')}']")
+        return found
+
+
+def targets():
+    return {element.get("name"): Target(group, element) for group, element in proxies()}
+
+
+def limits(one):
+    """(smallest, largest) that the XML allows; None where it has no limit."""
+    domain = next((each for each in one if each.tag in ("DoubleRangeDomain", "IntRangeDomain")), None)
+    if domain is not None:
+        return tuple(None if domain.get(end) is None else float(domain.get(end)) for end in ("min", "max"))
+    values = [int(entry.get("value")) for entry in one.findall("EnumerationDomain/Entry")]
+    return (min(values), max(values)) if values else (None, None)
+
+
+def values(one):
+    """{name: number} of what a numeric property is set to."""
+    low, high = limits(one)
+    if one.tag == "IntVectorProperty":
+        result = {"0": 0, "-1": -1, "2^31-1": 2**31 - 1, "-2^31": -(2**31), "1": 1, "7": 7}
+        near = 1
+    else:
+        result = {
+            "0": 0.0, "-1": -1.0, "1e-300": 1e-300, "1e-6": 1e-6, "1e40": 1e40, "1e300": 1e300, "-1e300": -1e300, "nan": math.nan,
+            "inf": math.inf, "-inf": -math.inf,
+        }
+        near = 1e-9
+    kind = int if near == 1 else float
+    for end, limit, sign in (("min", low, -1), ("max", high, 1)):
+        if limit is not None:
+            result[end] = kind(limit)
+            result["beyond-" + end] = kind(limit) + sign * (1 if near == 1 else max(near * abs(limit), 1e-12))
+    return result
+
+
+def is_legal(one, value):
+    low, high = limits(one)
+    return math.isfinite(value) and (low is None or value >= low) and (high is None or value <= high)
