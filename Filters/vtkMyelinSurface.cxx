@@ -5,6 +5,7 @@
 #include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "InputBlocks.h"
 #include "LabelImageData.h"
 #include "StageProperties.h"
 #include "SurfaceData.h"
@@ -14,24 +15,31 @@
 #include "base/Error.h"
 #include "base/Numbers.h"
 #include "judge/SurfaceFaults.h"
+#include "mesh/SurfaceStore.h"
 #include "stages/Stages.h"
-#include "surface/MyelinSurface.h"
+#include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
 
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
-#include <cmath>
+#include <algorithm>
+#include <memory>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkMyelinSurface);
 
@@ -86,13 +94,75 @@ void releaseImage(vtkAlgorithm* consumer)
   }
 }
 
+/// What outer surfaces depend on besides the image: all but what is asked of g-ratios.
+std::string outerDemandOf(const cactus::MyelinSurfaceStage& stage)
+{
+  static const std::set<std::string> ofInner = { "GRatioModel", "GRatio", "GRatioDeviation", "TargetAxonVolumeFraction", "Seed" };
+  cactus::TextStream demand;
+  for (const cactus::PropertyState& state : cactus::MyelinSurfaceStage::properties().states(stage))
+  {
+    if (state.facts->use != cactus::PropertyUse::Run && ofInner.count(state.facts->name) == 0)
+    {
+      demand << state.facts->name << ' ' << cactus::valueText(*state.facts, state.value) << '\n';
+    }
+  }
+  return demand.str();
+}
+
+/// The surfaces of fibres among those of an output.
+class OutputSurfaces : public cactus::SurfaceSource
+{
+public:
+  OutputSurfaces(vtkPolyData* output, const std::vector<cactus::FibreSurfacePair>& fibres)
+    : Surfaces(cactus::surfacesFrom(output, "Outer", 0))
+    , Fibres(fibres)
+  {
+  }
+
+  std::size_t size() const override { return this->Fibres.size(); }
+  std::shared_ptr<const cactus::TriangleMesh> get(std::size_t index) const override
+  {
+    const auto& ids = this->Surfaces.fibreIds;
+    const auto place = std::lower_bound(ids.begin(), ids.end(), this->Fibres[index].fibreId);
+    const bool isHeld = place != ids.end() && *place == this->Fibres[index].fibreId;
+    return std::make_shared<cactus::TriangleMesh>(
+      isHeld ? this->Surfaces.mesh(std::size_t(place - ids.begin())) : cactus::TriangleMesh());
+  }
+
+private:
+  cactus::FibreSurfaces Surfaces;
+  const std::vector<cactus::FibreSurfacePair>& Fibres;
+};
+
+/// Gives the surfaces of one kind to an output.
+void giveOut(std::vector<cactus::FibreSurfacePair>& fibres, cactus::TriangleMesh cactus::FibreSurfacePair::*mesh, int kind,
+  vtkPolyData* output)
+{
+  std::vector<cactus::NamedSurface> surfaces;
+  for (auto& fibre : fibres)
+  {
+    surfaces.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.*mesh) });
+  }
+  cactus::toPolyData(std::move(surfaces), kind, output);
+}
+
 } // namespace
+
+struct vtkMyelinSurface::KeptOuter
+{
+  vtkMTimeType inputTime = 0;
+  std::string demand;
+  std::vector<cactus::FibreSurfacePair> fibres; ///< as SurfaceMaker::makeOuter() left them
+  vtkNew<vtkPolyData> surfaces;                 ///< which shares the output's arrays
+};
 
 vtkMyelinSurface::vtkMyelinSurface()
   : Properties(cactus::makeProperties<cactus::MyelinSurfaceStage>())
 {
   this->SetNumberOfOutputPorts(3);
 }
+
+vtkMyelinSurface::~vtkMyelinSurface() = default;
 
 int vtkMyelinSurface::FillInputPortInformation(int, vtkInformation* info)
 {
@@ -144,58 +214,95 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
         return;
       }
       const cactus::LabelImageInput labels = cactus::labelImageFrom(image);
-      const cactus::LabelImageView& view = labels.view;
       const cactus::LabelImageFacts& facts = labels.facts;
-
       cactus::SurfaceFilters filters;
       if (byVtk)
       {
-        filters = cactus::surfaceFiltersOfVtk(stage.vtkMeshing, view.grid.spacing);
+        filters = cactus::surfaceFiltersOfVtk(stage.vtkMeshing, labels.view.grid.spacing);
       }
-      auto fibres = cactus::myelinSurfaces(view, facts, options, context, byVtk ? &filters : nullptr);
+      cactus::SurfaceMaker maker(labels.view, facts, options, context, byVtk ? &filters : nullptr);
+      auto fibres = this->makeSurfaces(maker, cactus::changeTime(image), vtkPolyData::GetData(outputs, 0));
       if (byVtk)
       {
         cactus::markFaults(fibres, facts.domain, facts.minimumGap, context);
       }
       for (int port = 0; port < 3; ++port)
       {
-        vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
-        cactus::setDomain(output, facts.domain);
+        cactus::setDomain(vtkDataObject::GetData(outputs, port), facts.domain);
       }
       const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
-      const std::string remarks = cactus::notAsAsked(fibres, view, facts, byVtk);
+      const std::string remarks = cactus::notAsAsked(fibres, labels.view, facts, byVtk);
       if (stage.releaseInput)
       {
         releaseImage(this);
       }
 
       fillTable(vtkTable::GetData(outputs, 2), fibres);
-      std::vector<cactus::NamedSurface> outer;
-      std::vector<cactus::NamedSurface> inner;
+      giveOut(fibres, &cactus::FibreSurfacePair::inner, 1, vtkPolyData::GetData(outputs, 1));
       std::vector<int> wanted;
-      for (auto& fibre : fibres)
+      for (const auto& fibre : fibres)
       {
-        outer.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.outer) });
-        inner.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.inner) });
         if (fibre.isWanted)
         {
           wanted.push_back(fibre.fibreId);
         }
       }
-      cactus::toPolyData(std::move(outer), 0, vtkPolyData::GetData(outputs, 0));
-      cactus::toPolyData(std::move(inner), 1, vtkPolyData::GetData(outputs, 1));
-      cactus::setSurfaceFacts(outputs->GetInformationObject(0)->Get(vtkDataObject::DATA_OBJECT()), wanted, facts.minimumGap);
-      cactus::setSurfaceFacts(outputs->GetInformationObject(1)->Get(vtkDataObject::DATA_OBJECT()), {}, facts.minimumGap);
+      cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 0), wanted, facts.minimumGap);
+      cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 1), {}, facts.minimumGap);
       for (int port = 0; port < 3; ++port)
       {
-        vtkDataObject* output = outputs->GetInformationObject(port)->Get(vtkDataObject::DATA_OBJECT());
-        cactus::setProvenance(output, provenance, port);
+        cactus::setProvenance(vtkDataObject::GetData(outputs, port), provenance, port);
       }
       if (!remarks.empty())
       {
         vtkWarningMacro(<< remarks);
       }
     });
+}
+
+std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
+  cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output)
+{
+  const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
+  const std::string demand = outerDemandOf(stage);
+  const std::size_t count = maker.fibres().size();
+  if (this->Kept == nullptr || this->Kept->inputTime != inputTime || this->Kept->demand != demand)
+  {
+    this->Kept.reset(); // nothing is kept of what fails
+    cactus::SurfacesInMemory outer(count);
+    maker.makeOuter(outer);
+    std::vector<cactus::FibreSurfacePair> fibres = maker.fibres();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      fibres[i].outer = outer.take(i);
+    }
+    giveOut(fibres, &cactus::FibreSurfacePair::outer, 0, output);
+    auto kept = std::make_unique<KeptOuter>();
+    kept->inputTime = inputTime;
+    kept->demand = demand;
+    kept->fibres = std::move(fibres);
+    kept->surfaces->ShallowCopy(output);
+    this->Kept = std::move(kept);
+  }
+  else
+  {
+    maker.takeOuter(this->Kept->fibres);
+    output->CopyStructure(this->Kept->surfaces);
+    output->GetCellData()->ShallowCopy(this->Kept->surfaces->GetCellData());
+  }
+  const OutputSurfaces outer(this->Kept->surfaces, this->Kept->fibres);
+  cactus::SurfacesInMemory inner(count);
+  maker.makeInner(outer, inner);
+  std::vector<cactus::FibreSurfacePair> fibres = maker.fibres();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    fibres[i].inner = inner.take(i);
+    if (stage.meshing == cactus::Meshing::Vtk)
+    {
+      fibres[i].outer = *outer.get(i); // they are judged together
+    }
+  }
+  return fibres;
 }
 
 void vtkMyelinSurface::PrintSelf(ostream& os, vtkIndent indent)

@@ -17,6 +17,9 @@
  * not be mended. One warning counts what did not come out as asked. Field data `WantedFibres` of output 0, the ids of the fibres
  * that were to have a surface, and `MinimumGap` of both (µm) let a certificate tell what is missing.
  *
+ * Outer surfaces do not depend on g-ratios. They are kept, and not made again where nothing but GRatioModel, GRatio,
+ * GRatioDeviation, TargetAxonVolumeFraction or Seed changes.
+ *
  * All of the image is needed at once. Where the pipeline runs on several ranks, the first one gives the result.
  */
 #ifndef vtkMyelinSurface_h
@@ -26,6 +29,15 @@
 #include "FilterProperties.h"
 
 #include <vtkPolyDataAlgorithm.h>
+
+#include <memory>
+#include <vector>
+
+namespace cactus
+{
+class SurfaceMaker;
+struct FibreSurfacePair;
+} // namespace cactus
 
 class CACTUSFILTERS_EXPORT vtkMyelinSurface : public vtkPolyDataAlgorithm
 {
@@ -71,7 +83,7 @@ public:
 
 protected:
   vtkMyelinSurface();
-  ~vtkMyelinSurface() override = default;
+  ~vtkMyelinSurface() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -81,7 +93,14 @@ private:
   vtkMyelinSurface(const vtkMyelinSurface&) = delete;
   void operator=(const vtkMyelinSurface&) = delete;
 
+  /// Outer surfaces that were made, and what of.
+  struct KeptOuter;
+
+  /// Makes all surfaces, or takes the outer ones that are kept. Gives the outer ones to `output`, the inner ones back.
+  std::vector<cactus::FibreSurfacePair> makeSurfaces(cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output);
+
   std::unique_ptr<cactus::FilterProperties> Properties;
+  std::unique_ptr<KeptOuter> Kept;
 };
 
 #endif

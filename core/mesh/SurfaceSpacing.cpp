@@ -7,6 +7,7 @@
 #include "mesh/TriangleTree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -39,20 +40,61 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Surfaces are looked at in slabs along z, of this thickness (µm), so that trees are held over one slab at a time.
 constexpr double slabThickness = 10.0;
 
-/// What of a surface is in a slab.
-struct Part
+/// The slabs of a box, each with what is as near to it as the gap: where two surfaces are too near, both are in the slab that the
+/// place is in.
+struct Slabs
 {
-  std::size_t surface = 0;
-  std::vector<std::uint32_t> triangles; ///< until they are the tree's
-  Eigen::AlignedBox3d box;
-  std::unique_ptr<TriangleTree> tree; ///< where another part is near
+  Slabs(const Eigen::AlignedBox3d& box, double gap)
+    : first(box.min()[2])
+    , gap(gap)
+    , count(std::max(1, static_cast<int>(std::ceil(box.sizes()[2] / slabThickness))))
+  {
+  }
+
+  double lower(int slab) const { return slab == 0 ? -infinite : this->first + slab * slabThickness - this->gap; }
+  double upper(int slab) const
+  {
+    return slab == this->count - 1 ? infinite : this->first + (slab + 1) * slabThickness + this->gap;
+  }
+  /// The slab of a height, which may be beside the box.
+  int at(double z) const
+  {
+    return static_cast<int>(std::clamp(std::floor((z - this->first) / slabThickness), 0.0, this->count - 1.0));
+  }
+
+  double first;
+  double gap;
+  int count;
 };
 
-/// Two parts, and by which triangles they are too near.
+/// The boxes of what of a surface is in each slab, from the first slab that it is in.
+struct SlabBoxes
+{
+  int first = 0;
+  std::vector<Eigen::AlignedBox3d> boxes;
+
+  /// Null where nothing of it is.
+  const Eigen::AlignedBox3d* in(int slab) const
+  {
+    const bool isHeld = slab >= this->first && slab - this->first < static_cast<int>(this->boxes.size());
+    const Eigen::AlignedBox3d* box = isHeld ? &this->boxes[std::size_t(slab - this->first)] : nullptr;
+    return box != nullptr && !box->isEmpty() ? box : nullptr;
+  }
+};
+
+/// What of a surface is in a slab, as a mesh of its own.
+struct Part
+{
+  TriangleMesh mesh;
+  std::vector<std::int32_t> pointOf; ///< the surface's points that are the mesh's
+  std::unique_ptr<TriangleTree> tree;
+};
+
+/// Two surfaces whose parts are near each other, and by which triangles they are too near.
 struct Pair
 {
-  Part* one;
-  Part* other;
+  std::size_t one;
+  std::size_t other;
   double missing = 0.0; ///< µm, of the gap
   std::vector<std::uint32_t> trianglesOfOne;
   std::vector<std::uint32_t> trianglesOfOther;
@@ -125,50 +167,51 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
   }
 }
 
-void addMoves(Moves& moves, const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, double distance)
+void addMoves(Moves& moves, const Part& part, const std::vector<std::uint32_t>& triangles, double distance)
 {
   for (const std::uint32_t t : triangles)
   {
-    for (const std::int32_t corner : mesh.triangles[t])
+    for (const std::int32_t corner : part.mesh.triangles[t])
     {
-      double& move = moves.emplace(corner, 0.0).first->second;
+      double& move = moves.emplace(part.pointOf[std::size_t(corner)], 0.0).first->second;
       move = std::max(move, distance);
     }
   }
 }
 
-/// The boxes of the surfaces that are given, and of those whose boxes are near one of these; the others' are empty.
-std::vector<Eigen::AlignedBox3d> boxesToLookAt(
-  const std::vector<TriangleMesh*>& surfaces, const std::vector<char>& isGiven, double gap, const Context& context)
+SlabBoxes boxesBySlab(const TriangleMesh& mesh, const Slabs& slabs)
 {
-  std::vector<Eigen::AlignedBox3d> boxes(surfaces.size());
-  parallelFor(surfaces.size(), context,
-    [&](std::size_t s)
+  SlabBoxes result;
+  if (mesh.points.empty())
+  {
+    return result;
+  }
+  const auto byHeight = [](const Vector3d& a, const Vector3d& b) { return a[2] < b[2]; };
+  const auto [lowest, highest] = std::minmax_element(mesh.points.begin(), mesh.points.end(), byHeight);
+  // One slab more on either side: rounding, and the gap.
+  result.first = std::max(0, slabs.at((*lowest)[2] - slabs.gap) - 1);
+  result.boxes.resize(std::size_t(std::min(slabs.count - 1, slabs.at((*highest)[2] + slabs.gap) + 1) - result.first + 1));
+  for (const auto& t : mesh.triangles)
+  {
+    Eigen::AlignedBox3d triangle;
+    for (const std::int32_t corner : t)
     {
-      for (const Vector3d& p : surfaces[s]->points)
-      {
-        boxes[s].extend(p);
-      }
-    });
-  const std::vector<Eigen::AlignedBox3d> all = boxes;
-  parallelFor(surfaces.size(), context,
-    [&](std::size_t s)
+      triangle.extend(mesh.points[std::size_t(corner)]);
+    }
+    const int last = std::min(slabs.count - 1, slabs.at(triangle.max()[2] + slabs.gap) + 1);
+    for (int slab = std::max(0, slabs.at(triangle.min()[2] - slabs.gap) - 1); slab <= last; ++slab)
     {
-      bool isNear = isGiven[s];
-      for (std::size_t g = 0; g < all.size() && !isNear; ++g)
+      if (triangle.max()[2] >= slabs.lower(slab) && triangle.min()[2] <= slabs.upper(slab))
       {
-        isNear = isGiven[g] && all[g].squaredExteriorDistance(all[s]) < gap * gap;
+        result.boxes[std::size_t(slab - result.first)].extend(triangle);
       }
-      if (!isNear)
-      {
-        boxes[s].setEmpty();
-      }
-    });
-  return boxes;
+    }
+  }
+  return result;
 }
 
-/// What of a surface touches `lower` <= z <= `upper`.
-Part partBetween(const TriangleMesh& mesh, double lower, double upper)
+/// Fills in what of a surface touches `lower` <= z <= `upper`.
+void cutOut(const TriangleMesh& mesh, double lower, double upper, Part& part)
 {
   std::vector<unsigned char> beyond(mesh.points.size());
   for (std::size_t p = 0; p < beyond.size(); ++p)
@@ -176,138 +219,174 @@ Part partBetween(const TriangleMesh& mesh, double lower, double upper)
     const double z = mesh.points[p][2];
     beyond[p] = static_cast<unsigned char>((z < lower ? 1 : 0) + (z > upper ? 2 : 0));
   }
-  Part part;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  constexpr std::int32_t none = -1;
+  std::vector<std::int32_t> placeOf(mesh.points.size(), none);
+  for (const auto& t : mesh.triangles)
   {
-    const auto& t = mesh.triangles[i];
-    if ((beyond[std::size_t(t[0])] & beyond[std::size_t(t[1])] & beyond[std::size_t(t[2])]) == 0)
+    if ((beyond[std::size_t(t[0])] & beyond[std::size_t(t[1])] & beyond[std::size_t(t[2])]) != 0)
     {
-      part.triangles.push_back(static_cast<std::uint32_t>(i));
-      for (const std::int32_t corner : t)
-      {
-        part.box.extend(mesh.points[std::size_t(corner)]);
-      }
+      continue;
     }
+    std::array<std::int32_t, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      std::int32_t& place = placeOf[std::size_t(t[i])];
+      if (place == none)
+      {
+        place = static_cast<std::int32_t>(part.pointOf.size());
+        part.pointOf.push_back(t[i]);
+        part.mesh.points.push_back(mesh.points[std::size_t(t[i])]);
+      }
+      corners[i] = place;
+    }
+    part.mesh.triangles.push_back(corners);
   }
-  return part;
+  part.tree = std::make_unique<TriangleTree>(part.mesh);
 }
 
-/// Pairs of parts to look at, whose boxes come nearer than the gap. Sorts the parts.
-std::vector<Pair> neighbours(std::vector<Part>& parts, const PairSelection& selection, double gap)
+void measureGap(Pair& pair, const TriangleTree& one, const TriangleTree& other, double gap)
 {
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.box.min()[0] < b.box.min()[0]; });
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  const SurfaceGap nearest = smallestGap(one, other, gap);
+  if (nearest.found())
   {
-    Part& a = parts[i];
-    for (std::size_t j = i + 1; j < parts.size() && parts[j].box.min()[0] <= a.box.max()[0] + gap; ++j)
+    const double wanted = nearest.distance == 0.0 ? std::max(gap, distanceAfterMeeting) : gap;
+    pair.missing = wanted - nearest.distance;
+    pair.trianglesOfOne = trianglesNear(one, other, wanted);
+    pair.trianglesOfOther = trianglesNear(other, one, wanted);
+  }
+}
+
+/// Looks slab by slab for what is too near, and moves it.
+class Spacing
+{
+public:
+  Spacing(SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context)
+    : Surfaces(surfaces)
+    , Gap(gap)
+    , Box(box)
+    , Caller(context)
+    , InSlabs(box, gap)
+    , Boxes(surfaces.size())
+  {
+    parallelFor(
+      surfaces.size(), context, [this](std::size_t s) { this->Boxes[s] = boxesBySlab(*this->Surfaces.get(s), this->InSlabs); });
+  }
+
+  /// How far points of surfaces have to move. `report(part)` gets how much of the work is done.
+  template <typename Report>
+  std::map<std::size_t, Moves> measure(const PairSelection& selection, Report&& report) const
+  {
+    std::map<std::size_t, Moves> moves;
+    for (int slab = 0; slab < this->InSlabs.count; ++slab)
     {
-      Part& b = parts[j];
-      if (selection.holds(a.surface, b.surface) && a.box.squaredExteriorDistance(b.box) < gap * gap)
+      this->measureSlab(slab, selection, moves);
+      report(double(slab + 1) / this->InSlabs.count);
+    }
+    return moves;
+  }
+
+  void move(const std::vector<std::size_t>& moving, const std::map<std::size_t, Moves>& moves)
+  {
+    parallelFor(moving.size(), this->Caller,
+      [&](std::size_t m)
       {
-        pairs.push_back({ &a, &b, 0.0, {}, {} });
+        const std::size_t s = moving[m];
+        TriangleMesh mesh = *this->Surfaces.get(s);
+        moveInwards(mesh, moves.at(s), this->Box, this->Gap);
+        this->Boxes[s] = boxesBySlab(mesh, this->InSlabs);
+        this->Surfaces.put(s, std::move(mesh));
+      });
+  }
+
+private:
+  std::vector<Pair> neighbours(int slab, const PairSelection& selection) const;
+  void measureSlab(int slab, const PairSelection& selection, std::map<std::size_t, Moves>& moves) const;
+
+  SurfaceStore& Surfaces;
+  double Gap;
+  Eigen::AlignedBox3d Box;
+  const Context& Caller;
+  Slabs InSlabs;
+  std::vector<SlabBoxes> Boxes;
+};
+
+/// Pairs to look at, whose boxes in the slab come nearer than the gap.
+std::vector<Pair> Spacing::neighbours(int slab, const PairSelection& selection) const
+{
+  struct Place
+  {
+    std::size_t surface;
+    const Eigen::AlignedBox3d* box;
+  };
+  std::vector<Place> places;
+  bool isAnyChanged = false;
+  for (std::size_t s = 0; s < this->Boxes.size(); ++s)
+  {
+    if (const Eigen::AlignedBox3d* box = this->Boxes[s].in(slab))
+    {
+      places.push_back({ s, box });
+      isAnyChanged = isAnyChanged || selection.isChanged[s];
+    }
+  }
+  std::vector<Pair> pairs;
+  if (!isAnyChanged)
+  {
+    return pairs;
+  }
+  std::stable_sort(
+    places.begin(), places.end(), [](const Place& a, const Place& b) { return a.box->min()[0] < b.box->min()[0]; });
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const Place& a = places[i];
+    for (std::size_t j = i + 1; j < places.size() && places[j].box->min()[0] <= a.box->max()[0] + this->Gap; ++j)
+    {
+      const Place& b = places[j];
+      if (selection.holds(a.surface, b.surface) && a.box->squaredExteriorDistance(*b.box) < this->Gap * this->Gap)
+      {
+        pairs.push_back({ a.surface, b.surface, 0.0, {}, {} });
       }
     }
   }
   return pairs;
 }
 
-/// The parts of surfaces that touch `lower` <= z <= `upper`.
-std::vector<Part> partsBetween(double lower, double upper, const std::vector<TriangleMesh*>& surfaces,
-  const std::vector<Eigen::AlignedBox3d>& boxes, const Context& context)
+/// Adds, per surface, how far points have to move for what is in a slab.
+void Spacing::measureSlab(int slab, const PairSelection& selection, std::map<std::size_t, Moves>& moves) const
 {
-  std::vector<std::size_t> present;
-  for (std::size_t s = 0; s < surfaces.size(); ++s)
-  {
-    if (!boxes[s].isEmpty() && boxes[s].max()[2] >= lower && boxes[s].min()[2] <= upper)
-    {
-      present.push_back(s);
-    }
-  }
-  std::vector<Part> parts(present.size());
-  parallelFor(parts.size(), context,
-    [&](std::size_t i)
-    {
-      parts[i] = partBetween(*surfaces[present[i]], lower, upper);
-      parts[i].surface = present[i];
-    });
-  return parts;
-}
-
-/// Over the parts that belong to a pair.
-void growTrees(
-  const std::vector<TriangleMesh*>& surfaces, const std::vector<Pair>& pairs, std::vector<Part>& parts, const Context& context)
-{
-  std::vector<char> isNear(surfaces.size(), 0);
+  std::vector<Pair> pairs = this->neighbours(slab, selection);
+  std::map<std::size_t, Part> parts;
   for (const Pair& pair : pairs)
   {
-    isNear[pair.one->surface] = isNear[pair.other->surface] = 1;
+    parts[pair.one];
+    parts[pair.other];
   }
-  parallelFor(parts.size(), context,
+  std::vector<std::pair<const std::size_t, Part>*> entries;
+  for (auto& entry : parts)
+  {
+    entries.push_back(&entry);
+  }
+  parallelFor(entries.size(), this->Caller,
     [&](std::size_t i)
     {
-      Part& part = parts[i];
-      if (isNear[part.surface])
-      {
-        part.tree = std::make_unique<TriangleTree>(*surfaces[part.surface], std::move(part.triangles));
-      }
+      auto& [surface, part] = *entries[i];
+      cutOut(*this->Surfaces.get(surface), this->InSlabs.lower(slab), this->InSlabs.upper(slab), part);
     });
-}
-
-void measureGap(Pair& pair, double gap)
-{
-  const SurfaceGap nearest = smallestGap(*pair.one->tree, *pair.other->tree, gap);
-  if (nearest.found())
-  {
-    const double wanted = nearest.distance == 0.0 ? std::max(gap, distanceAfterMeeting) : gap;
-    pair.missing = wanted - nearest.distance;
-    pair.trianglesOfOne = trianglesNear(*pair.one->tree, *pair.other->tree, wanted);
-    pair.trianglesOfOther = trianglesNear(*pair.other->tree, *pair.one->tree, wanted);
-  }
-}
-
-/// Adds, per surface, how far points have to move for what touches `lower` <= z <= `upper`.
-void measureSlab(double lower, double upper, const std::vector<TriangleMesh*>& surfaces,
-  const std::vector<Eigen::AlignedBox3d>& boxes, const PairSelection& selection, double gap, const Context& context,
-  std::map<std::size_t, Moves>& moves)
-{
-  std::vector<Part> parts = partsBetween(lower, upper, surfaces, boxes, context);
-  std::vector<Pair> pairs = neighbours(parts, selection, gap);
-  growTrees(surfaces, pairs, parts, context);
-  parallelFor(pairs.size(), context, [&](std::size_t p) { measureGap(pairs[p], gap); });
+  parallelFor(pairs.size(), this->Caller,
+    [&](std::size_t p) { measureGap(pairs[p], *parts.at(pairs[p].one).tree, *parts.at(pairs[p].other).tree, this->Gap); });
   for (const Pair& pair : pairs)
   {
     if (pair.missing > 0.0)
     {
       const double distance = 0.5 * pair.missing + extraDistance;
-      addMoves(moves[pair.one->surface], pair.one->tree->mesh(), pair.trianglesOfOne, distance);
-      addMoves(moves[pair.other->surface], pair.other->tree->mesh(), pair.trianglesOfOther, distance);
+      addMoves(moves[pair.one], parts.at(pair.one), pair.trianglesOfOne, distance);
+      addMoves(moves[pair.other], parts.at(pair.other), pair.trianglesOfOther, distance);
     }
   }
 }
 
-/// Goes through `box` slab by slab. Where two surfaces are too near, both are in the slab that the place is in: each holds what
-/// is as near as the gap. `report(part)` gets how much of the work is done.
-template <typename Report>
-std::map<std::size_t, Moves> measureAll(const std::vector<TriangleMesh*>& surfaces, const PairSelection& selection, double gap,
-  const Eigen::AlignedBox3d& box, const Context& context, Report&& report)
-{
-  const std::vector<Eigen::AlignedBox3d> boxes = boxesToLookAt(surfaces, selection.isGiven, gap, context);
-  const int slabs = std::max(1, static_cast<int>(std::ceil(box.sizes()[2] / slabThickness)));
-  std::map<std::size_t, Moves> moves;
-  for (int slab = 0; slab < slabs; ++slab)
-  {
-    const double lower = slab == 0 ? -infinite : box.min()[2] + slab * slabThickness - gap;
-    const double upper = slab == slabs - 1 ? infinite : box.min()[2] + (slab + 1) * slabThickness + gap;
-    measureSlab(lower, upper, surfaces, boxes, selection, gap, context, moves);
-    report(double(slab + 1) / slabs);
-  }
-  return moves;
-}
-
 } // namespace
 
-SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double smallest,
+SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& changed, double smallest,
   const Eigen::AlignedBox3d& box, const Context& context, double from, double to)
 {
   SpacingReport report;
@@ -315,7 +394,6 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
   {
     return report;
   }
-  const double gap = smallest + rounding;
   PairSelection selection;
   selection.isGiven.resize(surfaces.size(), 0);
   for (const std::size_t s : changed)
@@ -323,13 +401,14 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
     selection.isGiven[s] = 1;
   }
   selection.isChanged = selection.isGiven;
+  Spacing spacing(surfaces, smallest + rounding, box, context);
   std::set<std::size_t> moved;
   // Most of the work is the first look at all surfaces.
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {
-    const std::map<std::size_t, Moves> moves = measureAll(surfaces, selection, gap, box, context,
-      [&](double part) { context.report((round == 0 ? from : half) + (half - from) * part, "keeping fibres apart"); });
+    const std::map<std::size_t, Moves> moves = spacing.measure(
+      selection, [&](double part) { context.report((round == 0 ? from : half) + (half - from) * part, "keeping fibres apart"); });
     std::vector<std::size_t> moving;
     moving.reserve(moves.size());
     for (const auto& entry : moves)
@@ -348,14 +427,14 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::v
       selection.isGiven[s] = 1; // large triangles may come nearer to a third one as they turn
       moved.insert(s);
     }
-    parallelFor(moving.size(), context, [&](std::size_t m) { moveInwards(*surfaces[moving[m]], moves.at(moving[m]), box, gap); });
+    spacing.move(moving, moves);
   }
   report.moved.assign(moved.begin(), moved.end());
   return report;
 }
 
-SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
-  const Context& context, double from, double to)
+SpacingReport keepApart(
+  SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context, double from, double to)
 {
   std::vector<std::size_t> all(surfaces.size());
   std::iota(all.begin(), all.end(), std::size_t(0));

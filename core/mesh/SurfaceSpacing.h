@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
-#include "mesh/TriangleMesh.h"
+#include "mesh/SurfaceStore.h"
 
 #include <Eigen/Geometry>
 
@@ -28,17 +28,17 @@ struct SpacingReport
 /// moved. Points on a face of `box` stay on it, so that flat caps stay flat; what else a surface may run into, such as a cap that
 /// folds, is for the caller to check. Empty surfaces are left out. Same result on any number of threads.
 ///
-/// It looks at one slab of `box` after the other, 10 µm thick along z, and holds search trees over that slab alone. How far a
-/// place is moved depends on what is missing of the gap within its slab.
+/// It looks at one slab of `box` after the other, 10 µm thick along z, and holds what of the surfaces is in that slab alone, and
+/// there near others, with search trees. How far a place is moved depends on what is missing of the gap within its slab.
 ///
 /// Only pairs with a surface among those in `changed` (increasing), or one that is moved, are looked at: the others are taken to
 /// be apart.
 /// Progress runs from `from` to `to`. Throws Cancelled.
-SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, const std::vector<std::size_t>& changed, double gap,
+SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& changed, double gap,
   const Eigen::AlignedBox3d& box, const Context& context = {}, double from = 0.0, double to = 1.0);
 
 /// All of them.
-SpacingReport keepApart(const std::vector<TriangleMesh*>& surfaces, double gap, const Eigen::AlignedBox3d& box,
-  const Context& context = {}, double from = 0.0, double to = 1.0);
+SpacingReport keepApart(SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context = {},
+  double from = 0.0, double to = 1.0);
 
 } // namespace cactus

@@ -118,9 +118,9 @@ std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) con
   return placesThatMeet(pair.outer, nullptr);
 }
 
-double FibreMesher::equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const
+double FibreMesher::equivalentDiameter(const SmoothedField& field, double outerVolume) const
 {
-  return 2.0 * std::sqrt(std::max(0.0, pair.outerReport.volume) / (pi * lengthOf(field, this->Spacing)));
+  return 2.0 * std::sqrt(std::max(0.0, outerVolume) / (pi * lengthOf(field, this->Spacing)));
 }
 
 /// From the thinnest myelin to the middle of the fibre; the latter is no more than the former if there is no room for an axon.

@@ -46,7 +46,7 @@ public:
   std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
 
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
-  double equivalentDiameter(const SmoothedField& field, const FibreSurfacePair& pair) const;
+  double equivalentDiameter(const SmoothedField& field, double outerVolume) const;
 
   /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would leave that or
   /// come nearer to its wall than promised, and without an axon if no thickness prevents that.

@@ -4,6 +4,8 @@
 #include "mesh/SurfaceCheck.h"
 #include "mesh/TriangleMesh.h"
 
+#include <limits>
+
 namespace cactus
 {
 
@@ -28,6 +30,8 @@ struct FibreSurfacePair
   SurfaceReport outerReport;
   SurfaceReport innerReport;
   MyelinState state = MyelinState::NoFibre;
+  /// µm³, of the outer surface before it was kept apart from others; NaN where there was none.
+  double volumeAsMade = std::numeric_limits<double>::quiet_NaN();
   double outerLevel = 0.0; ///< µm, the field's value on the outer surface, 0 or a little less
   double thickness = 0.0;  ///< µm, depth of the inner surface below the outer one: the difference of the field
   double targetGRatio = 0.0;

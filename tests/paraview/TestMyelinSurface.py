@@ -345,18 +345,78 @@ class MyelinSurfaceTest(CactusTestCase):
         self.assertAlmostEqual(whole[0][:, 2].max(), 2.5, 12)
         self.assertAlmostEqual(volume(whole) / volume(clipped), 5 / 4, delta=0.002)
 
+    @staticmethod
+    def digest(surface):
+        """Of both surfaces and the table."""
+        digest = hashlib.sha256()
+        for port in (0, 1):
+            output = fetch(surface, port)
+            digest.update(vtk_to_numpy(output.GetPoints().GetData()).tobytes())
+            digest.update(vtk_to_numpy(output.GetPolys().GetConnectivityArray()).tobytes())
+            digest.update(vtk_to_numpy(output.GetCellData().GetArray("FibreId")).tobytes())
+        table = fetch(surface, 2)
+        for i in range(table.GetNumberOfColumns()):
+            digest.update(vtk_to_numpy(table.GetColumn(i)).tobytes())
+        return digest.hexdigest()
+
     def test_threads_do_not_change_a_bit(self):
-        surface = MyelinSurface(Input=self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.85))
-        digests = set()
-        for threads in (1, 2, 4):
-            surface.NumberOfThreads = threads
-            digest = hashlib.sha256()
-            for port in (0, 1):
-                output = fetch(surface, port)
-                digest.update(vtk_to_numpy(output.GetPoints().GetData()).tobytes())
-                digest.update(vtk_to_numpy(output.GetPolys().GetConnectivityArray()).tobytes())
-            digests.add(digest.hexdigest())
+        growth = self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.85)
+        # Each a filter of its own, which has no outer surfaces yet.
+        digests = {self.digest(MyelinSurface(Input=growth, NumberOfThreads=threads)) for threads in (1, 2, 4)}
         self.assertEqual(len(digests), 1)
+
+    def test_outer_surfaces_are_kept_while_only_g_ratios_change(self):
+        growth = self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.85)
+        kept = MyelinSurface(Input=growth)
+        stages = set()
+        filter = kept.GetClientSideObject()
+        filter.AddObserver("ProgressEvent", lambda *_: stages.add(filter.GetProgressText()))
+        makes, spaces = "making outer surfaces", "keeping fibres apart"
+
+        def after(**properties):
+            stages.clear()
+            for name, value in properties.items():
+                setattr(kept, name, value)
+            kept.UpdatePipeline()
+            return set(stages)
+
+        self.assertLessEqual({makes, spaces, "making inner surfaces"}, after())
+        told = {}
+        for change in (
+            {"GRatio": 0.6},
+            {"GRatioModel": "LogLinear"},
+            {"GRatioModel": "Distributed", "Seed": 7},
+            {"GRatioDeviation": 0.1},
+            {"GRatioModel": "TargetAxonVolumeFraction", "TargetAxonVolumeFraction": 0.3},
+        ):
+            told.update(change)
+            seen = after(**change)
+            self.assertIn("making inner surfaces", seen, change)
+            self.assertEqual(seen & {makes, spaces}, set(), change)
+            self.assertEqual(self.digest(kept), self.digest(MyelinSurface(Input=growth, **told)), change)
+        for change in ({"DecimationError": 0.004}, {"SmoothingIterations": 1}, {"ClipToDomain": 0}):
+            told.update(change)
+            self.assertLessEqual({makes, spaces}, after(**change), change)
+        growth.MinimumGap = 0.03
+        self.assertLessEqual({makes, spaces}, after())
+        self.assertEqual(self.digest(kept), self.digest(MyelinSurface(Input=growth, **told)))
+        # What failed in between has not spoilt them.
+        with self.assertError("TargetAxonVolumeFraction 0.9 cannot be reached"):
+            after(TargetAxonVolumeFraction=0.9)
+        self.assertEqual(after(TargetAxonVolumeFraction=0.3) & {makes, spaces}, set())
+        self.assertEqual(self.digest(kept), self.digest(MyelinSurface(Input=growth, **told)))
+
+    def test_outer_surfaces_of_vtk_are_kept_too(self):
+        growth = self.growth(hexagonal(3.0), GrowthIterations=1)
+        kept = MyelinSurface(Input=growth, Meshing="VTK filters")
+        warned = "fibres are not as asked"
+        with self.assertError(warned):
+            kept.UpdatePipeline()
+        with self.assertError(warned):
+            kept.GRatio = 0.5
+            digest = self.digest(kept)
+        with self.assertError(warned):
+            self.assertEqual(digest, self.digest(MyelinSurface(Input=growth, Meshing="VTK filters", GRatio=0.5)))
 
     def test_the_image_can_be_released(self):
         cells = set()

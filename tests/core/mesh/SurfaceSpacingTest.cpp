@@ -63,6 +63,23 @@ double sampledDistance(const TriangleMesh& a, const TriangleMesh& b)
   return least;
 }
 
+/// keepApart() on meshes that are somewhere else.
+template <typename... More>
+SpacingReport keepApart(const std::vector<TriangleMesh*>& meshes, More&&... more)
+{
+  SurfacesInMemory store(meshes.size());
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+  {
+    store.put(i, *meshes[i]);
+  }
+  const SpacingReport report = cactus::keepApart(store, std::forward<More>(more)...);
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+  {
+    *meshes[i] = store.take(i);
+  }
+  return report;
+}
+
 const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
 
 // Two tips, one above the other, whose normals point nearly sideways: what moves them inwards hardly moves them apart.
@@ -181,12 +198,12 @@ TEST(SurfaceSpacing, LooksOnlyAtWhatHasChangedOrIsMoved)
   const std::vector<TriangleMesh*> all{ &far, &near, &left, &middle, &right };
   const TriangleMesh oldFar = far;
   const TriangleMesh oldLeft = left;
-  EXPECT_EQ(keepApart(all, { 1 }, 0.005, box).moved, std::vector<std::size_t>{});
-  const SpacingReport report = keepApart(all, { 4 }, 0.02, box);
+  EXPECT_EQ(keepApart(all, std::vector<std::size_t>{ 1 }, 0.005, box).moved, std::vector<std::size_t>{});
+  const SpacingReport report = keepApart(all, std::vector<std::size_t>{ 4 }, 0.02, box);
   EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 2, 3, 4 })) << "0 and 1 are too near, too, but neither has changed";
   EXPECT_EQ(far.points, oldFar.points);
   EXPECT_NE(left.points, oldLeft.points) << "3 has moved, and is too near to 2";
-  EXPECT_EQ(keepApart(all, { 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
+  EXPECT_EQ(keepApart(all, std::vector<std::size_t>{ 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
 }
 
 /// The mesh with its axes moved on: what was along z lies along x.

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/SurfaceMaker.h"
+
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Parallel.h"
+#include "mesh/SurfaceSpacing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Relative error of the axons' common volume that is good enough.
+constexpr double volumeTolerance = 2e-3;
+/// µm by which those lie deeper each time that are not coarsened, and so cannot be coarsened less.
+constexpr double deeperEachTime = 0.005;
+/// How often outer surfaces that went wrong when they were moved are made again.
+constexpr int remakes = 3;
+/// How often a g-ratio is tried that gives all axons together the wanted volume.
+constexpr int commonRounds = 6;
+
+std::int32_t idOf(std::int32_t id)
+{
+  return id;
+}
+
+std::int32_t idOf(const FibreSurfacePair& pair)
+{
+  return pair.fibreId;
+}
+
+std::vector<FibreSurfacePair> fibresOf(
+  const LabelImageFacts& facts, const std::map<std::int32_t, std::vector<std::uint32_t>>& blocksOf)
+{
+  require(facts.bundleIds.size() == facts.fibreIds.size() && facts.targetRadii.size() == facts.fibreIds.size() &&
+            (facts.lengths.empty() || facts.lengths.size() == facts.fibreIds.size()),
+    "the columns of the label image's FibreTable differ in length");
+  std::vector<FibreSurfacePair> pairs(facts.fibreIds.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    pairs[i].fibreId = facts.fibreIds[i];
+    pairs[i].bundleId = facts.bundleIds[i];
+    pairs[i].targetRadius = facts.targetRadii[i];
+    pairs[i].isWanted = facts.lengths.empty() || !(facts.lengths[i] <= 0.0);
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.fibreId < b.fibreId; });
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    if (pairs[i].fibreId < 1 || (i > 0 && pairs[i].fibreId == pairs[i - 1].fibreId))
+    {
+      throw InvalidInput(
+        text("the label image's FibreTable names fibre ", pairs[i].fibreId, ": ids must count from 1 and be unique"));
+    }
+  }
+  for (const auto& entry : blocksOf)
+  {
+    const bool known =
+      std::binary_search(pairs.begin(), pairs.end(), entry.first, [](const auto& a, const auto& b) { return idOf(a) < idOf(b); });
+    if (!known)
+    {
+      throw InvalidInput(text("fibre ", entry.first, " of the label image is not in its FibreTable"));
+    }
+  }
+  return pairs;
+}
+
+/// What myelinSurfaces() throws for options that do not suit the image.
+const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
+{
+  validate(options);
+  requireWithin("MinimumGap of the label image", facts.minimumGap, limits::gap);
+  requireWithin("SurfaceTolerance of the label image", facts.surfaceTolerance, limits::surfaceTolerance);
+  if (options.decimationError > facts.surfaceTolerance * (1.0 + 1e-9))
+  {
+    throw InvalidInput(text("DecimationError ", options.decimationError, " is more than the room of ", facts.surfaceTolerance,
+      " µm that growth left for moving surfaces: choose a smaller one, or raise SurfaceTolerance in FibreRadialGrowth"));
+  }
+  return facts;
+}
+
+} // namespace
+
+SurfaceMaker::SurfaceMaker(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
+  const Context& context, const SurfaceFilters* filters)
+  : Facts(checked(facts, options))
+  , Options(options)
+  , Filters(filters)
+  , Caller(context)
+  , Mesher(image, facts, options, filters, context)
+  , BlocksOf(Mesher.field().findFibres(options.smoothingIterations, context))
+  , Pairs(fibresOf(facts, BlocksOf))
+{
+}
+
+void SurfaceMaker::makeOuter(SurfaceStore& outer)
+{
+  this->contourOuter(outer);
+  if (this->Filters == nullptr)
+  {
+    this->spaceOut(outer);
+  }
+}
+
+void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
+{
+  this->Options.model == GRatioModel::TargetAxonVolumeFraction ? this->makeInnerOfCommonVolume(outer, inner)
+                                                               : this->makeEachInner(outer, inner);
+}
+
+SmoothedField SurfaceMaker::fieldOf(const FibreSurfacePair& pair) const
+{
+  static const Blocks none;
+  const auto found = this->BlocksOf.find(pair.fibreId);
+  return this->Mesher.smoothed(found == this->BlocksOf.end() ? none : found->second, pair.fibreId);
+}
+
+double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const
+{
+  switch (this->Options.model)
+  {
+  case GRatioModel::Constant:
+    return this->Options.gRatio;
+  case GRatioModel::LogLinear:
+    return logLinearGRatio(this->Mesher.equivalentDiameter(field, pair.volumeAsMade));
+  case GRatioModel::Distributed:
+    return distributedGRatio(this->Options.gRatio, this->Options.gRatioDeviation, this->Options.seed, pair.fibreId);
+  default:
+    return 0.0; // of a common volume: known once all outer volumes are
+  }
+}
+
+void SurfaceMaker::contourOuter(SurfaceStore& outer)
+{
+  parallelFor(
+    this->Pairs.size(), this->Caller,
+    [&](std::size_t i)
+    {
+      FibreSurfacePair& pair = this->Pairs[i];
+      this->Mesher.makeOuter(this->fieldOf(pair), pair);
+      if (pair.state != MyelinState::NoFibre)
+      {
+        pair.volumeAsMade = pair.outerReport.volume;
+      }
+      outer.put(i, std::exchange(pair.outer, TriangleMesh()));
+    },
+    "making outer surfaces", 0.05, 0.45);
+}
+
+/// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again,
+/// coarsened less there or, if surfaces are not coarsened, deeper.
+void SurfaceMaker::spaceOut(SurfaceStore& outer)
+{
+  const double gap = std::max(this->Facts.minimumGap, leastSeparation);
+  const bool isCoarsened = this->Options.decimationError > 0.0;
+  const Domain& box = this->Mesher.field().box();
+  std::vector<std::size_t> made(this->Pairs.size());
+  std::iota(made.begin(), made.end(), std::size_t(0));
+  std::vector<std::size_t> tooNear; // as far as is known, increasing
+  BoundsOfFibres bounds;
+  for (int attempt = 0; !made.empty(); ++attempt)
+  {
+    // What was too near is looked at again, since the other one of the pair may be new.
+    std::vector<std::size_t> changed;
+    std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
+    const SpacingReport spacing =
+      keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller, attempt == 0 ? 0.45 : 0.54, 0.55);
+    tooNear = spacing.tooNear;
+    made = this->checkMoved(spacing.moved, attempt, outer, bounds);
+    this->makeAgain(made, isCoarsened ? 0.0 : deeperEachTime * (attempt + 1), bounds, outer);
+  }
+  for (const std::size_t i : tooNear)
+  {
+    this->Pairs[i].isFlawed = true;
+  }
+}
+
+/// Looks at surfaces that were moved, and returns which of them have to be made again, with bounds where they went wrong.
+std::vector<std::size_t> SurfaceMaker::checkMoved(
+  const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds)
+{
+  std::vector<std::vector<Eigen::Vector3d>> faults(moved.size());
+  parallelFor(faults.size(), this->Caller,
+    [&](std::size_t i)
+    {
+      FibreSurfacePair& pair = this->Pairs[moved[i]];
+      pair.outer = *outer.get(moved[i]);
+      faults[i] = this->Mesher.checkOuter(pair);
+      outer.put(moved[i], std::exchange(pair.outer, TriangleMesh()));
+    });
+  std::vector<std::size_t> again;
+  for (std::size_t i = 0; i < faults.size(); ++i)
+  {
+    this->Pairs[moved[i]].isFlawed = !faults[i].empty();
+    if (!faults[i].empty() && attempt < remakes)
+    {
+      const auto more = boundsAround(faults[i], this->Mesher.field().image().grid.spacing, attempt);
+      std::vector<LocalErrorBound>& all = bounds[moved[i]];
+      all.insert(all.end(), more.begin(), more.end());
+      again.push_back(moved[i]);
+    }
+  }
+  return again;
+}
+
+void SurfaceMaker::makeAgain(
+  const std::vector<std::size_t>& which, double deeper, const BoundsOfFibres& bounds, SurfaceStore& outer)
+{
+  parallelFor(which.size(), this->Caller,
+    [&](std::size_t i)
+    {
+      FibreSurfacePair& pair = this->Pairs[which[i]];
+      pair.isFlawed = false; // of the surface that goes
+      pair.outer = *outer.get(which[i]);
+      this->Mesher.makeOuter(this->fieldOf(pair), pair, bounds.at(which[i]), deeper);
+      outer.put(which[i], std::exchange(pair.outer, TriangleMesh()));
+    });
+}
+
+void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
+{
+  parallelFor(
+    this->Pairs.size(), this->Caller,
+    [&](std::size_t i)
+    {
+      FibreSurfacePair& pair = this->Pairs[i];
+      if (std::isnan(pair.volumeAsMade))
+      {
+        return;
+      }
+      const SmoothedField field = this->fieldOf(pair);
+      if (this->Options.model != GRatioModel::TargetAxonVolumeFraction)
+      {
+        pair.targetGRatio = this->targetGRatio(field, pair);
+      }
+      if (pair.state != MyelinState::NoFibre)
+      {
+        pair.outer = *outer.get(i);
+        this->Mesher.makeInner(field, pair);
+        inner.put(i, std::exchange(pair.inner, TriangleMesh()));
+        pair.outer = TriangleMesh();
+      }
+    },
+    "making inner surfaces", 0.55, 1.0);
+}
+
+/// With one g-ratio for all, so that all axons together have the wanted volume; if a fibre cannot have it, the others make up for
+/// that.
+void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceStore& inner)
+{
+  const double boxVolume = this->Mesher.field().box().volume();
+  const double wanted = this->Options.targetAxonVolumeFraction * boxVolume;
+  double given = 0.0; // inner volume of fibres that cannot have the common g-ratio
+  double open = 0.0;  // outer volume of the others
+  double reached = 0.0;
+  for (const FibreSurfacePair& pair : this->Pairs)
+  {
+    open += pair.outerReport.volume;
+  }
+  const double fibreFraction = open / boxVolume;
+  double before = 0.0;
+  double correction = 1.0; // for what the fibres' own tolerances sum up to
+  for (int round = 0; round < commonRounds; ++round)
+  {
+    double square = open > 0.0 ? correction * (wanted - given) / open : 2.0; // of the g-ratio
+    if (square == before && reached > given)
+    {
+      correction *= (wanted - given) / (reached - given);
+      square = correction * (wanted - given) / open;
+    }
+    before = square;
+    if (!(square > 0.0 && square < 1.0))
+    {
+      break;
+    }
+    for (FibreSurfacePair& pair : this->Pairs)
+    {
+      pair.targetGRatio = std::sqrt(square);
+    }
+    this->makeEachInner(outer, inner);
+    given = open = reached = 0.0;
+    for (const FibreSurfacePair& pair : this->Pairs)
+    {
+      const bool isOpen = pair.state == MyelinState::AsAsked;
+      reached += pair.innerReport.volume;
+      (isOpen ? open : given) += isOpen ? pair.outerReport.volume : pair.innerReport.volume;
+    }
+    if (std::abs(reached - wanted) <= volumeTolerance * wanted)
+    {
+      return;
+    }
+  }
+  throw Infeasible(text("TargetAxonVolumeFraction ", this->Options.targetAxonVolumeFraction,
+    " cannot be reached: the fibres fill ", fibreFraction, " of the box, and ",
+    reached < wanted ? "with the thinnest myelin allowed their axons fill " : "the nearest that their axons come to is ",
+    reached / boxVolume, ". Ask for another fraction, or grow the fibres further"));
+}
+
+} // namespace cactus

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "mesh/SurfaceStore.h"
+#include "surface/FibreMesher.h"
+#include "surface/FibreSurfacePair.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+/// Makes the surfaces of all fibres (see myelinSurfaces() for what they are) in two steps. The first, the outer surfaces, does
+/// not depend on g-ratios, so that its result can be kept and used again. Meshes are put into stores, by the places of their
+/// fibres in fibres(), and held in memory only while they are worked on.
+class SurfaceMaker
+{
+public:
+  /// What is given by reference has to outlive the object. Throws as myelinSurfaces() does.
+  SurfaceMaker(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
+    const Context& context, const SurfaceFilters* filters = nullptr);
+
+  /// All fibres, by increasing id, and what is known of them; their meshes are in the stores.
+  const std::vector<FibreSurfacePair>& fibres() const { return this->Pairs; }
+
+  /// Makes the outer surfaces and keeps them apart.
+  void makeOuter(SurfaceStore& outer);
+  /// Instead: what fibres() was after makeOuter() of another maker, whose image, facts and options were the same but for what is
+  /// asked of g-ratios.
+  void takeOuter(std::vector<FibreSurfacePair> fibres) { this->Pairs = std::move(fibres); }
+  /// Makes the inner surfaces; outer ones are in their places.
+  void makeInner(const SurfaceSource& outer, SurfaceStore& inner);
+
+private:
+  using Blocks = std::vector<std::uint32_t>;
+  using BlocksOfFibres = std::map<std::int32_t, Blocks>;
+  using BoundsOfFibres = std::map<std::size_t, std::vector<LocalErrorBound>>;
+
+  SmoothedField fieldOf(const FibreSurfacePair& pair) const;
+  double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
+  void contourOuter(SurfaceStore& outer);
+  void spaceOut(SurfaceStore& outer);
+  std::vector<std::size_t> checkMoved(
+    const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds);
+  void makeAgain(const std::vector<std::size_t>& which, double deeper, const BoundsOfFibres& bounds, SurfaceStore& outer);
+  void makeEachInner(const SurfaceSource& outer, SurfaceStore& inner);
+  void makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceStore& inner);
+
+  const LabelImageFacts& Facts;
+  const MyelinSurfaceOptions& Options;
+  const SurfaceFilters* Filters;
+  const Context& Caller;
+  FibreMesher Mesher;
+  BlocksOfFibres BlocksOf;
+  std::vector<FibreSurfacePair> Pairs;
+};
+
+} // namespace cactus
