@@ -47,6 +47,8 @@ namespace limits
 
 /// Of a fibre, at every control point, and as a target. Axons have 0.05 to 10, the giant axon of the squid 500.
 inline constexpr Range radius{ 1e-3, 1e3, " µm" };
+/// The same, where 0 stands for none.
+inline constexpr Range radiusOrNone{ 1e-3, 1e3, " µm", true };
 /// Of control points, of the domain's corners and of all that is derived from them, along each axis: 10 cm to either side. There
 /// are then 7e4 steps of double precision in a nanometre.
 inline constexpr Range coordinate{ -1e5, 1e5, " µm" };

@@ -164,13 +164,32 @@ const PropertyList<StrandWriterStage>& StrandWriterStage::properties()
   return list;
 }
 
+const PropertyList<TractogramReaderStage>& TractogramReaderStage::properties()
+{
+  using Stage = TractogramReaderStage;
+  static const auto list =
+    PropertyList<Stage>()
+      .add("FileName", &Stage::fileName, "The tractogram to read: .tck, .trk, or .trx (an archive or a folder)")
+      .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, "Unit of the lengths that come out; files have mm")
+      .add("Radius", &Stage::radius, limits::radiusOrNone, "Radius of every point where the file has none; 0: no radius");
+  return list;
+}
+
+const PropertyList<TractogramWriterStage>& TractogramWriterStage::properties()
+{
+  using Stage = TractogramWriterStage;
+  static const auto list =
+    PropertyList<Stage>().add("FileName", &Stage::fileName, "The file to write: .tck or .trx").use(PropertyUse::Run);
+  return list;
+}
+
 std::vector<StageDescription> describeStages()
 {
   return { description<BundleInitializerStage>("BundleInitializer"), description<StrandReaderStage>("StrandReader"),
-    description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
+    description<TractogramReaderStage>("TractogramReader"), description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
     description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
     description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
-    description<SubstrateWriterStage>("SubstrateWriter"), description<StrandWriterStage>("StrandWriter") };
+    description<SubstrateWriterStage>("SubstrateWriter"), description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter") };
 }
 
 } // namespace cactus

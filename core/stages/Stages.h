@@ -124,6 +124,29 @@ struct StrandWriterStage
   static const PropertyList<StrandWriterStage>& properties();
 };
 
+/// What a length is counted in.
+enum class LengthUnit
+{
+  Micrometre = 0,
+  Millimetre = 1
+};
+
+struct TractogramReaderStage
+{
+  std::string fileName;
+  LengthUnit lengthUnit = LengthUnit::Micrometre; ///< of what comes out
+  double radius = 0.0;                            ///< µm, of every point where the file has none; 0 for none
+
+  static const PropertyList<TractogramReaderStage>& properties();
+};
+
+struct TractogramWriterStage
+{
+  std::string fileName;
+
+  static const PropertyList<TractogramWriterStage>& properties();
+};
+
 /// A stage with its properties at their defaults, those of PropertyUse::Code left out.
 struct StageDescription
 {

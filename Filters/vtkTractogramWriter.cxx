@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTractogramWriter.h"
+
+#include "FibreData.h"
+#include "FilterSupport.h"
+#include "StageProperties.h"
+#include "WholeData.h"
+#include "base/Error.h"
+#include "io/TractogramFile.h"
+#include "stages/Stages.h"
+
+#include <vtkErrorCode.h>
+#include <vtkInformation.h>
+#include <vtkMultiProcessController.h>
+#include <vtkObjectFactory.h>
+
+vtkStandardNewMacro(vtkTractogramWriter);
+
+vtkTractogramWriter::vtkTractogramWriter()
+  : Properties(cactus::makeProperties<cactus::TractogramWriterStage>())
+{
+}
+
+int vtkTractogramWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  cactus::acceptAnyData(info);
+  return 1;
+}
+
+void vtkTractogramWriter::WriteData()
+{
+  // On several ranks each gets all fibres, as a sink asks for the first piece of one; the first writes them.
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller != nullptr && controller->GetLocalProcessId() > 0)
+  {
+    return;
+  }
+  const bool isWritten = cactus::attempt(this,
+    [&]
+    {
+      const auto& stage = cactus::stageOf<cactus::TractogramWriterStage>(this->Properties);
+      if (stage.fileName.empty())
+      {
+        throw cactus::InvalidInput("FileName is empty: name the tractogram to write");
+      }
+      cactus::writeTractogram(cactus::fibresFrom(this->GetInput()), stage.fileName);
+    });
+  if (!isWritten)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkTractogramWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->Properties->print(os, indent);
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkTractogramWriter
+ * @brief Writes fibres as a tractogram that MRtrix, dipy and others show, in mm: .tck (centre lines) or .trx (with radii, ids,
+ * bundles).
+ *
+ * Input: polylines with point data `Radius` (µm). A .trx has `dpv/Radius` (mm), `dps/FibreId`, `dps/BundleId` and a group for
+ * each bundle. The file appears whole or not at all.
+ */
+#ifndef vtkTractogramWriter_h
+#define vtkTractogramWriter_h
+
+#include "CactusFiltersModule.h"
+#include "FilterProperties.h"
+
+#include <vtkWriter.h>
+
+class CACTUSFILTERS_EXPORT vtkTractogramWriter : public vtkWriter
+{
+public:
+  static vtkTractogramWriter* New();
+  vtkTypeMacro(vtkTractogramWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  CACTUS_FILE_PROPERTY(FileName)
+
+protected:
+  vtkTractogramWriter();
+  ~vtkTractogramWriter() override = default;
+  void WriteData() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+private:
+  vtkTractogramWriter(const vtkTractogramWriter&) = delete;
+  void operator=(const vtkTractogramWriter&) = delete;
+
+  std::unique_ptr<cactus::FilterProperties> Properties;
+};
+
+#endif

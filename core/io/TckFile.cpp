@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/TckFile.h"
+
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+#include "base/Memory.h"
+#include "base/Numbers.h"
+#include "io/BinaryReader.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr std::size_t longestLine = 4096;
+constexpr std::size_t mostLines = 10000;
+/// Points that are read at once.
+constexpr std::size_t block = 4096;
+
+struct TckHeader
+{
+  bool isDouble = false;
+  double count = 0.0; ///< 0 where it is not said
+};
+
+/// The lines `key: value` up to END; of keys that come twice the last.
+std::map<std::string, std::string> readLines(BinaryReader& reader)
+{
+  if (reader.size() == 0 || reader.line(longestLine) != "mrtrix tracks")
+  {
+    reader.fail("this is no .tck file: its first line is not 'mrtrix tracks'");
+  }
+  std::map<std::string, std::string> lines;
+  for (std::size_t i = 0; i < mostLines; ++i)
+  {
+    const std::string line = reader.line(longestLine);
+    if (line == "END")
+    {
+      return lines;
+    }
+    const std::size_t colon = line.find(':');
+    if (colon != std::string::npos)
+    {
+      const std::size_t begin = line.find_first_not_of(" \t", colon + 1);
+      lines[line.substr(0, colon)] = begin == std::string::npos ? "" : line.substr(begin);
+    }
+  }
+  reader.fail("its header has no line END");
+}
+
+/// Where the points begin.
+std::uint64_t dataBegin(const BinaryReader& reader, const std::map<std::string, std::string>& lines)
+{
+  const auto file = lines.find("file");
+  if (file == lines.end())
+  {
+    return reader.position();
+  }
+  std::string_view text = file->second;
+  double offset = -1.0;
+  const bool isHere = text.substr(0, 1) == "."; // and not in another file
+  text.remove_prefix(isHere ? 1 : 0);
+  skipBlanks(text);
+  if (!isHere || !takeNumber(text, offset) || offset != std::floor(offset) || offset < static_cast<double>(reader.position()) ||
+      offset > static_cast<double>(reader.size()))
+  {
+    reader.fail("its header says 'file: " + excerpt(file->second) +
+                "': expected '. OFFSET', with an offset in bytes from the end of the header to that of the file");
+  }
+  return static_cast<std::uint64_t>(offset);
+}
+
+TckHeader readHeader(BinaryReader& reader)
+{
+  const auto lines = readLines(reader);
+  TckHeader header;
+  const auto type = lines.find("datatype");
+  const std::string named = type == lines.end() ? "" : type->second;
+  const bool isBig = named == "Float32BE" || named == "Float64BE";
+  header.isDouble = named == "Float64LE" || named == "Float64BE";
+  if (!isBig && !header.isDouble && named != "Float32LE")
+  {
+    reader.fail("its header gives '" + excerpt(named) + "' as datatype: expected Float32LE, Float32BE, Float64LE or Float64BE");
+  }
+  reader.setSwapped(isBig == isLittleEndian());
+  const auto count = lines.find("count");
+  std::string_view text = count == lines.end() ? std::string_view() : std::string_view(count->second);
+  takeNumber(text, header.count);
+  reader.seek(dataBegin(reader, lines));
+  return header;
+}
+
+/// What becomes of the points one after the other.
+class TrackCollector
+{
+public:
+  TrackCollector(const BinaryReader& reader, Tractogram& tractogram)
+    : Reader(reader)
+    , Tracks(tractogram)
+  {
+  }
+
+  /// False where it is the end of the file.
+  bool take(const std::array<double, 3>& point)
+  {
+    if (std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))
+    {
+      this->Tracks.points.insert(this->Tracks.points.end(), point.begin(), point.end());
+      return true;
+    }
+    const std::size_t points = this->Tracks.pointCount();
+    if (std::isnan(point[0]) && std::isnan(point[1]) && std::isnan(point[2]))
+    {
+      this->Tracks.offsets.push_back(points);
+      return true;
+    }
+    if (std::isinf(point[0]) && std::isinf(point[1]) && std::isinf(point[2]))
+    {
+      if (points > this->Tracks.offsets.back())
+      {
+        this->Tracks.offsets.push_back(points); // the last one, where its writer has left the mark out
+      }
+      return false;
+    }
+    this->Reader.fail(text("streamline ", this->Tracks.size() + 1, ", point ", points - this->Tracks.offsets.back() + 1,
+      ": its coordinates are ", point[0], ' ', point[1], ' ', point[2], ", which are no numbers"));
+  }
+
+private:
+  const BinaryReader& Reader;
+  Tractogram& Tracks;
+};
+
+template <typename Number>
+void readPoints(BinaryReader& reader, Tractogram& tractogram, const Context& context)
+{
+  TrackCollector collector(reader, tractogram);
+  std::vector<Number> numbers(3 * block);
+  const double begin = static_cast<double>(reader.position());
+  while (true)
+  {
+    const std::size_t points = std::min<std::uint64_t>(block, reader.left() / (3 * sizeof(Number)));
+    if (points == 0)
+    {
+      throw FileError(reader.name() + " is truncated: it ends without the mark for its end (three infinities)");
+    }
+    reader.numbers(numbers.data(), 3 * points, "points");
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      if (!collector.take({ { double(numbers[3 * i]), double(numbers[3 * i + 1]), double(numbers[3 * i + 2]) } }))
+      {
+        return;
+      }
+    }
+    context.checkpoint();
+    context.report((static_cast<double>(reader.position()) - begin) / (static_cast<double>(reader.size()) - begin), "Reading");
+  }
+}
+
+} // namespace
+
+Tractogram readTck(std::istream& stream, const std::string& name, const Context& context)
+{
+  BinaryReader reader(stream, name);
+  const TckHeader header = readHeader(reader);
+  Tractogram tractogram;
+  const std::uint64_t numbers = reader.left() / (header.isDouble ? sizeof(double) : sizeof(float));
+  requireMemory(double(numbers) * sizeof(double), name, "choose streamlines from it first, e.g. with tckedit");
+  tractogram.points.reserve(numbers);
+  header.isDouble ? readPoints<double>(reader, tractogram, context) : readPoints<float>(reader, tractogram, context);
+  if (header.count != 0.0 && header.count != static_cast<double>(tractogram.size()))
+  {
+    tractogram.remarks.push_back("the header says that there are " + exactText(header.count) + " streamlines, and there are " +
+                                 std::to_string(tractogram.size()));
+  }
+  return tractogram;
+}
+
+void writeTck(const Fibres& fibres, const std::string& path)
+{
+  validate(fibres);
+  const std::string count = std::to_string(fibres.size());
+  std::string header = "mrtrix tracks\ndatatype: Float32LE\nlength_unit: mm\ncount: " + count + "\ntotal_count: " + count + '\n';
+  // The offset stands in the header, and counts its own digits.
+  constexpr char before[] = "file: . ";
+  constexpr char after[] = "\nEND\n";
+  std::size_t offset = header.size() + sizeof(before) + sizeof(after) - 2;
+  offset += std::to_string(offset + std::to_string(offset).size()).size();
+  header += before + std::to_string(offset) + after;
+
+  AtomicFile file(path);
+  file.stream() << header;
+  const auto write = [&](float x, float y, float z)
+  {
+    float point[3] = { x, y, z };
+    if (!isLittleEndian())
+    {
+      swapBytes(point, 3);
+    }
+    file.stream().write(reinterpret_cast<const char*>(point), sizeof(point));
+  };
+  constexpr double millimetre = 1e-3;
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  constexpr float end = std::numeric_limits<float>::infinity();
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      const Eigen::Vector3f point = (millimetre * fibres.points[i]).cast<float>();
+      write(point[0], point[1], point[2]);
+    }
+    write(none, none, none);
+  }
+  write(end, end, end);
+  file.commit();
+}
+
+} // namespace cactus

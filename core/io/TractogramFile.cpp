@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/TractogramFile.h"
+
+#include "base/Error.h"
+#include "base/PosixFile.h"
+#include "io/TckFile.h"
+#include "io/TrkFile.h"
+#include "io/TrxFile.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// In small letters, with its dot.
+std::string extensionOf(std::string path)
+{
+  while (path.size() > 1 && path.back() == '/')
+  {
+    path.pop_back(); // of a folder
+  }
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c); });
+  return extension;
+}
+
+Tractogram readAny(const std::string& path, const Context& context)
+{
+  const std::string extension = extensionOf(path);
+  if (extension != ".tck" && extension != ".trk" && extension != ".trx")
+  {
+    throw FileError(path + ": a tractogram's name ends in .tck, .trk or .trx");
+  }
+  requireNoPipe("tractogram " + path, path);
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+  {
+    throw FileError("cannot open tractogram " + path + ": " + std::strerror(errno));
+  }
+  if (extension == ".tck")
+  {
+    return readTck(file, path, context);
+  }
+  if (extension == ".trk")
+  {
+    return readTrk(file, path, context);
+  }
+  std::error_code error;
+  return std::filesystem::is_directory(path, error) ? readTrx(Folder(path), path) : readTrx(ZipArchive(path), path);
+}
+
+} // namespace
+
+Tractogram readTractogram(const std::string& path, const Context& context)
+{
+  Tractogram tractogram = readAny(path, context);
+  dropShortStreamlines(tractogram);
+  return tractogram;
+}
+
+void writeTractogram(const Fibres& fibres, const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".tck")
+  {
+    writeTck(fibres, path);
+  }
+  else if (extension == ".trx")
+  {
+    writeTrx(fibres, path);
+  }
+  else
+  {
+    throw InvalidInput("FileName is " + path + ": fibres are written as .tck or .trx");
+  }
+}
+
+} // namespace cactus

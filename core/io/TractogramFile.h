@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "fibres/Fibres.h"
+#include "io/Tractogram.h"
+
+#include <string>
+
+namespace cactus
+{
+
+/// Reads a tractogram by its extension: .tck, .trk, or .trx (a zip archive or a folder). Streamlines of fewer than two points are
+/// left out. Throws FileError, which names the file, OutOfMemory and Cancelled.
+Tractogram readTractogram(const std::string& path, const Context& context = {});
+
+/// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); in mm. The file appears whole
+/// or not at all. Throws FileError, and InvalidInput for other extensions and as `validate` does.
+void writeTractogram(const Fibres& fibres, const std::string& path);
+
+} // namespace cactus

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "io/FileCollection.h"
+#include "io/Tractogram.h"
+
+#include <string>
+
+namespace cactus
+{
+
+/// Reads a .trx tractogram (tee-ar-ex, version 1): `header.json`, `positions.3.float16|32|64`, `offsets.uint32|64` (with the
+/// number of points at its end, or without), `dpv/`, `dps/` and `groups/`. Positions are in the scanner's mm as they stand.
+/// Values of groups
+/// (`dpg/`) are left out, with a remark.
+///
+/// Throws FileError, which begins with `name` or names the file in it, where something is missing, is not as long as the header
+/// says, or holds what cannot be; and OutOfMemory.
+Tractogram readTrx(const FileCollection& files, const std::string& name);
+
+/// Writes fibres (µm) as a .trx archive in mm: positions in single precision, `dpv/Radius` (mm), `dps/FibreId`, `dps/BundleId`,
+/// and a group `bundle_00001` for each bundle. The header's image is the domain in voxels of 1 µm, or larger ones where it would
+/// have more than 65535 along a side. The file appears whole or not at all; throws FileError, and InvalidInput as `validate`
+/// does.
+void writeTrx(const Fibres& fibres, const std::string& path);
+
+} // namespace cactus

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/AtomicFile.h"
+#include "base/ByteOrder.h"
+#include "base/JsonText.h"
+#include "io/TrxFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double millimetre = 1e-3; ///< of one µm
+
+template <typename Number>
+void append(std::string& bytes, Number number)
+{
+  if (!isLittleEndian())
+  {
+    swapBytes(&number, 1);
+  }
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+template <typename Number, typename Value>
+std::string bytesOf(std::size_t count, Value&& value)
+{
+  std::string bytes;
+  bytes.reserve(count * sizeof(Number));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    append(bytes, static_cast<Number>(value(i)));
+  }
+  return bytes;
+}
+
+/// The domain as an image, whose first voxel's centre is half a voxel from the corner.
+std::string headerText(const Fibres& fibres)
+{
+  constexpr double most = 65535.0;                                            // voxels along a side
+  const double voxel = std::max(1.0, fibres.domain.size().maxCoeff() / most); // µm
+  Json affine = Json::array();
+  Json dimensions = Json::array();
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    Json row = Json::array({ 0.0, 0.0, 0.0, millimetre * (fibres.domain.lower[axis] + 0.5 * voxel) });
+    row[std::size_t(axis)] = millimetre * voxel;
+    affine.push_back(row);
+    dimensions.push_back(std::int64_t(std::clamp(std::ceil(fibres.domain.size()[axis] / voxel), 1.0, most)));
+  }
+  affine.push_back({ 0.0, 0.0, 0.0, 1.0 });
+  Json header;
+  header["VOXEL_TO_RASMM"] = affine;
+  header["DIMENSIONS"] = dimensions;
+  header["NB_VERTICES"] = fibres.points.size();
+  header["NB_STREAMLINES"] = fibres.size();
+  return header.dump();
+}
+
+std::string groupName(int bundle)
+{
+  std::string digits = std::to_string(bundle);
+  digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, '0');
+  return "groups/bundle_" + digits + ".uint32";
+}
+
+} // namespace
+
+void writeTrx(const Fibres& fibres, const std::string& path)
+{
+  validate(fibres);
+  std::vector<std::pair<std::string, std::string>> files;
+  files.emplace_back("header.json", headerText(fibres));
+  files.emplace_back("positions.3.float32", bytesOf<float>(3 * fibres.points.size(), [&](std::size_t i)
+                                              { return millimetre * fibres.points[i / 3][Eigen::Index(i % 3)]; }));
+  files.emplace_back(
+    "offsets.uint64", bytesOf<std::uint64_t>(fibres.offsets.size(), [&](std::size_t i) { return fibres.offsets[i]; }));
+  files.emplace_back(
+    "dpv/Radius.float32", bytesOf<float>(fibres.radii.size(), [&](std::size_t i) { return millimetre * fibres.radii[i]; }));
+  files.emplace_back(
+    "dps/FibreId.int32", bytesOf<std::int32_t>(fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; }));
+  files.emplace_back(
+    "dps/BundleId.int32", bytesOf<std::int32_t>(fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; }));
+  std::map<int, std::string> groups;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    append(groups[fibres.bundleIds[f]], static_cast<std::uint32_t>(f));
+  }
+  for (auto& [bundle, members] : groups)
+  {
+    files.emplace_back(groupName(bundle), std::move(members));
+  }
+  AtomicFile file(path);
+  const std::string archive = zipText(files);
+  file.stream().write(archive.data(), static_cast<std::streamsize>(archive.size()));
+  file.commit();
+}
+
+} // namespace cactus
