@@ -220,7 +220,8 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       {
         filters = cactus::surfaceFiltersOfVtk(stage.vtkMeshing, labels.view.grid.spacing);
       }
-      cactus::SurfaceMaker maker(labels.view, facts, options, context, byVtk ? &filters : nullptr);
+      cactus::SurfaceMaker maker(
+        std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context, byVtk ? &filters : nullptr);
       auto fibres = this->makeSurfaces(maker, cactus::changeTime(image), vtkPolyData::GetData(outputs, 0));
       if (byVtk)
       {
@@ -231,7 +232,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
         cactus::setDomain(vtkDataObject::GetData(outputs, port), facts.domain);
       }
       const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
-      const std::string remarks = cactus::notAsAsked(fibres, labels.view, facts, byVtk);
+      const std::string remarks = cactus::notAsAsked(fibres, labels.view.grid.spacing, facts, byVtk);
       if (stage.releaseInput)
       {
         releaseImage(this);

@@ -14,11 +14,13 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
-#include <functional>
+#include <memory>
 #include <string>
 
 namespace cactus
 {
+
+class BlockEvaluation;
 
 /// The seed fields s_i (µm) of fibres: s_i(x) is the largest radius minus distance to the centre over all balls of fibre i, so
 /// it is positive inside the seeded shape, 1-Lipschitz, and never larger than the distance to the shape's surface.
@@ -54,7 +56,12 @@ public:
   /// the number of threads: the arithmetic is relative to blocks of the index space. Its rounding error is that of single
   /// precision relative to the size of a block. Throws Cancelled.
   void sweep(const VoxelGrid& grid, const FieldRelevance& relevance, const Context& context, double progressFrom,
-    double progressTo, const std::string& message, const std::function<void(const FieldCell&, int)>& sink) const;
+    double progressTo, const std::string& message, const FieldSink& sink) const;
+
+  /// What evaluates single blocks of `grid` in the same way, for one thread at a time, of which it tells `sink` the number. What
+  /// is given by reference has to outlive it.
+  std::unique_ptr<BlockEvaluation> evaluation(
+    const VoxelGrid& grid, const FieldRelevance& relevance, const FieldSink& sink, int thread) const;
 
 private:
   CapsuleSeeds Seeds;

@@ -4,28 +4,14 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Memory.h"
-#include "growth/CapsuleField.h"
+#include "growth/GrownField.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace cactus
 {
-
-namespace
-{
-
-constexpr double bandInVoxels = 4.0;
-
-double largestRadius(const Fibres& fibres)
-{
-  return *std::max_element(fibres.radii.begin(), fibres.radii.end());
-}
-
-} // namespace
 
 VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& options)
 {
@@ -75,8 +61,10 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
     size[1], " and ", size[2], " µm: choose a VoxelSize of which each is a whole multiple, or change the field data Domain"));
 }
 
-void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
-  std::int32_t* fibreId, float* depth, const Context& context)
+namespace
+{
+
+VoxelGrid checkedPart(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part)
 {
   validate(fibres);
   const VoxelGrid whole = growthGrid(fibres.domain, options);
@@ -89,47 +77,18 @@ void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, d
   VoxelGrid grid = whole;
   grid.lower = part.lower;
   grid.count = part.count;
+  return grid;
+}
 
-  const double halfGap = 0.5 * options.gap();
-  const double band = std::max(bandInVoxels * grid.spacing, halfGap);
-  FieldRelevance relevance;
-  relevance.bestReach = growth + band;
-  relevance.secondReach = growth + halfGap;
-  relevance.sumReach = 2.0 * (growth + halfGap);
-  const double reach = std::max(relevance.bestReach, largestRadius(fibres) + relevance.sumReach) + 2.0 * grid.spacing;
-  const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, grid.box(), std::max(reach, 0.0));
-  std::vector<std::int32_t> idOfRank(field.size());
-  for (std::size_t rank = 0; rank < idOfRank.size(); ++rank)
-  {
-    idOfRank[rank] = fibres.fibreIds[field.fibre(static_cast<int>(rank))];
-  }
+} // namespace
 
-  const auto g = static_cast<float>(growth);
-  const auto w = static_cast<float>(halfGap);
-  const auto lowest = static_cast<float>(-band);
+void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
+  std::int32_t* fibreId, float* depth, const Context& context)
+{
+  const GrownField field(fibres, options, growth, checkedPart(fibres, options, growth, part));
   const double from = options.targetFibreVolumeFraction > 0.0 ? 0.5 : 0.0;
-  field.sweep(grid, relevance, context, from, 1.0, "growing fibres",
-    [&](const FieldCell& cell, int)
-    {
-      for (int k = cell.begin[2]; k < cell.end[2]; ++k)
-      {
-        for (int j = cell.begin[1]; j < cell.end[1]; ++j)
-        {
-          const int row = FieldCell::sizeX * (j + FieldCell::sizeY * k);
-          const std::size_t out = grid.index(cell.lower[0] + cell.begin[0], cell.lower[1] + j, cell.lower[2] + k);
-          std::int32_t* ids = fibreId + out;
-          float* depths = depth + out;
-          for (int i = cell.begin[0]; i < cell.end[0]; ++i, ++ids, ++depths)
-          {
-            const float best = cell.best[row + i];
-            const float f = std::min(best + g, 0.5f * (best - cell.second[row + i]) - w);
-            const bool inside = f > 0.0f;
-            *ids = inside ? idOfRank[static_cast<std::size_t>(cell.rank[row + i])] : 0;
-            *depths = inside ? f : std::max(f, lowest);
-          }
-        }
-      }
-    });
+  field.seeds().sweep(field.grid(), field.relevance(), context, from, 1.0, "growing fibres",
+    [&](const FieldCell& cell, int) { field.enter(cell, field.grid(), fibreId, depth); });
 }
 
 LabelImage growFibres(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+
 namespace cactus
 {
 
@@ -36,5 +38,8 @@ struct FieldCell
     }
   }
 };
+
+/// What is done with a cell by a thread.
+using FieldSink = std::function<void(const FieldCell&, int)>;
 
 } // namespace cactus

@@ -49,4 +49,13 @@ struct LabelImage
   std::vector<float> depth;          ///< µm, positive inside a fibre; never more than the distance to its outer surface
 };
 
+/// A label image, or a part of it, held by somebody else; see LabelImage for what its numbers mean.
+struct LabelImageView
+{
+  VoxelGrid grid;
+  const std::int32_t* fibreId = nullptr;
+  const float* depth = nullptr;
+  double gap = 0.0; ///< µm, the room that growth kept between two fibres; see FibreRadialGrowthOptions::gap
+};
+
 } // namespace cactus

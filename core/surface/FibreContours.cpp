@@ -13,7 +13,7 @@ FibreContours::FibreContours(const FibreField& field, double inset, double nudge
   , Filters(filters)
   , Inset(inset)
   , Nudge(nudge)
-  , SmallestPiece(field.image().grid.spacing * field.image().grid.spacing * field.image().grid.spacing)
+  , SmallestPiece(field.grid().spacing * field.grid().spacing * field.grid().spacing)
   , OuterLattice(field.lattice())
   , InnerLattice(field.lattice(inset))
 {

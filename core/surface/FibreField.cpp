@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace cactus
 {
@@ -17,6 +18,16 @@ namespace
 
 /// A sample nearer to a face than this part of a voxel is left out: the cells between them would be too flat.
 constexpr double thinnestCell = 0.3;
+
+/// How far from a sample its field is looked for, see FibreField::nearest().
+constexpr int farthestNeighbour = 2;
+constexpr char noImage[] = "the label image is empty or has no valid spacing";
+
+std::shared_ptr<const LabelSource> inMemory(const LabelImageView& image)
+{
+  require(image.fibreId != nullptr && image.depth != nullptr, noImage);
+  return std::make_shared<LabelImageInMemory>(image);
+}
 
 /// From a sample to one of the 26 around it.
 struct Direction
@@ -47,6 +58,33 @@ std::array<Direction, 26> neighbourDirections()
   return directions;
 }
 
+/// All blocks of a lattice, in an order in which those that follow one another are near each other.
+std::vector<std::uint32_t> inBricks(const NodeLattice& lattice)
+{
+  constexpr std::uint32_t edge = 8;
+  const std::array<std::uint32_t, 3> count{ { std::uint32_t(lattice.blocks(0)), std::uint32_t(lattice.blocks(1)),
+    std::uint32_t(lattice.blocks(2)) } };
+  std::vector<std::uint32_t> order;
+  order.reserve(lattice.blockCount());
+  for (std::uint32_t y0 = 0; y0 < count[1]; y0 += edge)
+  {
+    for (std::uint32_t x0 = 0; x0 < count[0]; x0 += edge)
+    {
+      for (std::uint32_t z = 0; z < count[2]; ++z)
+      {
+        for (std::uint32_t y = y0; y < std::min(count[1], y0 + edge); ++y)
+        {
+          for (std::uint32_t x = x0; x < std::min(count[0], x0 + edge); ++x)
+          {
+            order.push_back(x + count[0] * (y + count[1] * z));
+          }
+        }
+      }
+    }
+  }
+  return order;
+}
+
 } // namespace
 
 std::vector<int> SampleBox::columnsOf(const NodeRange& range) const
@@ -61,16 +99,20 @@ std::vector<int> SampleBox::columnsOf(const NodeRange& range) const
 }
 
 FibreField::FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain)
-  : Image(image)
+  : FibreField(inMemory(image), domain, clipToDomain)
 {
-  const VoxelGrid& grid = image.grid;
+}
+
+FibreField::FibreField(std::shared_ptr<const LabelSource> image, const Domain& domain, bool clipToDomain)
+  : Image(std::move(image))
+{
+  const VoxelGrid& grid = this->grid();
   const double h = grid.spacing;
-  if (!(h > 0.0) || !std::isfinite(h) || !grid.origin.allFinite() || grid.count[0] < 1 || grid.count[1] < 1 ||
-      grid.count[2] < 1 || image.fibreId == nullptr || image.depth == nullptr)
+  if (!(h > 0.0) || !std::isfinite(h) || !grid.origin.allFinite() || grid.count[0] < 1 || grid.count[1] < 1 || grid.count[2] < 1)
   {
-    throw InvalidInput("the label image is empty or has no valid spacing");
+    throw InvalidInput(noImage);
   }
-  if (!(image.gap >= 0.0) || !std::isfinite(image.gap))
+  if (!(this->Image->gap() >= 0.0) || !std::isfinite(this->Image->gap()))
   {
     throw InvalidInput("the gap between the fibres of the label image must be 0 or more");
   }
@@ -106,7 +148,7 @@ FibreField::FibreField(const LabelImageView& image, const Domain& domain, bool c
 
 NodeLattice FibreField::lattice(double inset) const
 {
-  const VoxelGrid& grid = this->Image.grid;
+  const VoxelGrid& grid = this->grid();
   if (!(inset >= 0.0) || inset > 0.25 * grid.spacing)
   {
     throw InvalidInput("the inset of caps must lie between 0 and a quarter of a voxel");
@@ -129,17 +171,17 @@ NodeLattice FibreField::lattice(double inset) const
 
 Eigen::Vector3d FibreField::firstNode() const
 {
-  const VoxelGrid& grid = this->Image.grid;
+  const VoxelGrid& grid = this->grid();
   return grid.origin +
          grid.spacing * Eigen::Vector3d(this->Samples.first[0] - 1, this->Samples.first[1] - 1, this->Samples.first[2] - 1);
 }
 
-std::int32_t FibreField::nearest(int i, int j, int k) const
+std::int32_t FibreField::nearest(const LabelImageView& held, int i, int j, int k) const
 {
   // A neighbour y in direction d and the sample beyond it continue to 2 f(y) - f(y + d) here, exactly where the fibre's surface
   // is flat. The fibre that is here has about the depth of this sample, any other at least a gap less. Straight neighbours tell
   // best, and only where there are none the others are asked.
-  const VoxelGrid& grid = this->Image.grid;
+  const VoxelGrid& grid = held.grid;
   std::int32_t best = 0;
   float bestEstimate = -std::numeric_limits<float>::infinity();
   // Amid the image there is no need to ask what it holds.
@@ -162,18 +204,18 @@ std::int32_t FibreField::nearest(int i, int j, int k) const
     }
     const std::ptrdiff_t step = d.i + d.j * rows + d.k * slices;
     const auto next = std::size_t(here + step);
-    const std::int32_t id = this->Image.fibreId[next];
+    const std::int32_t id = held.fibreId[next];
     if (id == 0)
     {
       continue;
     }
-    float estimate = this->Image.depth[next] - static_cast<float>(grid.spacing) * d.length;
+    float estimate = held.depth[next] - static_cast<float>(grid.spacing) * d.length;
     if (isAmid || this->holds(i + 2 * d.i, j + 2 * d.j, k + 2 * d.k))
     {
       const auto beyond = std::size_t(here + 2 * step);
-      if (this->Image.fibreId[beyond] == id)
+      if (held.fibreId[beyond] == id)
       {
-        estimate = 2.0f * this->Image.depth[next] - this->Image.depth[beyond];
+        estimate = 2.0f * held.depth[next] - held.depth[beyond];
       }
     }
     if (estimate > bestEstimate || (estimate == bestEstimate && id < best))
@@ -187,30 +229,58 @@ std::int32_t FibreField::nearest(int i, int j, int k) const
 
 bool FibreField::holds(int i, int j, int k) const
 {
-  const VoxelGrid& grid = this->Image.grid;
+  const VoxelGrid& grid = this->grid();
   return i >= grid.lower[0] && j >= grid.lower[1] && k >= grid.lower[2] && i < grid.lower[0] + grid.count[0] &&
          j < grid.lower[1] + grid.count[1] && k < grid.lower[2] + grid.count[2];
 }
 
-float FibreField::field(std::int32_t fibre, std::size_t index, int i, int j, int k) const
+float FibreField::field(const LabelImageView& held, std::int32_t fibre, std::size_t index, int i, int j, int k) const
 {
-  const std::int32_t id = this->Image.fibreId[index];
-  const float depth = this->Image.depth[index];
-  const auto gap = static_cast<float>(this->Image.gap);
-  if (id == fibre || (id == 0 && (depth <= -0.5f * gap || this->nearest(i, j, k) == fibre)))
+  const std::int32_t id = held.fibreId[index];
+  const float depth = held.depth[index];
+  const auto gap = static_cast<float>(held.gap);
+  if (id == fibre || (id == 0 && (depth <= -0.5f * gap || this->nearest(held, i, j, k) == fibre)))
   {
     return depth;
   }
   return -(depth + gap);
 }
 
+LabelImageView FibreField::samplesAround(const SampleRange& range, int more, LabelBuffer& buffer) const
+{
+  const VoxelGrid& grid = this->grid();
+  SampleRange wider;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    wider.first[axis] = std::max(grid.lower[axis], range.first[axis] - more);
+    wider.count[axis] =
+      std::min(grid.lower[axis] + grid.count[axis], range.first[axis] + range.count[axis] + more) - wider.first[axis];
+  }
+  return this->Image->samples(wider, buffer);
+}
+
+LabelImageView FibreField::samplesAt(const NodeRange& range, int more, LabelBuffer& buffer) const
+{
+  SampleRange samples;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    samples.first[axis] = this->Samples.sampleOf(axis, range.first[axis]);
+    samples.count[axis] = this->Samples.sampleOf(axis, range.first[axis] + range.count[axis] - 1) - samples.first[axis] + 1;
+  }
+  return this->samplesAround(samples, more, buffer);
+}
+
 double FibreField::atSample(std::int32_t fibre, int i, int j, int k) const
 {
-  return this->field(fibre, this->Image.grid.index(i, j, k), i, j, k);
+  LabelBuffer buffer;
+  const LabelImageView held = this->samplesAround({ { { i, j, k } }, { { 1, 1, 1 } } }, farthestNeighbour, buffer);
+  return this->field(held, fibre, held.grid.index(i, j, k), i, j, k);
 }
 
 std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
 {
+  thread_local LabelBuffer buffer;
+  const LabelImageView held = this->samplesAt(range, 0, buffer);
   std::vector<std::int32_t> ids;
   std::int32_t last = 0;
   const int i0 = this->Samples.sampleOf(0, range.first[0]);
@@ -219,13 +289,13 @@ std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
   {
     for (int j = range.first[1]; j < range.first[1] + range.count[1]; ++j)
     {
-      const std::size_t row = this->Image.grid.index(i0, this->Samples.sampleOf(1, j), this->Samples.sampleOf(2, k));
+      const std::size_t row = held.grid.index(i0, this->Samples.sampleOf(1, j), this->Samples.sampleOf(2, k));
       bool finite = true;
       bool fits = true;
       for (int i = 0; i <= i1 - i0; ++i)
       {
-        const std::int32_t id = this->Image.fibreId[row + std::size_t(i)];
-        const float depth = this->Image.depth[row + std::size_t(i)];
+        const std::int32_t id = held.fibreId[row + std::size_t(i)];
+        const float depth = held.depth[row + std::size_t(i)];
         finite = finite && std::isfinite(depth);
         fits = fits && (depth > 0.0f) == (id > 0);
         if (id != last && id != 0)
@@ -253,9 +323,10 @@ std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
 std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(int reach, const Context& context) const
 {
   const NodeLattice all = this->lattice();
+  const std::vector<std::uint32_t> order = inBricks(all);
   std::vector<std::vector<std::int32_t>> idsOf(all.blockCount());
   parallelFor(
-    idsOf.size(), context, [&](std::size_t block) { idsOf[block] = this->idsWithin(nodesOfBlock(all, block).widened(reach)); },
+    order.size(), context, [&](std::size_t i) { idsOf[order[i]] = this->idsWithin(nodesOfBlock(all, order[i]).widened(reach)); },
     "looking for fibres", 0.0, 0.05);
   std::map<std::int32_t, std::vector<std::uint32_t>> blocksOf;
   for (std::size_t block = 0; block < idsOf.size(); ++block)
@@ -270,6 +341,8 @@ std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(int re
 
 void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out) const
 {
+  thread_local LabelBuffer buffer;
+  const LabelImageView held = this->samplesAt(range, farthestNeighbour, buffer);
   const std::vector<int> columns = this->Samples.columnsOf(range);
   for (int k = 0; k < range.count[2]; ++k)
   {
@@ -277,10 +350,10 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out)
     for (int j = 0; j < range.count[1]; ++j)
     {
       const int y = this->Samples.sampleOf(1, range.first[1] + j);
-      const std::size_t row = this->Image.grid.index(this->Samples.first[0], y, z);
+      const std::size_t row = held.grid.index(this->Samples.first[0] + columns.front(), y, z);
       for (const int column : columns)
       {
-        *out++ = this->field(fibre, row + std::size_t(column), this->Samples.first[0] + column, y, z);
+        *out++ = this->field(held, fibre, row + std::size_t(column - columns.front()), this->Samples.first[0] + column, y, z);
       }
     }
   }

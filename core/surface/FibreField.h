@@ -4,25 +4,18 @@
 #include "base/Context.h"
 #include "base/Domain.h"
 #include "growth/LabelImage.h"
+#include "growth/LabelSource.h"
 #include "mesh/NodeLattice.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace cactus
 {
-
-/// A label image held by somebody else; see LabelImage for what its numbers mean.
-struct LabelImageView
-{
-  VoxelGrid grid;
-  const std::int32_t* fibreId = nullptr;
-  const float* depth = nullptr;
-  double gap = 0.0; ///< µm, the room that growth kept between two fibres; see FibreRadialGrowthOptions::gap
-};
 
 /// The samples of a label image that lie in a box, and which of them the nodes of a lattice take their values from: node 1 from
 /// the first one and so on, and those beyond the first and the last one from these.
@@ -45,9 +38,12 @@ class FibreField
 public:
   /// The box is `domain` or, with `clipToDomain` off, what the image's voxels fill. A domain that reaches beyond the image is cut
   /// off where the image ends. Throws InvalidInput where nothing is left, or the image is not a proper one.
+  FibreField(std::shared_ptr<const LabelSource> image, const Domain& domain, bool clipToDomain);
+  /// Of an image in memory.
   FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain);
 
-  const LabelImageView& image() const { return this->Image; }
+  /// The samples of the whole image.
+  const VoxelGrid& grid() const { return this->Image->grid(); }
   /// What the lattice fills.
   const Domain& box() const { return this->Box; }
   const SampleBox& samples() const { return this->Samples; }
@@ -59,6 +55,9 @@ public:
   /// Cancelled.
   std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(int reach, const Context& context = {}) const;
 
+  /// The image at the samples that a range of nodes takes its values from, and at those up to `more` beyond.
+  LabelImageView samplesAt(const NodeRange& range, int more, LabelBuffer& buffer) const;
+
   /// The field of a fibre at a sample of the image.
   double atSample(std::int32_t fibre, int i, int j, int k) const;
   /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside.
@@ -69,12 +68,13 @@ public:
 private:
   /// The fibres that have a sample in a range of nodes, increasing. Throws as findFibres() does.
   std::vector<std::int32_t> idsWithin(const NodeRange& range) const;
+  LabelImageView samplesAround(const SampleRange& range, int more, LabelBuffer& buffer) const;
   /// Of a sample outside all fibres that is nearer than gap/2 to one: to which, as its neighbours tell.
-  std::int32_t nearest(int i, int j, int k) const;
+  std::int32_t nearest(const LabelImageView& held, int i, int j, int k) const;
   bool holds(int i, int j, int k) const;
-  float field(std::int32_t fibre, std::size_t index, int i, int j, int k) const;
+  float field(const LabelImageView& held, std::int32_t fibre, std::size_t index, int i, int j, int k) const;
 
-  LabelImageView Image;
+  std::shared_ptr<const LabelSource> Image;
   Domain Box;
   SampleBox Samples;
 };

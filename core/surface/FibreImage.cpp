@@ -165,13 +165,13 @@ FibreImage fibreImage(
   require(!blocks.empty(), "the fibre has no voxel in the label image");
   require(std::isfinite(level) && level >= 0.0, "the level of a contour must be a depth of 0 or more");
   const NodeLattice lattice = field.lattice(inset);
-  const double spacing = field.image().grid.spacing;
+  const double spacing = field.grid().spacing;
   Faces faces;
   const NodeRange samples = samplesOf(lattice, rangeOf(lattice, blocks), spacing, faces);
 
   FibreImage image;
   image.grid.spacing = spacing;
-  image.grid.origin = field.image().grid.origin;
+  image.grid.origin = field.grid().origin;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto a = Eigen::Index(axis);

@@ -47,17 +47,17 @@ TriangleMesh packed(TriangleMesh&& mesh)
 
 } // namespace
 
-FibreMesher::FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
-  const SurfaceFilters* filters, const Context& context)
+FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts,
+  const MyelinSurfaceOptions& options, const SurfaceFilters* filters, const Context& context)
   : Facts(facts)
   , Options(options)
   , Filters(filters)
   , Field(image, facts.domain, options.clipToDomain)
-  , Spacing(image.grid.spacing)
+  , Spacing(image->grid().spacing)
   , Contours(Field, std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing),
       nudgeFor(Spacing, facts.surfaceTolerance), filters)
   , Finishing(options.decimationError, Spacing, filters)
-  , Withdrawal(0.5 * std::max(0.0, leastRoom - image.gap))
+  , Withdrawal(0.5 * std::max(0.0, leastRoom - image->gap()))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
   , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + rounding)
 {

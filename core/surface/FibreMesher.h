@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,7 @@ class FibreMesher
 public:
   /// What is given has to outlive the mesher, except the context. With `filters` these contour the fields and coarsen what comes
   /// out. Throws InvalidInput where the image is not a proper one, and Cancelled.
-  FibreMesher(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
+  FibreMesher(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
     const SurfaceFilters* filters = nullptr, const Context& context = {});
 
   FibreMesher(const FibreMesher&) = delete;

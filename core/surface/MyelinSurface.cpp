@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/MyelinSurface.h"
 
+#include "growth/LabelSource.h"
 #include "mesh/SurfaceStore.h"
 #include "surface/SurfaceMaker.h"
+
+#include <memory>
 
 namespace cactus
 {
@@ -10,7 +13,7 @@ namespace cactus
 std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const LabelImageFacts& facts,
   const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters)
 {
-  SurfaceMaker maker(image, facts, options, context, filters);
+  SurfaceMaker maker(std::make_shared<LabelImageInMemory>(image), facts, options, context, filters);
   SurfacesInMemory outer(maker.fibres().size());
   SurfacesInMemory inner(maker.fibres().size());
   maker.makeOuter(outer);

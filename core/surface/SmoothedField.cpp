@@ -55,7 +55,7 @@ SmoothedField::SmoothedField(
   , Lattice(field.lattice())
   , Blocks(std::move(blocks))
   , FirstNode(field.firstNode())
-  , NodesPerLength(1.0 / field.image().grid.spacing)
+  , NodesPerLength(1.0 / field.grid().spacing)
 {
   for (const std::vector<Piece>& together : this->layOut(passes > fewPasses ? blocksTogether : 1))
   {

@@ -7,6 +7,7 @@
 #include "mesh/SurfaceSpacing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -72,6 +73,57 @@ std::vector<FibreSurfacePair> fibresOf(
   return pairs;
 }
 
+/// A number that is near for places that are near each other: their bits by turns.
+std::uint64_t placeNumber(const std::array<int, 3>& place)
+{
+  std::uint64_t number = 0;
+  for (int bit = 20; bit >= 0; --bit)
+  {
+    for (const int along : place)
+    {
+      number = 2 * number + ((std::uint64_t(along) >> bit) & 1U);
+    }
+  }
+  return number;
+}
+
+/// The fibres in such an order by the middle of their blocks, so that samples that neighbours share are at hand.
+std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs,
+  const std::map<std::int32_t, std::vector<std::uint32_t>>& blocksOf, const NodeLattice& lattice)
+{
+  std::vector<std::pair<std::uint64_t, std::size_t>> places;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    std::array<int, 3> middle{ { 0, 0, 0 } };
+    const auto found = blocksOf.find(pairs[i].fibreId);
+    if (found != blocksOf.end())
+    {
+      std::array<double, 3> sum{ { 0.0, 0.0, 0.0 } };
+      for (const std::uint32_t block : found->second)
+      {
+        const NodeRange nodes = nodesOfBlock(lattice, block);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          sum[axis] += nodes.first[axis];
+        }
+      }
+      const auto blocks = static_cast<double>(found->second.size()) * NodeLattice::blockCells;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        middle[axis] = static_cast<int>(sum[axis] / blocks);
+      }
+    }
+    places.emplace_back(placeNumber(middle), i);
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<std::size_t> order;
+  for (const auto& place : places)
+  {
+    order.push_back(place.second);
+  }
+  return order;
+}
+
 /// What myelinSurfaces() throws for options that do not suit the image.
 const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
 {
@@ -88,8 +140,8 @@ const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurface
 
 } // namespace
 
-SurfaceMaker::SurfaceMaker(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
-  const Context& context, const SurfaceFilters* filters)
+SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts,
+  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters)
   : Facts(checked(facts, options))
   , Options(options)
   , Filters(filters)
@@ -97,7 +149,16 @@ SurfaceMaker::SurfaceMaker(const LabelImageView& image, const LabelImageFacts& f
   , Mesher(image, facts, options, filters, context)
   , BlocksOf(Mesher.field().findFibres(options.smoothingIterations, context))
   , Pairs(fibresOf(facts, BlocksOf))
+  , Order(orderByPlace(Pairs, BlocksOf, Mesher.field().lattice()))
 {
+}
+
+/// In parallel.
+template <typename Body>
+void SurfaceMaker::forEachFibre(Body&& body, const char* message, double from, double to) const
+{
+  parallelFor(
+    this->Order.size(), this->Caller, [&](std::size_t i) { body(this->Order[i]); }, message, from, to);
 }
 
 void SurfaceMaker::makeOuter(SurfaceStore& outer)
@@ -139,8 +200,7 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
 
 void SurfaceMaker::contourOuter(SurfaceStore& outer)
 {
-  parallelFor(
-    this->Pairs.size(), this->Caller,
+  this->forEachFibre(
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];
@@ -201,7 +261,7 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
     this->Pairs[moved[i]].isFlawed = !faults[i].empty();
     if (!faults[i].empty() && attempt < remakes)
     {
-      const auto more = boundsAround(faults[i], this->Mesher.field().image().grid.spacing, attempt);
+      const auto more = boundsAround(faults[i], this->Mesher.field().grid().spacing, attempt);
       std::vector<LocalErrorBound>& all = bounds[moved[i]];
       all.insert(all.end(), more.begin(), more.end());
       again.push_back(moved[i]);
@@ -226,8 +286,7 @@ void SurfaceMaker::makeAgain(
 
 void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
 {
-  parallelFor(
-    this->Pairs.size(), this->Caller,
+  this->forEachFibre(
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];

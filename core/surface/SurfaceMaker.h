@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,7 @@ class SurfaceMaker
 {
 public:
   /// What is given by reference has to outlive the object. Throws as myelinSurfaces() does.
-  SurfaceMaker(const LabelImageView& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
+  SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
     const Context& context, const SurfaceFilters* filters = nullptr);
 
   /// All fibres, by increasing id, and what is known of them; their meshes are in the stores.
@@ -41,6 +42,8 @@ private:
   using BlocksOfFibres = std::map<std::int32_t, Blocks>;
   using BoundsOfFibres = std::map<std::size_t, std::vector<LocalErrorBound>>;
 
+  template <typename Body>
+  void forEachFibre(Body&& body, const char* message, double from, double to) const;
   SmoothedField fieldOf(const FibreSurfacePair& pair) const;
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
   void contourOuter(SurfaceStore& outer);
@@ -58,6 +61,7 @@ private:
   FibreMesher Mesher;
   BlocksOfFibres BlocksOf;
   std::vector<FibreSurfacePair> Pairs;
+  std::vector<std::size_t> Order; ///< in which to work on them: one after the other what is near each other
 };
 
 } // namespace cactus

@@ -20,7 +20,7 @@ constexpr char adviceOnFilters[] = "the filters of VTK promise nothing of this: 
                                    "larger SincPassBand, or a smaller "
                                    "TargetReduction";
 
-std::string adviceFor(const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts)
+std::string adviceFor(const std::vector<FibreSurfacePair>& pairs, double voxelSize, const LabelImageFacts& facts)
 {
   double thinnest = std::numeric_limits<double>::infinity();
   double thickest = 0.0;
@@ -31,10 +31,10 @@ std::string adviceFor(const std::vector<FibreSurfacePair>& pairs, const LabelIma
   }
   std::string advice;
   const std::string radii = text(" for fibres of radii ", thinnest, " to ", thickest, " µm");
-  if (image.grid.spacing > coarsestVoxel * thinnest)
+  if (voxelSize > coarsestVoxel * thinnest)
   {
-    advice = text("VoxelSize ", image.grid.spacing, " µm is coarse", radii, ": choose ", coarsestVoxel * thinnest,
-      " or less in FibreRadialGrowth");
+    advice = text(
+      "VoxelSize ", voxelSize, " µm is coarse", radii, ": choose ", coarsestVoxel * thinnest, " or less in FibreRadialGrowth");
   }
   if (2.0 * (facts.minimumGap + facts.surfaceTolerance) > thinnest)
   {
@@ -42,14 +42,13 @@ std::string adviceFor(const std::vector<FibreSurfacePair>& pairs, const LabelIma
       " µm are large", radii, ": choose smaller ones in FibreRadialGrowth");
   }
   return !advice.empty() ? advice
-                         : text("choose a smaller VoxelSize (it is ", image.grid.spacing, " µm", radii,
+                         : text("choose a smaller VoxelSize (it is ", voxelSize, " µm", radii,
                              ") in FibreRadialGrowth, or a smaller GRatio or DecimationError here");
 }
 
 } // namespace
 
-std::string notAsAsked(
-  const std::vector<FibreSurfacePair>& pairs, const LabelImageView& image, const LabelImageFacts& facts, bool byFilters)
+std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, double voxelSize, const LabelImageFacts& facts, bool byFilters)
 {
   const auto count = [&](auto&& is) { return std::count_if(pairs.begin(), pairs.end(), is); };
   const auto in = [&](MyelinState state)
@@ -71,7 +70,7 @@ std::string notAsAsked(
   add(count([](const FibreSurfacePair& pair) { return pair.isFlawed; }),
     "with a surface that meets itself or is nearer than MinimumGap to another fibre (Flawed)");
   return text(bad, " of ", wanted, " fibres are not as asked, see Fibre statistics: ", ways, "; ",
-    byFilters ? adviceOnFilters : adviceFor(pairs, image, facts));
+    byFilters ? adviceOnFilters : adviceFor(pairs, voxelSize, facts));
 }
 
 } // namespace cactus

@@ -27,34 +27,84 @@ struct Depths
 
 using DepthsOfFibres = std::unordered_map<std::int32_t, Depths>;
 
-/// Of the samples of one slice, run by run.
-DepthsOfFibres depthsInSlice(const FibreField& field, int slice)
+/// Slices, and rows of each, that are looked at together.
+constexpr int sliceCount = 16;
+constexpr int rowCount = 16;
+
+/// Adds what one row of samples holds, run by run.
+void addRow(const std::int32_t* fibreId, const float* depth, int count, DepthsOfFibres& depths)
 {
-  const LabelImageView& image = field.image();
-  const SampleBox& samples = field.samples();
-  DepthsOfFibres depths;
-  for (int j = 0; j < samples.count[1]; ++j)
+  for (int i = 0; i < count;)
   {
-    const std::size_t row = image.grid.index(samples.first[0], samples.first[1] + j, samples.first[2] + slice);
-    const std::size_t end = row + std::size_t(samples.count[0]);
-    for (std::size_t i = row; i < end;)
+    const std::int32_t id = fibreId[i];
+    Depths run;
+    for (; i < count && fibreId[i] == id; ++i)
     {
-      const std::int32_t id = image.fibreId[i];
-      Depths run;
-      for (; i < end && image.fibreId[i] == id; ++i)
+      run.sum += double(depth[i]);
+      run.count += 1.0;
+    }
+    if (id != 0)
+    {
+      Depths& all = depths[id];
+      all.sum += run.sum;
+      all.count += run.count;
+    }
+  }
+}
+
+/// Of each of some slices.
+std::vector<DepthsOfFibres> depthsInSlices(const FibreField& field, int first, int slices)
+{
+  const SampleBox& samples = field.samples();
+  std::vector<DepthsOfFibres> depths(static_cast<std::size_t>(slices));
+  LabelBuffer buffer;
+  for (int j0 = 0; j0 < samples.count[1]; j0 += rowCount)
+  {
+    // Node 1 is the first sample.
+    const int rows = std::min(rowCount, samples.count[1] - j0);
+    const LabelImageView held =
+      field.samplesAt({ { { 1, j0 + 1, first + 1 } }, { { samples.count[0], rows, slices } } }, 0, buffer);
+    for (int k = 0; k < slices; ++k)
+    {
+      for (int j = j0; j < j0 + rows; ++j)
       {
-        run.sum += double(image.depth[i]);
-        run.count += 1.0;
-      }
-      if (id != 0)
-      {
-        Depths& all = depths[id];
-        all.sum += run.sum;
-        all.count += run.count;
+        const std::size_t row = held.grid.index(samples.first[0], samples.first[1] + j, samples.first[2] + first + k);
+        addRow(held.fibreId + row, held.depth + row, samples.count[0], depths[static_cast<std::size_t>(k)]);
       }
     }
   }
   return depths;
+}
+
+/// Of all slices, added up one after the other.
+std::map<std::int32_t, Depths> depthsOfAll(const FibreField& field, const Context& context)
+{
+  const int count = field.samples().count[2];
+  const int layers = (count + sliceCount - 1) / sliceCount;
+  const int together = 4 * context.threadCount();
+  std::map<std::int32_t, Depths> all;
+  for (int layer = 0; layer < layers; layer += together)
+  {
+    std::vector<std::vector<DepthsOfFibres>> ofLayer(static_cast<std::size_t>(std::min(together, layers - layer)));
+    parallelFor(ofLayer.size(), context,
+      [&](std::size_t i)
+      {
+        const int first = sliceCount * (layer + static_cast<int>(i));
+        ofLayer[i] = depthsInSlices(field, first, std::min(sliceCount, count - first));
+      });
+    for (const auto& slices : ofLayer)
+    {
+      for (const DepthsOfFibres& slice : slices)
+      {
+        for (const auto& [id, part] : slice)
+        {
+          all[id].sum += part.sum;
+          all[id].count += part.count;
+        }
+      }
+    }
+  }
+  return all;
 }
 
 } // namespace
@@ -62,20 +112,9 @@ DepthsOfFibres depthsInSlice(const FibreField& field, int slice)
 ThinFibres::ThinFibres(const FibreField& field, const Context& context)
   : Field(field)
 {
-  std::vector<DepthsOfFibres> ofSlice(std::size_t(field.samples().count[2]));
-  parallelFor(ofSlice.size(), context, [&](std::size_t k) { ofSlice[k] = depthsInSlice(field, static_cast<int>(k)); });
-  std::map<std::int32_t, Depths> depths;
-  for (const auto& slice : ofSlice)
+  for (const auto& [id, all] : depthsOfAll(field, context))
   {
-    for (const auto& [id, part] : slice)
-    {
-      depths[id].sum += part.sum;
-      depths[id].count += part.count;
-    }
-  }
-  for (const auto& [id, all] : depths)
-  {
-    const double radius = 3.0 * all.sum / (all.count * field.image().grid.spacing);
+    const double radius = 3.0 * all.sum / (all.count * field.grid().spacing);
     const double part = (radius - sparedRadius) / (smoothedRadius - sparedRadius);
     if (part < 1.0)
     {
@@ -86,7 +125,8 @@ ThinFibres::ThinFibres(const FibreField& field, const Context& context)
 
 bool ThinFibres::smoothingInside(const NodeRange& range, float* out) const
 {
-  const LabelImageView& image = this->Field.image();
+  thread_local LabelBuffer buffer;
+  const LabelImageView held = this->Field.samplesAt(range, 0, buffer);
   const SampleBox& samples = this->Field.samples();
   const std::vector<int> columns = samples.columnsOf(range);
   bool any = false;
@@ -97,10 +137,11 @@ bool ThinFibres::smoothingInside(const NodeRange& range, float* out) const
     const int z = samples.sampleOf(2, range.first[2] + k);
     for (int j = 0; j < range.count[1]; ++j)
     {
-      const std::int32_t* row = image.fibreId + image.grid.index(samples.first[0], samples.sampleOf(1, range.first[1] + j), z);
+      const std::int32_t* row =
+        held.fibreId + held.grid.index(samples.first[0] + columns.front(), samples.sampleOf(1, range.first[1] + j), z);
       for (const int column : columns)
       {
-        const std::int32_t id = row[column];
+        const std::int32_t id = row[column - columns.front()];
         if (id != last)
         {
           const auto found = this->Smoothing.find(id);

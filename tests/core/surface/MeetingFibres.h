@@ -12,7 +12,7 @@ namespace example
 {
 
 /// Three fibres that meet in the middle of a cube of 3 µm.
-inline cactus::LabelImage meetingFibres(const cactus::FibreRadialGrowthOptions& options)
+inline cactus::Fibres fibresThatMeet()
 {
   cactus::Fibres fibres;
   fibres.domain = cactus::Domain::cube(3.0);
@@ -23,6 +23,12 @@ inline cactus::LabelImage meetingFibres(const cactus::FibreRadialGrowthOptions& 
     fibres.addPoint({ 0.55 * std::cos(angle), 0.55 * std::sin(angle), -2.0 }, 0.5);
     fibres.addPoint({ 0.6 * std::cos(angle + 0.3), 0.6 * std::sin(angle + 0.3), 2.0 }, 0.5);
   }
+  return fibres;
+}
+
+inline cactus::LabelImage meetingFibres(const cactus::FibreRadialGrowthOptions& options)
+{
+  const cactus::Fibres fibres = fibresThatMeet();
   return cactus::growFibres(fibres, options, 0.3, cactus::growthGrid(fibres.domain, options));
 }
 

@@ -45,7 +45,9 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   facts.surfaceTolerance = options.surfaceTolerance;
   MyelinSurfaceOptions surfaceOptions;
   surfaceOptions.decimationError = 0.0005; // so that there are points to push
-  const FibreMesher mesher({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, facts, surfaceOptions);
+  const FibreMesher mesher(
+    std::make_shared<LabelImageInMemory>(LabelImageView{ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }),
+    facts, surfaceOptions);
   const auto blocks = mesher.field().findFibres(surfaceOptions.smoothingIterations, {});
   const SmoothedField field = mesher.smoothed(blocks.at(1), 1);
   FibreSurfacePair pair;
@@ -386,27 +388,27 @@ TEST(MyelinSurfaces, CoarseBundlesAreSoundOrMarked)
 TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
 {
   Meeting lost;
-  EXPECT_EQ(notAsAsked(lost.surfaces(), lost.view(), lost.facts), "");
+  EXPECT_EQ(notAsAsked(lost.surfaces(), lost.view().grid.spacing, lost.facts), "");
   lost.facts.lengths = { 3.0, 3.0, 0.0 };
   auto pairs = lost.surfaces();
   pairs[2].state = MyelinState::NoFibre; // passes by outside
-  EXPECT_EQ(notAsAsked(pairs, lost.view(), lost.facts), "");
+  EXPECT_EQ(notAsAsked(pairs, lost.view().grid.spacing, lost.facts), "");
   pairs[1].state = MyelinState::NoFibre;
-  const std::string one = notAsAsked(pairs, lost.view(), lost.facts);
+  const std::string one = notAsAsked(pairs, lost.view().grid.spacing, lost.facts);
   EXPECT_EQ(one.find("1 of 2 fibres are not as asked, see Fibre statistics: 1 without any surface (Myelin 4); choose a smaller "
                      "VoxelSize (it is 0.1 µm"),
     0u)
     << one;
   pairs[0].isFlawed = true;
   pairs[0].state = MyelinState::Thicker;
-  const std::string two = notAsAsked(pairs, lost.view(), lost.facts);
+  const std::string two = notAsAsked(pairs, lost.view().grid.spacing, lost.facts);
   EXPECT_EQ(two.find("2 of 2 fibres are not as asked, see Fibre statistics: 1 without any surface (Myelin 4), 1 with thicker "
                      "myelin (2), 1 with a"),
     0u)
     << two;
   lost.facts.minimumGap = 0.3;
   lost.image.grid.spacing = 0.3;
-  const std::string three = notAsAsked(pairs, lost.view(), lost.facts);
+  const std::string three = notAsAsked(pairs, lost.view().grid.spacing, lost.facts);
   EXPECT_NE(three.find("VoxelSize 0.3 µm is coarse for fibres of radii 0.5 to 0.5 µm: choose 0.25 or less"), std::string::npos)
     << three;
   EXPECT_NE(three.find("MinimumGap 0.3"), std::string::npos) << three;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "growth/CandidateSearch.h"
+#include "growth/CapsuleSeeds.h"
+#include "growth/FieldCell.h"
+#include "growth/FieldKernels.h"
+#include "growth/FieldRelevance.h"
+#include "growth/LabelImage.h"
+#include "growth/SeedBins.h"
+
+#include <Eigen/Core>
+
+namespace cactus
+{
+
+/// Evaluates one block of the index space after the other, cell by cell; each thread has one of its own.
+class BlockEvaluation
+{
+public:
+  /// Samples along each side of a block, in which single-precision arithmetic is relative to the block's centre.
+  static constexpr int blockSize = 16;
+
+  BlockEvaluation(const CapsuleSeeds& seeds, const SeedBins& bins, const VoxelGrid& grid, const FieldRelevance& relevance,
+    const FieldSink& sink, int thread);
+
+  /// Hands over those of a block's cells that the grid holds samples of. lower: index of the block's first sample.
+  void evaluate(const Eigen::Array3i& lower);
+
+private:
+  void evaluateCell(const Eigen::Array3i& lower, const Eigen::Array3i& at, Candidates& candidates);
+  void placeSamples(const Eigen::Array3i& at);
+
+  CandidateSearch Search;
+  const VoxelGrid& Grid;
+  const FieldRelevance& Relevance;
+  CellRelevance RelevanceInCells;
+  const FieldKernels& Kernels = bestKernels<FieldKernels>();
+  const FieldSink& HandOver;
+  int Thread;
+  CellSamples Samples;
+};
+
+} // namespace cactus

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth/GrownField.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double bandInVoxels = 4.0;
+
+FieldRelevance relevanceOf(double growth, double band, double halfGap)
+{
+  FieldRelevance relevance;
+  relevance.bestReach = growth + band;
+  relevance.secondReach = growth + halfGap;
+  relevance.sumReach = 2.0 * (growth + halfGap);
+  return relevance;
+}
+
+/// How far seeds matter.
+double reachOf(const Fibres& fibres, const FieldRelevance& relevance, double spacing)
+{
+  const double largestRadius = *std::max_element(fibres.radii.begin(), fibres.radii.end());
+  return std::max(0.0, std::max(relevance.bestReach, largestRadius + relevance.sumReach) + 2.0 * spacing);
+}
+
+} // namespace
+
+GrownField::GrownField(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part)
+  : Part(part)
+  , HalfGap(0.5 * options.gap())
+  , Growth(growth)
+  , Band(std::max(bandInVoxels * Part.spacing, HalfGap))
+  , Relevance(relevanceOf(growth, Band, HalfGap))
+  , Seeds(fibres, { options.surfaceRoughness, options.seed }, Part.box(), reachOf(fibres, Relevance, Part.spacing))
+  , IdOfRank(Seeds.size())
+{
+  for (std::size_t rank = 0; rank < this->IdOfRank.size(); ++rank)
+  {
+    this->IdOfRank[rank] = fibres.fibreIds[this->Seeds.fibre(static_cast<int>(rank))];
+  }
+}
+
+void GrownField::enter(const FieldCell& cell, const VoxelGrid& held, std::int32_t* fibreId, float* depth) const
+{
+  const auto g = static_cast<float>(this->Growth);
+  const auto w = static_cast<float>(this->HalfGap);
+  const auto lowest = static_cast<float>(-this->Band);
+  for (int k = cell.begin[2]; k < cell.end[2]; ++k)
+  {
+    for (int j = cell.begin[1]; j < cell.end[1]; ++j)
+    {
+      const int row = FieldCell::sizeX * (j + FieldCell::sizeY * k);
+      const std::size_t out = held.index(cell.lower[0] + cell.begin[0], cell.lower[1] + j, cell.lower[2] + k);
+      std::int32_t* ids = fibreId + out;
+      float* depths = depth + out;
+      for (int i = cell.begin[0]; i < cell.end[0]; ++i, ++ids, ++depths)
+      {
+        const float best = cell.best[row + i];
+        const float f = std::min(best + g, 0.5f * (best - cell.second[row + i]) - w);
+        const bool inside = f > 0.0f;
+        *ids = inside ? this->IdOfRank[static_cast<std::size_t>(cell.rank[row + i])] : 0;
+        *depths = inside ? f : std::max(f, lowest);
+      }
+    }
+  }
+}
+
+} // namespace cactus

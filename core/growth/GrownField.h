@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "growth/CapsuleField.h"
+#include "growth/FibreRadialGrowthOptions.h"
+#include "growth/FieldCell.h"
+#include "growth/FieldRelevance.h"
+#include "growth/LabelImage.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// What growFibres() makes of the seed fields at samples, ready to be computed in a part of the image.
+class GrownField
+{
+public:
+  /// `part` is a part of growthGrid(), the fibres are valid and the growth is finite. Throws OutOfMemory.
+  GrownField(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part);
+
+  /// The part.
+  const VoxelGrid& grid() const { return this->Part; }
+  const CapsuleField& seeds() const { return this->Seeds; }
+  const FieldRelevance& relevance() const { return this->Relevance; }
+
+  /// Writes FibreId and Depth at a cell's samples to where they are in `held`, which holds all of them.
+  void enter(const FieldCell& cell, const VoxelGrid& held, std::int32_t* fibreId, float* depth) const;
+
+private:
+  VoxelGrid Part;
+  double HalfGap;
+  double Growth;
+  double Band; ///< µm outside a fibre, beyond which depths are only known to be as far
+  FieldRelevance Relevance;
+  CapsuleField Seeds;
+  std::vector<std::int32_t> IdOfRank;
+};
+
+} // namespace cactus

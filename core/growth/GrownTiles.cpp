@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "growth/GrownTiles.h"
+
+#include "base/Error.h"
+#include "base/RecentThings.h"
+#include "growth/BlockEvaluation.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrownField.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+static_assert(GrownTiles::edge == BlockEvaluation::blockSize, "a tile is what is evaluated at once");
+
+struct GrownTiles::Tile
+{
+  VoxelGrid grid; ///< within the image
+  std::vector<std::int32_t> fibreId;
+  std::vector<float> depth;
+};
+
+namespace
+{
+
+/// Along an axis: 33 million samples.
+constexpr int mostTiles = 1 << 21;
+
+const Fibres& checked(const Fibres& fibres, double growth)
+{
+  validate(fibres);
+  require(std::isfinite(growth), "the growth must be a finite number of µm");
+  return fibres;
+}
+
+/// Whatever a thread needs to compute tiles.
+class TileWorker
+{
+public:
+  explicit TileWorker(const GrownField& field)
+    : Enter([this, &field](const FieldCell& cell, int) { field.enter(cell, *this->Grid, this->FibreId, this->Depth); })
+    , Evaluation(field.seeds().evaluation(field.grid(), field.relevance(), this->Enter, 0))
+  {
+  }
+  TileWorker(const TileWorker&) = delete;
+  TileWorker& operator=(const TileWorker&) = delete;
+
+  void compute(const Eigen::Array3i& lower, const VoxelGrid& held, std::int32_t* fibreId, float* depth)
+  {
+    this->Grid = &held;
+    this->FibreId = fibreId;
+    this->Depth = depth;
+    this->Evaluation->evaluate(lower);
+  }
+
+private:
+  const VoxelGrid* Grid = nullptr;
+  std::int32_t* FibreId = nullptr;
+  float* Depth = nullptr;
+  FieldSink Enter;
+  std::unique_ptr<BlockEvaluation> Evaluation;
+};
+
+} // namespace
+
+/// The field, and the workers of as many threads as have ever asked at the same time.
+class GrownTiles::Growing
+{
+public:
+  Growing(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept)
+    : gap(options.gap())
+    , field(checked(fibres, growth), options, growth, growthGrid(fibres.domain, options))
+    , recent(kept)
+  {
+  }
+
+  void compute(const Eigen::Array3i& lower, Tile& tile)
+  {
+    std::unique_ptr<TileWorker> worker = this->takeWorker();
+    worker->compute(lower, tile.grid, tile.fibreId.data(), tile.depth.data());
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Idle.push_back(std::move(worker));
+  }
+
+  const double gap;
+  const GrownField field;
+  RecentThings<Tile> recent;
+
+private:
+  std::unique_ptr<TileWorker> takeWorker()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      if (!this->Idle.empty())
+      {
+        std::unique_ptr<TileWorker> worker = std::move(this->Idle.back());
+        this->Idle.pop_back();
+        return worker;
+      }
+    }
+    return std::make_unique<TileWorker>(this->field);
+  }
+
+  std::mutex Mutex;
+  std::vector<std::unique_ptr<TileWorker>> Idle;
+};
+
+GrownTiles::GrownTiles(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept)
+  : Source(std::make_unique<Growing>(fibres, options, growth, kept))
+{
+  for (const int count : this->grid().count)
+  {
+    require(count / edge < mostTiles, "the image has too many voxels along an axis: choose a larger VoxelSize");
+  }
+}
+
+GrownTiles::~GrownTiles() = default;
+
+const VoxelGrid& GrownTiles::grid() const
+{
+  return this->Source->field.grid();
+}
+
+double GrownTiles::gap() const
+{
+  return this->Source->gap;
+}
+
+std::shared_ptr<const GrownTiles::Tile> GrownTiles::tile(const std::array<int, 3>& at) const
+{
+  std::uint64_t key = 0;
+  for (const int index : at)
+  {
+    key = (key << 21) + std::uint64_t(index); // see mostTiles
+  }
+  if (auto kept = this->Source->recent.find(key))
+  {
+    return kept;
+  }
+  const VoxelGrid& whole = this->grid();
+  auto tile = std::make_shared<Tile>();
+  tile->grid = whole;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    tile->grid.lower[axis] = edge * at[axis];
+    tile->grid.count[axis] = std::min(edge, whole.count[axis] - edge * at[axis]);
+  }
+  tile->fibreId.resize(tile->grid.size());
+  tile->depth.resize(tile->grid.size());
+  this->Source->compute({ edge * at[0], edge * at[1], edge * at[2] }, *tile);
+  ++this->Computed;
+  this->Source->recent.keep(key, tile);
+  return tile;
+}
+
+/// Copies what `held` holds of a tile.
+void GrownTiles::copyTile(const Tile& tile, const VoxelGrid& held, LabelBuffer& buffer)
+{
+  std::array<int, 3> begin{};
+  std::array<int, 3> end{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    begin[axis] = std::max(held.lower[axis], tile.grid.lower[axis]);
+    end[axis] = std::min(held.lower[axis] + held.count[axis], tile.grid.lower[axis] + tile.grid.count[axis]);
+  }
+  for (int k = begin[2]; k < end[2]; ++k)
+  {
+    for (int j = begin[1]; j < end[1]; ++j)
+    {
+      const std::size_t from = tile.grid.index(begin[0], j, k);
+      const std::size_t to = held.index(begin[0], j, k);
+      const auto count = std::ptrdiff_t(end[0] - begin[0]);
+      std::copy_n(tile.fibreId.data() + from, count, buffer.fibreId.data() + to);
+      std::copy_n(tile.depth.data() + from, count, buffer.depth.data() + to);
+    }
+  }
+}
+
+LabelImageView GrownTiles::samples(const SampleRange& range, LabelBuffer& buffer) const
+{
+  LabelImageView view;
+  view.gap = this->gap();
+  view.grid = this->grid();
+  view.grid.lower = range.first;
+  view.grid.count = range.count;
+  buffer.fibreId.resize(view.grid.size());
+  buffer.depth.resize(view.grid.size());
+  std::array<int, 3> first{};
+  std::array<int, 3> last{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = range.first[axis] / edge;
+    last[axis] = (range.first[axis] + range.count[axis] - 1) / edge;
+  }
+  for (int z = first[2]; z <= last[2]; ++z)
+  {
+    for (int y = first[1]; y <= last[1]; ++y)
+    {
+      for (int x = first[0]; x <= last[0]; ++x)
+      {
+        copyTile(*this->tile({ { x, y, z } }), view.grid, buffer);
+      }
+    }
+  }
+  view.fibreId = buffer.fibreId.data();
+  view.depth = buffer.depth.data();
+  return view;
+}
+
+} // namespace cactus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "growth/FibreRadialGrowthOptions.h"
+#include "growth/LabelSource.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace cactus
+{
+
+/// The label image that growFibres() makes, computed tile by tile where it is asked for, with the same bits. Tiles that were used
+/// last are kept. Memory goes with the fibres and with what is kept, not with the image.
+class GrownTiles : public LabelSource
+{
+public:
+  /// What growFibres() is given; `fibres` need not outlive the object. `kept` tiles are kept (bytesPerTile each, 1 or more).
+  /// Throws as growFibres().
+  GrownTiles(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept);
+  ~GrownTiles() override;
+
+  /// Samples along each edge of a tile.
+  static constexpr int edge = 16;
+  static constexpr std::size_t bytesPerTile = std::size_t(8) * edge * edge * edge;
+
+  const VoxelGrid& grid() const override;
+  double gap() const override;
+  LabelImageView samples(const SampleRange& range, LabelBuffer& buffer) const override;
+
+  /// How many tiles were computed, those computed again included.
+  std::size_t computed() const { return this->Computed; }
+
+private:
+  struct Tile;
+  class Growing;
+
+  static void copyTile(const Tile& tile, const VoxelGrid& held, LabelBuffer& buffer);
+  std::shared_ptr<const Tile> tile(const std::array<int, 3>& at) const;
+
+  std::unique_ptr<Growing> Source;
+  mutable std::atomic<std::size_t> Computed{ 0 };
+};
+
+} // namespace cactus

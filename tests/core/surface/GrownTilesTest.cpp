@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: samples that are computed where they are asked for have the bits of the whole image, however few tiles are kept and
+// however many threads ask; surfaces made of them have the bits of those made of the image.
+#include "growth/GrownTiles.h"
+#include "base/Parallel.h"
+#include "growth/FibreRadialGrowth.h"
+#include "surface/MeetingFibres.h"
+#include "surface/MyelinSurface.h"
+#include "surface/SurfaceMaker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <vector>
+
+namespace
+{
+
+using namespace cactus;
+
+/// How many samples of some random boxes are not those of the image.
+std::size_t differences(const GrownTiles& tiles, const LabelImage& image, unsigned seed)
+{
+  std::mt19937 random(seed);
+  const auto below = [&](int end) { return static_cast<int>(random() % unsigned(end)); };
+  std::size_t different = 0;
+  LabelBuffer buffer;
+  for (int n = 0; n < 20; ++n)
+  {
+    SampleRange range;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      range.first[axis] = below(image.grid.count[axis]);
+      range.count[axis] = 1 + below(std::min(40, image.grid.count[axis] - range.first[axis]));
+    }
+    const LabelImageView view = tiles.samples(range, buffer);
+    for (int k = range.first[2]; k < range.first[2] + range.count[2]; ++k)
+    {
+      for (int j = range.first[1]; j < range.first[1] + range.count[1]; ++j)
+      {
+        for (int i = range.first[0]; i < range.first[0] + range.count[0]; ++i)
+        {
+          const std::size_t here = view.grid.index(i, j, k);
+          const std::size_t there = image.grid.index(i, j, k);
+          different += view.fibreId[here] != image.fibreId[there] || view.depth[here] != image.depth[there] ? 1 : 0;
+        }
+      }
+    }
+  }
+  return different;
+}
+
+TEST(GrownTiles, HaveTheBitsOfTheImageOnSeveralThreads)
+{
+  FibreRadialGrowthOptions options;
+  options.margin = 0.3;
+  const Fibres fibres = example::fibresThatMeet();
+  const LabelImage image = growFibres(fibres, options, 0.2, growthGrid(fibres.domain, options));
+  ASSERT_GT(image.grid.count[0], 2 * GrownTiles::edge);
+  for (const std::size_t kept : { std::size_t(1), std::size_t(5), std::size_t(1000) })
+  {
+    const GrownTiles tiles(fibres, options, 0.2, kept);
+    EXPECT_EQ(tiles.gap(), options.gap());
+    std::vector<std::size_t> different(8);
+    Context context;
+    context.threads = 2;
+    parallelFor(different.size(), context, [&](std::size_t i) { different[i] = differences(tiles, image, unsigned(i)); });
+    EXPECT_EQ(different, std::vector<std::size_t>(different.size(), 0));
+    if (kept == 1000)
+    {
+      // Both threads may have computed the same one at the same time.
+      EXPECT_LE(tiles.computed(), 2 * (image.grid.size() / 4096 + 30));
+    }
+  }
+}
+
+TEST(GrownTiles, MakeTheSameSurfaces)
+{
+  FibreRadialGrowthOptions growth;
+  const Fibres fibres = example::fibresThatMeet();
+  const LabelImage image = growFibres(fibres, growth, 0.2, growthGrid(fibres.domain, growth));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = growth.minimumGap;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  for (const int passes : { 0, 2, 9 })
+  {
+    MyelinSurfaceOptions options;
+    options.smoothingIterations = passes;
+    const auto wanted = myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, options);
+    SurfaceMaker maker(std::make_shared<GrownTiles>(fibres, growth, 0.2, 2), facts, options, {});
+    SurfacesInMemory outer(wanted.size());
+    SurfacesInMemory inner(wanted.size());
+    maker.makeOuter(outer);
+    maker.makeInner(outer, inner);
+    ASSERT_EQ(maker.fibres().size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+    {
+      ASSERT_FALSE(wanted[i].outer.points.empty());
+      EXPECT_EQ(outer.get(i)->points, wanted[i].outer.points);
+      EXPECT_EQ(outer.get(i)->triangles, wanted[i].outer.triangles);
+      EXPECT_EQ(inner.get(i)->points, wanted[i].inner.points);
+      EXPECT_EQ(inner.get(i)->triangles, wanted[i].inner.triangles);
+      EXPECT_EQ(maker.fibres()[i].gRatio, wanted[i].gRatio);
+    }
+  }
+}
+
+} // namespace
