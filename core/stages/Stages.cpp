@@ -133,6 +133,16 @@ const PropertyList<SubstrateCertificateStage>& SubstrateCertificateStage::proper
   return list;
 }
 
+const PropertyList<SubstrateSamplerStage>& SubstrateSamplerStage::properties()
+{
+  using Stage = SubstrateSamplerStage;
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::options, SubstrateSamplerOptions::properties())
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
+  return list;
+}
+
 const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
 {
   using Stage = SubstrateWriterStage;
@@ -183,13 +193,25 @@ const PropertyList<TractogramWriterStage>& TractogramWriterStage::properties()
   return list;
 }
 
+const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
+{
+  using Stage = NiftiWriterStage;
+  static const auto list = PropertyList<Stage>()
+                             .add("FileName", &Stage::fileName, "The file to write: .nii or .nii.gz")
+                             .use(PropertyUse::Run)
+                             .add("Array", &Stage::array, "Name of the point data to write; empty: those that views show first");
+  return list;
+}
+
 std::vector<StageDescription> describeStages()
 {
   return { description<BundleInitializerStage>("BundleInitializer"), description<StrandReaderStage>("StrandReader"),
-    description<TractogramReaderStage>("TractogramReader"), description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
-    description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
-    description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
-    description<SubstrateWriterStage>("SubstrateWriter"), description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter") };
+    description<TractogramReaderStage>("TractogramReader"), description<CapsuleOptimizerStage>("CapsuleOptimizer"),
+    description<FibreRadialGrowthStage>("FibreRadialGrowth"), description<FibreFieldStage>("FibreField"),
+    description<MyelinSurfaceStage>("MyelinSurface"), description<SubstrateStatisticsStage>("SubstrateStatistics"),
+    description<SubstrateCertificateStage>("SubstrateCertificate"), description<SubstrateSamplerStage>("SubstrateSampler"),
+    description<SubstrateWriterStage>("SubstrateWriter"), description<StrandWriterStage>("StrandWriter"),
+    description<TractogramWriterStage>("TractogramWriter"), description<NiftiWriterStage>("NiftiWriter") };
 }
 
 } // namespace cactus

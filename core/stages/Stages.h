@@ -6,6 +6,7 @@
 #include "bundle/BundleInitializerOptions.h"
 #include "growth/FibreRadialGrowthOptions.h"
 #include "judge/SubstrateCertificate.h"
+#include "judge/SubstrateSampler.h"
 #include "judge/SubstrateStatistics.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "stages/VtkMeshingOptions.h"
@@ -100,6 +101,14 @@ struct SubstrateCertificateStage
   static const PropertyList<SubstrateCertificateStage>& properties();
 };
 
+struct SubstrateSamplerStage
+{
+  SubstrateSamplerOptions options;
+  int threads = 0;
+
+  static const PropertyList<SubstrateSamplerStage>& properties();
+};
+
 struct SubstrateWriterStage
 {
   std::string folderName;
@@ -145,6 +154,14 @@ struct TractogramWriterStage
   std::string fileName;
 
   static const PropertyList<TractogramWriterStage>& properties();
+};
+
+struct NiftiWriterStage
+{
+  std::string fileName;
+  std::string array; ///< name of the point data to write; empty for the active scalars
+
+  static const PropertyList<NiftiWriterStage>& properties();
 };
 
 /// A stage with its properties at their defaults, those of PropertyUse::Code left out.

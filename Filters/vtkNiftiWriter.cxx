@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkNiftiWriter.h"
+
+#include "FilterSupport.h"
+#include "StageProperties.h"
+#include "WholeData.h"
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+#include "stages/Stages.h"
+
+#include <vtkDataArray.h>
+#include <vtkErrorCode.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMatrix4x4.h>
+#include <vtkMultiProcessController.h>
+#include <vtkNIFTIImageHeader.h>
+#include <vtkNIFTIImageWriter.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+vtkStandardNewMacro(vtkNiftiWriter);
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// A folder of this process in the system's place for such, which goes with all that is in it.
+class ScratchFolder
+{
+public:
+  ScratchFolder()
+  {
+    std::string name = (fs::temp_directory_path() / "cactus-nifti-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+    {
+      throw cactus::FileError("cannot make a folder in " + fs::temp_directory_path().string());
+    }
+    this->Path = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder()
+  {
+    std::error_code error;
+    fs::remove_all(this->Path, error);
+  }
+  fs::path file(const std::string& name) const { return this->Path / name; }
+
+private:
+  fs::path Path;
+};
+
+vtkImageData* imageOf(vtkDataObject* input)
+{
+  auto* image = vtkImageData::SafeDownCast(input);
+  if (image == nullptr || image->GetNumberOfPoints() == 0)
+  {
+    throw cactus::InvalidInput("the input is no image, or an empty one: connect SubstrateSampler or FibreRadialGrowth");
+  }
+  return image;
+}
+
+/// The image with the array that is to be written alone.
+vtkSmartPointer<vtkImageData> withArray(vtkImageData* image, const std::string& name)
+{
+  vtkPointData* data = image->GetPointData();
+  vtkDataArray* array = name.empty() ? data->GetScalars() : data->GetArray(name.c_str());
+  if (array == nullptr)
+  {
+    throw cactus::InvalidInput(name.empty() ? "the input has no active scalars: name an Array"
+                                            : "the input has no point data called " + name + " (Array)");
+  }
+  auto alone = vtkSmartPointer<vtkImageData>::New();
+  alone->CopyStructure(image);
+  alone->GetPointData()->SetScalars(array);
+  return alone;
+}
+
+/// Writes by VTK's own writer, which knows the format by the name.
+void write(vtkImageData* image, const std::string& path)
+{
+  vtkNew<vtkMatrix4x4> axes; // as they are; the writer adds the image's origin
+  vtkNew<vtkNIFTIImageHeader> header;
+  header->SetXYZTUnits(vtkNIFTIImageHeader::UnitsMicron);
+  vtkNew<vtkNIFTIImageWriter> writer;
+  writer->SetInputData(image);
+  writer->SetNIFTIHeader(header);
+  writer->SetQFormMatrix(axes);
+  writer->SetSFormMatrix(axes);
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  if (writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    throw cactus::FileError("cannot write " + path + ": " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  }
+}
+
+/// Puts a file that is whole in its place, whole or not at all.
+void place(const fs::path& from, const std::string& to)
+{
+  cactus::AtomicFile file(to);
+  std::ifstream content(from, std::ios::binary);
+  file.stream() << content.rdbuf();
+  if (!content)
+  {
+    throw cactus::FileError("cannot read back what was written of " + to);
+  }
+  file.commit();
+}
+
+} // namespace
+
+vtkNiftiWriter::vtkNiftiWriter()
+  : Properties(cactus::makeProperties<cactus::NiftiWriterStage>())
+{
+}
+
+int vtkNiftiWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  cactus::acceptAnyData(info);
+  return 1;
+}
+
+void vtkNiftiWriter::WriteData()
+{
+  // On several ranks the first one writes, as a sink asks for the first piece of one.
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller != nullptr && controller->GetLocalProcessId() > 0)
+  {
+    return;
+  }
+  const bool isWritten = cactus::attempt(this,
+    [&]
+    {
+      const auto& stage = cactus::stageOf<cactus::NiftiWriterStage>(this->Properties);
+      const fs::path path = stage.fileName;
+      const bool isPacked = path.extension() == ".gz" && path.stem().extension() == ".nii";
+      if (!isPacked && path.extension() != ".nii")
+      {
+        throw cactus::InvalidInput("FileName is '" + stage.fileName + "': name a file that ends in .nii or .nii.gz");
+      }
+      const ScratchFolder folder;
+      const fs::path whole = folder.file(isPacked ? "image.nii.gz" : "image.nii");
+      write(withArray(imageOf(this->GetInput()), stage.array), whole.string());
+      place(whole, stage.fileName);
+    });
+  if (!isWritten)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+  }
+}
+
+void vtkNiftiWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->Properties->print(os, indent);
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkNiftiWriter
+ * @brief Writes one array of an image (µm) as NIfTI-1, .nii or .nii.gz, with its place: q- and s-form, units micrometre.
+ *
+ * Input: an image. `Array` names the point data to write; without a name they are the active scalars. Directions of three
+ * numbers are written as a fifth dimension. The file appears whole or not at all.
+ */
+#ifndef vtkNiftiWriter_h
+#define vtkNiftiWriter_h
+
+#include "CactusFiltersModule.h"
+#include "FilterProperties.h"
+
+#include <vtkWriter.h>
+
+class CACTUSFILTERS_EXPORT vtkNiftiWriter : public vtkWriter
+{
+public:
+  static vtkNiftiWriter* New();
+  vtkTypeMacro(vtkNiftiWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  CACTUS_FILE_PROPERTY(FileName)
+  CACTUS_TEXT_PROPERTY(Array)
+
+protected:
+  vtkNiftiWriter();
+  ~vtkNiftiWriter() override = default;
+  void WriteData() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
+private:
+  vtkNiftiWriter(const vtkNiftiWriter&) = delete;
+  void operator=(const vtkNiftiWriter&) = delete;
+
+  std::unique_ptr<cactus::FilterProperties> Properties;
+};
+
+#endif

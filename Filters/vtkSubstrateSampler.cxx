@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSubstrateSampler.h"
+
+#include "Columns.h"
+#include "DataProvenance.h"
+#include "FibreData.h"
+#include "FilterSupport.h"
+#include "StageProperties.h"
+#include "SubstrateInputs.h"
+#include "WholeData.h"
+#include "base/Error.h"
+#include "judge/SubstrateSampler.h"
+#include "stages/Stages.h"
+
+#include <vtkDataObject.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkIntArray.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+
+vtkStandardNewMacro(vtkSubstrateSampler);
+
+namespace
+{
+
+using cactus::addColumn;
+
+std::array<int, 6> extentOf(const cactus::VoxelBoxes& voxels)
+{
+  return { { 0, voxels.count[0] - 1, 0, voxels.count[1] - 1, 0, voxels.count[2] - 1 } };
+}
+
+/// The middle of the first voxel.
+Eigen::Vector3d originOf(const cactus::VoxelBoxes& voxels)
+{
+  return voxels.origin + Eigen::Vector3d::Constant(0.5 * voxels.spacing);
+}
+
+void fillFractions(vtkPointData* data, const cactus::SampledSubstrate& sampled)
+{
+  const std::size_t size = sampled.voxels.size();
+  const auto fraction = [&](const std::string& name, const auto& value) { addColumn<vtkFloatArray>(data, name, size, value); };
+  fraction("AVF", [&](std::size_t i) { return sampled.axonFraction[i]; });
+  fraction("MVF", [&](std::size_t i) { return sampled.myelinFraction[i]; });
+  fraction("ExtraAxonalFraction",
+    [&](std::size_t i) { return std::max(0.0, 1.0 - sampled.axonFraction[i] - sampled.myelinFraction[i]); });
+  for (const auto& bundle : sampled.bundleFraction)
+  {
+    fraction("BundleFraction_" + std::to_string(bundle.first), [&](std::size_t i) { return bundle.second[i]; });
+  }
+}
+
+void fillLabels(vtkPointData* data, const cactus::SampledSubstrate& sampled)
+{
+  const std::size_t size = sampled.voxels.size();
+  addColumn<vtkUnsignedCharArray>(data, "Compartment", size, [&](std::size_t i) { return sampled.compartment[i]; });
+  addColumn<vtkIntArray>(data, "FibreId", size, [&](std::size_t i) { return sampled.fibreId[i]; });
+  addColumn<vtkIntArray>(data, "FibreCount", size, [&](std::size_t i) { return sampled.fibreCount[i]; });
+  if (sampled.direction.empty())
+  {
+    return;
+  }
+  auto directions = cactus::makeArray<vtkFloatArray>("MeanDirection", size, 3);
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      directions->SetTypedComponent(vtkIdType(i), axis, float(sampled.direction[i][axis]));
+    }
+  }
+  data->AddArray(directions);
+  addColumn<vtkFloatArray>(data, "Dispersion", size, [&](std::size_t i) { return sampled.dispersion[i]; });
+}
+
+} // namespace
+
+vtkSubstrateSampler::vtkSubstrateSampler()
+  : Properties(cactus::makeProperties<cactus::SubstrateSamplerStage>())
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+int vtkSubstrateSampler::FillInputPortInformation(int port, vtkInformation* info)
+{
+  cactus::acceptAnyData(info);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
+  return 1;
+}
+
+int vtkSubstrateSampler::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkInformation* info = outputs->GetInformationObject(0);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
+  // A place holder: the pipeline wants to see an extent even where there cannot be an image.
+  std::array<int, 6> extent{};
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
+
+  // Only the surfaces themselves say how large the domain is.
+  cactus::quietly(
+    [&]
+    {
+      cactus::updateWholeInputs(this, inputs);
+      const cactus::VoxelBoxes voxels = cactus::samplerGrid(cactus::domainFrom(vtkDataObject::GetData(inputs[0])),
+        cactus::stageOf<cactus::SubstrateSamplerStage>(this->Properties).options);
+      const std::array<double, 3> spacing{ { voxels.spacing, voxels.spacing, voxels.spacing } };
+      extent = extentOf(voxels);
+      const Eigen::Vector3d origin = originOf(voxels);
+      info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
+      info->Set(vtkDataObject::ORIGIN(), origin.data(), 3);
+      info->Set(vtkDataObject::SPACING(), spacing.data(), 3);
+    });
+  return 1;
+}
+
+int vtkSubstrateSampler::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  cactus::requestWholeInputs(inputs, 3);
+  return 1;
+}
+
+int vtkSubstrateSampler::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
+int vtkSubstrateSampler::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  return cactus::guarded(this,
+    [&]
+    {
+      const auto& stage = cactus::stageOf<cactus::SubstrateSamplerStage>(this->Properties);
+      cactus::validateProperties(stage);
+      const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
+      const cactus::SampledSubstrate sampled = cactus::sampleSubstrate(substrate.domain, substrate.outer, substrate.inner,
+        substrate.fibresOrNull(), stage.options, cactus::contextFor(this, stage.threads));
+      auto* output = vtkImageData::GetData(outputs);
+      const double spacing = sampled.voxels.spacing;
+      output->SetExtent(extentOf(sampled.voxels).data());
+      output->SetOrigin(originOf(sampled.voxels).data());
+      output->SetSpacing(spacing, spacing, spacing);
+      fillFractions(output->GetPointData(), sampled);
+      fillLabels(output->GetPointData(), sampled);
+      output->GetPointData()->SetActiveScalars("AVF");
+      cactus::setDomain(output, substrate.domain);
+      const auto provenance = cactus::recordOf(this, "SubstrateSampler", stage, { "Outer", "Inner", "Fibres" });
+      cactus::setProvenance(output, provenance, 0);
+    });
+}
+
+void vtkSubstrateSampler::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->Properties->print(os, indent);
+}

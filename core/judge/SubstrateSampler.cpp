@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "judge/SubstrateSampler.h"
+
+#include "base/Constants.h"
+#include "base/Error.h"
+#include "base/Memory.h"
+#include "base/Parallel.h"
+#include "judge/VoxelDirections.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Fibres that are sampled side by side before what they have is added up in their order.
+constexpr std::size_t batch = 64;
+/// Parts of a voxel below which a fibre is not in it: what rounding leaves of exact sums.
+constexpr double nothing = 1e-9;
+
+/// One fibre in the voxels around it.
+struct SampledFibre
+{
+  int fibreId = 0;
+  int bundleId = 0;
+  VoxelVolumes outer; ///< of the inner surface where there is no outer one
+  VoxelVolumes inner;
+  VoxelDirections directions; ///< of the voxels of `outer`
+};
+
+template <typename Visit>
+void visitVoxels(const VoxelVolumes& block, const VoxelBoxes& voxels, Visit&& visit)
+{
+  std::size_t place = 0;
+  for (int k = 0; k < block.count[2]; ++k)
+  {
+    for (int j = 0; j < block.count[1]; ++j)
+    {
+      for (int i = 0; i < block.count[0]; ++i, ++place)
+      {
+        visit(place, voxels.index(block.lower[0] + i, block.lower[1] + j, block.lower[2] + k));
+      }
+    }
+  }
+}
+
+/// Adds fibres to the grid, in their order.
+class Collector
+{
+public:
+  Collector(SampledSubstrate& sampled, bool withDirections)
+    : Sampled(sampled)
+    , Largest(sampled.voxels.size(), 0.0)
+    , Tensors(withDirections ? sampled.voxels.size() : 0, Eigen::Matrix3d::Zero())
+  {
+    const std::size_t size = sampled.voxels.size();
+    sampled.axonFraction.assign(size, 0.0);
+    sampled.myelinFraction.assign(size, 0.0);
+    sampled.compartment.assign(size, Compartment::ExtraAxonal);
+    sampled.fibreId.assign(size, 0);
+    sampled.fibreCount.assign(size, 0);
+  }
+
+  void add(const SampledFibre& fibre)
+  {
+    const VoxelBoxes& voxels = this->Sampled.voxels;
+    const double least = nothing * voxels.spacing * voxels.spacing * voxels.spacing;
+    std::vector<double>& bundle = this->Sampled.bundleFraction[fibre.bundleId];
+    bundle.resize(voxels.size(), 0.0);
+    visitVoxels(fibre.outer, voxels,
+      [&](std::size_t place, std::size_t voxel)
+      {
+        const double volume = fibre.outer.volumes[place];
+        if (volume <= least)
+        {
+          return;
+        }
+        this->Sampled.myelinFraction[voxel] += volume;
+        bundle[voxel] += volume;
+        ++this->Sampled.fibreCount[voxel];
+        if (volume > this->Largest[voxel])
+        {
+          this->Largest[voxel] = volume;
+          this->Sampled.fibreId[voxel] = fibre.fibreId;
+        }
+        if (!this->Tensors.empty())
+        {
+          this->Tensors[voxel] += volume * fibre.directions[place];
+        }
+      });
+    visitVoxels(fibre.inner, voxels,
+      [&](std::size_t place, std::size_t voxel)
+      {
+        this->Sampled.axonFraction[voxel] += fibre.inner.volumes[place];
+        this->Sampled.myelinFraction[voxel] -= fibre.inner.volumes[place];
+      });
+  }
+
+  /// From volumes to fractions, and what follows from them. `volume` is that of a voxel's part in the domain.
+  void finish(const std::vector<double>& volume)
+  {
+    for (auto& [id, fractions] : this->Sampled.bundleFraction)
+    {
+      divide(fractions, volume);
+    }
+    divide(this->Sampled.axonFraction, volume);
+    divide(this->Sampled.myelinFraction, volume);
+    for (std::size_t voxel = 0; voxel < volume.size(); ++voxel)
+    {
+      const double axon = this->Sampled.axonFraction[voxel];
+      const double myelin = this->Sampled.myelinFraction[voxel];
+      const double outside = 1.0 - axon - myelin;
+      Compartment& most = this->Sampled.compartment[voxel];
+      most = outside >= std::max(axon, myelin) ? Compartment::ExtraAxonal
+             : axon >= myelin                  ? Compartment::Axon
+                                               : Compartment::Myelin;
+      this->Sampled.fibreId[voxel] = most == Compartment::ExtraAxonal ? 0 : this->Sampled.fibreId[voxel];
+    }
+    this->finishDirections();
+  }
+
+private:
+  static void divide(std::vector<double>& volumes, const std::vector<double>& by)
+  {
+    for (std::size_t i = 0; i < volumes.size(); ++i)
+    {
+      volumes[i] = std::clamp(volumes[i] / by[i], 0.0, 1.0);
+    }
+  }
+
+  void finishDirections()
+  {
+    this->Sampled.direction.assign(this->Tensors.size(), Eigen::Vector3d::Zero());
+    this->Sampled.dispersion.assign(this->Tensors.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t voxel = 0; voxel < this->Tensors.size(); ++voxel)
+    {
+      const double weight = this->Tensors[voxel].trace();
+      if (weight > 0.0)
+      {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(this->Tensors[voxel]);
+        const Eigen::Vector3d axis = parts.eigenvectors().col(2);
+        this->Sampled.direction[voxel] = axis[2] < 0.0 ? Eigen::Vector3d(-axis) : axis;
+        const double squaredCosine = std::clamp(parts.eigenvalues()[2] / weight, 0.0, 1.0);
+        this->Sampled.dispersion[voxel] = radian * std::acos(std::sqrt(squaredCosine));
+      }
+    }
+  }
+
+  SampledSubstrate& Sampled;
+  std::vector<double> Largest; ///< volume of one fibre
+  std::vector<Eigen::Matrix3d> Tensors;
+};
+
+std::optional<std::size_t> placeOf(const std::vector<int>& ids, int id)
+{
+  const auto found = std::lower_bound(ids.begin(), ids.end(), id);
+  return found != ids.end() && *found == id ? std::optional<std::size_t>(found - ids.begin()) : std::nullopt;
+}
+
+/// µm³ of each voxel's part in the domain.
+std::vector<double> volumesInDomain(const Domain& domain, const VoxelBoxes& voxels)
+{
+  std::array<std::vector<double>, 3> lengths;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int i = 0; i < voxels.count[std::size_t(axis)]; ++i)
+    {
+      const double left = domain.size()[axis] - i * voxels.spacing;
+      // The last voxel of a domain that its size divides may be off by rounding.
+      lengths[std::size_t(axis)].push_back(left > (1.0 - 1e-6) * voxels.spacing ? voxels.spacing : left);
+    }
+  }
+  std::vector<double> volumes;
+  volumes.reserve(voxels.size());
+  for (const double z : lengths[2])
+  {
+    for (const double y : lengths[1])
+    {
+      for (const double x : lengths[0])
+      {
+        volumes.push_back(x * y * z);
+      }
+    }
+  }
+  return volumes;
+}
+
+/// Samples fibres one by one, each by itself.
+class FibreSampler
+{
+public:
+  FibreSampler(const VoxelBoxes& voxels, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres)
+    : Voxels(voxels)
+    , Outer(outer)
+    , Inner(inner)
+    , Lines(fibres)
+  {
+    this->Ids = outer.fibreIds;
+    this->Ids.insert(this->Ids.end(), inner.fibreIds.begin(), inner.fibreIds.end());
+    std::sort(this->Ids.begin(), this->Ids.end());
+    this->Ids.erase(std::unique(this->Ids.begin(), this->Ids.end()), this->Ids.end());
+    for (std::size_t f = 0; fibres != nullptr && f < fibres->size(); ++f)
+    {
+      this->LineOf[fibres->fibreIds[f]] = f;
+    }
+  }
+
+  std::size_t size() const { return this->Ids.size(); }
+
+  SampledFibre sample(std::size_t i) const
+  {
+    SampledFibre fibre;
+    fibre.fibreId = this->Ids[i];
+    const auto outerPlace = placeOf(this->Outer.fibreIds, fibre.fibreId);
+    const auto innerPlace = placeOf(this->Inner.fibreIds, fibre.fibreId);
+    if (innerPlace)
+    {
+      fibre.bundleId = this->Inner.bundleIds[*innerPlace];
+      fibre.inner = voxelVolumes(this->Inner.mesh(*innerPlace), this->Voxels);
+    }
+    if (outerPlace)
+    {
+      fibre.bundleId = this->Outer.bundleIds[*outerPlace];
+      fibre.outer = voxelVolumes(this->Outer.mesh(*outerPlace), this->Voxels);
+    }
+    else
+    {
+      fibre.outer = fibre.inner;
+    }
+    const auto line = this->LineOf.find(fibre.fibreId);
+    if (this->Lines != nullptr)
+    {
+      fibre.directions = line != this->LineOf.end() ? voxelDirections(*this->Lines, line->second, this->Voxels, fibre.outer)
+                                                    : VoxelDirections(fibre.outer.volumes.size(), Eigen::Matrix3d::Zero());
+    }
+    return fibre;
+  }
+
+private:
+  const VoxelBoxes& Voxels;
+  const FibreSurfaces& Outer;
+  const FibreSurfaces& Inner;
+  const Fibres* Lines;
+  std::vector<int> Ids;
+  std::map<int, std::size_t> LineOf;
+};
+
+} // namespace
+
+const PropertyList<SubstrateSamplerOptions>& SubstrateSamplerOptions::properties()
+{
+  // From a hundredth of usual voxels of growth to those of images.
+  static constexpr Range voxel{ 1e-3, 1e5, " µm" };
+  static const auto list = PropertyList<SubstrateSamplerOptions>().add(
+    "VoxelSize", &SubstrateSamplerOptions::voxelSize, voxel, "Edge of a voxel, which is a cube");
+  return list;
+}
+
+VoxelBoxes samplerGrid(const Domain& domain, const SubstrateSamplerOptions& options)
+{
+  validateProperties(options);
+  VoxelBoxes voxels;
+  voxels.origin = domain.lower;
+  voxels.spacing = options.voxelSize;
+  double size = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // A domain that the voxels divide up to rounding needs no more of them.
+    const double count = std::max(1.0, std::ceil(domain.size()[axis] / options.voxelSize - 1e-6));
+    size *= count;
+    if (size > double(std::numeric_limits<int>::max()))
+    {
+      throw InvalidInput(
+        text("VoxelSize ", options.voxelSize, " makes more voxels of the domain than can be counted: choose a larger one"));
+    }
+    voxels.count[std::size_t(axis)] = int(count);
+  }
+  return voxels;
+}
+
+SampledSubstrate sampleSubstrate(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner,
+  const Fibres* fibres, const SubstrateSamplerOptions& options, const Context& context)
+{
+  SampledSubstrate sampled;
+  sampled.voxels = samplerGrid(domain, options);
+  const FibreSampler sampler(sampled.voxels, outer, inner, fibres);
+  require(sampler.size() > 0, "there are no surfaces to sample: connect MyelinSurface's Outer and Inner");
+  const double bytes = (fibres != nullptr ? 160.0 : 56.0) * double(sampled.voxels.size());
+  requireMemory(bytes, text("VoxelSize ", options.voxelSize), "choose a larger VoxelSize");
+  Collector collector(sampled, fibres != nullptr);
+  for (std::size_t begin = 0; begin < sampler.size(); begin += batch)
+  {
+    std::vector<SampledFibre> some(std::min(batch, sampler.size() - begin));
+    const auto share = [&](std::size_t done) { return double(done) / double(sampler.size()); };
+    parallelFor(
+      some.size(), context, [&](std::size_t i) { some[i] = sampler.sample(begin + i); }, "Sampling fibres", share(begin),
+      share(begin + some.size()));
+    for (const SampledFibre& fibre : some)
+    {
+      collector.add(fibre);
+    }
+  }
+  collector.finish(volumesInDomain(domain, sampled.voxels));
+  return sampled;
+}
+
+} // namespace cactus

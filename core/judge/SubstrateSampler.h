@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "base/Domain.h"
+#include "base/Properties.h"
+#include "fibres/Fibres.h"
+#include "mesh/FibreSurfaces.h"
+#include "mesh/VoxelVolumes.h"
+
+#include <map>
+#include <vector>
+
+namespace cactus
+{
+
+struct SubstrateSamplerOptions
+{
+  double voxelSize = 1.0; ///< µm, edge of a voxel
+
+  static const PropertyList<SubstrateSamplerOptions>& properties();
+};
+
+/// What a voxel is mostly made of.
+enum class Compartment : unsigned char
+{
+  ExtraAxonal = 0,
+  Axon = 1,
+  Myelin = 2
+};
+
+/// A substrate on a grid of voxels; lists go by VoxelBoxes::index().
+struct SampledSubstrate
+{
+  VoxelBoxes voxels;
+  std::vector<double> axonFraction;                  ///< of the voxel's part in the domain, inside inner surfaces
+  std::vector<double> myelinFraction;                ///< inside outer surfaces and not inside inner ones
+  std::map<int, std::vector<double>> bundleFraction; ///< inside the outer surfaces of a bundle, by BundleId
+  std::vector<Compartment> compartment;              ///< that with the largest fraction
+  std::vector<int> fibreId;                          ///< with the largest volume, where compartment is not extra-axonal; else 0
+  std::vector<int> fibreCount;                       ///< fibres that have a part in the voxel
+  /// Of the fibres' centre lines, each weighted with its fibre's volume in the voxel: the axis that they lie closest to in least
+  /// squares (unit, z not negative), and the angle (degrees) to it whose squared cosine is the mean of theirs. Empty without
+  /// centre lines; zero and NaN where there is no fibre.
+  std::vector<Eigen::Vector3d> direction;
+  std::vector<double> dispersion;
+};
+
+/// The grid: voxels from the domain's lower corner on, as many as cover it.
+VoxelBoxes samplerGrid(const Domain& domain, const SubstrateSamplerOptions& options);
+
+/// Samples a substrate. Fractions are exact volumes of the meshes (see voxelVolumes) over that of the voxel's part in the domain,
+/// so that their means over the domain are those of the whole. Fibres are taken one after the other: no more of their meshes than
+/// a few for each thread are held at once. The same bits on any number of threads. `fibres` may be null.
+///
+/// Throws InvalidInput for options out of range, for a grid of more voxels than can be counted and for no surfaces, OutOfMemory,
+/// and Cancelled.
+SampledSubstrate sampleSubstrate(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner,
+  const Fibres* fibres, const SubstrateSamplerOptions& options, const Context& context = {});
+
+} // namespace cactus

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "mesh/VoxelVolumes.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// Where a fibre leads in each voxel of a block: the mean of d·dᵀ (trace 1) over the directions d of its centre line.
+using VoxelDirections = std::vector<Eigen::Matrix3d>;
+
+/// Over the part of the centre line in the voxel; where it does not pass through the voxel, of the segment closest to the voxel's
+/// middle. Only voxels in which `block` has a volume above 0 are looked at.
+VoxelDirections voxelDirections(const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block);
+
+} // namespace cactus
