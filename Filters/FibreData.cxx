@@ -34,6 +34,8 @@ namespace cactus
 namespace
 {
 
+constexpr const char* grownName = "GrownFibreVolumeFraction";
+
 /// A one-component array with as many tuples as there are things to describe, or null where there is none of that name.
 vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
 {
@@ -43,6 +45,18 @@ vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
     throw InvalidInput(std::string("array ") + name + " must have one component and " + std::to_string(expected) + " values");
   }
   return array;
+}
+
+/// What the fibres of a block were made for; 0 where it does not say so.
+double grownFractionOf(vtkPolyData* input)
+{
+  vtkDataArray* array = input->GetFieldData()->GetArray(grownName);
+  if (array == nullptr || array->GetNumberOfValues() != 1)
+  {
+    return 0.0;
+  }
+  const double fraction = array->GetComponent(0, 0);
+  return std::isfinite(fraction) ? std::max(fraction, 0.0) : 0.0;
 }
 
 /// Adds the fibres of one block.
@@ -61,6 +75,7 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
   vtkDataArray* bundleId = scalars(input->GetCellData(), "BundleId", input->GetNumberOfCells());
   vtkDataArray* targetRadius = scalars(input->GetCellData(), "TargetRadius", input->GetNumberOfCells());
 
+  fibres.grownFraction = grownFractionOf(input);
   auto cells = vtk::TakeSmartPointer(input->GetLines()->NewIterator());
   vtkIdType cell = 0;
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell(), ++cell)
@@ -241,6 +256,11 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   fresh->SetFieldData(output->GetFieldData());
   output->ShallowCopy(fresh);
   setDomain(output, fibres.domain);
+  output->GetFieldData()->RemoveArray(grownName); // of the first of several inputs
+  if (fibres.grownFraction > 0.0)
+  {
+    addNumber(output->GetFieldData(), grownName, fibres.grownFraction);
+  }
 }
 
 bool hasDomain(vtkDataObject* data)

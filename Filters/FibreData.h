@@ -20,6 +20,8 @@ namespace cactus
 /// Polylines with point data `Radius`, cell data `FibreId`, `BundleId`, `TargetRadius` and field data `Domain`, as core fibres,
 /// validated. Several blocks (a composite data set) are one substrate, and joined as several inputs are.
 ///
+/// Field data `GrownFibreVolumeFraction` is what they were made for; that of several blocks adds up, as far as all have it.
+///
 /// Where the cell arrays are missing, ids count from 1 in cell order, the bundle is 1 and the target radius is the mean of
 /// the radii; without field data `Domain` the domain is the bounding box of the points. Throws InvalidInput for anything else,
 /// for ids that are not whole numbers from 1 to 2147483647, and where blocks have different domains.
@@ -32,7 +34,8 @@ Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs);
 /// A whole number from 1 to 2147483647 out of an array of any type. Throws InvalidInput, naming array and cell, for any other.
 int idFrom(vtkDataArray* array, vtkIdType cell);
 
-/// The reverse; replaces everything in `output` but its field data, in which it sets `Domain`.
+/// The reverse; replaces everything in `output` but its field data, in which it sets `Domain` and, where it is known,
+/// `GrownFibreVolumeFraction`.
 void toPolyData(const Fibres& fibres, vtkPolyData* output);
 
 /// Field data `Domain` (xmin xmax ymin ymax zmin zmax, µm) of a data set, or of the first block that has it. Reading throws

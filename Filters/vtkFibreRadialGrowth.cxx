@@ -33,6 +33,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -171,6 +172,10 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
         {
           vtkWarningMacro(<< "these fibres still overlap (Converged is 0) and take space from each other: let "
                              "CapsuleOptimizer run on or, where it keeps its history, go to the last time step");
+        }
+        if (const std::string remark = cactus::remarkOnTarget(fibres, options); !remark.empty())
+        {
+          vtkWarningMacro(<< remark);
         }
         // Nothing is kept of a search that fails.
         this->Aimed.reset();

@@ -88,7 +88,7 @@ def main():
         return os.path.join(wanted.output, name)
 
     stages = Stages()
-    bundle = simple.BundleInitializer(Side=wanted.side, GrownFibreVolumeFraction=max(wanted.fvf, 0.7), GammaShape=2.4, GammaScale=0.25, MeanDispersion=wanted.dispersion, Seed=wanted.seed)
+    bundle = simple.BundleInitializer(Side=wanted.side, FibreVolumeFraction=min(wanted.fvf, 0.7), GrownFibreVolumeFraction=wanted.fvf, GammaShape=2.4, GammaScale=0.25, MeanDispersion=wanted.dispersion, Seed=wanted.seed)
     stages.run("Bundle initialiser", bundle, lambda: f"{cells(bundle)} fibres")
     initial = simple.SubstrateStatistics(Fibres=bundle)
     initial.UpdatePipeline()
@@ -102,7 +102,7 @@ def main():
     )
     fibres = simple.OutputPort(optimised, 0)
 
-    grown = simple.FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=wanted.fvf, VoxelSize=wanted.voxel_size, Seed=wanted.seed)
+    grown = simple.FibreRadialGrowth(Input=fibres, VoxelSize=wanted.voxel_size, Seed=wanted.seed)
     stages.run("Fibre radial growth", grown, lambda: f"{grown.GetDataInformation().GetNumberOfPoints() / 1e6:.1f} million voxels")
 
     surfaces = simple.MyelinSurface(Input=grown, GRatioModel="Constant", GRatio=wanted.g_ratio)

@@ -15,7 +15,7 @@ def label_image():
     """A bundle grown until its fibres meet."""
     bundle = simple.BundleInitializer(Side=6, GrownFibreVolumeFraction=0.8, MeanDispersion=8)
     fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
-    return simple.FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=0.8, VoxelSize=0.1)
+    return simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.1)
 
 
 def surfaces_of(field, level=0.0):

@@ -3,23 +3,27 @@
 
 #include "base/Error.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace cactus
 {
 
-/// What a number may be: from `lowest` to `highest`, both included, and 0 too where that says "none" or "by default".
+/// What a number may be: from `lowest` to `highest`, both included, or `special`, which says "none" or "by default".
 struct Range
 {
   double lowest;
   double highest;
   const char* unit = ""; ///< with a blank before it: " µm"
-  bool orZero = false;
+  std::optional<double> special = {};
 
   bool holds(double value) const
   {
-    return std::isfinite(value) && ((value >= this->lowest && value <= this->highest) || (this->orZero && value == 0.0));
+    return std::isfinite(value) && ((value >= this->lowest && value <= this->highest) || value == this->special);
   }
+  /// Counting the special one.
+  double smallest() const { return std::min(this->lowest, this->special.value_or(this->lowest)); }
 };
 
 /// Throws InvalidInput, "NAME is VALUE: give LOWEST to HIGHEST UNIT", for a number out of its range, infinite or NaN. `advice`
@@ -32,8 +36,12 @@ inline void requireWithin(const char* name, double value, const Range& range, co
   }
   TextStream message;
   message.precision(10); // as many as the largest whole numbers have
-  message << name << " is " << value << ": give " << (range.orZero ? "0 or " : "") << range.lowest << " to " << range.highest
-          << range.unit << advice;
+  message << name << " is " << value << ": give ";
+  if (range.special)
+  {
+    message << *range.special << " or ";
+  }
+  message << range.lowest << " to " << range.highest << range.unit << advice;
   throw InvalidInput(message.str());
 }
 
@@ -48,7 +56,7 @@ namespace limits
 /// Of a fibre, at every control point, and as a target. Axons have 0.05 to 10, the giant axon of the squid 500.
 inline constexpr Range radius{ 1e-3, 1e3, " µm" };
 /// The same, where 0 stands for none.
-inline constexpr Range radiusOrNone{ 1e-3, 1e3, " µm", true };
+inline constexpr Range radiusOrNone{ 1e-3, 1e3, " µm", 0.0 };
 /// Of control points, of the domain's corners and of all that is derived from them, along each axis: 10 cm to either side. There
 /// are then 7e4 steps of double precision in a nanometre.
 inline constexpr Range coordinate{ -1e5, 1e5, " µm" };
@@ -63,6 +71,8 @@ inline constexpr double controlPoints = 2147483647.0;
 
 /// What is kept between surfaces, and what they may move by.
 inline constexpr Range gap{ 0.0, 10.0, " µm" };
+/// The same where it is judged: -1 for what was promised.
+inline constexpr Range judgedGap{ 0.0, 10.0, " µm", -1.0 };
 inline constexpr Range surfaceTolerance{ 0.0, 1.0, " µm" };
 inline constexpr Range seconds{ 0.0, 1e9, " s" };
 /// As far as whole numbers go in ParaView.
@@ -72,7 +82,7 @@ inline constexpr Range threads{ 0.0, 65536.0 };
 /// Of a volume that fibres fill.
 inline constexpr Range fraction{ 1e-4, 0.999 };
 /// The same, where 0 stands for none.
-inline constexpr Range fractionOrNone{ 1e-4, 0.999, "", true };
+inline constexpr Range fractionOrNone{ 1e-4, 0.999, "", 0.0 };
 
 // BundleInitializer.
 
@@ -81,11 +91,11 @@ inline constexpr Range gammaScale{ 1e-5, 1e3, " µm" };
 inline constexpr Range lognormalMean{ 1e-3, 1e3, " µm" };
 inline constexpr Range lognormalDeviation{ 1e-6, 1e3, " µm" };
 /// The displacement of a fibre from face to face has to be more than rounding, and to be met within 2 %.
-inline constexpr Range meanDispersion{ 1e-3, 45.0, "°", true };
-inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", true };
+inline constexpr Range meanDispersion{ 1e-3, 45.0, "°", 0.0 };
+inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", 0.0 };
 inline constexpr Range bundles{ 1.0, 2.0 };
 inline constexpr Range crossingAngle{ 0.1, 90.0, "°" };
-inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", true };
+inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", 0.0 };
 /// On each side of the domain.
 inline constexpr Range bundleMargin{ 0.0, 1e4, " µm" };
 inline constexpr Range spacingFactor{ 1e-2, 1e3 };
@@ -108,7 +118,8 @@ inline constexpr Range packingLimit{ 0.1, 1.0 };
 // FibreRadialGrowth.
 
 inline constexpr Range voxelSize{ 1e-3, 10.0, " µm" };
-inline constexpr Range targetFraction{ 0.0, 0.999 };
+/// -1 for what the fibres were made for.
+inline constexpr Range targetFraction{ 0.0, 0.999, "", -1.0 };
 inline constexpr Range growthIterations{ 0.0, 1e3 };
 inline constexpr Range surfaceRoughness{ 0.0, 0.5 };
 inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };

@@ -77,6 +77,7 @@ Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptio
 {
   Fibres fibres;
   fibres.domain = Domain::cube(options.side);
+  fibres.grownFraction = options.grownFibreVolumeFraction;
   for (const Bundle& bundle : bundles)
   {
     appendFibres(bundle, options, fibres);

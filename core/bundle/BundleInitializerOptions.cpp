@@ -18,8 +18,9 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
         "Part of the end faces that the fibres' circles cover; with two bundles, part of the domain that the fibres fill")
       .add("GrownFibreVolumeFraction", &Options::grownFibreVolumeFraction, limits::fractionOrNone,
-        "What FibreRadialGrowth will be asked for: fibres start thinner than their target radii and are grown towards them; "
-        "0: they start with these")
+        "What FibreRadialGrowth is to fill: fibres start thinner than their target radii and are grown to them; 0: they start "
+        "with "
+        "these")
       .include(&Options::radius, RadiusDistributionOptions::properties())
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
         "Mean angle between a fibre's end-to-end direction and its bundle's axis")

@@ -29,7 +29,7 @@ struct BundleInitializerOptions
   /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules are then thinner than the
   /// sampled target radii by sqrt(fibreVolumeFraction / this), so that the grown fibres have these; 0: capsules have the target
   /// radii.
-  double grownFibreVolumeFraction = 0.0;
+  double grownFibreVolumeFraction = 0.9;
   double meanDispersion = 5.0; ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
   /// Coherent is for one bundle. The layers of two crossing bundles are too thin for a flow; their fibres are then drawn as with
   /// Watson.

@@ -68,6 +68,7 @@ Fibres FibreOrder::ordered(const Fibres& fibres) const
 {
   Fibres result;
   result.domain = fibres.domain;
+  result.grownFraction = fibres.grownFraction;
   result.points.reserve(fibres.points.size());
   result.radii.reserve(fibres.points.size());
   for (const std::size_t f : this->Order)

@@ -23,6 +23,8 @@ struct Fibres
   std::vector<int> bundleIds;            ///< one per fibre, positive
   std::vector<double> targetRadii;       ///< sampled outer radius, one per fibre
   Domain domain;
+  /// Part of the domain that the fibres are to fill once growth has brought them to their target radii; 0 where none is known.
+  double grownFraction = 0.0;
 
   std::size_t size() const { return offsets.size() - 1; }
   std::size_t pointCount(std::size_t fibre) const { return offsets[fibre + 1] - offsets[fibre]; }

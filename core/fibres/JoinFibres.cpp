@@ -49,6 +49,8 @@ void appendFibres(const Fibres& added, Fibres& all)
       all.addPoint(added.points[i], added.radii[i]);
     }
   }
+  const bool isKnown = all.grownFraction > 0.0 && added.grownFraction > 0.0;
+  all.grownFraction = isKnown ? all.grownFraction + added.grownFraction : 0.0;
 }
 
 bool isSame(const Domain& a, const Domain& b)

@@ -23,6 +23,7 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
 {
   Fibres trimmed;
   trimmed.domain = fibres.domain;
+  trimmed.grownFraction = fibres.grownFraction;
   if (kept != nullptr)
   {
     kept->clear();

@@ -101,7 +101,7 @@ double roughGrowth(const Fibres& fibres, const FibreRadialGrowthOptions& options
   Context quiet = context;
   quiet.progress = nullptr;
   const VoxelGrid grid = sampleGrid(fibres.domain, samplesForTarget / 64.0);
-  return growthAt(countArrivals(fibres, options, grid, largestGrowth, quiet), options.targetFibreVolumeFraction);
+  return growthAt(countArrivals(fibres, options, grid, largestGrowth, quiet), targetFraction(fibres, options));
 }
 
 } // namespace cactus

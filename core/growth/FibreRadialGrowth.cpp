@@ -86,7 +86,7 @@ void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, d
   std::int32_t* fibreId, float* depth, const Context& context)
 {
   const GrownField field(fibres, options, growth, checkedPart(fibres, options, growth, part));
-  const double from = options.targetFibreVolumeFraction > 0.0 ? 0.5 : 0.0;
+  const double from = targetFraction(fibres, options) > 0.0 ? 0.5 : 0.0;
   field.seeds().sweep(field.grid(), field.relevance(), context, from, 1.0, "growing fibres",
     [&](const FieldCell& cell, int) { field.enter(cell, field.grid(), fibreId, depth); });
 }

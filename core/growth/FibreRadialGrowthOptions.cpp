@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/FibreRadialGrowthOptions.h"
 
+#include "base/Error.h"
 #include "base/Limits.h"
 
 namespace cactus
@@ -14,11 +15,12 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
       .add("VoxelSize", &Options::voxelSize, limits::voxelSize,
         "Edge of a voxel; where it does not divide the domain, the nearest size that does is used")
       .add("TargetFibreVolumeFraction", &Options::targetFibreVolumeFraction, limits::targetFraction,
-        "Fraction of the domain that the grown fibres fill, with their radii on target; 0: they grow by GrowthIterations")
-      .advise(" (0: no target)")
+        "Fraction of the domain that the grown fibres fill, with their radii on target; -1: what the fibres were made for "
+        "(GrownFibreVolumeFraction); 0, or where they do not say it: they grow by GrowthIterations")
+      .advise(" (-1: what the fibres were made for; 0: no target)")
       .add("GrowthIterations", &Options::growthIterations, limits::growthIterations,
         "How many voxels a fibre grows where nothing is in its way")
-      .where("TargetFibreVolumeFraction", { 0 })
+      .where("TargetFibreVolumeFraction", { -1, 0 })
       .add("MinimumGap", &Options::minimumGap, limits::gap, "Least distance between the surfaces of two fibres")
       .add("SurfaceTolerance", &Options::surfaceTolerance, limits::surfaceTolerance,
         "Room left on either side of the gap, within which smoothing and decimation may later move surfaces")
@@ -33,6 +35,21 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
 void validate(const FibreRadialGrowthOptions& options)
 {
   validateProperties(options);
+}
+
+double targetFraction(const Fibres& fibres, const FibreRadialGrowthOptions& options)
+{
+  if (options.targetFibreVolumeFraction >= 0.0)
+  {
+    return options.targetFibreVolumeFraction;
+  }
+  if (fibres.grownFraction > limits::targetFraction.highest)
+  {
+    throw InvalidInput(text("these fibres were made to fill ", fibres.grownFraction,
+      " of the domain, all bundles together, and it holds less than 1: lower the GrownFibreVolumeFraction of each "
+      "BundleInitializer to its share, or give TargetFibreVolumeFraction"));
+  }
+  return fibres.grownFraction;
 }
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Properties.h"
+#include "fibres/Fibres.h"
 
 #include <cstdint>
 
@@ -13,8 +14,9 @@ struct FibreRadialGrowthOptions
 {
   /// Edge of a voxel. Where it does not divide the domain's sides, the nearest spacing that does is used.
   double voxelSize = 0.1;
-  /// Fraction of the domain that the grown fibres fill, in [0, 1), see GrowthTarget.h; 0: grow by `growthIterations` voxels.
-  double targetFibreVolumeFraction = 0.0;
+  /// Fraction of the domain that the grown fibres fill, in [0, 1), see GrowthTarget.h; 0: grow by `growthIterations` voxels; -1:
+  /// what the fibres were made for.
+  double targetFibreVolumeFraction = -1.0;
   /// Growth in voxels where no target is given.
   int growthIterations = 4;
   /// Least distance between the surfaces of two fibres.
@@ -34,5 +36,10 @@ struct FibreRadialGrowthOptions
 
 /// Throws InvalidInput, naming the parameter, for a value out of range.
 void validate(const FibreRadialGrowthOptions& options);
+
+/// The fraction of the domain that these fibres are to be grown to; 0: they grow by `growthIterations`, as do fibres of which it
+/// is not known what they were made for. Throws InvalidInput where it is more than the domain holds, as of bundles in one place
+/// that were all made to fill it.
+double targetFraction(const Fibres& fibres, const FibreRadialGrowthOptions& options);
 
 } // namespace cactus

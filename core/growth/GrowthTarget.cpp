@@ -16,7 +16,7 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
 {
   validate(fibres);
   const VoxelGrid whole = growthGrid(fibres.domain, options);
-  const double target = options.targetFibreVolumeFraction;
+  const double target = targetFraction(fibres, options);
   if (target <= 0.0)
   {
     return options.growthIterations * whole.spacing;

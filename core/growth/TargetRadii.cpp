@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/TargetRadii.h"
 
+#include "base/Error.h"
 #include "growth/Arrivals.h"
 #include "growth/CapsuleField.h"
 #include "growth/Crowding.h"
@@ -27,6 +28,9 @@ constexpr double fewestSamples = 5e5;
 constexpr double correction = 1.4;
 /// How far a factor may end up from the one that it starts from.
 constexpr FactorBounds factorBounds = { 1.2, 1.5 };
+/// By how much of the volume what fibres fill at their target radii may part from what they were made for: their dispersion and
+/// what winding adds to their lengths.
+constexpr double usualDifference = 0.15;
 /// Samples are counted in slabs of this many layers, the blocks of a sweep.
 constexpr int slabLayers = 16;
 
@@ -204,7 +208,8 @@ Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& op
   validate(fibres);
   validate(options);
   Fibres aimed = fibres;
-  if (options.targetFibreVolumeFraction <= 0.0)
+  const double target = targetFraction(fibres, options);
+  if (target <= 0.0)
   {
     return aimed;
   }
@@ -213,7 +218,7 @@ Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& op
   {
     return aimed;
   }
-  fillTarget(fibres, options.targetFibreVolumeFraction * fibres.domain.volume(), aim);
+  fillTarget(fibres, target * fibres.domain.volume(), aim);
   const std::vector<double> wished = aim.factors;
   const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
   // Thin fibres first: how thick a fibre may become depends on those thinner than it.
@@ -244,6 +249,37 @@ Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& op
     correctFactors(counted, wished, aim);
   }
   return aimed;
+}
+
+std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions& options)
+{
+  const double made = fibres.grownFraction;
+  const double asked = options.targetFibreVolumeFraction;
+  if (made <= 0.0 || asked == made)
+  {
+    return "";
+  }
+  const auto percent = [](double ratio) { return std::round(100.0 * std::abs(ratio - 1.0)); };
+  if (asked > 0.0)
+  {
+    return text("TargetFibreVolumeFraction is ", asked, ", and these fibres were made to fill ", made,
+      " (GrownFibreVolumeFraction): they end ", asked < made ? "thinner" : "thicker", " than their TargetRadius, by about ",
+      percent(std::sqrt(asked / made)), " % on average. Leave TargetFibreVolumeFraction at -1, or make the fibres for ", asked);
+  }
+  if (asked == 0.0)
+  {
+    return text("these fibres were made to fill ", made, " (GrownFibreVolumeFraction), and are grown by GrowthIterations (",
+      options.growthIterations, " voxels), wherever that leads: for their TargetRadius leave TargetFibreVolumeFraction at -1");
+  }
+  const double full = aimAtOwnRadii(fibres).volume() / fibres.domain.volume();
+  if (std::abs(full / made - 1.0) <= usualDifference)
+  {
+    return "";
+  }
+  return text("these fibres were made to fill ", made, " (GrownFibreVolumeFraction), and would fill ", full,
+    " with their TargetRadius: they end ", full > made ? "thinner" : "thicker", ", by about ", percent(std::sqrt(made / full)),
+    " % on average. Connect bundles to CapsuleOptimizer itself, which adds their fractions up, or give "
+    "TargetFibreVolumeFraction");
 }
 
 } // namespace cactus

@@ -5,6 +5,8 @@
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowth.h"
 
+#include <string>
+
 namespace cactus
 {
 
@@ -21,5 +23,9 @@ namespace cactus
 ///
 /// Throws InvalidInput (options, fibres), OutOfMemory, Cancelled.
 Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {});
+
+/// What is to be said where growth will not end at the target radii because the fibres were made for another fraction than the
+/// one that they are grown to, with the difference; empty where the two agree, and where it is not known what they were made for.
+std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions& options);
 
 } // namespace cactus

@@ -68,8 +68,10 @@ const PropertyList<SubstrateCertificateOptions>& SubstrateCertificateOptions::pr
   using Options = SubstrateCertificateOptions;
   static const auto list =
     PropertyList<Options>()
-      .add("MinimumGap", &Options::minimumGap, limits::gap,
-        "Distance that the outer surfaces of any two fibres have to keep; 0 asks only that they do not meet")
+      .add("MinimumGap", &Options::minimumGap, limits::judgedGap,
+        "Distance that the outer surfaces of any two fibres have to keep; -1: MinimumGap of the growth that they come from; 0, "
+        "or "
+        "where they do not say it: they must not meet")
       .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing, "Distance between two cross-sections along a fibre");
   return list;
 }
@@ -101,8 +103,8 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
     count, context, [&](std::size_t f) { surfaces[f] = examination.examine(certificate.fibres[f], reach[f]); },
     "Looking at surfaces", 0.0, surfacesDone);
   findGaps(surfaces, certificate, context, surfacesDone);
-  summarise(
-    domain, outer, inner, options.minimumGap, count > 0 ? *std::max_element(reach.begin(), reach.end()) : 0.0, certificate);
+  const double requiredGap = options.minimumGap < 0.0 ? outer.promisedGap : options.minimumGap;
+  summarise(domain, outer, inner, requiredGap, count > 0 ? *std::max_element(reach.begin(), reach.end()) : 0.0, certificate);
   listFaults(certificate);
   return certificate;
 }

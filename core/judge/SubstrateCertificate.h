@@ -14,8 +14,9 @@ namespace cactus
 /// What a substrate is certified for.
 struct SubstrateCertificateOptions
 {
-  /// µm that the outer surfaces of any two fibres have to keep from each other. 0 asks only that they do not meet.
-  double minimumGap = 0.02;
+  /// µm that the outer surfaces of any two fibres have to keep from each other. 0 asks only that they do not meet, -1 for what
+  /// the outer surfaces promise (FibreSurfaces::promisedGap), which is nothing for those that were not made here.
+  double minimumGap = -1.0;
   /// µm between two cross-sections along a fibre's centre line.
   double cutSpacing = 1.0;
 

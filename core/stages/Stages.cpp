@@ -152,8 +152,9 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
       .use(PropertyUse::Run)
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
-      .add("MinimumGap", &Stage::minimumGap, limits::gap,
-        "Distance that the certificate asks of the outer surfaces of any two fibres; 0 asks only that they do not meet")
+      .add("MinimumGap", &Stage::minimumGap, limits::judgedGap,
+        "Distance that the certificate asks of the outer surfaces of any two fibres; -1: MinimumGap of the growth that they come "
+        "from; 0, or where they do not say it: they must not meet")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;

@@ -76,7 +76,6 @@ TEST(StoredBits, DefaultChain)
   }
   BundleInitializerOptions wanted;
   wanted.side = 8.0;
-  wanted.grownFibreVolumeFraction = 0.9;
   wanted.meanDispersion = 10.0;
   const Fibres initial = initialiseBundles(wanted);
   EXPECT_EQ(digest(initial), "21567c8b37922ddc7272719cc66d0c47d5503747ca5c8774bad875196810fc14");
@@ -86,8 +85,7 @@ TEST(StoredBits, DefaultChain)
   fibres = trimToDomain(fibres);
   EXPECT_EQ(digest(fibres), "ffdbee8a769a1391d6c45c8f7c2b291124b38e4b5fd93e966e4bce0f6dc8b17f");
 
-  FibreRadialGrowthOptions growth;
-  growth.targetFibreVolumeFraction = 0.9;
+  const FibreRadialGrowthOptions growth;
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
   const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(fibres.domain, growth));
   EXPECT_EQ(digest(image), "6f390d0626292db1cfec0fea89c2054d7d4c150fe2bc96d5d3c98e21bf476885");

@@ -45,7 +45,7 @@ def blocks(*parts, kind=vtkMultiBlockDataSet):
 
 class Blocks(CactusTestCase):
     def bundle(self, **properties):
-        return BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, **properties)
+        return BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
 
     def test_growth_of_grouped_bundles(self):
         one, two = self.bundle(), self.bundle(Seed=2)

@@ -10,6 +10,11 @@ from paraview.simple import BundleInitializer
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
+def drawn_radii(**properties):
+    """A bundle that starts with the radii drawn, so that these say where its circles touch."""
+    return BundleInitializer(**{"GrownFibreVolumeFraction": 0, **properties})
+
+
 def ends(data):
     """First points, last points, radii and bundles of all fibres."""
     points = vtk_to_numpy(data.GetPoints().GetData())
@@ -37,7 +42,7 @@ def angles_to(first, last, axis):
 
 class BundleInitializerTest(CactusTestCase):
     def test_single_bundle(self):
-        data = fetch(BundleInitializer(MeanDispersion=10))
+        data = fetch(drawn_radii(MeanDispersion=10))
         first, last, radii, bundles = ends(data)
         self.assertEqual(data.GetNumberOfLines(), len(radii))
         self.assertAlmostEqual((np.pi * radii**2).sum() / 900, 0.7, delta=0.005)
@@ -54,9 +59,18 @@ class BundleInitializerTest(CactusTestCase):
         domain = data.GetFieldData().GetArray("Domain")
         self.assertEqual([domain.GetValue(i) for i in range(6)], [-15, 15] * 3)
 
+    def test_is_made_for_growth_by_default(self):
+        """Capsules that fill 0.7 of the faces, thinner than the radii drawn, by as much as these would fill 0.9 with."""
+        data = fetch(BundleInitializer(Side=20))
+        first = vtk_to_numpy(data.GetLines().GetOffsetsArray())[:-1]
+        radii, targets = vtk_to_numpy(data.GetPointData().GetArray("Radius"))[first], ends(data)[2]
+        np.testing.assert_allclose(radii, targets * np.sqrt(0.7 / 0.9))
+        self.assertAlmostEqual((np.pi * radii**2).sum() / 400, 0.7, delta=0.005)
+        self.assertEqual(data.GetFieldData().GetArray("GrownFibreVolumeFraction").GetValue(0), 0.9)
+
     def test_crossing(self):
         for style in ("Interwoven", "Sheets"):
-            data = fetch(BundleInitializer(NumberOfBundles=2, CrossingAngle=60, CrossingStyle=style, FibreVolumeFraction=0.6))
+            data = fetch(drawn_radii(NumberOfBundles=2, CrossingAngle=60, CrossingStyle=style, FibreVolumeFraction=0.6))
             first, last, radii, bundles = ends(data)
             for bundle, x in ((1, 0.5), (2, -0.5)):
                 own = bundles == bundle
@@ -66,24 +80,24 @@ class BundleInitializerTest(CactusTestCase):
                 self.assertGreater(smallest_gap(last[own], radii[own]), -1e-9)
 
     def test_radii(self):
-        table = fetch(BundleInitializer(Side=12, RadiusDistribution="Table", RadiusTable="0.4, 0.5 0.75", FibreVolumeFraction=0.5))
+        table = fetch(drawn_radii(Side=12, RadiusDistribution="Table", RadiusTable="0.4, 0.5 0.75", FibreVolumeFraction=0.5))
         self.assertEqual(sorted(set(ends(table)[2])), [0.4, 0.5, 0.75])
         path = os.path.join(self.folder, "radii.txt")
         with open(path, "w") as file:
             file.write("0.4\n0.5\n0.75\n")
         from_file = fetch(
-            BundleInitializer(Side=12, RadiusDistribution="Table", RadiusTableFile=path, FibreVolumeFraction=0.5)
+            drawn_radii(Side=12, RadiusDistribution="Table", RadiusTableFile=path, FibreVolumeFraction=0.5)
         )
         self.assertTrue((ends(from_file)[2] == ends(table)[2]).all())
-        lognormal = BundleInitializer(RadiusDistribution="Lognormal", LognormalMean=0.7, LognormalDeviation=0.1, Side=40)
+        lognormal = drawn_radii(RadiusDistribution="Lognormal", LognormalMean=0.7, LognormalDeviation=0.1, Side=40)
         radii = ends(fetch(lognormal))[2]
         self.assertAlmostEqual(radii.mean(), 0.7, delta=0.015)
         self.assertAlmostEqual(radii.std(), 0.1, delta=0.01)
 
     def test_seeds(self):
-        one = ends(fetch(BundleInitializer(Seed=5)))
-        again = ends(fetch(BundleInitializer(Seed=5)))
-        other = ends(fetch(BundleInitializer(Seed=6)))
+        one = ends(fetch(drawn_radii(Seed=5)))
+        again = ends(fetch(drawn_radii(Seed=5)))
+        other = ends(fetch(drawn_radii(Seed=6)))
         self.assertTrue((one[1] == again[1]).all())
         self.assertFalse(one[1].shape == other[1].shape and (one[1] == other[1]).all())
 
@@ -120,7 +134,7 @@ class BundleInitializerTest(CactusTestCase):
             (r"Seed is -1", {"Seed": -1}),
         ):
             with self.subTest(values=values):
-                bundle = BundleInitializer(**values)
+                bundle = drawn_radii(**values)
                 with self.assertError(pattern):
                     bundle.UpdatePipeline()
                 self.assertEqual(bundle.GetDataInformation().GetNumberOfCells(), 0)

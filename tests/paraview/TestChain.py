@@ -96,7 +96,7 @@ def enclosed_volume(data):
 
 class ChainTest(CactusTestCase):
     def run_chain(self, side, fraction, most_triangles, **bundle):
-        source = BundleInitializer(Side=side, Seed=3, **bundle)
+        source = BundleInitializer(Side=side, Seed=3, GrownFibreVolumeFraction=0, **bundle)
         optimised = CapsuleOptimizer(Input=source)
         data = fetch(optimised)
         self.assertEqual(data.GetFieldData().GetArray("Converged").GetValue(0), 1)

@@ -44,8 +44,8 @@ def volume(part):
 class FibreFieldTest(CactusTestCase):
     @classmethod
     def setUpClass(cls):
-        fibres = BundleInitializer(Side=SIDE, FibreVolumeFraction=0.5, MeanDispersion=5, NumberOfBundles=2, CrossingAngle=90)
-        growth = FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=0.8, VoxelSize=0.15)
+        fibres = BundleInitializer(Side=SIDE, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.8, MeanDispersion=5, NumberOfBundles=2, CrossingAngle=90)
+        growth = FibreRadialGrowth(Input=fibres, VoxelSize=0.15)
         cls.fibres, cls.image = fetch(fibres), fetch(growth)
 
     def field(self, **properties):

@@ -7,7 +7,7 @@ import os
 import random
 
 import numpy as np
-from cactus_testing import CactusTestCase, fetch, main
+from cactus_testing import CactusTestCase, fetch, main, produce
 from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, OutputPort, StrandReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
@@ -40,6 +40,22 @@ class FibreRadialGrowthTest(CactusTestCase):
         with open(path, "w") as file:
             file.write(bundle())
         return StrandReader(FileName=path)
+
+    def test_takes_its_target_from_the_bundle(self):
+        """Through the optimiser, of one bundle and of several; a warning names the difference where another one is given."""
+        one, two = (BundleInitializer(Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed) for seed in (1, 2))
+        both = CapsuleOptimizer(Input=[one, two])
+        self.assertAlmostEqual(fetch(both).GetFieldData().GetArray("GrownFibreVolumeFraction").GetValue(0), 0.7)
+        for fibres, fraction in ((one, 0.35), (OutputPort(both, 0), 0.7)):
+            image = fetch(FibreRadialGrowth(Input=fibres, VoxelSize=0.1, SurfaceRoughness=0))
+            self.assertAlmostEqual(np.mean(vtk_to_numpy(image.GetPointData().GetArray("FibreId")) > 0), fraction, delta=0.005)
+        with self.assertError(r"TargetFibreVolumeFraction is 0\.5.*made to fill 0\.7.*thinner.*about 15 %"):
+            fetch(FibreRadialGrowth(Input=OutputPort(both, 0), VoxelSize=0.2, TargetFibreVolumeFraction=0.5))
+        # As of another filter, which keeps what the first of its inputs says.
+        joined = fetch(both)
+        joined.GetFieldData().GetArray("GrownFibreVolumeFraction").SetValue(0, 0.35)
+        with self.assertError(r"made to fill 0\.35.*would fill 0\.\d+ with their TargetRadius"):
+            fetch(FibreRadialGrowth(Input=produce(joined), VoxelSize=0.2))
 
     def test_gives_the_data_model(self):
         image = fetch(FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, GrowthIterations=2))

@@ -55,7 +55,7 @@ class Ranks(CactusTestCase):
                     self.assertEqual(len(set(stages)), 1, stages)
 
     def test_release_input(self):
-        growth = FibreRadialGrowth(Input=BundleInitializer(Side=6, MeanDispersion=2, FibreVolumeFraction=0.2), VoxelSize=0.2)
+        growth = FibreRadialGrowth(Input=BundleInitializer(Side=6, MeanDispersion=2, FibreVolumeFraction=0.2, GrownFibreVolumeFraction=0), VoxelSize=0.2)
         for release in (0, 1):
             surface = MyelinSurface(Input=growth, ReleaseInput=release)
             table = fetch(ProgrammableFilter(Input=OutputPort(surface, 0), OutputDataSetType="vtkTable", Script=COUNT))

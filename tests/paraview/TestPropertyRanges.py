@@ -38,7 +38,7 @@ class PropertyRanges(CactusTestCase):
     @classmethod
     def setUpClass(cls):
         """A good input for each kind of data."""
-        fibres = simple.BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2)
+        fibres = simple.BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0)
         image = simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.2, GrowthIterations=1)
         cls.fibres, cls.image = fetch(fibres), fetch(image)
         _, cls.outer, _ = two_tubes()

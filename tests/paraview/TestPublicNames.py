@@ -19,6 +19,7 @@ NAMES = {
         "NumberOfBundles": 1,
         "CrossingAngle": 90,
         "CrossingStyle": "Interwoven",
+        "GrownFibreVolumeFraction": 0.9,
         "Seed": 1,
     },
     "CapsuleOptimizer": {
@@ -36,17 +37,17 @@ NAMES = {
     },
     "FibreRadialGrowth": {
         "VoxelSize": 0.1,
-        "TargetFibreVolumeFraction": 0,
+        "TargetFibreVolumeFraction": -1,
         "GrowthIterations": 4,
         "MinimumGap": 0.02,
         "SurfaceRoughness": None,
         "Seed": 1,
         "NumberOfThreads": 0,
     },
-    "SubstrateCertificate": {"MinimumGap": 0.02, "CutSpacing": 1.0},
+    "SubstrateCertificate": {"MinimumGap": -1, "CutSpacing": 1.0},
     "SubstrateStatistics": {},
     "StrandReader": {"FileName": None},
-    "SubstrateWriter": {"MinimumGap": 0.02},
+    "SubstrateWriter": {"MinimumGap": -1},
 }
 CHOICES = {
     ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table"],

@@ -118,7 +118,7 @@ def parameters(seed, index):
     gap = draw.seldom(0.15, 0.0, draw.log(1e-3, draw.seldom(0.2, 0.3, 0.05)))
     growth = {
         "VoxelSize": voxel,
-        "TargetFibreVolumeFraction": draw.seldom(0.4, 0.0, draw.uniform(0.3, draw.seldom(0.3, 0.95, 0.85))),
+        "TargetFibreVolumeFraction": draw.seldom(0.3, -1.0, draw.seldom(0.4, 0.0, draw.uniform(0.3, draw.seldom(0.3, 0.95, 0.85)))),
         "GrowthIterations": draw.whole(0, 8),
         "MinimumGap": gap,
         "SurfaceTolerance": tolerance,
@@ -127,11 +127,13 @@ def parameters(seed, index):
         "Seed": draw.whole(0, 2**31 - 1),
         "NumberOfThreads": draw.whole(0, 3),
     }
+    target = growth["TargetFibreVolumeFraction"]
+    fraction = (bundle["GrownFibreVolumeFraction"] if target < 0 else target) or 0.5
     myelin = {
         "GRatioModel": draw.choice("Constant", "LogLinear", "Distributed", "TargetAxonVolumeFraction"),
         "GRatio": draw.seldom(0.15, draw.uniform(0.05, 0.99), draw.uniform(0.4, 0.9)),
         "GRatioDeviation": draw.uniform(0, 0.3),
-        "TargetAxonVolumeFraction": Draw.rounded((growth["TargetFibreVolumeFraction"] or 0.5) * draw.uniform(0.1, 0.7)),
+        "TargetAxonVolumeFraction": Draw.rounded(fraction * draw.uniform(0.1, 0.7)),
         "SmoothingIterations": draw.seldom(0.1, draw.whole(0, 21), draw.whole(0, 5)),
         "DecimationError": draw.seldom(0.15, 0.0, Draw.rounded(tolerance * draw.log(0.1, draw.seldom(0.05, 2, 1)))),
         "ClipToDomain": draw.seldom(0.2, 0, 1),

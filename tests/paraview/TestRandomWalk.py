@@ -24,7 +24,7 @@ class RandomWalk(CactusTestCase):
 
     def test_nobody_leaves_a_grown_substrate(self):
         bundle = BundleInitializer(Side=6, FibreVolumeFraction=0.6, MinimumRadius=0.4, MeanDispersion=10, Seed=5)
-        grown = FibreRadialGrowth(Input=OutputPort(CapsuleOptimizer(Input=bundle), 0), TargetFibreVolumeFraction=0.9)
+        grown = FibreRadialGrowth(Input=OutputPort(CapsuleOptimizer(Input=bundle), 0))
         myelin = MyelinSurface(Input=grown, GRatio=0.7)
         folder = self.write(OutputPort(myelin, 0), OutputPort(myelin, 1))
         self._messages = [message for message in self._messages if "too thin in the image to hold an axon" not in message]

@@ -15,7 +15,7 @@ SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "s
 
 
 def bundle(**properties):
-    values = {"Side": 5, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, **properties}
+    values = {"Side": 5, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0, **properties}
     return BundleInitializer(**values)
 
 

@@ -196,6 +196,17 @@ class Certificate(CactusTestCase):
             whole, _ = self.certify(self.outer, self.inner)
         self.assertEqual(whole["ThinMyelin"], 1)
 
+    def test_gap_as_promised(self):
+        """Asked by default of surfaces that say what they keep; the others must not meet."""
+        self.assertEqual(self.certify(self.outer)[0]["MinimumGap_um"], 0)
+        gap = vtkDoubleArray()
+        gap.SetName("MinimumGap")
+        gap.InsertNextValue(1.6)
+        self.outer.GetFieldData().AddArray(gap)
+        with self.assertError(r"not certified: fibres 3 and 5 come as near as 1\.5.*less than MinimumGap 1\.6"):
+            self.assertEqual(self.certify(self.outer)[0]["MinimumGap_um"], 1.6)
+        self.assertEqual(self.certify(self.outer, MinimumGap=1.4)[0]["Certified"], 1)
+
     def test_surfaces_that_were_not_clipped(self):
         with self.assertError(r"reach 0\.5\d* µm out of the domain.*ClipToDomain"):
             whole, _ = self.certify(surfaces({3: tube(-2, 0, 1, 11)}, 0, 10))
@@ -237,7 +248,7 @@ class Certificate(CactusTestCase):
         for name, value in (
             ("MinimumGap", float("nan")),
             ("MinimumGap", float("inf")),
-            ("MinimumGap", -1),
+            ("MinimumGap", -0.5),
             ("MinimumGap", 1e300),
             ("CutSpacing", 1e-9),
             ("CutSpacing", 1e300),

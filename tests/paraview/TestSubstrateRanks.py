@@ -42,7 +42,7 @@ class Ranks(CactusTestCase):
         fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=6, MeanDispersion=10, MaximumRadius=1, Seed=1)), 0)
         fibres.UpdatePipeline()
         # A fibre fills the corner of the image: were that all that a rank sees of it, its surface would not be closed.
-        grown = FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=0.9, VoxelSize=0.1)
+        grown = FibreRadialGrowth(Input=fibres, VoxelSize=0.1)
         surfaces = MyelinSurface(Input=grown)
         outer, inner = OutputPort(surfaces, 0), OutputPort(surfaces, 1)
         # Each rank makes the whole substrate, and an error of any fails the test; the first writes it.

@@ -22,8 +22,8 @@ def files(folder):
 class WholeSubstrate(CactusTestCase):
     def setUp(self):
         super().setUp()
-        self.fibres = simple.BundleInitializer(Side=5, FibreVolumeFraction=0.5)
-        grown = simple.FibreRadialGrowth(Input=self.fibres, TargetFibreVolumeFraction=0.6, VoxelSize=0.2)
+        self.fibres = simple.BundleInitializer(Side=5, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6)
+        grown = simple.FibreRadialGrowth(Input=self.fibres, VoxelSize=0.2)
         surfaces = simple.MyelinSurface(Input=grown)
         self.outer, self.inner = simple.OutputPort(surfaces, 0), simple.OutputPort(surfaces, 1)
         self.all = {"Outer": self.outer, "Inner": self.inner, "Fibres": self.fibres}

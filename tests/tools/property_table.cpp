@@ -23,7 +23,7 @@ Json jsonOf(const PropertyState& state)
   std::visit([&](const auto& value) { json["default"] = value; }, state.value);
   if (facts.range)
   {
-    json["lowest"] = facts.range->orZero ? 0.0 : facts.range->lowest;
+    json["lowest"] = facts.range->smallest();
     json["highest"] = facts.range->highest;
   }
   json["choices"] = facts.choices;
@@ -65,8 +65,8 @@ std::string allowed(const PropertyState& state)
   }
   if (facts.range)
   {
-    text = (facts.range->orZero ? "0 or " : "") + shortText(facts.range->lowest) + " to " + shortText(facts.range->highest) +
-           facts.range->unit;
+    text = (facts.range->special ? shortText(*facts.range->special) + " or " : "") + shortText(facts.range->lowest) + " to " +
+           shortText(facts.range->highest) + facts.range->unit;
   }
   return text.empty() ? (std::holds_alternative<bool>(state.value) ? "on, off" : "text") : text;
 }

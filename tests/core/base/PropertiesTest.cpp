@@ -29,7 +29,7 @@ struct Part
   static const PropertyList<Part>& properties()
   {
     static const auto list = PropertyList<Part>()
-                               .add("Width", &Part::width, { 1.0, 3.0, " µm", true }, "How wide it is")
+                               .add("Width", &Part::width, { 1.0, 3.0, " µm", 0.0 }, "How wide it is")
                                .add("Table", &Part::table, "What else there is");
     return list;
   }

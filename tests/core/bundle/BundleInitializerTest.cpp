@@ -23,6 +23,12 @@ Eigen::Vector3d endPoint(const Fibres& fibres, std::size_t f, int end)
   return fibres.points[end == 0 ? fibres.offsets[f] : fibres.offsets[f + 1] - 1];
 }
 
+/// Of fibres that start with the radii drawn, so that these say where their circles touch.
+struct DrawnRadii : BundleInitializerOptions
+{
+  DrawnRadii() { this->grownFibreVolumeFraction = 0.0; }
+};
+
 /// Mean angle (degrees) of a bundle's fibres to a given axis, computed from the end points alone.
 double meanAngleTo(const Fibres& fibres, const Eigen::Vector3d& axis, int bundle)
 {
@@ -67,7 +73,7 @@ double circleArea(const Fibres& fibres)
 
 std::string errorOf(const std::function<void(BundleInitializerOptions&)>& change)
 {
-  BundleInitializerOptions options;
+  DrawnRadii options;
   change(options);
   try
   {
@@ -84,7 +90,7 @@ TEST(BundleInitializer, MakesFibresThinnerThatAreToGrow)
 {
   for (const int bundles : { 1, 2 })
   {
-    BundleInitializerOptions options;
+    DrawnRadii options;
     options.side = 20.0;
     options.numberOfBundles = bundles;
     options.fibreVolumeFraction = 0.6;
@@ -103,7 +109,7 @@ TEST(BundleInitializer, MakesFibresThinnerThatAreToGrow)
     const Fibres plain = initialiseBundles(options);
     EXPECT_GT(fibres.size(), plain.size());
   }
-  BundleInitializerOptions options;
+  DrawnRadii options;
   options.grownFibreVolumeFraction = 0.5;
   EXPECT_THROW(options.validate(), InvalidInput);
 }
@@ -116,7 +122,7 @@ TEST(BundleInitializer, FacesHoldAllCirclesApartAndInside)
   {
     for (const double margin : { 0.0, 3.0 })
     {
-      BundleInitializerOptions options;
+      DrawnRadii options;
       options.fibreVolumeFraction = density;
       options.meanDispersion = 10.0;
       options.margin = margin;
@@ -145,7 +151,7 @@ TEST(BundleInitializer, MeanDispersionIsTheOneAsked)
   {
     for (const double asked : { 0.0, 2.0, 5.0, 10.0, 15.0, 20.0, 25.0 })
     {
-      BundleInitializerOptions options;
+      DrawnRadii options;
       options.meanDispersion = asked;
       options.dispersionModel = model;
       BundleInitializerReport report;
@@ -162,7 +168,7 @@ TEST(BundleInitializer, NeighboursPointAlikeWhereCoherentAndNotWhereDrawnEachFor
 {
   const auto likeness = [](DispersionModel model, double length)
   {
-    BundleInitializerOptions options;
+    DrawnRadii options;
     options.meanDispersion = 10.0;
     options.dispersionModel = model;
     options.correlationLength = length;
@@ -193,7 +199,7 @@ TEST(BundleInitializer, NeighboursPointAlikeWhereCoherentAndNotWhereDrawnEachFor
 
 TEST(BundleInitializer, CrossingBundlesTakeWatsonForCoherent)
 {
-  BundleInitializerOptions options;
+  DrawnRadii options;
   options.numberOfBundles = 2;
   const Fibres fibres = initialiseBundles(options);
   options.dispersionModel = DispersionModel::Watson;
@@ -202,7 +208,7 @@ TEST(BundleInitializer, CrossingBundlesTakeWatsonForCoherent)
 
 TEST(BundleInitializer, WithoutDispersionEndsLieOppositeEachOther)
 {
-  BundleInitializerOptions options;
+  DrawnRadii options;
   options.meanDispersion = 0.0;
   const Fibres fibres = initialiseBundles(options);
   for (std::size_t f = 0; f < fibres.size(); ++f)
@@ -213,7 +219,7 @@ TEST(BundleInitializer, WithoutDispersionEndsLieOppositeEachOther)
 
 TEST(BundleInitializer, FibresAreStraightAndEvenlySpaced)
 {
-  BundleInitializerOptions options;
+  DrawnRadii options;
   options.meanDispersion = 10.0;
   const Fibres fibres = initialiseBundles(options);
   for (std::size_t f = 0; f < fibres.size(); ++f)
@@ -235,7 +241,7 @@ TEST(BundleInitializer, FibresAreStraightAndEvenlySpaced)
 
 TEST(BundleInitializer, SameSeedSameBitsOnAnyNumberOfThreads)
 {
-  BundleInitializerOptions options;
+  DrawnRadii options;
   options.side = 130.0; // more circles than the relaxation treats serially
   options.minimumSpacing = options.maximumSpacing = 65.0;
   options.spacingFactor = 100.0;
@@ -255,7 +261,7 @@ TEST(BundleInitializer, WhatCannotBeReachedSaysWhatCan)
 {
   const auto reached = [](const char* before, double density, double dispersion)
   {
-    BundleInitializerOptions options;
+    DrawnRadii options;
     options.side = 15.0;
     options.fibreVolumeFraction = density;
     options.meanDispersion = dispersion;
@@ -372,7 +378,7 @@ TEST(BundleInitializer, EqualLimitsGiveEqualRadii)
 {
   for (const RadiusModel model : { RadiusModel::Gamma, RadiusModel::Lognormal })
   {
-    BundleInitializerOptions options;
+    DrawnRadii options;
     options.side = 10.0;
     options.fibreVolumeFraction = 0.5;
     options.radius.model = model;
@@ -390,7 +396,7 @@ TEST(BundleInitializer, BundlesCrossAtTheAngleAsked)
   {
     for (const double asked : { 15.0, 30.0, 60.0, 90.0 })
     {
-      BundleInitializerOptions options;
+      DrawnRadii options;
       options.numberOfBundles = 2;
       options.crossingAngle = asked;
       options.crossingStyle = style;
@@ -414,7 +420,7 @@ TEST(BundleInitializer, CrossingBundlesKeepToTheirLayers)
   {
     for (const std::uint64_t seed : { 1, 2, 3 })
     {
-      BundleInitializerOptions options;
+      DrawnRadii options;
       options.numberOfBundles = 2;
       options.crossingStyle = style;
       options.meanDispersion = 10.0;
@@ -466,7 +472,7 @@ TEST(BundleInitializer, CrossingBundlesFillTheDomainAsAsked)
   {
     for (const double dispersion : { 0.0, 5.0, 20.0 })
     {
-      BundleInitializerOptions options;
+      DrawnRadii options;
       options.numberOfBundles = 2;
       options.crossingStyle = style;
       options.crossingAngle = 60.0;

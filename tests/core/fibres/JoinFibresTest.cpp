@@ -47,6 +47,18 @@ TEST(JoinFibres, IdsInUseMoveTogether)
   EXPECT_EQ(all.bundleIds, (std::vector<int>{ 1, 3, 6, 7 }));
 }
 
+TEST(JoinFibres, WhatTheyWereMadeForAddsUpWhereAllSaySo)
+{
+  Fibres all = fibresWith({ { 1, 1 } });
+  all.grownFraction = 0.3;
+  Fibres added = fibresWith({ { 2, 2 } });
+  added.grownFraction = 0.25;
+  appendFibres(added, all);
+  EXPECT_DOUBLE_EQ(all.grownFraction, 0.55);
+  appendFibres(fibresWith({ { 3, 3 } }), all);
+  EXPECT_EQ(all.grownFraction, 0.0);
+}
+
 TEST(JoinFibres, RefusesWhereNoIdIsFree)
 {
   constexpr int largest = std::numeric_limits<int>::max();

@@ -188,6 +188,43 @@ TEST(GrowthTarget, RadiiEndAsMuchLargerWhereTheFractionAsksForMore)
   EXPECT_LT(most - least, 0.06);
 }
 
+TEST(GrowthTarget, ComesFromTheFibresUnlessGiven)
+{
+  Fibres fibres = emptyFibres(4.0);
+  addStraight(fibres, 0.0, 0.0, 4.0, 0.9, 1.0);
+  FibreRadialGrowthOptions byIterations;
+  EXPECT_EQ(growthFor(fibres, byIterations), byIterations.growthIterations * byIterations.voxelSize);
+  EXPECT_EQ(remarkOnTarget(fibres, byIterations), "");
+
+  fibres.grownFraction = pi / 16.0;
+  FibreRadialGrowthOptions given;
+  given.targetFibreVolumeFraction = pi / 16.0;
+  EXPECT_EQ(growthFor(fibres, {}), growthFor(fibres, given));
+  EXPECT_EQ(aimAtTargetRadii(fibres, {}).radii, aimAtTargetRadii(fibres, given).radii);
+  EXPECT_EQ(trimToDomain(fibres).grownFraction, fibres.grownFraction);
+}
+
+TEST(GrowthTarget, SaysWhereItPartsFromWhatTheFibresWereMadeFor)
+{
+  Fibres fibres = emptyFibres(4.0);
+  addStraight(fibres, 0.0, 0.0, 4.0, 0.9, 1.0);
+  fibres.grownFraction = pi / 16.0;
+  FibreRadialGrowthOptions options;
+  EXPECT_EQ(remarkOnTarget(fibres, options), "");
+  // Half the volume makes a round fibre thinner by 1 - 1/sqrt(2).
+  options.targetFibreVolumeFraction = 0.5 * fibres.grownFraction;
+  EXPECT_NE(remarkOnTarget(fibres, options).find("thinner than their TargetRadius, by about 29 %"), std::string::npos);
+  options.targetFibreVolumeFraction = 0.0;
+  EXPECT_NE(remarkOnTarget(fibres, options).find("GrowthIterations (4 voxels)"), std::string::npos);
+
+  // Twice as many as one of them was made for, as where another filter has joined them.
+  options.targetFibreVolumeFraction = -1.0;
+  addStraight(fibres, 1.0, 1.0, 4.0, 0.9, 1.0);
+  EXPECT_NE(remarkOnTarget(fibres, options).find("thinner, by about 29 %"), std::string::npos);
+  fibres.grownFraction = 1.8;
+  EXPECT_THROW(growthFor(fibres, options), InvalidInput);
+}
+
 TEST(GrowthTarget, LoneFibresEndAtTheirTargetRadii)
 {
   // Apart from each other, so that each area tells a radius; together they fill what their target radii fill. One lies half
@@ -218,6 +255,7 @@ TEST(GrowthTarget, OnlyRadiiChangeAndOnlyForAFraction)
 {
   const Fibres fibres = bundle(0.9);
   FibreRadialGrowthOptions options;
+  options.targetFibreVolumeFraction = 0.0;
   const Fibres same = aimAtTargetRadii(fibres, options);
   EXPECT_EQ(same.radii, fibres.radii);
   options.targetFibreVolumeFraction = 0.9;

@@ -116,7 +116,7 @@ TEST(SubstrateCertificate, WantsTheGapAskedFor)
   const Substrate sound;
   expectFault(sound.certificate(0.031), "fibres 4 and 5 come as near as");
   EXPECT_TRUE(sound.certificate(0.0299).certified());
-  EXPECT_THROW(sound.certificate(-1.0), cactus::InvalidInput);
+  EXPECT_THROW(sound.certificate(-0.5), cactus::InvalidInput);
   EXPECT_THROW(certified({}, {}), cactus::InvalidInput);
 }
 
@@ -331,7 +331,7 @@ TEST(SubstrateCertificate, TakesWhatIsNoSurface)
   expect(spoilt([](TriangleMesh& m) { m.points.assign(m.points.size(), Eigen::Vector3d::Zero()); }), "cut or touch themselves");
   expect(TriangleMesh(), "not closed");
   cactus::SubstrateCertificateOptions options;
-  for (const double value : { std::nan(""), std::numeric_limits<double>::infinity(), -1.0, 1e300 })
+  for (const double value : { std::nan(""), std::numeric_limits<double>::infinity(), -0.5, 1e300 })
   {
     options.minimumGap = value;
     EXPECT_THROW(options.validate(), cactus::InvalidInput) << value;

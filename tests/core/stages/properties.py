@@ -38,8 +38,9 @@ def limits(one):
 
 
 def switches(one):
-    """{property: value} of those on whose values the panel shows it."""
-    return {deep.get("property"): float(deep.get("value")) for deep in one.findall(".//PropertyWidgetDecorator[@property]")}
+    """{property: values} of those on whose values the panel shows it."""
+    decorators = one.findall(".//PropertyWidgetDecorator[@property]")
+    return {deep.get("property"): [float(value) for value in deep.get("values", deep.get("value")).split()] for deep in decorators}
 
 
 def differences(facts, one):
@@ -58,9 +59,9 @@ def differences(facts, one):
     wanted = [facts["lowest"], facts["highest"]] if "lowest" in facts else None
     if limits(one) != wanted:
         yield f"has the range {limits(one)} instead of {wanted}"
-    for name, value in switches(one).items():
-        if value not in facts["conditions"].get(name, ()):
-            yield f"is shown where {name} is {value:g}, and has an effect where {facts['conditions']}"
+    for name, values in switches(one).items():
+        if not set(values) <= set(facts["conditions"].get(name, ())):
+            yield f"is shown where {name} is {values}, and has an effect where {facts['conditions']}"
 
 
 def main():

@@ -40,13 +40,14 @@ from torture.targets import is_legal, limits, targets, values
 SMALL = {
     "BundleInitializer": {
         "Side": 6, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "MaximumRadius": 1.2, "MeanDispersion": 5, "RadiusTable": "0.5 0.6 0.7",
+        "GrownFibreVolumeFraction": 0,
     },
     "FibreRadialGrowth": {"VoxelSize": 0.2, "GrowthIterations": 1},
     "MyelinSurface": {"TargetAxonVolumeFraction": 0.15},
 }
 # Large enough that what a stage allocates shows.
 LARGE = {
-    "BundleInitializer": {"Side": 60, "FibreVolumeFraction": 0.6},
+    "BundleInitializer": {"Side": 60, "FibreVolumeFraction": 0.6, "GrownFibreVolumeFraction": 0},
     "CapsuleOptimizer": {"MaximumIterations": 5},
     "FibreRadialGrowth": {"VoxelSize": 0.09},
     "MyelinSurface": {"DecimationError": 0.0},
