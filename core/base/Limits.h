@@ -60,6 +60,8 @@ inline constexpr Range radiusOrNone{ 1e-3, 1e3, " µm", 0.0 };
 /// Of control points, of the domain's corners and of all that is derived from them, along each axis: 10 cm to either side. There
 /// are then 7e4 steps of double precision in a nanometre.
 inline constexpr Range coordinate{ -1e5, 1e5, " µm" };
+/// Of a tractogram's points: a kilometre to either side of the scanner.
+inline constexpr Range scannerCoordinate{ -1e6, 1e6, " mm" };
 /// Of a domain along each axis.
 inline constexpr Range side{ 0.1, 1e5, " µm" };
 /// FibreId and BundleId, whole numbers.

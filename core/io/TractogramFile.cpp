@@ -2,6 +2,7 @@
 #include "io/TractogramFile.h"
 
 #include "base/Error.h"
+#include "base/Limits.h"
 #include "base/PosixFile.h"
 #include "io/TckFile.h"
 #include "io/TrkFile.h"
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 namespace cactus
 {
@@ -57,11 +59,26 @@ Tractogram readAny(const std::string& path, const Context& context)
   return std::filesystem::is_directory(path, error) ? readTrx(Folder(path), path) : readTrx(ZipArchive(path), path);
 }
 
+void requireWithinScanner(const Tractogram& tractogram, const std::string& path)
+{
+  const auto& points = tractogram.points;
+  const auto bad =
+    std::find_if(points.begin(), points.end(), [](double value) { return !limits::scannerCoordinate.holds(value); });
+  if (bad != points.end())
+  {
+    const auto point = static_cast<std::size_t>(bad - points.begin()) / 3;
+    const auto after = std::upper_bound(tractogram.offsets.begin(), tractogram.offsets.end(), point);
+    throw FileError(text(path, ": streamline ", after - tractogram.offsets.begin(), ", point ", point - *std::prev(after) + 1,
+      " has a coordinate of ", *bad, " mm: give ", limits::scannerCoordinate.lowest, " to ", limits::scannerCoordinate.highest));
+  }
+}
+
 } // namespace
 
 Tractogram readTractogram(const std::string& path, const Context& context)
 {
   Tractogram tractogram = readAny(path, context);
+  requireWithinScanner(tractogram, path);
   dropShortStreamlines(tractogram);
   return tractogram;
 }

@@ -2,6 +2,7 @@
 #include "surface/FibreField.h"
 
 #include "base/Error.h"
+#include "base/Limits.h"
 #include "base/Parallel.h"
 
 #include <algorithm>
@@ -279,6 +280,7 @@ double FibreField::atSample(std::int32_t fibre, int i, int j, int k) const
 
 std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
 {
+  constexpr auto deepest = float(limits::coordinate.highest); // more than any fibre's radius
   thread_local LabelBuffer buffer;
   const LabelImageView held = this->samplesAt(range, 0, buffer);
   std::vector<std::int32_t> ids;
@@ -290,13 +292,13 @@ std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
     for (int j = range.first[1]; j < range.first[1] + range.count[1]; ++j)
     {
       const std::size_t row = held.grid.index(i0, this->Samples.sampleOf(1, j), this->Samples.sampleOf(2, k));
-      bool finite = true;
+      bool within = true;
       bool fits = true;
       for (int i = 0; i <= i1 - i0; ++i)
       {
         const std::int32_t id = held.fibreId[row + std::size_t(i)];
         const float depth = held.depth[row + std::size_t(i)];
-        finite = finite && std::isfinite(depth);
+        within = within && std::abs(depth) <= deepest; // which NaN is not
         fits = fits && (depth > 0.0f) == (id > 0);
         if (id != last && id != 0)
         {
@@ -308,7 +310,7 @@ std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
           last = id;
         }
       }
-      require(finite, "the label image has a Depth that is not finite (NaN or infinite)");
+      require(within, "the label image has a Depth that is not finite (NaN or infinite), or beyond 100000 µm");
       require(fits || (!ids.empty() && ids.front() < 0),
         "the label image has a Depth that does not fit its FibreId: Depth must be positive just where FibreId is");
     }

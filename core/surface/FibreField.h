@@ -51,8 +51,8 @@ public:
   NodeLattice lattice(double inset = 0.0) const;
 
   /// Of each fibre, in increasing order of fibres, the blocks of the lattice with a node that belongs to it or has one at most
-  /// `reach` nodes away. Throws InvalidInput for a negative FibreId, a Depth that is not finite or does not fit its FibreId, and
-  /// Cancelled.
+  /// `reach` nodes away. Throws InvalidInput for a negative FibreId, a Depth that is not finite, beyond limits::coordinate or
+  /// does not fit its FibreId, and Cancelled.
   std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(int reach, const Context& context = {}) const;
 
   /// The image at the samples that a range of nodes takes its values from, and at those up to `more` beyond.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/FibreRadialGrowth.h"
 
+#include "Sanitized.h"
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
@@ -249,7 +250,7 @@ TEST(CapsuleField, RoughSeedsStayInsideTheCapsulesAndHoldTheirCore)
     double largestLoss = 0.0;
     double smallestLoss = 1.0;
     RandomEngine engine = randomStream(4, RandomStage::Directions);
-    for (int n = 0; n < 2000; ++n)
+    for (int n = 0; n < fewerWhereSanitized(2000); ++n)
     {
       const Eigen::Vector3d x(6.0 * uniform(engine) - 3.0, 6.0 * uniform(engine) - 3.0, 6.0 * uniform(engine) - 3.0);
       for (std::size_t f = 0; f < fibres.size(); ++f)

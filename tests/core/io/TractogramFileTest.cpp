@@ -344,4 +344,25 @@ TEST(Tractogram, OtherNamesAreErrors)
   EXPECT_THROW(cactus::writeTractogram(fibres, cactus_testing::scratchPath("fibres.trk")), cactus::InvalidInput);
 }
 
+TEST(Tractogram, PointsFarFromAnyScannerAreErrors)
+{
+  const std::string path = cactus_testing::scratchPath("far.tck");
+  const Doubles numbers = { 1, 2, 3, 4, 5, 6, notANumber, notANumber, notANumber, -1, 0, 0, 7, 3e38, 9, notANumber, notANumber,
+    notANumber, infinity, infinity, infinity };
+  const std::string header = "mrtrix tracks\ndatatype: Float64LE\nfile: . 60\nEND\n";
+  std::ofstream(path, std::ios::binary) << header << std::string(60 - header.size(), '#')
+                                        << bytes(numbers, !cactus::isLittleEndian());
+  try
+  {
+    cactus::readTractogram(path);
+    FAIL() << "a point 3e38 mm away";
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("streamline 2, point 2 has a coordinate of 3e+38 mm"), std::string::npos)
+      << error.what();
+  }
+  std::filesystem::remove(path);
+}
+
 } // namespace

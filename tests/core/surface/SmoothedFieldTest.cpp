@@ -139,6 +139,8 @@ TEST(FibreField, RefusesWhatIsNoLabelImage)
   const float depth = image.depth[1234];
   image.depth[1234] = std::nanf("");
   EXPECT_THROW(find(), InvalidInput);
+  image.depth[1234] = depth > 0.0f ? 1e30f : -1e30f;
+  EXPECT_THROW(find(), InvalidInput);
   image.depth[1234] = depth > 0.0f ? -depth : 1.0f;
   EXPECT_THROW(find(), InvalidInput);
   EXPECT_THROW(FibreField({ image.grid, image.fibreId.data(), nullptr, 0.03 }, Domain::cube(3.0), true), InvalidInput);

@@ -39,7 +39,7 @@ from torture.targets import is_legal, limits, targets, values
 # Small enough that every stage takes a fraction of a second.
 SMALL = {
     "BundleInitializer": {
-        "Side": 6, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "MaximumRadius": 1.2, "MeanDispersion": 5, "RadiusTable": "0.5 0.6 0.7",
+        "Side": 4, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "MaximumRadius": 1.2, "MeanDispersion": 5, "RadiusTable": "0.5 0.6 0.7",
         "GrownFibreVolumeFraction": 0,
     },
     "FibreRadialGrowth": {"VoxelSize": 0.2, "GrowthIterations": 1},
@@ -75,7 +75,7 @@ class Standing:
         self.folder = tempfile.mkdtemp(dir=bench.folder)
         self.good = {**SMALL.get(target.name, {}), **overrides}
         for name in target.writes:
-            self.good[name] = os.path.join(self.folder, "good")
+            self.good[name] = os.path.join(self.folder, target.good_name)
         if target.reads:
             self.good["FileName"] = bench.good_file(target)
         module = servermanager.writers if target.group == "writers" else simple
@@ -746,9 +746,9 @@ def all_cases(bench):
             data = bench.good[kind]
             for what in inputs.spoilers(data):
                 if what.count("."):
-                    share = 0.15
+                    share = 0.1
                 elif what.startswith("empty-"):
-                    share = 0.3
+                    share = 0.2
                 else:
                     share = 1.0 if port in ("Input", "Outer") or what in inputs.COMPOSITES else 0.5
                 add(f"data/{name}/{port}/{what}", share=share)

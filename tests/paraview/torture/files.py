@@ -48,6 +48,19 @@ def kept(folder):
 
 def spoilt_files(good):
     """{name: bytes} of files in the place of a good one."""
+    result = {
+        "empty": b"", "blank": b" \n\t\n", "one-byte": b"\x00", "zeros": bytes(5000), "noise": np.random.default_rng(1).bytes(5000),
+        "text": b"Dear reader,\nthis is no such file.\n", "half": good[: len(good) // 2], "cut-in-a-number": good[: len(good) // 3],
+        "twice": good + good, "and-more": good + b"1 2 3\n", "windows": good.replace(b"\n", b"\r\n"), "commas": good.replace(b".", b","),
+        "marked": b"\xef\xbb\xbf" + good, "long-line": b"1" * 10**7, "comment": b"# comment\n" + good,
+    }
+    try:
+        return {**result, **spoilt_text(good, good.decode())}
+    except UnicodeDecodeError:
+        return {**result, **spoilt_bytes(good)}
+
+
+def spoilt_text(good, text):
     lines = good.split(b"\n")
     words = good.split()
 
@@ -55,12 +68,8 @@ def spoilt_files(good):
         return b"\n".join(lines[:number] + [text] + lines[number + 1 :])
 
     result = {
-        "empty": b"", "blank": b" \n\t\n", "one-byte": b"\x00", "zeros": bytes(5000), "noise": np.random.default_rng(1).bytes(5000),
-        "text": b"Dear reader,\nthis is no such file.\n", "half": good[: len(good) // 2], "cut-in-a-number": good[: len(good) // 3],
-        "last-line-missing": b"\n".join(lines[:-2]), "twice": good + good, "and-more": good + b"1 2 3\n", "windows": good.replace(b"\n", b"\r\n"),
-        "one-line": b" ".join(words), "word-per-line": b"\n".join(words), "commas": good.replace(b".", b","), "marked": b"\xef\xbb\xbf" + good,
-        "utf-16": good.decode().encode("utf-16"), "swapped": b"\n".join([lines[1], lines[0]] + lines[2:]), "long-line": b"1" * 10**7,
-        "extra-column": good.replace(b"\n", b" 1\n"), "comment": b"# comment\n" + good,
+        "last-line-missing": b"\n".join(lines[:-2]), "one-line": b" ".join(words), "word-per-line": b"\n".join(words),
+        "utf-16": text.encode("utf-16"), "swapped": b"\n".join([lines[1], lines[0]] + lines[2:]), "extra-column": good.replace(b"\n", b" 1\n"),
     }
     for value in (b"nan", b"inf", b"-1", b"0", b"1e40", b"1e300", b"1e999", b"99999999999999999999", b"2147483648", b"-0", b"1.5", b"x", b""):
         for number in (0, 1, 2):
@@ -68,4 +77,14 @@ def spoilt_files(good):
         columns = lines[4].split()
         for column in range(len(columns)):
             result[f"line5.{column + 1}={value.decode()}"] = line(4, b" ".join(columns[:column] + [value] + columns[column + 1 :]))
+    return result
+
+
+def spoilt_bytes(good):
+    """Words of four bytes exchanged, near the beginning (a header) and everywhere."""
+    result = {"one-byte-less": good[:-1], "one-byte-more": good + b"\x00"}
+    places = [*range(0, min(len(good), 128), 8), *range(128, len(good) - 4, max(1, len(good) // 16))]
+    for name, word in (("zeros", bytes(4)), ("ones", b"\xff" * 4), ("nan", b"\x00\x00\xc0\x7f"), ("huge", b"\xff\xff\x7f\x7f")):
+        for place in places:
+            result[f"{name}-at-{place}"] = good[:place] + word + good[place + 4 :]
     return result

@@ -16,9 +16,16 @@ class Target:
         settable = [one for one in element if one.tag.endswith("VectorProperty") and one.get("information_only") != "1"]
         self.numbers = [one for one in settable if one.tag in ("DoubleVectorProperty", "IntVectorProperty")]
         self.texts = [one for one in settable if one.tag == "StringVectorProperty"]
-        reader = element.find("Hints/ReaderFactory")
-        self.reads = reader.get("extensions").split()[0] if reader is not None else None
+        self.reads = self._extension("ReaderFactory")
         self.writes = [one.get("name") for one in self.texts if group == "writers" or "Folder" in one.get("name")]
+
+        writer = self._extension("WriterFactory")
+        self.good_name = "good" + (f".{writer}" if writer else "")
+
+    def _extension(self, factory):
+        """The first one of a reader's or a writer's files, without its dot; None for others."""
+        hint = self.element.find("Hints/" + factory)
+        return hint.get("extensions").split()[0] if hint is not None else None
 
     @staticmethod
     def _kind(port):
