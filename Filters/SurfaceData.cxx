@@ -89,6 +89,10 @@ Ids idsOf(vtkPolyData* input, const char* name)
 void requireTriangles(vtkPolyData* input)
 {
   vtkCellArray* triangles = input->GetPolys();
+  if (input->GetNumberOfLines() > 0 && input->GetNumberOfLines() == input->GetNumberOfCells())
+  {
+    throw InvalidInput("holds lines, as fibres are, and no surfaces: connect those that MyelinSurface makes of them");
+  }
   if (triangles->GetNumberOfCells() != input->GetNumberOfCells() || triangles->IsHomogeneous() != 3)
   {
     throw InvalidInput("holds cells that are not triangles: apply Triangulate first");

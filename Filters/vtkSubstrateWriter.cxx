@@ -14,14 +14,20 @@
 
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
+#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkSubstrateWriter);
 
@@ -41,6 +47,18 @@ void fill(vtkTable* table, const std::vector<cactus::SubstrateFile>& files)
   cactus::addColumn<vtkDoubleArray>(table, "Volume_um3", rows, from([](const File& f) { return f.volume; }));
   cactus::addColumn<vtkDoubleArray>(table, "Area_um2", rows, from([](const File& f) { return f.area; }));
   cactus::addColumn<vtkIntArray>(table, "Closed", rows, from([](const File& f) { return f.closed ? 1 : 0; }));
+}
+
+/// When what comes in, connected or not, was last changed.
+vtkMTimeType newestInput(vtkSubstrateWriter* self)
+{
+  const cactus::SubstrateData data = cactus::substrateDataOf(self, 0, 1, 2);
+  vtkMTimeType newest = 0;
+  for (vtkDataObject* one : { data.outer, data.inner, data.fibres })
+  {
+    newest = std::max(newest, one != nullptr ? cactus::changeTime(one) : 0);
+  }
+  return newest;
 }
 
 } // namespace
@@ -75,34 +93,72 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
   return cactus::guarded(this,
     [&]
     {
-      const auto& stage = cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties);
-      cactus::validateProperties(stage);
+      cactus::validateProperties(cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties));
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         return;
       }
-      cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
-      cactus::SubstrateFolderContents contents;
-      contents.outer = std::move(substrate.outer);
-      contents.inner = std::move(substrate.inner);
-      contents.domain = substrate.domain;
-      contents.fibres = substrate.fibresOrNull();
-      contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
-      contents.allowOpenSurfaces = stage.allowOpenSurfaces;
-      contents.certificate.minimumGap = stage.minimumGap;
-      const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads));
-      if (!written.certificate.certified())
-      {
-        vtkWarningMacro(<< "the substrate in " << stage.folderName << " is not certified: " << written.certificate.verdict());
-      }
-      for (const std::string& leftover : written.leftovers)
-      {
-        vtkWarningMacro(<< leftover);
-      }
       auto* table = vtkTable::GetData(outputs);
-      fill(table, written.files);
-      cactus::setProvenance(table, contents.provenance, 0);
+      if (this->WrittenTime == this->GetMTime())
+      {
+        this->KeepFolder();
+        table->ShallowCopy(this->WrittenFiles);
+        return;
+      }
+      this->WriteFolder(table);
+      this->WrittenFiles->ShallowCopy(table);
+      this->WrittenInputTime = newestInput(this);
+      this->WrittenTime = this->GetMTime();
     });
+}
+
+void vtkSubstrateWriter::WriteFolder(vtkTable* files)
+{
+  const auto& stage = cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties);
+  cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
+  cactus::SubstrateFolderContents contents;
+  contents.outer = std::move(substrate.outer);
+  contents.inner = std::move(substrate.inner);
+  contents.domain = substrate.domain;
+  contents.fibres = substrate.fibresOrNull();
+  contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
+  contents.allowOpenSurfaces = stage.allowOpenSurfaces;
+  contents.certificate.minimumGap = stage.minimumGap;
+  const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads));
+  if (!written.certificate.certified())
+  {
+    vtkWarningMacro(<< "the substrate in " << stage.folderName << " is not certified: " << written.certificate.verdict());
+  }
+  for (const std::string& leftover : written.leftovers)
+  {
+    vtkWarningMacro(<< leftover);
+  }
+  fill(files, written.files);
+  cactus::setProvenance(files, contents.provenance, 0);
+}
+
+void vtkSubstrateWriter::KeepFolder()
+{
+  const vtkMTimeType newest = newestInput(this);
+  if (newest != this->WrittenInputTime)
+  {
+    this->WrittenInputTime = newest;
+    vtkWarningMacro(
+      << "what comes in has changed since " << this->GetFolderName()
+      << " was written, which stays as it is: press Write, or in a script call InvokeCommand(\"Write\"), to write it "
+         "again, or give another FolderName");
+  }
+}
+
+int vtkSubstrateWriter::Write()
+{
+  this->Modified();
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const bool isParallel = controller != nullptr && controller->GetNumberOfProcesses() > 1;
+  this->UpdatePiece(isParallel ? controller->GetLocalProcessId() : 0, isParallel ? controller->GetNumberOfProcesses() : 1, 0);
+  const bool isWritten = cactus::errorOf(this->GetOutputDataObject(0)).empty();
+  this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // setting it would count as a change
+  return isWritten ? 1 : 0;
 }
 
 void vtkSubstrateWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -4,9 +4,10 @@
  * @brief Writes a substrate as a folder that a Monte-Carlo diffusion simulator runs on.
  *
  * Input 0 `Outer`, input 1 `Inner` (optional): closed, outward triangle surfaces with cell data `FibreId` and `BundleId`. Input 2
- * `Fibres` (optional): their centre lines. The folder is written when the filter executes: one ASCII PLY file (µm) per fibre and
- * surface, configurations for MC/DC, a certificate (see vtkSubstrateCertificate), a manifest, a README.txt and, with `Fibres`, a
- * strand file.
+ * `Fibres` (optional): their centre lines. The folder is written when the filter executes for the first time after one of its own
+ * properties or connections has changed, and by Write(); not because its input has changed. It holds one ASCII PLY file (µm) per
+ * fibre and surface, configurations for MC/DC, a certificate (see vtkSubstrateCertificate), a manifest, a README.txt and, with
+ * `Fibres`, a strand file.
  *
  * Output: a table of the files written, with fibre, bundle, triangles, volume and area. A warning says why the surfaces, as the
  * files hold them, are not certified; those that are not closed are refused.
@@ -20,6 +21,8 @@
 #include "CactusFiltersModule.h"
 #include "FilterProperties.h"
 
+#include <vtkNew.h>
+#include <vtkTable.h>
 #include <vtkTableAlgorithm.h>
 
 class CACTUSFILTERS_EXPORT vtkSubstrateWriter : public vtkTableAlgorithm
@@ -33,6 +36,9 @@ public:
   CACTUS_SWITCH_PROPERTY(AllowOpenSurfaces)
   CACTUS_NUMBER_PROPERTY(MinimumGap)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
+
+  /** Writes the folder, whatever has or has not changed. Gives 1, or 0 where it could not be written. */
+  int Write();
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
@@ -48,7 +54,14 @@ private:
   vtkSubstrateWriter(const vtkSubstrateWriter&) = delete;
   void operator=(const vtkSubstrateWriter&) = delete;
 
+  void WriteFolder(vtkTable* files);
+  /// Says once of each change of the input that the folder does not hold it.
+  void KeepFolder();
+
   std::unique_ptr<cactus::FilterProperties> Properties;
+  vtkMTimeType WrittenTime = 0;      ///< of the properties and connections that the folder was written for; 0: of none
+  vtkMTimeType WrittenInputTime = 0; ///< of the input that was written then, or of which it was said that it was not
+  vtkNew<vtkTable> WrittenFiles;     ///< what was written then
 };
 
 #endif

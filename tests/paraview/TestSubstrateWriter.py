@@ -211,6 +211,33 @@ class Writer(CactusTestCase):
         self.assertEqual(fetch(writer).GetNumberOfRows(), 2)
         self.assertEqual(sorted(os.listdir(self.target)), ["README.txt", "certificate.csv", "certificate_fibres.csv", "manifest.json", "mcdc", "outer"])
 
+    def test_writes_for_changes_of_its_own_only(self):
+        """What comes in is written when it is asked for; of what is not, it is said once."""
+        source = produce(self.outer)
+        writer = SubstrateWriter(Outer=source, FolderName=self.target)
+        writer.UpdatePipeline()
+
+        def time():
+            return os.stat(os.path.join(self.target, "manifest.json")).st_mtime_ns
+
+        first = time()
+        moved = surfaces({3: tube(-2, 0, 0.9, 10)}, 0, 10)
+        source.GetClientSideObject().SetOutput(moved)
+        source.MarkModified(None)
+        with self.assertError(r"has changed since .*substrate was written, which stays as it is: press Write"):
+            for _ in range(2):
+                writer.UpdatePipeline()
+        self.assertEqual(time(), first)
+        self.assertEqual(fetch(writer).GetNumberOfRows(), 2)
+        writer.SMProxy.InvokeCommand("Write")
+        self.assertGreater(time(), first)
+        writer.UpdatePipeline()
+        self.assertEqual(fetch(writer).GetNumberOfRows(), 1)
+        writer.AllowOpenSurfaces = 1
+        second = time()
+        writer.UpdatePipeline()
+        self.assertGreater(time(), second)
+
     def test_bad_places(self):
         with self.assertError(r"FolderName is empty"):
             self.write(FolderName="")

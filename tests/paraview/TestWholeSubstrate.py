@@ -47,6 +47,18 @@ class WholeSubstrate(CactusTestCase):
         different = [name for name in files(whole) if not filecmp.cmp(os.path.join(whole, name), os.path.join(alone, name), shallow=False)]
         self.assertEqual(different, ["manifest.json"])  # which tells of the connections
 
+    def test_save_data(self):
+        """As by File > Save Data: the same folder as the filter's."""
+        saved, written = os.path.join(self.folder, "saved.substrate"), os.path.join(self.folder, "written")
+        simple.SaveData(saved, proxy=self.outer)
+        simple.SubstrateWriter(Outer=self.outer, FolderName=written).UpdatePipeline()
+        self.assertEqual(files(saved), files(written))
+        self.assertTrue(any(name.startswith("inner") for name in files(saved)))
+        different = [name for name in files(saved) if not filecmp.cmp(os.path.join(saved, name), os.path.join(written, name), shallow=False)]
+        self.assertLessEqual(set(different), {"manifest.json", "README.txt"})
+        with self.assertError(r"Outer holds lines, as fibres are, and no surfaces"):
+            simple.SaveData(os.path.join(self.folder, "fibres.substrate"), proxy=self.fibres)
+
     def test_other_outer_surfaces_are_judged_alone(self):
         through = simple.Transform(Input=self.outer)
         certificate = fetch(simple.SubstrateCertificate(Outer=through))

@@ -13,10 +13,12 @@ KINDS = {"DoubleVectorProperty": float, "IntVectorProperty": int, "StringVectorP
 
 
 def xml_stages(folder):
-    """{stage: {property's name: XML element}} of what users set."""
+    """{stage: {property's name: XML element}} of what users set. A class may stand there twice, as a filter and for Save Data."""
     stages = {}
     for path in glob.glob(os.path.join(folder, "*.xml")):
         for proxy in ElementTree.parse(path).getroot().findall("ProxyGroup/*"):
+            if proxy.get("class") != "vtk" + proxy.get("name"):
+                continue
             stages[proxy.get("name")] = {
                 one.get("name"): one for one in proxy if one.tag in KINDS and one.get("information_only") != "1"
             }

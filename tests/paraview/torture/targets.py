@@ -11,7 +11,7 @@ class Target:
 
     def __init__(self, group, element):
         self.group, self.element, self.name = group, element, element.get("name")
-        self.ports = {port.get("name"): self._kind(port) for port in element.findall("InputProperty")}
+        self.ports = {port.get("name"): self._kind(element, port) for port in element.findall("InputProperty")}
         self.optional = {port.get("name") for port in element.findall("InputProperty") if port.find("Hints/Optional") is not None}
         settable = [one for one in element if one.tag.endswith("VectorProperty") and one.get("information_only") != "1"]
         self.numbers = [one for one in settable if one.tag in ("DoubleVectorProperty", "IntVectorProperty")]
@@ -28,9 +28,11 @@ class Target:
         return hint.get("extensions").split()[0] if hint is not None else None
 
     @staticmethod
-    def _kind(port):
+    def _kind(element, port):
         """Which good data object belongs to an input."""
         types = [kind.get("value") for kind in port.findall("DataTypeDomain/DataType")]
+        if element.get("name") == "SubstrateFolder":
+            return "outer"
         return "image" if "vtkImageData" in types else {"Outer": "outer", "Inner": "inner"}.get(port.get("name"), "fibres")
 
     def number(self, name):
