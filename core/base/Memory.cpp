@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <string>
 
 namespace cactus
 {
@@ -149,6 +150,28 @@ std::uint64_t availableMemory()
   return std::min(sharedMemoryLeft("") / static_cast<std::uint64_t>(processesSharingMemory), availableAddressSpace());
 }
 
+namespace
+{
+
+/// With three digits, or all before the point where there are more: "8000 GB" is read, "8e+03 GB" is not.
+std::string gigabytes(double bytes)
+{
+  const double value = bytes / 1e9;
+  TextStream text;
+  if (value >= 1e3 && value < 1e9)
+  {
+    text << std::fixed << std::setprecision(0);
+  }
+  else
+  {
+    text << std::setprecision(3);
+  }
+  text << value << " GB";
+  return text.str();
+}
+
+} // namespace
+
 void setProcessesSharingMemory(int processes)
 {
   processesSharingMemory = std::max(1, processes);
@@ -162,8 +185,7 @@ void requireMemory(double bytes, const std::string& what, const std::string& adv
     return;
   }
   TextStream message;
-  message << std::setprecision(3) << what << " needs " << bytes / 1e9 << " GB of memory, and " << available / 1e9
-          << " GB are available: " << advice;
+  message << what << " needs " << gigabytes(bytes) << " of memory, and " << gigabytes(available) << " are available: " << advice;
   throw OutOfMemory(message.str());
 }
 

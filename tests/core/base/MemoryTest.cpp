@@ -187,3 +187,22 @@ TEST(Threads, AreNeverMoreThanAreOfUse)
   context.threads = 0;
   EXPECT_LE(context.threadCount(), std::max(16, omp_get_num_procs()));
 }
+
+TEST(Memory, IsWrittenAsPeopleReadIt)
+{
+  const auto message = [](double bytes)
+  {
+    try
+    {
+      cactus::requireMemory(bytes, "this", "do less");
+    }
+    catch (const cactus::OutOfMemory& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message(1.0), "");
+  EXPECT_EQ(message(8.1234e15).find("this needs 8123400 GB of memory, and "), 0u) << message(8.1234e15);
+  EXPECT_EQ(message(8.1234e30).find("this needs 8.12e+21 GB"), 0u) << message(8.1234e30);
+}
