@@ -122,6 +122,10 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   contents.domain = substrate.domain;
   contents.fibres = substrate.fibresOrNull();
   contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
+  contents.format = stage.format;
+  contents.mcdc.permeability = stage.permeability;
+  contents.startPositions = stage.startPositions;
+  contents.seed = stage.seed;
   contents.allowOpenSurfaces = stage.allowOpenSurfaces;
   contents.certificate.minimumGap = stage.minimumGap;
   const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads));

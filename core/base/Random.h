@@ -17,7 +17,8 @@ enum class RandomStage : std::uint32_t
   Directions = 3,
   Seeds = 4,
   GRatio = 5,
-  Optimiser = 6
+  Optimiser = 6,
+  StartPositions = 7
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere; what is made of them is

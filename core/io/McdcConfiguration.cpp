@@ -47,9 +47,14 @@ std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, 
       << "scale_from_stu 1\n"
       << "write_txt 1\n"
       << "write_bin 0\n"
-      << "write_traj_file 0\n"
-      << "<obstacle>\n"
-      << "ply_file_list " << plyList << '\n'
+      << "write_traj_file 0\n";
+  if (options.permeability > 0.0)
+  {
+    // Of all obstacles, too: else the simulator takes walkers that have crossed for its own errors.
+    out << "permeability " << options.permeability << '\n';
+  }
+  out << "<obstacle>\n"
+      << (options.permeability > 0.0 ? "ply_file_list_scale_permeability " : "ply_file_list ") << plyList << '\n'
       << "</obstacle>\n"
       << "<voxels>\n";
   writeBox(out, domain.lower - room, domain.upper + room);
@@ -91,14 +96,21 @@ std::string mcdcScheme(const McdcOptions& options)
   return out.str();
 }
 
-std::string mcdcPlyList(const std::vector<std::string>& paths)
+std::string mcdcPlyList(const std::vector<std::string>& paths, double permeability)
 {
-  std::string text = "1e-3\n";
+  TextStream out;
+  out.precision(9);
+  out << (permeability > 0.0 ? "" : "1e-3\n");
   for (const std::string& path : paths)
   {
-    text += path + '\n';
+    out << path;
+    if (permeability > 0.0)
+    {
+      out << " 1e-3 " << permeability;
+    }
+    out << '\n';
   }
-  return text;
+  return out.str();
 }
 
 } // namespace cactus

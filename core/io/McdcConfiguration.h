@@ -20,6 +20,7 @@ struct McdcOptions
   double gradientSeparation = 0.020;            ///< s, Δ
   double echoTime = 0.035;                      ///< s, also the simulated time; more than Δ + δ
   std::vector<double> bValues{ 1e9, 2e9, 3e9 }; ///< s/m²
+  double permeability = 0.0;                    ///< part of the hits on a surface that lead through it
   int directions = 30;                          ///< per b-value, spread over the half sphere
 
   /// Root mean square displacement (µm) of a free walker along one axis within the echo time.
@@ -36,7 +37,8 @@ std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, 
 /// The acquisition (PGSE, format VERSION: STEJSKALTANNER): one line without gradient, then every b-value along every direction.
 std::string mcdcScheme(const McdcOptions& options);
 
-/// The list of obstacles: the scale from µm to the simulator's mm, then one path per line.
-std::string mcdcPlyList(const std::vector<std::string>& paths);
+/// The list of obstacles: the scale from µm to the simulator's mm, then one path per line; for permeable ones, one line each of
+/// path, scale and permeability.
+std::string mcdcPlyList(const std::vector<std::string>& paths, double permeability = 0.0);
 
 } // namespace cactus

@@ -8,11 +8,21 @@
 #include "judge/SubstrateCertificate.h"
 #include "mesh/FibreSurfaces.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace cactus
 {
+
+/// Whose reader a substrate folder is for.
+enum class SubstrateFormat
+{
+  Mcdc = 0,      ///< MC/DC: a PLY file per surface (µm), configurations that run as written
+  Reference = 1, ///< the reference program's run folder, as dmipy-sim loads it (µm)
+  Camino = 2,    ///< one PLY file per kind of surface (m)
+  Disimpy = 3    ///< NumPy arrays of vertices (m) and faces per kind of surface
+};
 
 /// What goes into a substrate folder.
 struct SubstrateFolderContents
@@ -24,7 +34,10 @@ struct SubstrateFolderContents
   Provenance provenance;          ///< of the surfaces, and what is to be written of them
   bool allowOpenSurfaces = false; ///< write surfaces that leak, too
   SubstrateCertificateOptions certificate;
+  SubstrateFormat format = SubstrateFormat::Mcdc;
   McdcOptions mcdc;
+  int startPositions = 0; ///< points in each compartment for walkers to start from
+  std::uint64_t seed = 1; ///< of their places
 };
 
 /// One surface's file, as the manifest lists it.

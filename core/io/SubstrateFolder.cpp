@@ -5,8 +5,11 @@
 #include "base/Error.h"
 #include "base/Parallel.h"
 #include "io/CertificateText.h"
+#include "io/CombinedSurfaces.h"
 #include "io/FolderReplacement.h"
+#include "io/FolderWriter.h"
 #include "io/PlyFile.h"
+#include "io/StartFiles.h"
 #include "io/StrandFile.h"
 #include "io/SubstrateManifest.h"
 #include "io/SubstrateReadme.h"
@@ -21,38 +24,29 @@ namespace cactus
 namespace
 {
 
-std::string padded(int id)
+/// The file of one surface, `kind` being "outer" or "inner".
+std::string surfacePath(SubstrateFormat format, const std::string& kind, int id)
 {
   std::string digits = std::to_string(id);
-  return digits.size() < 5 ? std::string(5 - digits.size(), '0') + digits : digits;
+  digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, '0');
+  switch (format)
+  {
+  case SubstrateFormat::Reference:
+    return "meshes/simulations/strand_" + digits + '_' + kind + "_erode_0.ply";
+  case SubstrateFormat::Camino:
+    return kind + ".ply";
+  case SubstrateFormat::Disimpy:
+    return kind + "_vertices.npy";
+  default:
+    return kind + "/fibre_" + digits + ".ply";
+  }
 }
 
-/// Writes the files of a folder, and remembers them for its manifest.
-class FolderWriter
+/// Whether all surfaces of one kind go into one file.
+bool isCombined(SubstrateFormat format)
 {
-public:
-  explicit FolderWriter(const StagingFolder& folder)
-    : Folder(folder)
-  {
-  }
-  void makeFolder(const std::string& path)
-  {
-    this->Folder.makeFolder(path);
-    this->Written.folders.insert(path);
-  }
-  void write(const std::string& path, const std::string& text) { this->remember(path, this->Folder.write(path, text)); }
-  void writeBy(const std::string& path, const std::function<void(const std::string&)>& how)
-  {
-    this->remember(path, this->Folder.writeBy(path, how));
-  }
-  void remember(const std::string& path, const std::string& checksum) { this->Written.checksums[path] = checksum; }
-  const StagingFolder& folder() const { return this->Folder; }
-  const WrittenFiles& written() const { return this->Written; }
-
-private:
-  const StagingFolder& Folder;
-  WrittenFiles Written;
-};
+  return format == SubstrateFormat::Camino || format == SubstrateFormat::Disimpy;
+}
 
 void requireSound(const SurfaceReport& report, const std::string& what)
 {
@@ -89,31 +83,64 @@ void requireSound(const SubstrateCertificate& certificate)
   }
 }
 
-std::vector<SubstrateFile> writeSurfaces(const FibreSurfaces& surfaces, const std::string& kind,
-  const SubstrateCertificate& certificate, FolderWriter& writer, const Context& context, double from, double to)
+/// What the manifest says of each surface.
+std::vector<SubstrateFile> surfaceFiles(
+  const FibreSurfaces& surfaces, const std::string& kind, const SubstrateCertificate& certificate, SubstrateFormat format)
 {
-  std::vector<SubstrateFile> files(surfaces.size());
+  std::vector<SubstrateFile> files;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    const int id = surfaces.fibreIds[i];
+    const auto fibre = std::lower_bound(certificate.fibres.begin(), certificate.fibres.end(), id,
+      [](const FibreCertificate& f, int wanted) { return f.fibreId < wanted; });
+    const SurfaceReport& report = kind == "outer" ? fibre->outer : fibre->inner;
+    files.push_back({ surfacePath(format, kind, id), kind, id, surfaces.bundleIds[i], report.triangles, report.volume,
+      report.area, report.sound() });
+  }
+  return files;
+}
+
+/// Writes each surface to a file of its own.
+void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, FolderWriter& writer,
+  const Context& context, double from, double to)
+{
   std::vector<std::string> checksums(surfaces.size());
-  writer.makeFolder(kind);
   parallelFor(
     surfaces.size(), context,
     [&](std::size_t i)
     {
-      const int id = surfaces.fibreIds[i];
-      const auto fibre = std::lower_bound(certificate.fibres.begin(), certificate.fibres.end(), id,
-        [](const FibreCertificate& f, int wanted) { return f.fibreId < wanted; });
-      const SurfaceReport& report = kind == "outer" ? fibre->outer : fibre->inner;
-      const std::string path = kind + "/fibre_" + padded(id) + ".ply";
-      const std::string comment =
-        "CACTUS " CACTUS_VERSION ", " + kind + " surface of fibre " + std::to_string(id) + ", micrometres";
-      checksums[i] = writer.folder().write(path, plyText(surfaces.mesh(i), comment));
-      files[i] = { path, kind, id, surfaces.bundleIds[i], report.triangles, report.volume, report.area, report.sound() };
+      const std::string comment = "CACTUS " CACTUS_VERSION ", " + files[i].surface + " surface of fibre " +
+                                  std::to_string(files[i].fibreId) + ", micrometres";
+      checksums[i] = writer.folder().write(files[i].path, plyText(surfaces.mesh(i), comment));
     },
-    "Writing " + kind + " surfaces", from, to);
+    "Writing surfaces", from, to);
   for (std::size_t i = 0; i < files.size(); ++i)
   {
     writer.remember(files[i].path, checksums[i]);
   }
+}
+
+std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents, const std::string& kind,
+  const SubstrateCertificate& certificate, FolderWriter& writer, const Context& context, double from, double to)
+{
+  const FibreSurfaces& surfaces = kind == "outer" ? contents.outer : contents.inner;
+  if (surfaces.size() == 0)
+  {
+    return {};
+  }
+  const auto files = surfaceFiles(surfaces, kind, certificate, contents.format);
+  if (isCombined(contents.format))
+  {
+    context.report(from, "Writing surfaces");
+    contents.format == SubstrateFormat::Camino ? writeCaminoSurfaces(surfaces, kind, writer, context)
+                                               : writeDisimpySurfaces(surfaces, kind, writer, context);
+    return files;
+  }
+  if (contents.format == SubstrateFormat::Mcdc)
+  {
+    writer.makeFolder(kind);
+  }
+  writeSeparately(surfaces, files, writer, context, from, to);
   return files;
 }
 
@@ -143,7 +170,7 @@ void writeMcdc(const SubstrateFolderContents& contents, const std::vector<Substr
     if (!paths.empty())
     {
       const std::string list = "mcdc/" + compartment + "_ply_list.txt";
-      writer.write(list, mcdcPlyList(paths));
+      writer.write(list, mcdcPlyList(paths, contents.mcdc.permeability));
       writer.write("mcdc/" + compartment + ".conf",
         mcdcConfiguration(contents.mcdc, contents.domain, list, "mcdc/pgse.scheme", "mcdc/output/" + compartment, compartment));
     }
@@ -163,6 +190,11 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   {
     throw InvalidInput("there are no surfaces to write: connect MyelinSurface's Outer and Inner");
   }
+  if (contents.format == SubstrateFormat::Reference && (contents.fibres == nullptr || contents.inner.size() == 0))
+  {
+    throw InvalidInput(
+      "Format Reference program has both surfaces of each fibre and their centre lines: connect Inner and Fibres");
+  }
 }
 
 /// Writes everything but the surfaces, the manifest last: where there is one, the folder is whole.
@@ -170,9 +202,14 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
 {
   if (contents.fibres != nullptr)
   {
-    writer.writeBy("fibres.strands", [&](const std::string& path) { writeStrandFile(*contents.fibres, path); });
+    const bool isReference = contents.format == SubstrateFormat::Reference;
+    writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands",
+      [&](const std::string& path) { writeStrandFile(*contents.fibres, path); });
   }
-  writeMcdc(contents, substrate.files, writer);
+  if (contents.format == SubstrateFormat::Mcdc)
+  {
+    writeMcdc(contents, substrate.files, writer);
+  }
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
   writer.write("README.txt", readmeText(contents, substrate.certificate));
@@ -206,15 +243,15 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
   const double share =
     static_cast<double>(contents.outer.size()) / static_cast<double>(contents.outer.size() + contents.inner.size());
   const double between = judged + (1.0 - judged) * share;
-  if (contents.outer.size() > 0)
+  if (contents.format == SubstrateFormat::Reference)
   {
-    substrate.files = writeSurfaces(contents.outer, "outer", substrate.certificate, writer, context, judged, between);
+    writer.makeFolder("meshes");
+    writer.makeFolder("meshes/simulations");
   }
-  if (contents.inner.size() > 0)
-  {
-    const auto more = writeSurfaces(contents.inner, "inner", substrate.certificate, writer, context, between, 1.0);
-    substrate.files.insert(substrate.files.end(), more.begin(), more.end());
-  }
+  substrate.files = writeSurfaces(contents, "outer", substrate.certificate, writer, context, judged, between);
+  const auto more = writeSurfaces(contents, "inner", substrate.certificate, writer, context, between, 1.0);
+  substrate.files.insert(substrate.files.end(), more.begin(), more.end());
+  writeStartPositions(contents, writer, context);
   writeTexts(contents, substrate, writer);
   replacement.commit(context);
   substrate.leftovers = replacement.leftovers();

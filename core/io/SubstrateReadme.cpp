@@ -6,7 +6,35 @@
 namespace cactus
 {
 
-std::string readmeText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate)
+namespace
+{
+
+/// What stands in a folder besides what all have, and how it is used.
+std::string filesFor(SubstrateFormat format)
+{
+  switch (format)
+  {
+  case SubstrateFormat::Reference:
+    return "optimized_final.txt, meshes/simulations/   as the reference program leaves them, in micrometres\n\n"
+           "    from dmipy_sim.io.cactus import load_cactus_bundle\n"
+           "    bundle = load_cactus_bundle('.', volume_reference='box')\n";
+  case SubstrateFormat::Camino:
+    return "outer.ply, inner.ply   all outer, and all inner, surfaces, in metres (Camino)\n\n"
+           "    datasynth -walkers N -tmax T -p 0.0 -initial intra -substrate ply -plyfile inner.ply \\\n"
+           "      -meshsep X Y Z -voxelsizefrac 1 -schemefile FILE\n\n"
+           "X Y Z are the sides of the domain in metres (manifest.json has it in micrometres); -initial extra goes with "
+           "outer.ply.\n";
+  default:
+    return "outer_vertices.npy, outer_faces.npy, inner_...   all outer, and all inner, surfaces, in metres, with their box's "
+           "lower\n"
+           "corner at the origin (Disimpy)\n\n"
+           "    vertices, faces = numpy.load('inner_vertices.npy'), numpy.load('inner_faces.npy')\n"
+           "    substrate = disimpy.substrates.mesh(vertices, faces, periodic=False, init_pos='intra')\n";
+  }
+}
+
+/// What this substrate is, and whether it is certified.
+std::string headText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate)
 {
   const bool hasInner = contents.inner.size() > 0;
   const bool hasOuter = contents.outer.size() > 0;
@@ -22,21 +50,13 @@ std::string readmeText(const SubstrateFolderContents& contents, const SubstrateC
     text += "  - " + fault + "\n";
   }
   text += certificate.certified() ? "" : "\n";
-  text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
-  if (hasOuter)
-  {
-    text += "outer/          outer surfaces, one ASCII PLY file per fibre, in micrometres, normals outward\n";
-  }
-  if (hasInner)
-  {
-    text += "inner/          inner surfaces (the axons), likewise\n";
-  }
-  if (contents.fibres != nullptr)
-  {
-    text += "fibres.strands  centre lines and radii\n";
-  }
-  text += "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
-  text += "mcdc/           configurations for the MC/DC simulator (github.com/jonhrafe/MCDC_Simulator_public)\n\n";
+  return text;
+}
+
+/// How MC/DC is run here.
+std::string mcdcText(bool hasInner, bool hasOuter)
+{
+  std::string text = "mcdc/           configurations for the MC/DC simulator (github.com/jonhrafe/MCDC_Simulator_public)\n\n";
   text += "To simulate, start MC/DC in this folder; it looks for all files from where it is started:\n\n";
   text += "    MC-DC_Simulator --conf mcdc/intra.conf\n";
   if (hasOuter)
@@ -64,6 +84,39 @@ std::string readmeText(const SubstrateFolderContents& contents, const SubstrateC
     "<spawning_area> (both in the .conf, in s and mm) so that few do. <voxels> is wider than the substrate, because MC/DC\n"
     "continues a walker that leaves it on the opposite side, where there is another fibre.\n";
   return text;
+}
+
+} // namespace
+
+std::string readmeText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate)
+{
+  const bool hasInner = contents.inner.size() > 0;
+  const bool hasOuter = contents.outer.size() > 0;
+  std::string text = headText(contents, certificate);
+  text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
+  if (contents.startPositions > 0)
+  {
+    text += "start/          points for walkers to start from, one a line, in the unit of the simulator\n";
+  }
+  if (contents.format != SubstrateFormat::Mcdc)
+  {
+    return text + "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n" +
+           filesFor(contents.format);
+  }
+  if (hasOuter)
+  {
+    text += "outer/          outer surfaces, one ASCII PLY file per fibre, in micrometres, normals outward\n";
+  }
+  if (hasInner)
+  {
+    text += "inner/          inner surfaces (the axons), likewise\n";
+  }
+  if (contents.fibres != nullptr)
+  {
+    text += "fibres.strands  centre lines and radii\n";
+  }
+  text += "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
+  return text + mcdcText(hasInner, hasOuter);
 }
 
 } // namespace cactus

@@ -11,6 +11,9 @@ namespace
 
 constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0: all";
 
+constexpr Range partOfHits{ 0.0, 1.0 };
+constexpr Range startCount{ 0.0, 1e7 };
+
 template <typename Stage>
 StageDescription description(const char* name)
 {
@@ -150,6 +153,12 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
     PropertyList<Stage>()
       .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
       .use(PropertyUse::Run)
+      .add("Format", &Stage::format, { "MC/DC", "Reference program", "Camino", "Disimpy" },
+        "The simulator that is to read the folder")
+      .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
+      .where("Format", { 0 })
+      .add("StartPositions", &Stage::startPositions, startCount, "Points to draw in each compartment, for walkers to start from")
+      .add("Seed", &Stage::seed, limits::seed, "Chooses the random points")
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
       .add("MinimumGap", &Stage::minimumGap, limits::judgedGap,

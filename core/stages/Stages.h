@@ -5,6 +5,7 @@
 #include "base/Properties.h"
 #include "bundle/BundleInitializerOptions.h"
 #include "growth/FibreRadialGrowthOptions.h"
+#include "io/SubstrateContents.h"
 #include "judge/SubstrateCertificate.h"
 #include "judge/SubstrateSampler.h"
 #include "judge/SubstrateStatistics.h"
@@ -12,6 +13,7 @@
 #include "stages/VtkMeshingOptions.h"
 #include "surface/MyelinSurfaceOptions.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -112,6 +114,10 @@ struct SubstrateSamplerStage
 struct SubstrateWriterStage
 {
   std::string folderName;
+  SubstrateFormat format = SubstrateFormat::Mcdc;
+  double permeability = McdcOptions().permeability;
+  int startPositions = 0;
+  std::uint64_t seed = 1;
   bool allowOpenSurfaces = false;
   double minimumGap = SubstrateCertificateOptions().minimumGap; ///< µm
   int threads = 0;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All surfaces of one kind in one file. Fibres are taken one after the other, so that no two meshes are held at once; each is
+// made once to be measured, and once or twice to be written.
+#pragma once
+
+#include "base/Context.h"
+#include "io/FolderWriter.h"
+#include "mesh/FibreSurfaces.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string>
+
+namespace cactus
+{
+
+/// What a file of surfaces says before them.
+struct SurfaceBox
+{
+  std::size_t points = 0;
+  std::size_t triangles = 0;
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero(); ///< µm
+  Eigen::Vector3d upper = Eigen::Vector3d::Zero();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< where the file counts from
+};
+
+/// Of the surfaces as they are written (see asWritten()), with the lower corner as origin. Throws Cancelled.
+SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context);
+
+/// `KIND.ply` for Camino: ASCII, metres, with the comment by which it tells inside from outside. Throws FileError and Cancelled.
+void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context);
+
+/// `KIND_vertices.npy` (n × 3, float64, metres from the lower corner of the box around them, as Disimpy moves them) and
+/// `KIND_faces.npy` (m × 3, int64). Throws FileError and Cancelled.
+void writeDisimpySurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context);
+
+} // namespace cactus

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/StartFiles.h"
+
+#include "base/Numbers.h"
+#include "io/CombinedSurfaces.h"
+#include "judge/StartPositions.h"
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr int digits = 9;
+
+/// Simulator's lengths in a µm.
+double unitOf(SubstrateFormat format)
+{
+  switch (format)
+  {
+  case SubstrateFormat::Mcdc:
+    return 1e-3;
+  case SubstrateFormat::Reference:
+    return 1.0;
+  default:
+    return 1e-6;
+  }
+}
+
+std::string pointsText(const std::vector<Eigen::Vector3d>& points, const SurfaceBox& box, double unit)
+{
+  std::string text;
+  for (const Eigen::Vector3d& point : points)
+  {
+    if ((point - box.lower).minCoeff() < 0.0 || (box.upper - point).minCoeff() < 0.0)
+    {
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      appendNumber(text, unit * (point[axis] - box.origin[axis]), digits);
+      text += axis < 2 ? ' ' : '\n';
+    }
+  }
+  return text;
+}
+
+} // namespace
+
+void writeStartPositions(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context)
+{
+  if (contents.startPositions == 0)
+  {
+    return;
+  }
+  const StartPositions points = drawStartPositions(
+    contents.domain, contents.outer, contents.inner, static_cast<std::size_t>(contents.startPositions), contents.seed, context);
+  SurfaceBox around; // of everything
+  around.lower = contents.domain.lower;
+  around.upper = contents.domain.upper;
+  const bool isDisimpy = contents.format == SubstrateFormat::Disimpy;
+  const auto boxOf = [&](const FibreSurfaces& surfaces) { return isDisimpy ? surfaceBox(surfaces, context) : around; };
+  const double unit = unitOf(contents.format);
+  writer.makeFolder("start");
+  writer.write(
+    "start/intra.txt", pointsText(points.intra, boxOf(contents.inner.size() > 0 ? contents.inner : contents.outer), unit));
+  if (!points.myelin.empty())
+  {
+    writer.write("start/myelin.txt", pointsText(points.myelin, boxOf(contents.outer), unit));
+  }
+  if (!points.extra.empty())
+  {
+    writer.write("start/extra.txt", pointsText(points.extra, boxOf(contents.outer), unit));
+  }
+}
+
+} // namespace cactus

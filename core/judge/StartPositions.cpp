@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "judge/StartPositions.h"
+
+#include "base/Error.h"
+#include "base/Parallel.h"
+#include "base/Random.h"
+#include "mesh/SurfaceSide.h"
+#include "mesh/TriangleTree.h"
+
+#include <algorithm>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// What is known of a candidate. On a surface, or in one that it should not be in, it is of no use.
+enum class Place : unsigned char
+{
+  Outside,
+  InsideOuter,
+  InsideInner,
+  OnSurface
+};
+
+/// Evenly over the domain; the same for the same seed and number.
+Eigen::Vector3d candidate(const Domain& domain, std::uint64_t seed, std::uint64_t number)
+{
+  RandomEngine random = randomStream(seed, RandomStage::StartPositions, number);
+  const double x = uniform(random);
+  const double y = uniform(random);
+  const double z = uniform(random);
+  return domain.lower + domain.size().cwiseProduct(Eigen::Vector3d(x, y, z));
+}
+
+/// Which candidates lie in or on a surface.
+struct Found
+{
+  std::vector<std::size_t> inside;
+  std::vector<std::size_t> on;
+};
+
+Found findIn(const TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& candidates)
+{
+  Found found;
+  if (mesh.points.empty())
+  {
+    return found;
+  }
+  Eigen::Vector3d lower = mesh.points.front();
+  Eigen::Vector3d upper = lower;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  const TriangleTree tree(mesh);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+  {
+    if ((candidates[i] - lower).minCoeff() >= 0.0 && (upper - candidates[i]).minCoeff() >= 0.0)
+    {
+      const Side side = sideOf(tree, candidates[i]);
+      if (side != Side::Outside)
+      {
+        (side == Side::Inside ? found.inside : found.on).push_back(i);
+      }
+    }
+  }
+  return found;
+}
+
+/// Marks the candidates in and on all of some surfaces.
+void mark(const FibreSurfaces& surfaces, Place inside, const std::vector<Eigen::Vector3d>& candidates, std::vector<Place>& places,
+  const Context& context)
+{
+  std::vector<Found> found(surfaces.size());
+  parallelFor(
+    surfaces.size(), context, [&](std::size_t i) { found[i] = findIn(surfaces.mesh(i), candidates); }, "Placing walkers");
+  const auto raise = [&](std::size_t i, Place place) { places[i] = std::max(places[i], place); };
+  for (const Found& one : found)
+  {
+    std::for_each(one.inside.begin(), one.inside.end(), [&](std::size_t i) { raise(i, inside); });
+    std::for_each(one.on.begin(), one.on.end(), [&](std::size_t i) { raise(i, Place::OnSurface); });
+  }
+}
+
+void take(const Eigen::Vector3d& point, std::size_t count, std::vector<Eigen::Vector3d>& points)
+{
+  if (points.size() < count)
+  {
+    points.push_back(point);
+  }
+}
+
+} // namespace
+
+StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, std::size_t count,
+  std::uint64_t seed, const Context& context)
+{
+  constexpr int rounds = 4;
+  const bool hasMyelin = outer.size() > 0 && inner.size() > 0;
+  const bool hasExtra = outer.size() > 0;
+  StartPositions found;
+  std::uint64_t number = 0;
+  const auto isDone = [&]
+  {
+    return found.intra.size() >= count && (!hasMyelin || found.myelin.size() >= count) &&
+           (!hasExtra || found.extra.size() >= count);
+  };
+  // Every surface is made once a round: each draws more points than the one before.
+  std::size_t drawn = 8 * count + 64;
+  for (int round = 0; round < rounds && !isDone(); ++round, drawn *= 4)
+  {
+    std::vector<Eigen::Vector3d> candidates;
+    for (std::size_t i = 0; i < drawn; ++i)
+    {
+      candidates.push_back(candidate(domain, seed, number++));
+    }
+    std::vector<Place> places(drawn, Place::Outside);
+    mark(outer, hasMyelin ? Place::InsideOuter : Place::InsideInner, candidates, places, context);
+    mark(inner, Place::InsideInner, candidates, places, context);
+    for (std::size_t i = 0; i < drawn; ++i)
+    {
+      if (places[i] != Place::OnSurface && (places[i] != Place::Outside || hasExtra))
+      {
+        take(candidates[i], count,
+          places[i] == Place::Outside       ? found.extra
+          : places[i] == Place::InsideInner ? found.intra
+                                            : found.myelin);
+      }
+    }
+  }
+  if (!isDone())
+  {
+    throw Infeasible(text("StartPositions ", count, ": of ", number, " points in the domain, ", found.intra.size(),
+      " lay in axons, ", found.myelin.size(), " in myelin and ", found.extra.size(), " outside: ask for fewer"));
+  }
+  return found;
+}
+
+} // namespace cactus

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "base/Domain.h"
+#include "mesh/FibreSurfaces.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// Points (µm) for walkers to start from.
+struct StartPositions
+{
+  std::vector<Eigen::Vector3d> intra;  ///< inside an inner surface; inside an outer one where there are no inner ones at all
+  std::vector<Eigen::Vector3d> myelin; ///< inside an outer surface and not in or on an inner one
+  std::vector<Eigen::Vector3d> extra;  ///< outside all surfaces
+};
+
+/// `count` points in each compartment, evenly over its part of the domain, by exact inside tests; none lies on a surface. A
+/// compartment that there is not (myelin without inner surfaces) gets none. Fibres are taken one after the other, and the result
+/// does not depend on threads. Throws Infeasible where a compartment takes up so little of the domain that so many points were
+/// not found in it, and Cancelled.
+StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, std::size_t count,
+  std::uint64_t seed, const Context& context = {});
+
+} // namespace cactus
