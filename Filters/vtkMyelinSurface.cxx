@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMyelinSurface.h"
 
-#include "Columns.h"
 #include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
@@ -10,6 +9,7 @@
 #include "StageProperties.h"
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
+#include "SurfaceTable.h"
 #include "VtkMeshing.h"
 #include "WholeData.h"
 #include "base/Error.h"
@@ -21,12 +21,10 @@
 #include "surface/SurfaceRemarks.h"
 
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -45,35 +43,6 @@ vtkStandardNewMacro(vtkMyelinSurface);
 
 namespace
 {
-
-void fillTable(vtkTable* table, const std::vector<cactus::FibreSurfacePair>& fibres)
-{
-  using Fibre = cactus::FibreSurfacePair;
-  const auto number = [&](const char* name, double (*value)(const Fibre&))
-  { cactus::addColumn<vtkDoubleArray>(table, name, fibres.size(), [&](std::size_t row) { return value(fibres[row]); }); };
-  const auto integer = [&](const char* name, long (*value)(const Fibre&))
-  { cactus::addColumn<vtkIntArray>(table, name, fibres.size(), [&](std::size_t row) { return value(fibres[row]); }); };
-  integer("FibreId", [](const Fibre& f) { return long(f.fibreId); });
-  integer("BundleId", [](const Fibre& f) { return long(f.bundleId); });
-  number("TargetRadius_um", [](const Fibre& f) { return f.targetRadius; });
-  number("OuterVolume_um3", [](const Fibre& f) { return f.outerReport.volume; });
-  number("InnerVolume_um3", [](const Fibre& f) { return f.innerReport.volume; });
-  number("OuterArea_um2", [](const Fibre& f) { return f.outerReport.area; });
-  number("InnerArea_um2", [](const Fibre& f) { return f.innerReport.area; });
-  number("Thickness_um", [](const Fibre& f) { return f.thickness; });
-  number("TargetGRatio", [](const Fibre& f) { return f.targetGRatio; });
-  number("GRatio", [](const Fibre& f) { return f.gRatio; });
-  integer("Myelin", [](const Fibre& f) { return long(f.state); });
-  integer("OuterTriangles", [](const Fibre& f) { return long(f.outerReport.triangles); });
-  integer("InnerTriangles", [](const Fibre& f) { return long(f.innerReport.triangles); });
-  integer("OuterClosed", [](const Fibre& f) { return long(f.outerReport.closedManifold() && f.outerReport.outward()); });
-  integer("InnerClosed", [](const Fibre& f) { return long(f.innerReport.closedManifold() && f.innerReport.outward()); });
-  number("OuterSquaredEdgeRatio", [](const Fibre& f) { return f.outerReport.largestSquaredEdgeRatio; });
-  number("InnerSquaredEdgeRatio", [](const Fibre& f) { return f.innerReport.largestSquaredEdgeRatio; });
-  integer("Flawed", [](const Fibre& f) { return long(f.isFlawed); });
-  number("LargestMove_um", [](const Fibre& f) { return f.largestMove; });
-  number("DroppedVolume_um3", [](const Fibre& f) { return f.droppedVolume; });
-}
 
 /// Empties the image that comes in at the port of an algorithm, and those further up that share its arrays, as ParaView puts
 /// filters of its own between two stages. Each counts as released, so that it is made again for whoever asks for it.
@@ -238,7 +207,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
         releaseImage(this);
       }
 
-      fillTable(vtkTable::GetData(outputs, 2), fibres);
+      cactus::fillSurfaceTable(vtkTable::GetData(outputs, 2), fibres);
       giveOut(fibres, &cactus::FibreSurfacePair::inner, 1, vtkPolyData::GetData(outputs, 1));
       std::vector<int> wanted;
       for (const auto& fibre : fibres)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSubstrateWriter.h"
 
-#include "Columns.h"
 #include "DataProvenance.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
 #include "StageProperties.h"
+#include "SubstrateFileTable.h"
 #include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
@@ -13,16 +13,12 @@
 #include "stages/Stages.h"
 
 #include <vtkDataObject.h>
-#include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
-#include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkIntArray.h>
 #include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
-#include <vtkStringArray.h>
 #include <vtkTable.h>
 
 #include <algorithm>
@@ -33,21 +29,6 @@ vtkStandardNewMacro(vtkSubstrateWriter);
 
 namespace
 {
-
-void fill(vtkTable* table, const std::vector<cactus::SubstrateFile>& files)
-{
-  using File = cactus::SubstrateFile;
-  const std::size_t rows = files.size();
-  const auto from = [&](auto value) { return [&files, value](std::size_t row) { return value(files[row]); }; };
-  cactus::addColumn<vtkStringArray>(table, "Path", rows, from([](const File& f) { return f.path; }));
-  cactus::addColumn<vtkIntArray>(table, "FibreId", rows, from([](const File& f) { return f.fibreId; }));
-  cactus::addColumn<vtkIntArray>(table, "BundleId", rows, from([](const File& f) { return f.bundleId; }));
-  cactus::addColumn<vtkIntArray>(table, "Surface", rows, from([](const File& f) { return f.surface == "outer" ? 0 : 1; }));
-  cactus::addColumn<vtkIdTypeArray>(table, "Triangles", rows, from([](const File& f) { return f.triangles; }));
-  cactus::addColumn<vtkDoubleArray>(table, "Volume_um3", rows, from([](const File& f) { return f.volume; }));
-  cactus::addColumn<vtkDoubleArray>(table, "Area_um2", rows, from([](const File& f) { return f.area; }));
-  cactus::addColumn<vtkIntArray>(table, "Closed", rows, from([](const File& f) { return f.closed ? 1 : 0; }));
-}
 
 /// When what comes in, connected or not, was last changed.
 vtkMTimeType newestInput(vtkSubstrateWriter* self)
@@ -137,7 +118,7 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   {
     vtkWarningMacro(<< leftover);
   }
-  fill(files, written.files);
+  cactus::fillFileTable(files, written.files);
   cactus::setProvenance(files, contents.provenance, 0);
 }
 

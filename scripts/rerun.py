@@ -14,7 +14,8 @@ import sys
 from paraview import simple
 
 # What a manifest may name: a manifest may come from anybody, and must not run or write anything else.
-STAGES = ("BundleInitializer", "StrandReader", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", "SubstrateWriter")
+WRITERS = ("SubstrateWriter", "SubstrateProduction")
+STAGES = ("BundleInitializer", "StrandReader", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", *WRITERS)
 KEPT_NOWHERE = ("CheckpointFile", "Resume", "FolderName")
 
 
@@ -64,8 +65,8 @@ class Chain:
         self.last = stages[-1]
         self.output = output
         self.made = {}
-        if self.last.get("filter") != "SubstrateWriter":
-            raise Refusal("the last stage of the provenance is not SubstrateWriter")
+        if self.last.get("filter") not in WRITERS:
+            raise Refusal(f"the last stage of the provenance is neither {' nor '.join(WRITERS)}")
 
     def check(self):
         """All that can be known before anything runs."""
@@ -209,7 +210,7 @@ def rerun(wanted):
     print(f"Making {output}", flush=True)
     chain.run()
     if not os.path.isfile(os.path.join(output, "manifest.json")):
-        raise Refusal("SubstrateWriter has written nothing, as the error above says")
+        raise Refusal(f"{chain.last['filter']} has written nothing, as the error above says")
     count, different, first = compare(manifest, output)
     with open(os.path.join(output, "manifest.json"), encoding="utf-8") as file:
         version = json.load(file)["version"]

@@ -169,6 +169,22 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
   return list;
 }
 
+const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properties()
+{
+  using Stage = SubstrateProductionStage;
+  static const auto list =
+    PropertyList<Stage>()
+      .include(&Stage::growth, FibreRadialGrowthOptions::properties())
+      .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // whose Seed takes the place of the other one
+      .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
+      .use(PropertyUse::Run)
+      .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
+        "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
+      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+      .use(PropertyUse::Run);
+  return list;
+}
+
 const PropertyList<StrandReaderStage>& StrandReaderStage::properties()
 {
   using Stage = StrandReaderStage;
@@ -220,8 +236,9 @@ std::vector<StageDescription> describeStages()
     description<FibreRadialGrowthStage>("FibreRadialGrowth"), description<FibreFieldStage>("FibreField"),
     description<MyelinSurfaceStage>("MyelinSurface"), description<SubstrateStatisticsStage>("SubstrateStatistics"),
     description<SubstrateCertificateStage>("SubstrateCertificate"), description<SubstrateSamplerStage>("SubstrateSampler"),
-    description<SubstrateWriterStage>("SubstrateWriter"), description<StrandWriterStage>("StrandWriter"),
-    description<TractogramWriterStage>("TractogramWriter"), description<NiftiWriterStage>("NiftiWriter") };
+    description<SubstrateWriterStage>("SubstrateWriter"), description<SubstrateProductionStage>("SubstrateProduction"),
+    description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
+    description<NiftiWriterStage>("NiftiWriter") };
 }
 
 } // namespace cactus

@@ -125,6 +125,17 @@ struct SubstrateWriterStage
   static const PropertyList<SubstrateWriterStage>& properties();
 };
 
+struct SubstrateProductionStage
+{
+  FibreRadialGrowthOptions growth; ///< the seed apart, which is that of the surfaces
+  MyelinSurfaceOptions surfaces;
+  std::string folderName;
+  bool allowOpenSurfaces = false;
+  int threads = 0;
+
+  static const PropertyList<SubstrateProductionStage>& properties();
+};
+
 struct StrandReaderStage
 {
   std::string fileName;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -141,11 +142,12 @@ const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurface
 } // namespace
 
 SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts,
-  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters)
+  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters, SurfaceJournal* journal)
   : Facts(checked(facts, options))
   , Options(options)
   , Filters(filters)
   , Caller(context)
+  , Journal(journal != nullptr ? *journal : NoJournal)
   , Mesher(image, facts, options, filters, context)
   , BlocksOf(Mesher.field().findFibres(options.smoothingIterations, context))
   , Pairs(fibresOf(facts, BlocksOf))
@@ -163,11 +165,17 @@ void SurfaceMaker::forEachFibre(Body&& body, const char* message, double from, d
 
 void SurfaceMaker::makeOuter(SurfaceStore& outer)
 {
+  if (this->Journal.recallSpaced(this->Pairs))
+  {
+    return;
+  }
   this->contourOuter(outer);
+  this->Journal.beginSpacing();
   if (this->Filters == nullptr)
   {
     this->spaceOut(outer);
   }
+  this->Journal.noteSpaced(this->Pairs);
 }
 
 void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
@@ -204,12 +212,17 @@ void SurfaceMaker::contourOuter(SurfaceStore& outer)
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];
+      if (this->Journal.recallOuter(i, pair))
+      {
+        return;
+      }
       this->Mesher.makeOuter(this->fieldOf(pair), pair);
       if (pair.state != MyelinState::NoFibre)
       {
         pair.volumeAsMade = pair.outerReport.volume;
       }
       outer.put(i, std::exchange(pair.outer, TriangleMesh()));
+      this->Journal.noteOuter(i, pair);
     },
     "making outer surfaces", 0.05, 0.45);
 }
@@ -286,16 +299,18 @@ void SurfaceMaker::makeAgain(
 
 void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
 {
+  constexpr double anyGRatio = std::numeric_limits<double>::quiet_NaN();
+  const bool isCommon = this->Options.model == GRatioModel::TargetAxonVolumeFraction;
   this->forEachFibre(
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];
-      if (std::isnan(pair.volumeAsMade))
+      if (std::isnan(pair.volumeAsMade) || this->Journal.recallInner(i, isCommon ? pair.targetGRatio : anyGRatio, pair))
       {
         return;
       }
       const SmoothedField field = this->fieldOf(pair);
-      if (this->Options.model != GRatioModel::TargetAxonVolumeFraction)
+      if (!isCommon)
       {
         pair.targetGRatio = this->targetGRatio(field, pair);
       }
@@ -306,6 +321,7 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
         inner.put(i, std::exchange(pair.inner, TriangleMesh()));
         pair.outer = TriangleMesh();
       }
+      this->Journal.noteInner(i, pair);
     },
     "making inner surfaces", 0.55, 1.0);
 }

@@ -5,6 +5,7 @@
 #include "mesh/SurfaceStore.h"
 #include "surface/FibreMesher.h"
 #include "surface/FibreSurfacePair.h"
+#include "surface/SurfaceJournal.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +23,10 @@ namespace cactus
 class SurfaceMaker
 {
 public:
-  /// What is given by reference has to outlive the object. Throws as myelinSurfaces() does.
+  /// What is given by reference has to outlive the object. With a journal, what it recalls is not made again. Throws as
+  /// myelinSurfaces() does.
   SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
-    const Context& context, const SurfaceFilters* filters = nullptr);
+    const Context& context, const SurfaceFilters* filters = nullptr, SurfaceJournal* journal = nullptr);
 
   /// All fibres, by increasing id, and what is known of them; their meshes are in the stores.
   const std::vector<FibreSurfacePair>& fibres() const { return this->Pairs; }
@@ -58,6 +60,8 @@ private:
   const MyelinSurfaceOptions& Options;
   const SurfaceFilters* Filters;
   const Context& Caller;
+  SurfaceJournal NoJournal;
+  SurfaceJournal& Journal;
   FibreMesher Mesher;
   BlocksOfFibres BlocksOf;
   std::vector<FibreSurfacePair> Pairs;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/Pace.h"
+
+#include "base/Numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double leastSeconds = 10.0;
+constexpr double leastFraction = 1e-3;
+
+std::string duration(double seconds)
+{
+  const double minutes = std::max(1.0, std::round(seconds / 60.0));
+  const double hours = std::floor(minutes / 60.0);
+  TextStream words;
+  if (hours > 0.0)
+  {
+    words << hours << " h ";
+  }
+  words << minutes - 60.0 * hours << " min";
+  return words.str();
+}
+
+} // namespace
+
+std::string Pace::at(double seconds, double fraction)
+{
+  if (!this->IsBegun)
+  {
+    // What an earlier run has done counts as done, and not for the pace.
+    this->IsBegun = true;
+    this->FirstSeconds = seconds;
+    this->FirstFraction = fraction;
+  }
+  const double spent = seconds - this->FirstSeconds;
+  const double done = fraction - this->FirstFraction;
+  if (spent < leastSeconds || done < leastFraction)
+  {
+    return {};
+  }
+  TextStream words;
+  words.precision(2);
+  words << 100.0 * done / spent * 3600.0 << " % an hour, ready in about ";
+  return words.str() + duration((1.0 - fraction) * spent / done);
+}
+
+} // namespace cactus

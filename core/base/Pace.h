@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace cactus
+{
+
+/// How fast long work goes, in words: "4.2 % an hour, ready in about 12 h 30 min".
+class Pace
+{
+public:
+  /// At `seconds` of some clock, `fraction` of the work is done. Empty for as long as too little is known: in the first ten
+  /// seconds, and before the first thousandth.
+  std::string at(double seconds, double fraction);
+
+private:
+  bool IsBegun = false;
+  double FirstSeconds = 0.0;
+  double FirstFraction = 0.0;
+};
+
+} // namespace cactus

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/SubstrateProduction.h"
+
+#include "base/Error.h"
+#include "base/Pace.h"
+#include "base/Sha256.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrownTiles.h"
+#include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
+#include "io/FolderReplacement.h"
+#include "io/SubstrateFolder.h"
+#include "io/SurfaceSpool.h"
+#include "surface/SurfaceMaker.h"
+#include "surface/SurfaceRemarks.h"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Shares of the work.
+constexpr double growthSolved = 0.03;
+constexpr double surfacesMade = 0.85;
+
+/// Tiles of the label image that are kept for each thread: 128 MB.
+constexpr std::size_t tilesPerThread = 4096;
+
+template <typename Value>
+void add(Sha256& sum, const std::vector<Value>& values)
+{
+  const std::uint64_t count = values.size();
+  sum.add(&count, sizeof(count));
+  sum.add(values.data(), values.size() * sizeof(Value));
+}
+
+template <typename Options>
+std::string valuesOf(const Options& options)
+{
+  std::string values;
+  for (const PropertyState& state : Options::properties().states(options))
+  {
+    values += std::string(state.facts->name) + ' ' + valueText(*state.facts, state.value) + '\n';
+  }
+  return values;
+}
+
+/// Of all that surfaces depend on.
+std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
+{
+  Sha256 sum;
+  add(sum, fibres.points);
+  add(sum, fibres.radii);
+  add(sum, fibres.offsets);
+  add(sum, fibres.fibreIds);
+  add(sum, fibres.bundleIds);
+  add(sum, fibres.targetRadii);
+  sum.add(&fibres.grownFraction, sizeof(double));
+  sum.add(fibres.domain.lower.data(), 3 * sizeof(double));
+  sum.add(fibres.domain.upper.data(), 3 * sizeof(double));
+  const std::string values = "CACTUS " CACTUS_VERSION "\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  sum.add(values.data(), values.size());
+  return sum.digest();
+}
+
+LabelImageFacts factsOf(const Fibres& fibres, const FibreRadialGrowthOptions& growth)
+{
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = growth.minimumGap;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    facts.lengths.push_back(lengthInDomain(fibres, f));
+  }
+  return facts;
+}
+
+std::unique_ptr<SurfaceSpool> openSpool(const std::string& folder, const std::string& identity, std::size_t count)
+{
+  try
+  {
+    return std::make_unique<SurfaceSpool>(folder, identity, count);
+  }
+  catch (const InvalidInput&)
+  {
+    throw InvalidInput("the folder " + folder +
+                       " holds what was made of other fibres, with other parameters or by another version, and is kept: restore "
+                       "those and run again to go on there, remove it, or choose another FolderName");
+  }
+}
+
+/// The surfaces of one kind, where they are.
+FibreSurfaces surfacesIn(
+  const SurfaceStore& store, const std::vector<FibreSurfacePair>& fibres, SurfaceReport FibreSurfacePair::*report, double gap)
+{
+  FibreSurfaces surfaces;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < fibres.size(); ++i)
+  {
+    if ((fibres[i].*report).triangles > 0)
+    {
+      surfaces.fibreIds.push_back(fibres[i].fibreId);
+      surfaces.bundleIds.push_back(fibres[i].bundleId);
+      places.push_back(i);
+    }
+  }
+  surfaces.mesh = [&store, places = std::move(places)](std::size_t index) { return *store.get(places[index]); };
+  surfaces.isGiven = true;
+  surfaces.promisedGap = gap;
+  return surfaces;
+}
+
+/// A part of the caller's progress, with the pace of the whole.
+Context partOf(const Context& context, double from, double to, Pace& pace)
+{
+  Context part = context;
+  part.progress = [&context, &pace, from, to](double fraction, const std::string& message)
+  {
+    const double all = from + (to - from) * fraction;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    const std::string words = pace.at(seconds, all);
+    context.report(all, words.empty() ? message : message + ": " + words);
+  };
+  return part;
+}
+
+} // namespace
+
+std::string workFolderOf(const std::string& folder)
+{
+  const std::size_t end = folder.find_last_not_of('/');
+  return folder.substr(0, end == std::string::npos ? 0 : end + 1) + ".work";
+}
+
+ProducedSubstrate produceSubstrate(
+  const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context)
+{
+  validate(fibres);
+  require(!folder.empty(), "FolderName is empty: name the folder to write");
+  FolderReplacement(folder, context); // which says now, rather than at the end, that it cannot be written
+  const std::unique_ptr<SurfaceSpool> spool = openSpool(workFolderOf(folder), identityOf(fibres, order), fibres.size());
+  ProducedSubstrate result;
+  result.found = spool->found();
+
+  Pace pace;
+  const Context solving = partOf(context, 0.0, growthSolved, pace);
+  const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving);
+  const double growth = growthFor(aimed, order.growth, solving);
+  const auto tiles =
+    std::make_shared<GrownTiles>(aimed, order.growth, growth, tilesPerThread * std::size_t(context.threadCount()));
+  const double spacing = tiles->grid().spacing;
+  const LabelImageFacts facts = factsOf(fibres, order.growth);
+  const Context making = partOf(context, growthSolved, surfacesMade, pace);
+  SubstrateFolderContents contents;
+  {
+    SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, spool.get());
+    maker.makeOuter(spool->outer());
+    maker.makeInner(spool->outer(), spool->inner());
+    result.fibres = maker.fibres();
+    result.remarks = notAsAsked(maker.fibres(), spacing, facts);
+    const double gap = order.growth.minimumGap;
+    contents.outer = surfacesIn(spool->outer(), maker.fibres(), &FibreSurfacePair::outerReport, gap);
+    contents.inner = surfacesIn(spool->inner(), maker.fibres(), &FibreSurfacePair::innerReport, gap);
+    for (const FibreSurfacePair& fibre : maker.fibres())
+    {
+      if (fibre.isWanted)
+      {
+        contents.outer.wantedIds.push_back(fibre.fibreId);
+      }
+    }
+  }
+  contents.domain = fibres.domain;
+  contents.fibres = &fibres;
+  contents.provenance = order.provenance ? order.provenance(spacing, growth) : Provenance();
+  contents.allowOpenSurfaces = order.allowOpenSurfaces;
+  contents.certificate.minimumGap = order.growth.minimumGap;
+  result.written = writeSubstrateFolder(contents, folder, partOf(context, surfacesMade, 1.0, pace));
+  spool->remove();
+  return result;
+}
+
+} // namespace cactus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "fibres/Fibres.h"
+#include "growth/FibreRadialGrowthOptions.h"
+#include "io/SubstrateContents.h"
+#include "surface/FibreSurfacePair.h"
+#include "surface/MyelinSurfaceOptions.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// What a substrate is to be made of fibres and written as.
+struct ProductionOrder
+{
+  FibreRadialGrowthOptions growth;
+  MyelinSurfaceOptions surfaces;
+  bool allowOpenSurfaces = false;
+  /// Of what is written, from the size of a voxel and the growth that was solved for (µm).
+  std::function<Provenance(double spacing, double growth)> provenance;
+};
+
+/// What came of it.
+struct ProducedSubstrate
+{
+  WrittenSubstrate written;
+  std::vector<FibreSurfacePair> fibres; ///< without their meshes
+  std::string remarks;                  ///< see notAsAsked()
+  std::size_t found = 0;                ///< surfaces that an earlier run had left
+};
+
+/// Where a production keeps what it has made so far: beside its folder.
+std::string workFolderOf(const std::string& folder);
+
+/// Grows fibres, makes their surfaces and writes them as a substrate folder (see writeSubstrateFolder()), the same to the bit as
+/// growFibres(), myelinSurfaces() and that would, with a certificate for the growth's minimumGap. The label image is computed
+/// tile by tile where it is needed, and surfaces go to workFolderOf(folder) as soon as they are made, so that neither is held in
+/// memory. A run that was stopped or killed goes on from there, if fibres, options and version are the same; at its end the work
+/// folder is removed. Outer surfaces are held while they are judged, see certify().
+///
+/// Throws what these do, InvalidInput for a work folder of something else, and FileError.
+ProducedSubstrate produceSubstrate(
+  const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context = {});
+
+} // namespace cactus

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/SurfaceSpool.h"
+
+#include "base/Checkpoint.h"
+#include "base/Error.h"
+#include "base/Sha256.h"
+#include "io/SurfaceNumbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace cactus
+{
+
+namespace
+{
+
+// What the records of a journal begin with.
+constexpr char outerMade = 'o';
+constexpr char spaced = 's';
+constexpr char spacingDone = 'S';
+constexpr char innerMade = 'i';
+
+constexpr std::size_t filesInAFolder = 1000;
+constexpr char journalName[] = "journal";
+constexpr const char* kinds[] = { "outer", "spaced", "inner" };
+
+std::uint64_t fingerprintOf(const std::string& identity)
+{
+  return std::stoull(sha256(identity).substr(0, 16), nullptr, 16);
+}
+
+std::string fiveDigits(std::size_t number)
+{
+  const std::string digits = std::to_string(number);
+  return std::string(5 - std::min<std::size_t>(5, digits.size()), '0') + digits;
+}
+
+void makeFolders(const std::filesystem::path& folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+  {
+    throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
+  }
+}
+
+std::filesystem::path made(const std::filesystem::path& folder)
+{
+  makeFolders(folder);
+  return folder;
+}
+
+} // namespace
+
+SurfaceSpool::Files::Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count)
+  : IsSpaced(count, 0)
+  , Folder(std::move(folder))
+  , Kind(std::move(kind))
+  , Fingerprint(fingerprint)
+{
+}
+
+std::string SurfaceSpool::Files::pathOf(std::size_t index) const
+{
+  const std::string kind = this->IsSpaced[index] != 0 ? "spaced" : this->Kind;
+  return (this->Folder / kind / fiveDigits(index / filesInAFolder) / (fiveDigits(index) + ".surface")).string();
+}
+
+std::shared_ptr<const TriangleMesh> SurfaceSpool::Files::get(std::size_t index) const
+{
+  auto mesh = std::make_shared<TriangleMesh>();
+  static_assert(sizeof(mesh->points[0]) == 3 * sizeof(double));
+  const std::string path = this->pathOf(index);
+  try
+  {
+    CheckpointReader file(path, this->Fingerprint);
+    file.getAll(mesh->points);
+    file.getAll(mesh->triangles);
+    file.finish();
+  }
+  catch (const Error&)
+  {
+    throw FileError("the surface " + path + " is damaged, or cannot be read: remove the folder " + this->Folder.string() +
+                    " and make all of it again");
+  }
+  return mesh;
+}
+
+void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
+{
+  this->IsSpaced[index] = this->IsSpacing ? 1 : 0;
+  const std::string path = this->pathOf(index);
+  makeFolders(std::filesystem::path(path).parent_path());
+  CheckpointWriter file(path, { this->Fingerprint, static_cast<std::int64_t>(index) });
+  file.putAll(surface.points);
+  file.putAll(surface.triangles);
+  file.commit();
+}
+
+SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count)
+  : Folder(made(folder))
+  , Count(count)
+  , Outer(folder, "outer", fingerprintOf(identity), count)
+  , Inner(folder, "inner", fingerprintOf(identity), count)
+  , OuterNotes(count)
+  , SpacedNotes(count)
+  , InnerNotes(count)
+{
+  this->Log.emplace((this->Folder / journalName).string(), identity);
+  this->readJournal();
+}
+
+void SurfaceSpool::readJournal()
+{
+  for (const std::string& record : this->Log->records())
+  {
+    std::uint64_t index = 0;
+    constexpr std::size_t head = 2 + sizeof(index);
+    if (record.size() < head)
+    {
+      throw FileError("the journal in " + this->Folder.string() + " is damaged: remove this folder");
+    }
+    std::memcpy(&index, record.data() + 2, sizeof(index));
+    this->IsSpacingDone = this->IsSpacingDone || record[0] == spacingDone;
+    if (record[0] == spacingDone || index >= this->Count)
+    {
+      continue;
+    }
+    auto& notes = record[0] == outerMade ? this->OuterNotes : record[0] == spaced ? this->SpacedNotes : this->InnerNotes;
+    notes[index].push_back(record.substr(head));
+    if (record[0] == spaced)
+    {
+      this->Outer.IsSpaced[index] = record[1];
+    }
+  }
+  if (!this->IsSpacingDone)
+  {
+    // What was moved is moved again, from what was contoured.
+    std::fill(this->Outer.IsSpaced.begin(), this->Outer.IsSpaced.end(), 0);
+  }
+  const auto& notes = this->IsSpacingDone ? this->InnerNotes : this->OuterNotes;
+  this->Found = std::size_t(std::count_if(notes.begin(), notes.end(), [](const auto& of) { return !of.empty(); }));
+}
+
+void SurfaceSpool::note(char step, std::size_t index, const FibreSurfacePair& pair, bool isMoved)
+{
+  const std::uint64_t number = index;
+  std::string record{ step, static_cast<char>(isMoved ? 1 : 0) };
+  record.append(reinterpret_cast<const char*>(&number), sizeof(number));
+  this->Log->add(record + bytesOf(pair));
+}
+
+bool SurfaceSpool::recallOuter(std::size_t index, FibreSurfacePair& pair) const
+{
+  const auto& notes = this->OuterNotes[index];
+  if (!notes.empty())
+  {
+    pair = pairFrom(notes.back());
+  }
+  return !notes.empty();
+}
+
+void SurfaceSpool::noteOuter(std::size_t index, const FibreSurfacePair& pair)
+{
+  this->note(outerMade, index, pair, false);
+}
+
+bool SurfaceSpool::recallSpaced(std::vector<FibreSurfacePair>& pairs) const
+{
+  for (std::size_t i = 0; this->IsSpacingDone && i < pairs.size(); ++i)
+  {
+    pairs[i] = pairFrom(this->SpacedNotes[i].back());
+  }
+  return this->IsSpacingDone;
+}
+
+void SurfaceSpool::noteSpaced(const std::vector<FibreSurfacePair>& pairs)
+{
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    this->note(spaced, i, pairs[i], this->Outer.IsSpaced[i] != 0);
+  }
+  this->note(spacingDone, 0, {}, false);
+}
+
+bool SurfaceSpool::recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const
+{
+  // The latest first, which is the one whose surface is there.
+  const auto& notes = this->InnerNotes[index];
+  for (auto note = notes.rbegin(); note != notes.rend(); ++note)
+  {
+    FibreSurfacePair found = pairFrom(*note);
+    if (std::isnan(gRatio) || found.targetGRatio == gRatio)
+    {
+      pair = std::move(found);
+      return true;
+    }
+  }
+  return false;
+}
+
+void SurfaceSpool::noteInner(std::size_t index, const FibreSurfacePair& pair)
+{
+  this->note(innerMade, index, pair, false);
+}
+
+void SurfaceSpool::remove()
+{
+  this->Log.reset();
+  std::error_code ignored; // what is left is named by who finds it
+  for (const char* kind : kinds)
+  {
+    for (std::size_t first = 0; first < this->Count; first += filesInAFolder)
+    {
+      const std::filesystem::path folder = this->Folder / kind / fiveDigits(first / filesInAFolder);
+      for (std::size_t i = first; i < std::min(this->Count, first + filesInAFolder); ++i)
+      {
+        std::filesystem::remove(folder / (fiveDigits(i) + ".surface"), ignored);
+      }
+      std::filesystem::remove(folder, ignored);
+    }
+    std::filesystem::remove(this->Folder / kind, ignored);
+  }
+  std::filesystem::remove(this->Folder / journalName, ignored);
+  std::filesystem::remove(this->Folder, ignored);
+}
+
+} // namespace cactus

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "io/RecordLog.h"
+#include "mesh/SurfaceStore.h"
+#include "surface/SurfaceJournal.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// Surfaces on the disk while they are made, and the journal of how far they have come:
+///
+///   FOLDER/journal            what is known of each fibre (see RecordLog)
+///   FOLDER/outer/00000/…      outer surfaces as they were contoured, a file each, at most 1,000 in a folder
+///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
+///
+/// Files appear whole or not at all, and what is in the journal is in its file. One that was never put
+/// is an error. Memory is one surface for each that is asked for.
+class SurfaceSpool : public SurfaceJournal
+{
+public:
+  /// For so many fibres, in a folder that is made, or goes on where one of the same `identity` ended. Throws InvalidInput for a
+  /// folder of another identity, and FileError.
+  SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count);
+
+  SurfaceStore& outer() { return this->Outer; }
+  SurfaceStore& inner() { return this->Inner; }
+  /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
+  std::size_t found() const { return this->Found; }
+
+  bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
+  void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;
+  void beginSpacing() override { this->Outer.IsSpacing = true; }
+  bool recallSpaced(std::vector<FibreSurfacePair>& pairs) const override;
+  void noteSpaced(const std::vector<FibreSurfacePair>& pairs) override;
+  bool recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const override;
+  void noteInner(std::size_t index, const FibreSurfacePair& pair) override;
+
+  /// Removes all that is its own; the folder, too, if nothing else is in it.
+  void remove();
+
+private:
+  /// Surfaces of one kind.
+  class Files : public SurfaceStore
+  {
+  public:
+    Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count);
+
+    std::size_t size() const override { return this->IsSpaced.size(); }
+    std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
+    void put(std::size_t index, TriangleMesh surface) override;
+
+    bool IsSpacing = false;
+    std::vector<char> IsSpaced; ///< whether it was put while IsSpacing
+
+  private:
+    std::string pathOf(std::size_t index) const;
+
+    std::filesystem::path Folder;
+    std::string Kind;
+    std::uint64_t Fingerprint;
+  };
+
+  void readJournal();
+  void note(char step, std::size_t index, const FibreSurfacePair& pair, bool isMoved);
+
+  std::filesystem::path Folder;
+  std::size_t Count;
+  std::size_t Found = 0;
+  std::optional<RecordLog> Log;
+  Files Outer;
+  Files Inner;
+  bool IsSpacingDone = false;
+  // Of each fibre, in the order of the journal.
+  std::vector<std::vector<std::string>> OuterNotes;
+  std::vector<std::vector<std::string>> SpacedNotes;
+  std::vector<std::vector<std::string>> InnerNotes;
+};
+
+} // namespace cactus

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: a production writes the files of growth, surfaces and writer one after the other, bit for bit; one that is killed
+// at any place goes on there, and writes them too; it touches no work of another one, says what is damaged, and leaves nothing
+// behind.
+#include "io/SubstrateProduction.h"
+
+#include "../ChildProcess.h"
+#include "../surface/MeetingFibres.h"
+#include "base/Error.h"
+#include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
+#include "io/SubstrateFolder.h"
+#include "surface/MyelinSurface.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using namespace cactus;
+
+std::map<std::string, std::string> filesIn(const fs::path& folder)
+{
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+  {
+    if (entry.is_regular_file())
+    {
+      std::ifstream file(entry.path(), std::ios::binary);
+      files[fs::relative(entry.path(), folder).string()] = { std::istreambuf_iterator<char>(file), {} };
+    }
+  }
+  return files;
+}
+
+FibreSurfaces surfacesOf(const std::vector<FibreSurfacePair>& pairs, TriangleMesh FibreSurfacePair::*mesh, double gap)
+{
+  FibreSurfaces surfaces;
+  std::vector<TriangleMesh> meshes;
+  for (const FibreSurfacePair& pair : pairs)
+  {
+    if (!(pair.*mesh).triangles.empty())
+    {
+      surfaces.fibreIds.push_back(pair.fibreId);
+      surfaces.bundleIds.push_back(pair.bundleId);
+      meshes.push_back(pair.*mesh);
+    }
+  }
+  surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
+  surfaces.isGiven = true;
+  surfaces.promisedGap = gap;
+  return surfaces;
+}
+
+class Production : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Scratch = fs::path(::testing::TempDir()) / ("production-test-" + std::to_string(::getpid()));
+    fs::remove_all(this->Scratch);
+    fs::create_directories(this->Scratch);
+    this->Order.growth.targetFibreVolumeFraction = 0.45;
+    this->Order.growth.surfaceTolerance = 0.005; // so that outer surfaces come near each other, and are moved
+  }
+  void TearDown() override { fs::remove_all(this->Scratch); }
+
+  std::string folder(const std::string& name) const { return (this->Scratch / name).string(); }
+
+  ProducedSubstrate produce(const std::string& name, const Context& context = {}) const
+  {
+    return produceSubstrate(this->Fibres_, this->Order, this->folder(name), context);
+  }
+
+  /// What the stages one after the other write, with the label image in memory.
+  std::map<std::string, std::string> filesOfStages() const
+  {
+    const FibreRadialGrowthOptions& growth = this->Order.growth;
+    const Fibres aimed = aimAtTargetRadii(this->Fibres_, growth);
+    const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(aimed.domain, growth));
+    LabelImageFacts facts;
+    facts.domain = aimed.domain;
+    facts.minimumGap = growth.minimumGap;
+    facts.surfaceTolerance = growth.surfaceTolerance;
+    facts.fibreIds = aimed.fibreIds;
+    facts.bundleIds = aimed.bundleIds;
+    facts.targetRadii = aimed.targetRadii;
+    const auto pairs =
+      myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, this->Order.surfaces);
+    SubstrateFolderContents contents;
+    contents.domain = aimed.domain;
+    contents.outer = surfacesOf(pairs, &FibreSurfacePair::outer, growth.minimumGap);
+    contents.outer.wantedIds = aimed.fibreIds;
+    contents.inner = surfacesOf(pairs, &FibreSurfacePair::inner, growth.minimumGap);
+    contents.fibres = &this->Fibres_;
+    contents.certificate.minimumGap = growth.minimumGap;
+    writeSubstrateFolder(contents, this->folder("stages"));
+    return filesIn(this->folder("stages"));
+  }
+
+  /// Runs it in a process that is killed once so much is done.
+  void killAt(const std::string& name, double part) const
+  {
+    const std::string told = cactus_testing::inChild(
+      [&]
+      {
+        Context context;
+        context.threads = 2;
+        context.progress = [part](double fraction, const std::string&)
+        {
+          if (fraction >= part)
+          {
+            ::raise(SIGKILL);
+          }
+        };
+        this->produce(name, context);
+        return std::string("was not killed");
+      });
+    ASSERT_EQ(told, " (the child ended with status 9)");
+  }
+
+  fs::path Scratch;
+  Fibres Fibres_ = example::fibresThatMeet();
+  ProductionOrder Order;
+};
+
+TEST_F(Production, WritesTheFilesOfTheStagesOnSeveralThreads)
+{
+  for (const auto model : { GRatioModel::Constant, GRatioModel::LogLinear, GRatioModel::TargetAxonVolumeFraction })
+  {
+    this->Order.surfaces.model = model;
+    this->Order.surfaces.targetAxonVolumeFraction = 0.2;
+    const auto wanted = this->filesOfStages();
+    ASSERT_EQ(wanted.count("outer/fibre_00003.ply") + wanted.count("inner/fibre_00003.ply"), 2u);
+    for (const int threads : { 1, 2 })
+    {
+      Context context;
+      context.threads = threads;
+      const ProducedSubstrate produced = this->produce("produced", context);
+      EXPECT_TRUE(produced.written.certificate.certified());
+      EXPECT_EQ(produced.found, 0u);
+      EXPECT_EQ(filesIn(this->folder("produced")), wanted);
+      EXPECT_FALSE(fs::exists(this->folder("produced.work")));
+    }
+  }
+}
+
+TEST_F(Production, GoesOnWhereItWasKilled)
+{
+  for (const auto model : { GRatioModel::Constant, GRatioModel::TargetAxonVolumeFraction })
+  {
+    this->Order.surfaces.model = model;
+    this->Order.surfaces.targetAxonVolumeFraction = 0.2;
+    const auto wanted = this->filesOfStages();
+    std::size_t found = 0;
+    for (const double part : { 0.02, 0.1, 0.2, 0.35, 0.45, 0.5, 0.6, 0.75, 0.82, 0.9 })
+    {
+      this->killAt("killed", part);
+      EXPECT_TRUE(fs::exists(this->folder("killed.work/journal"))) << part;
+      EXPECT_FALSE(fs::exists(this->folder("killed"))) << part;
+      // What is in the journal is not made again: its time of change stays. By then all outer surfaces are.
+      const fs::path first = this->folder("killed.work/outer/00000/00000.surface");
+      const bool isThere = part >= 0.45;
+      const auto time = isThere ? fs::last_write_time(first) : fs::file_time_type();
+      this->killAt("killed", part + 0.01);
+      EXPECT_TRUE(!isThere || fs::last_write_time(first) == time) << part;
+      const ProducedSubstrate produced = this->produce("killed");
+      found += produced.found;
+      EXPECT_TRUE(part < 0.45 || produced.found > 0) << part;
+      EXPECT_EQ(filesIn(this->folder("killed")), wanted) << part;
+      EXPECT_FALSE(fs::exists(this->folder("killed.work"))) << part;
+      fs::remove_all(this->folder("killed"));
+    }
+    EXPECT_GT(found, 0u);
+  }
+}
+
+TEST_F(Production, StopsAndGoesOn)
+{
+  Context context;
+  int asked = 0;
+  context.cancelled = [&asked] { return ++asked > 40; };
+  EXPECT_THROW(this->produce("stopped", context), Cancelled);
+  EXPECT_TRUE(fs::exists(this->folder("stopped.work/journal")));
+  this->produce("stopped");
+  EXPECT_EQ(filesIn(this->folder("stopped")), this->filesOfStages());
+}
+
+TEST_F(Production, LeavesTheWorkOfAnotherOneAlone)
+{
+  this->killAt("work", 0.6);
+  const auto before = filesIn(this->folder("work.work"));
+  ASSERT_GT(before.size(), 3u);
+  const auto refused = [&]
+  {
+    try
+    {
+      this->produce("work");
+    }
+    catch (const InvalidInput& error)
+    {
+      return std::string(error.what()).find("work.work") != std::string::npos;
+    }
+    return false;
+  };
+  this->Order.surfaces.smoothingIterations = 3;
+  EXPECT_TRUE(refused());
+  this->Order.surfaces.smoothingIterations = 2;
+  this->Fibres_.radii[0] *= 1.0 + 1e-15;
+  EXPECT_TRUE(refused());
+  this->Fibres_ = example::fibresThatMeet();
+  this->Fibres_.grownFraction = 0.5; // to which fibres grow where no target is given
+  EXPECT_TRUE(refused());
+  EXPECT_EQ(filesIn(this->folder("work.work")), before);
+}
+
+TEST_F(Production, SaysWhatIsDamaged)
+{
+  this->killAt("damaged", 0.84);
+  {
+    // The end of a journal may have been cut off.
+    const fs::path journal = this->folder("damaged.work/journal");
+    fs::resize_file(journal, fs::file_size(journal) - 3);
+    for (const auto& entry : fs::recursive_directory_iterator(this->folder("damaged.work")))
+    {
+      if (entry.path().extension() == ".surface")
+      {
+        std::fstream file(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(200);
+        file.put('x');
+      }
+    }
+  }
+  try
+  {
+    this->produce("damaged");
+    FAIL();
+  }
+  catch (const FileError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find(".surface is damaged, or cannot be read: remove the folder"), std::string::npos)
+      << error.what();
+  }
+  // Without the surface and without what is known of it, all is made again.
+  fs::remove_all(this->folder("damaged.work"));
+  this->produce("damaged");
+  EXPECT_EQ(filesIn(this->folder("damaged")), this->filesOfStages());
+}
+
+TEST_F(Production, RefusesAFolderThatCannotBeWrittenAtOnce)
+{
+  fs::create_directories(this->folder("mine"));
+  std::ofstream(this->folder("mine/notes.txt")) << "mine";
+  EXPECT_THROW(this->produce("mine"), FileError);
+  EXPECT_FALSE(fs::exists(this->folder("mine.work")));
+  EXPECT_THROW(produceSubstrate(this->Fibres_, this->Order, ""), InvalidInput);
+}
+
+} // namespace

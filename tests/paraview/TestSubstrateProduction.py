@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 400
+# ctest-ranks: 2
+"""Substrates made without holding label image and surfaces: the same files as from the filters one after the other, in less memory, and
+a run that is killed goes on."""
+
+import json
+import os
+import signal
+import subprocess
+import unittest
+
+from cactus_testing import CactusTestCase, fetch, main
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateProduction,
+                             SubstrateWriter)
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+GROWTH = {"TargetFibreVolumeFraction": 0.85, "SurfaceTolerance": 0.006}
+SURFACES = {"GRatioModel": "Distributed", "GRatio": 0.65, "Seed": 3}
+
+# Makes a substrate, and says each stage of the work as it begins.
+SCRIPT = """
+from paraview.simple import *
+side, folder, margin = float(sys.argv[1]), sys.argv[2], float(sys.argv[3])
+fibres = CapsuleOptimizer(Input=BundleInitializer(Side=side, GrownFibreVolumeFraction=0.85))
+made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1, Margin=margin)
+made.TargetFibreVolumeFraction = 0.85
+filter = made.GetClientSideObject()
+filter.AddObserver("ProgressEvent", lambda *_: print("at", filter.GetProgress(), filter.GetProgressText(), flush=True))
+made.UpdatePipeline()
+print("peak", [line for line in open("/proc/self/status") if line.startswith("VmHWM")][0].split()[1], flush=True)
+"""
+
+
+def rank():
+    controller = vtkMultiProcessController.GetGlobalController()
+    return controller.GetLocalProcessId() if controller else 0
+
+
+def ranks():
+    controller = vtkMultiProcessController.GetGlobalController()
+    return controller.GetNumberOfProcesses() if controller else 1
+
+
+def files(folder):
+    found = {}
+    for base, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(base, name), "rb") as file:
+                found[os.path.relpath(os.path.join(base, name), folder)] = file.read()
+    return found
+
+
+class SubstrateProductionTest(CactusTestCase):
+    def fibres(self, side):
+        return OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=side, GrownFibreVolumeFraction=0.85)), 0)
+
+    def test_writes_what_the_filters_write(self):
+        fibres = self.fibres(6.0)
+        surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, Seed=3, **GROWTH), **SURFACES)
+        one = os.path.join(self.folder, f"one-{rank()}")
+        other = os.path.join(self.folder, f"other-{rank()}")
+        written = fetch(SubstrateWriter(Outer=OutputPort(surfaces, 0), FolderName=one))
+        produced = SubstrateProduction(Input=fibres, FolderName=other, **GROWTH, **SURFACES)
+        stages = []
+        filter = produced.GetClientSideObject()
+        filter.AddObserver("ProgressEvent", lambda *_: stages.append((filter.GetProgress(), filter.GetProgressText())))
+        table = fetch(produced, 0)
+        self.assertFalse(os.path.exists(other + ".work"))
+        if rank() > 0:
+            self.assertFalse(os.path.exists(other))
+            return
+        told = {text.split(":")[0] for _, text in stages if text}
+        self.assertLessEqual({"making outer surfaces", "keeping fibres apart", "making inner surfaces"}, told)
+        expected, found = files(one), files(other)
+        manifest = json.loads(found.pop("manifest.json"))
+        expected.pop("manifest.json")
+        self.assertEqual(set(found), set(expected))
+        self.assertGreater(len(found), 30)
+        for name in expected:
+            self.assertEqual(found[name], expected[name], name)
+        records = manifest["provenance"]
+        self.assertEqual([record["filter"].replace("vtk", "") for record in records], ["BundleInitializer", "CapsuleOptimizer", "SubstrateProduction"])
+        self.assertEqual(records[-1]["properties"]["GRatioModel"], "Distributed")
+        for found, expected in ((table, written), (fetch(produced, 1), fetch(surfaces, 2))):
+            self.assertEqual(found.GetNumberOfRows(), expected.GetNumberOfRows())
+            self.assertEqual(found.GetNumberOfColumns(), expected.GetNumberOfColumns())
+            for column in range(found.GetNumberOfColumns()):
+                for row in range(found.GetNumberOfRows()):
+                    self.assertEqual(found.GetValue(row, column), expected.GetValue(row, column))
+
+    def script(self, folder, margin):
+        """SCRIPT in a process of its own."""
+        path = os.path.join(self.folder, "script.py")
+        with open(path, "w") as file:
+            file.write(SCRIPT)
+        return subprocess.Popen(["pvpython", path, "6", folder, str(margin)], stdout=subprocess.PIPE, text=True)
+
+    @unittest.skipIf(ranks() > 1, "starts processes of its own")
+    def test_goes_on_after_it_was_killed(self):
+        folder = os.path.join(self.folder, "killed")
+        whole = os.path.join(self.folder, "whole")
+        with self.script(whole, 0) as process:
+            undisturbed = process.stdout.read()
+        self.assertEqual(process.returncode, 0)
+        for wanted in ("making outer surfaces", "making inner surfaces"):
+            with self.script(folder, 0) as process:
+                seen = 0
+                for line in process.stdout:
+                    seen += wanted in line
+                    if seen == 3:
+                        process.send_signal(signal.SIGKILL)
+                        break
+            self.assertEqual(process.returncode, -signal.SIGKILL)
+            self.assertFalse(os.path.exists(folder))
+            self.assertTrue(os.path.exists(folder + ".work/journal"))
+        with self.script(folder, 0) as process:
+            rest = process.stdout.read()
+        self.assertEqual(process.returncode, 0)
+        self.assertIn("keeping fibres apart", undisturbed)
+        self.assertNotIn("keeping fibres apart", rest)
+        self.assertEqual(files(folder), files(whole))
+        self.assertFalse(os.path.exists(folder + ".work"))
+
+    @unittest.skipIf(ranks() > 1, "starts processes of its own")
+    def test_is_made_again_from_its_manifest(self):
+        folder = os.path.join(self.folder, "first")
+        SubstrateProduction(Input=self.fibres(4.0), FolderName=folder, GrowthIterations=2, Seed=5, GRatio=0.6).UpdatePipeline()
+        rerun = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "rerun.py")
+        done = subprocess.run(["pvpython", rerun, folder], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr.replace("ERR|", ""))
+        again = files(folder + "-rerun")
+        for name, data in files(folder).items():
+            if name.endswith(".ply"):
+                self.assertEqual(again[name], data, name)
+
+    @unittest.skipIf(ranks() > 1, "starts processes of its own")
+    def test_takes_no_memory_for_the_image(self):
+        peaks = []
+        # With a margin of 40 µm the image has 860³ voxels, for which FibreRadialGrowth would take 5 GB.
+        for margin in (0, 40):
+            with self.script(os.path.join(self.folder, f"margin-{margin}"), margin) as process:
+                peaks.append(int(process.stdout.read().split("peak")[1]) / 1024)
+            self.assertEqual(process.returncode, 0)
+        self.assertLess(peaks[1] - peaks[0], 100, "MB")
+
+    def test_refuses(self):
+        folder = os.path.join(self.folder, f"refused-{rank()}")
+        fibres = self.fibres(4.0)
+        if rank() > 0:
+            return
+        with self.assertError("FolderName is empty"):
+            SubstrateProduction(Input=fibres).UpdatePipeline()
+        with self.assertError("DecimationError 0.02 is more than the room"):
+            SubstrateProduction(Input=fibres, FolderName=folder, DecimationError=0.02).UpdatePipeline()
+        with self.assertError("holds what was made of other fibres, with other parameters"):
+            SubstrateProduction(Input=fibres, FolderName=folder).UpdatePipeline()
+
+
+if __name__ == "__main__":
+    main()
