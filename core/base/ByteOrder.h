@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 
 namespace cactus
 {
@@ -27,6 +28,17 @@ void swapBytes(Number* numbers, std::size_t count)
     auto* bytes = reinterpret_cast<unsigned char*>(numbers + i);
     std::reverse(bytes, bytes + sizeof(Number));
   }
+}
+
+/// Appends the number's bytes, the lowest first, as most file formats have them.
+template <typename Number>
+void appendLittleEndian(std::string& bytes, Number number)
+{
+  if (!isLittleEndian())
+  {
+    swapBytes(&number, 1);
+  }
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
 }
 
 } // namespace cactus

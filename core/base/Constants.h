@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
+
 namespace cactus
 {
 
@@ -10,5 +12,9 @@ constexpr double degree = pi / 180.0;
 constexpr double radian = 180.0 / pi;
 /// Radians (π (3 − √5)) from one point of a sunflower to the next: points so placed never line up.
 constexpr double goldenAngle = 2.399963229728653;
+/// Millimetres in a micrometre.
+constexpr double micrometre = 1e-3;
+/// For a measure that is not there to be taken.
+constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace cactus

@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
+#include "bundle/CirclePlacement.h"
 #include "bundle/RadiusDistribution.h"
 
 #include <algorithm>
@@ -16,15 +17,6 @@ namespace cactus
 
 namespace
 {
-
-/// Indices in order of falling radius, ties in order of index.
-std::vector<std::size_t> largestFirst(const std::vector<double>& radii)
-{
-  std::vector<std::size_t> order(radii.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
-  return order;
-}
 
 /// Throws unless every circle has room in its rectangle.
 void requireFit(const Circles& circles, const char* property)

@@ -15,15 +15,6 @@ namespace cactus
 namespace
 {
 
-std::vector<std::size_t> largestFirst(const std::vector<double>& radii)
-{
-  std::vector<std::size_t> order(radii.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(
-    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return radii[a] != radii[b] ? radii[a] > radii[b] : a < b; });
-  return order;
-}
-
 /// The circles placed so far.
 class Placed
 {
@@ -73,6 +64,15 @@ private:
 };
 
 } // namespace
+
+std::vector<std::size_t> largestFirst(const std::vector<double>& radii)
+{
+  std::vector<std::size_t> order(radii.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(
+    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return radii[a] != radii[b] ? radii[a] > radii[b] : a < b; });
+  return order;
+}
 
 void placeCircles(Circles& circles, const CentreProposal& propose, int trials)
 {

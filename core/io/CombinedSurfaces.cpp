@@ -84,16 +84,6 @@ std::string npyHead(const char* type, std::size_t rows)
   return std::string("\x93NUMPY\x01\x00", 8) + std::string(size, 2) + description;
 }
 
-template <typename Number>
-void append(std::string& bytes, Number number)
-{
-  if (!isLittleEndian())
-  {
-    swapBytes(&number, 1);
-  }
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
-}
-
 } // namespace
 
 SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context)
@@ -138,7 +128,7 @@ void writeDisimpySurfaces(const FibreSurfaces& surfaces, const std::string& kind
     {
       for (int axis = 0; axis < 3; ++axis)
       {
-        append(bytes, metre * (point[axis] - box.origin[axis]));
+        appendLittleEndian(bytes, metre * (point[axis] - box.origin[axis]));
       }
     }
     return bytes;
@@ -150,7 +140,7 @@ void writeDisimpySurfaces(const FibreSurfaces& surfaces, const std::string& kind
     {
       for (const std::int32_t corner : triangle)
       {
-        append(bytes, static_cast<std::int64_t>(before) + corner);
+        appendLittleEndian(bytes, static_cast<std::int64_t>(before) + corner);
       }
     }
     return bytes;

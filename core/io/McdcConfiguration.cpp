@@ -14,13 +14,12 @@ namespace
 {
 
 constexpr double gyromagneticRatio = 267.51525e6; ///< rad/(s·T), as the simulator has it
-constexpr double millimetre = 1e-3;               ///< of one µm
 
 void writeBox(std::ostream& out, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
 {
   for (const Eigen::Vector3d& corner : { lower, upper })
   {
-    out << millimetre * corner[0] << ' ' << millimetre * corner[1] << ' ' << millimetre * corner[2] << '\n';
+    out << micrometre * corner[0] << ' ' << micrometre * corner[1] << ' ' << micrometre * corner[2] << '\n';
   }
 }
 

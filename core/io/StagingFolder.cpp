@@ -25,7 +25,7 @@ namespace
 constexpr char lockName[] = "lock";
 constexpr char substrateName[] = "substrate";
 constexpr char formerName[] = "former";
-constexpr int attempts = 100;
+constexpr int namesToTry = 100;
 
 std::string lockText(const fs::path& place)
 {
@@ -37,7 +37,7 @@ std::string lockText(const fs::path& place)
 StagingFolder::StagingFolder(const fs::path& place)
   : Place(place)
 {
-  for (int attempt = 0; attempt < attempts; ++attempt)
+  for (int attempt = 0; attempt < namesToTry; ++attempt)
   {
     if (this->make())
     {

@@ -2,6 +2,7 @@
 #include "io/TckFile.h"
 
 #include "base/AtomicFile.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Numbers.h"
@@ -207,14 +208,13 @@ void writeTck(const Fibres& fibres, const std::string& path)
     }
     file.stream().write(reinterpret_cast<const char*>(point), sizeof(point));
   };
-  constexpr double millimetre = 1e-3;
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   constexpr float end = std::numeric_limits<float>::infinity();
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
     {
-      const Eigen::Vector3f point = (millimetre * fibres.points[i]).cast<float>();
+      const Eigen::Vector3f point = (micrometre * fibres.points[i]).cast<float>();
       write(point[0], point[1], point[2]);
     }
     write(none, none, none);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/AtomicFile.h"
 #include "base/ByteOrder.h"
+#include "base/Constants.h"
 #include "base/JsonText.h"
 #include "io/TrxFile.h"
 
@@ -17,18 +18,6 @@ namespace cactus
 namespace
 {
 
-constexpr double millimetre = 1e-3; ///< of one µm
-
-template <typename Number>
-void append(std::string& bytes, Number number)
-{
-  if (!isLittleEndian())
-  {
-    swapBytes(&number, 1);
-  }
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
-}
-
 template <typename Number, typename Value>
 std::string bytesOf(std::size_t count, Value&& value)
 {
@@ -36,7 +25,7 @@ std::string bytesOf(std::size_t count, Value&& value)
   bytes.reserve(count * sizeof(Number));
   for (std::size_t i = 0; i < count; ++i)
   {
-    append(bytes, static_cast<Number>(value(i)));
+    appendLittleEndian(bytes, static_cast<Number>(value(i)));
   }
   return bytes;
 }
@@ -50,8 +39,8 @@ std::string headerText(const Fibres& fibres)
   Json dimensions = Json::array();
   for (Eigen::Index axis = 0; axis < 3; ++axis)
   {
-    Json row = Json::array({ 0.0, 0.0, 0.0, millimetre * (fibres.domain.lower[axis] + 0.5 * voxel) });
-    row[std::size_t(axis)] = millimetre * voxel;
+    Json row = Json::array({ 0.0, 0.0, 0.0, micrometre * (fibres.domain.lower[axis] + 0.5 * voxel) });
+    row[std::size_t(axis)] = micrometre * voxel;
     affine.push_back(row);
     dimensions.push_back(std::int64_t(std::clamp(std::ceil(fibres.domain.size()[axis] / voxel), 1.0, most)));
   }
@@ -79,11 +68,11 @@ void writeTrx(const Fibres& fibres, const std::string& path)
   std::vector<std::pair<std::string, std::string>> files;
   files.emplace_back("header.json", headerText(fibres));
   files.emplace_back("positions.3.float32", bytesOf<float>(3 * fibres.points.size(), [&](std::size_t i)
-                                              { return millimetre * fibres.points[i / 3][Eigen::Index(i % 3)]; }));
+                                              { return micrometre * fibres.points[i / 3][Eigen::Index(i % 3)]; }));
   files.emplace_back(
     "offsets.uint64", bytesOf<std::uint64_t>(fibres.offsets.size(), [&](std::size_t i) { return fibres.offsets[i]; }));
   files.emplace_back(
-    "dpv/Radius.float32", bytesOf<float>(fibres.radii.size(), [&](std::size_t i) { return millimetre * fibres.radii[i]; }));
+    "dpv/Radius.float32", bytesOf<float>(fibres.radii.size(), [&](std::size_t i) { return micrometre * fibres.radii[i]; }));
   files.emplace_back(
     "dps/FibreId.int32", bytesOf<std::int32_t>(fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; }));
   files.emplace_back(
@@ -91,7 +80,7 @@ void writeTrx(const Fibres& fibres, const std::string& path)
   std::map<int, std::string> groups;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    append(groups[fibres.bundleIds[f]], static_cast<std::uint32_t>(f));
+    appendLittleEndian(groups[fibres.bundleIds[f]], static_cast<std::uint32_t>(f));
   }
   for (auto& [bundle, members] : groups)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/CertificateSummary.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace cactus
 namespace
 {
 
-constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 /// µm that a surface may reach out of the domain, as the rounding of a clip does.
 constexpr double clipTolerance = 0.1;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/FibreExamination.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
@@ -19,7 +20,6 @@ namespace
 
 /// Pairs of triangles of a surface that are counted: a ruined one may have half a billion.
 constexpr std::size_t mostIntersections = 10000;
-constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 /// µm. Triangles as near as this to a face of the domain with all corners are a cap's.
 constexpr double capTolerance = 1e-6;
 

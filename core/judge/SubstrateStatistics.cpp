@@ -20,7 +20,6 @@ namespace cactus
 namespace
 {
 
-constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 /// µm. An outline nearer to the domain's boundary has been cut off by it; above the rounding of single-precision coordinates.
 constexpr double boundaryTolerance = 1e-3;
 

@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float unbounded = std::numeric_limits<float>::infinity();
 /// From here on at the median, which adds at most 32 levels for 32-bit indices.
 constexpr int depthOfMedians = 36;
 
@@ -53,7 +53,7 @@ struct Item
   float centre(int axis) const { return this->box.lower[axis] + this->box.upper[axis]; }
 };
 
-struct Range
+struct ItemRange
 {
   std::uint32_t node;
   std::uint32_t first;
@@ -68,9 +68,9 @@ void include(FloatBox& box, const FloatBox& other)
 }
 
 /// Where to part the items of a range, which are put into that order; neither part is empty.
-std::uint32_t part(std::vector<Item>& items, const Range& range)
+std::uint32_t part(std::vector<Item>& items, const ItemRange& range)
 {
-  Eigen::Array4f lower = Eigen::Array4f::Constant(infinite);
+  Eigen::Array4f lower = Eigen::Array4f::Constant(unbounded);
   Eigen::Array4f upper = -lower;
   for (std::uint32_t i = range.first; i < range.last; ++i)
   {
@@ -132,10 +132,10 @@ void TriangleTree::build(std::vector<std::uint32_t> triangles)
   }
   this->Nodes.reserve(items.size());
   this->Nodes.emplace_back();
-  std::vector<Range> ranges{ { 0, 0, static_cast<std::uint32_t>(items.size()), 0 } };
+  std::vector<ItemRange> ranges{ { 0, 0, static_cast<std::uint32_t>(items.size()), 0 } };
   while (!ranges.empty())
   {
-    const Range range = ranges.back();
+    const ItemRange range = ranges.back();
     ranges.pop_back();
     if (range.last - range.first <= leafSize)
     {

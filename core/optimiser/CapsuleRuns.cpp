@@ -13,8 +13,6 @@ namespace cactus
 namespace
 {
 
-constexpr std::size_t runsTogether = 1024;
-
 /// A capsule's bounding box, larger by its reach and by a millionth of its coordinates, so that rounding to single precision
 /// loses no pair.
 RunBox boxOf(const Capsule& capsule, float reach)

@@ -24,6 +24,9 @@ struct RunBox
 /// Makes `box` hold `other`, too.
 void extend(RunBox& box, const RunBox& other);
 
+/// Runs that one thread takes one after the other.
+constexpr std::size_t runsTogether = 1024;
+
 /// Short runs of consecutive capsules of one fibre, which have most of their neighbours in common, and the boxes that hold what
 /// is within reach of them.
 class CapsuleRuns

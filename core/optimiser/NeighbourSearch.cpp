@@ -220,9 +220,6 @@ private:
   std::size_t Size = 0;
 };
 
-/// Runs that are searched one after the other by one thread.
-constexpr std::size_t runsTogether = 1024;
-
 /// counts[k] becomes the number of neighbours of capsule k; returned are the neighbours themselves, per block of runs.
 std::vector<std::vector<std::uint32_t>> searchAll(
   const Capsules& capsules, const std::vector<float>& reach, const CapsuleRuns& runs, int threads, std::size_t* counts)

@@ -13,7 +13,6 @@ namespace cactus
 namespace
 {
 
-constexpr std::size_t runsTogether = 1024;
 constexpr std::size_t cellsTogether = 4096;
 
 } // namespace
