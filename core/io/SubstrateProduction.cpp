@@ -70,13 +70,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
 
 LabelImageFacts factsOf(const Fibres& fibres, const FibreRadialGrowthOptions& growth)
 {
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
-  facts.minimumGap = growth.minimumGap;
-  facts.surfaceTolerance = growth.surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
+  LabelImageFacts facts = labelImageFacts(fibres, growth);
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     facts.lengths.push_back(lengthInDomain(fibres, f));

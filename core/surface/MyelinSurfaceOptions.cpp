@@ -3,6 +3,8 @@
 
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "fibres/Fibres.h"
+#include "growth/FibreRadialGrowthOptions.h"
 
 namespace cactus
 {
@@ -46,6 +48,18 @@ void validate(const MyelinSurfaceOptions& options)
     throw InvalidInput(text("TargetAxonVolumeFraction is 0: give ", limits::fraction.lowest, " to ", limits::fraction.highest,
       " where GRatioModel is TargetAxonVolumeFraction"));
   }
+}
+
+LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOptions& growth)
+{
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.minimumGap = growth.minimumGap;
+  facts.surfaceTolerance = growth.surfaceTolerance;
+  facts.fibreIds = fibres.fibreIds;
+  facts.bundleIds = fibres.bundleIds;
+  facts.targetRadii = fibres.targetRadii;
+  return facts;
 }
 
 } // namespace cactus

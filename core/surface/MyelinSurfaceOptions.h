@@ -11,6 +11,9 @@
 namespace cactus
 {
 
+struct Fibres;
+struct FibreRadialGrowthOptions;
+
 /// µm that surfaces of two fibres keep from each other, and inner surfaces from outer ones, however little is asked for: a
 /// simulator's walls have that thickness (MC/DC: 1 nm).
 constexpr double leastSeparation = 0.001;
@@ -52,5 +55,8 @@ struct LabelImageFacts
   /// µm of each fibre's centre line inside the domain: one of 0 only passes by outside. Empty where that is not known.
   std::vector<double> lengths;
 };
+
+/// Of the image that these options grow from the fibres. Lengths are left open.
+LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOptions& growth);
 
 } // namespace cactus

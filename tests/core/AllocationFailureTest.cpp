@@ -136,23 +136,11 @@ FibreRadialGrowthOptions growthOptions()
   return options;
 }
 
-LabelImageFacts factsOf(const Fibres& fibres)
-{
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
-  facts.minimumGap = growthOptions().minimumGap;
-  facts.surfaceTolerance = growthOptions().surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
-  return facts;
-}
-
 std::vector<FibreSurfacePair> surfacesOf(const Fibres& fibres, const LabelImage& image)
 {
   MyelinSurfaceOptions options;
-  return myelinSurfaces(
-    { image.grid, image.fibreId.data(), image.depth.data(), growthOptions().gap() }, factsOf(fibres), options, twoThreads());
+  return myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growthOptions().gap() },
+    labelImageFacts(fibres, growthOptions()), options, twoThreads());
 }
 
 #ifdef CACTUS_SANITIZED

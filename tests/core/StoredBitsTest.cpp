@@ -90,13 +90,7 @@ TEST(StoredBits, DefaultChain)
   const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(fibres.domain, growth));
   EXPECT_EQ(digest(image), "6f390d0626292db1cfec0fea89c2054d7d4c150fe2bc96d5d3c98e21bf476885");
 
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
-  facts.minimumGap = growth.minimumGap;
-  facts.surfaceTolerance = growth.surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
+  const LabelImageFacts facts = labelImageFacts(fibres, growth);
   const auto surfaces = myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, {});
   struct Known
   {

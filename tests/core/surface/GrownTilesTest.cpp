@@ -81,13 +81,7 @@ TEST(GrownTiles, MakeTheSameSurfaces)
   FibreRadialGrowthOptions growth;
   const Fibres fibres = example::fibresThatMeet();
   const LabelImage image = growFibres(fibres, growth, 0.2, growthGrid(fibres.domain, growth));
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
-  facts.minimumGap = growth.minimumGap;
-  facts.surfaceTolerance = growth.surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
+  const LabelImageFacts facts = labelImageFacts(fibres, growth);
   for (const int passes : { 0, 2, 9 })
   {
     MyelinSurfaceOptions options;

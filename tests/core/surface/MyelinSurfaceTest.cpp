@@ -121,13 +121,8 @@ TEST(GRatio, DistributedHasItsMeanAndDeviationAndDependsOnSeedAndFibre)
 std::vector<FibreSurfacePair> surfacesOf(const Fibres& fibres, const FibreRadialGrowthOptions& growth, double by, double gap)
 {
   const LabelImage image = growFibres(fibres, growth, by, growthGrid(fibres.domain, growth));
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
+  LabelImageFacts facts = labelImageFacts(fibres, growth);
   facts.minimumGap = gap;
-  facts.surfaceTolerance = growth.surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
   return myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, MyelinSurfaceOptions());
 }
 
@@ -332,13 +327,8 @@ std::vector<FibreSurfacePair> surfacesOf(const CoarseBundle& coarse, double gap)
   growth.surfaceTolerance = 0.02;
   fibres = aimAtTargetRadii(fibres, growth);
   const LabelImage image = growFibres(fibres, growth, growthFor(fibres, growth), growthGrid(fibres.domain, growth));
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
+  LabelImageFacts facts = labelImageFacts(fibres, growth);
   facts.minimumGap = gap;
-  facts.surfaceTolerance = growth.surfaceTolerance;
-  facts.fibreIds = fibres.fibreIds;
-  facts.bundleIds = fibres.bundleIds;
-  facts.targetRadii = fibres.targetRadii;
   MyelinSurfaceOptions options;
   options.gRatio = coarse.gRatio;
   options.decimationError = 0.0;
