@@ -108,6 +108,7 @@ void giveOut(std::vector<cactus::FibreSurfacePair>& fibres, cactus::TriangleMesh
   vtkPolyData* output)
 {
   std::vector<cactus::NamedSurface> surfaces;
+  surfaces.reserve(fibres.size());
   for (auto& fibre : fibres)
   {
     surfaces.push_back({ fibre.fibreId, fibre.bundleId, std::move(fibre.*mesh) });

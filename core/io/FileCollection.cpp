@@ -229,7 +229,7 @@ std::string zipText(const std::vector<std::pair<std::string, std::string>>& file
   {
     throw FileError(std::string("cannot make a zip archive: ") + zip_strerror(archive));
   }
-  open.release();
+  static_cast<void>(open.release()); // it has been closed
   std::string text;
   zip_stat_t found;
   zip_stat_init(&found);

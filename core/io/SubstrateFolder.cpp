@@ -128,7 +128,7 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
   {
     return {};
   }
-  const auto files = surfaceFiles(surfaces, kind, certificate, contents.format);
+  auto files = surfaceFiles(surfaces, kind, certificate, contents.format);
   if (isCombined(contents.format))
   {
     context.report(from, "Writing surfaces");

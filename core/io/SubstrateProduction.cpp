@@ -140,7 +140,9 @@ ProducedSubstrate produceSubstrate(
 {
   validate(fibres);
   require(!folder.empty(), "FolderName is empty: name the folder to write");
-  FolderReplacement(folder, context); // which says now, rather than at the end, that it cannot be written
+  {
+    const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
+  }
   const std::unique_ptr<SurfaceSpool> spool = openSpool(workFolderOf(folder), identityOf(fibres, order), fibres.size());
   ProducedSubstrate result;
   result.found = spool->found();

@@ -58,7 +58,7 @@ std::filesystem::path made(const std::filesystem::path& folder)
 } // namespace
 
 SurfaceSpool::Files::Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count)
-  : IsSpaced(count, 0)
+  : isSpaced(count, 0)
   , Folder(std::move(folder))
   , Kind(std::move(kind))
   , Fingerprint(fingerprint)
@@ -67,7 +67,7 @@ SurfaceSpool::Files::Files(std::filesystem::path folder, std::string kind, std::
 
 std::string SurfaceSpool::Files::pathOf(std::size_t index) const
 {
-  const std::string kind = this->IsSpaced[index] != 0 ? "spaced" : this->Kind;
+  const std::string kind = this->isSpaced[index] != 0 ? "spaced" : this->Kind;
   return (this->Folder / kind / fiveDigits(index / filesInAFolder) / (fiveDigits(index) + ".surface")).string();
 }
 
@@ -93,7 +93,7 @@ std::shared_ptr<const TriangleMesh> SurfaceSpool::Files::get(std::size_t index) 
 
 void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
 {
-  this->IsSpaced[index] = this->IsSpacing ? 1 : 0;
+  this->isSpaced[index] = this->isSpacing ? 1 : 0;
   const std::string path = this->pathOf(index);
   makeFolders(std::filesystem::path(path).parent_path());
   CheckpointWriter file(path, { this->Fingerprint, static_cast<std::int64_t>(index) });
@@ -135,13 +135,13 @@ void SurfaceSpool::readJournal()
     notes[index].push_back(record.substr(head));
     if (record[0] == spaced)
     {
-      this->Outer.IsSpaced[index] = record[1];
+      this->Outer.isSpaced[index] = record[1];
     }
   }
   if (!this->IsSpacingDone)
   {
     // What was moved is moved again, from what was contoured.
-    std::fill(this->Outer.IsSpaced.begin(), this->Outer.IsSpaced.end(), 0);
+    std::fill(this->Outer.isSpaced.begin(), this->Outer.isSpaced.end(), 0);
   }
   const auto& notes = this->IsSpacingDone ? this->InnerNotes : this->OuterNotes;
   this->Found = std::size_t(std::count_if(notes.begin(), notes.end(), [](const auto& of) { return !of.empty(); }));
@@ -183,7 +183,7 @@ void SurfaceSpool::noteSpaced(const std::vector<FibreSurfacePair>& pairs)
 {
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
-    this->note(spaced, i, pairs[i], this->Outer.IsSpaced[i] != 0);
+    this->note(spaced, i, pairs[i], this->Outer.isSpaced[i] != 0);
   }
   this->note(spacingDone, 0, {}, false);
 }

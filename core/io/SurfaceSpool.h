@@ -37,7 +37,7 @@ public:
 
   bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
   void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;
-  void beginSpacing() override { this->Outer.IsSpacing = true; }
+  void beginSpacing() override { this->Outer.isSpacing = true; }
   bool recallSpaced(std::vector<FibreSurfacePair>& pairs) const override;
   void noteSpaced(const std::vector<FibreSurfacePair>& pairs) override;
   bool recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const override;
@@ -53,12 +53,12 @@ private:
   public:
     Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count);
 
-    std::size_t size() const override { return this->IsSpaced.size(); }
+    std::size_t size() const override { return this->isSpaced.size(); }
     std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
     void put(std::size_t index, TriangleMesh surface) override;
 
-    bool IsSpacing = false;
-    std::vector<char> IsSpaced; ///< whether it was put while IsSpacing
+    bool isSpacing = false;
+    std::vector<char> isSpaced; ///< whether it was put while isSpacing
 
   private:
     std::string pathOf(std::size_t index) const;

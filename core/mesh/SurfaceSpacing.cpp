@@ -361,6 +361,7 @@ void Spacing::measureSlab(int slab, const PairSelection& selection, std::map<std
     parts[pair.other];
   }
   std::vector<std::pair<const std::size_t, Part>*> entries;
+  entries.reserve(parts.size());
   for (auto& entry : parts)
   {
     entries.push_back(&entry);

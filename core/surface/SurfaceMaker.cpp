@@ -118,6 +118,7 @@ std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs
   }
   std::sort(places.begin(), places.end());
   std::vector<std::size_t> order;
+  order.reserve(places.size());
   for (const auto& place : places)
   {
     order.push_back(place.second);
