@@ -127,6 +127,49 @@ Context partOf(const Context& context, double from, double to, Pace& pace)
   return part;
 }
 
+ProducedSubstrate produceFrom(
+  SurfaceSpool& spool, const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context)
+{
+  ProducedSubstrate result;
+  result.found = spool.found();
+
+  Pace pace;
+  const Context solving = partOf(context, 0.0, growthSolved, pace);
+  const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving);
+  const double growth = growthFor(aimed, order.growth, solving);
+  const auto tiles =
+    std::make_shared<GrownTiles>(aimed, order.growth, growth, tilesPerThread * std::size_t(context.threadCount()));
+  const double spacing = tiles->grid().spacing;
+  const LabelImageFacts facts = factsOf(fibres, order.growth);
+  const Context making = partOf(context, growthSolved, surfacesMade, pace);
+  SubstrateFolderContents contents;
+  {
+    SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool);
+    maker.makeOuter(spool.outer());
+    maker.makeInner(spool.outer(), spool.inner());
+    result.fibres = maker.fibres();
+    result.remarks = notAsAsked(maker.fibres(), spacing, facts);
+    const double gap = order.growth.minimumGap;
+    contents.outer = surfacesIn(spool.outer(), maker.fibres(), &FibreSurfacePair::outerReport, gap);
+    contents.inner = surfacesIn(spool.inner(), maker.fibres(), &FibreSurfacePair::innerReport, gap);
+    for (const FibreSurfacePair& fibre : maker.fibres())
+    {
+      if (fibre.isWanted)
+      {
+        contents.outer.wantedIds.push_back(fibre.fibreId);
+      }
+    }
+  }
+  contents.domain = fibres.domain;
+  contents.fibres = &fibres;
+  contents.provenance = order.provenance ? order.provenance(spacing, growth) : Provenance();
+  contents.allowOpenSurfaces = order.allowOpenSurfaces;
+  contents.certificate.minimumGap = order.growth.minimumGap;
+  result.written = writeSubstrateFolder(contents, folder, partOf(context, surfacesMade, 1.0, pace));
+  spool.remove();
+  return result;
+}
+
 } // namespace
 
 std::string workFolderOf(const std::string& folder)
@@ -144,44 +187,20 @@ ProducedSubstrate produceSubstrate(
     const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
   }
   const std::unique_ptr<SurfaceSpool> spool = openSpool(workFolderOf(folder), identityOf(fibres, order), fibres.size());
-  ProducedSubstrate result;
-  result.found = spool->found();
-
-  Pace pace;
-  const Context solving = partOf(context, 0.0, growthSolved, pace);
-  const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving);
-  const double growth = growthFor(aimed, order.growth, solving);
-  const auto tiles =
-    std::make_shared<GrownTiles>(aimed, order.growth, growth, tilesPerThread * std::size_t(context.threadCount()));
-  const double spacing = tiles->grid().spacing;
-  const LabelImageFacts facts = factsOf(fibres, order.growth);
-  const Context making = partOf(context, growthSolved, surfacesMade, pace);
-  SubstrateFolderContents contents;
+  try
   {
-    SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, spool.get());
-    maker.makeOuter(spool->outer());
-    maker.makeInner(spool->outer(), spool->inner());
-    result.fibres = maker.fibres();
-    result.remarks = notAsAsked(maker.fibres(), spacing, facts);
-    const double gap = order.growth.minimumGap;
-    contents.outer = surfacesIn(spool->outer(), maker.fibres(), &FibreSurfacePair::outerReport, gap);
-    contents.inner = surfacesIn(spool->inner(), maker.fibres(), &FibreSurfacePair::innerReport, gap);
-    for (const FibreSurfacePair& fibre : maker.fibres())
-    {
-      if (fibre.isWanted)
-      {
-        contents.outer.wantedIds.push_back(fibre.fibreId);
-      }
-    }
+    return produceFrom(*spool, fibres, order, folder, context);
   }
-  contents.domain = fibres.domain;
-  contents.fibres = &fibres;
-  contents.provenance = order.provenance ? order.provenance(spacing, growth) : Provenance();
-  contents.allowOpenSurfaces = order.allowOpenSurfaces;
-  contents.certificate.minimumGap = order.growth.minimumGap;
-  result.written = writeSubstrateFolder(contents, folder, partOf(context, surfacesMade, 1.0, pace));
-  spool->remove();
-  return result;
+  catch (const InvalidInput&)
+  {
+    spool->remove(); // nobody will go on with what cannot be made
+    throw;
+  }
+  catch (const Infeasible&)
+  {
+    spool->remove();
+    throw;
+  }
 }
 
 } // namespace cactus

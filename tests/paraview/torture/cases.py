@@ -44,6 +44,7 @@ SMALL = {
     },
     "FibreRadialGrowth": {"VoxelSize": 0.2, "GrowthIterations": 1},
     "MyelinSurface": {"TargetAxonVolumeFraction": 0.15},
+    "SubstrateProduction": {"VoxelSize": 0.2, "GrowthIterations": 1, "TargetAxonVolumeFraction": 0.15},
 }
 # Large enough that what a stage allocates shows.
 LARGE = {
@@ -464,7 +465,8 @@ class Bench:
         for time in range(len(_steps) if passed_on else 1):  # VTK passes on the times of the first input
             standing.update(float(time))
             found = self.judge(standing)
-            if time == 2 and not found and not any(marks(data) for data in standing.outputs()) and standing.outputs():
+            keeps = name == "SubstrateWriter" and "Write" in self.note  # its folder, where only what comes in has changed
+            if time == 2 and not keeps and not found and not any(marks(data) for data in standing.outputs()) and standing.outputs():
                 found = ["accepts what is not a number"]
             if time in (0, 3) and not found and standing.outputs() and is_empty(standing.outputs()[0]):
                 found = ["no result"]

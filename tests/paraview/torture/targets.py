@@ -17,7 +17,7 @@ class Target:
         self.numbers = [one for one in settable if one.tag in ("DoubleVectorProperty", "IntVectorProperty")]
         self.texts = [one for one in settable if one.tag == "StringVectorProperty"]
         self.reads = self._extension("ReaderFactory")
-        self.writes = [one.get("name") for one in self.texts if group == "writers" or "Folder" in one.get("name")]
+        self.writes = [one.get("name") for one in self.texts if "Folder" in one.get("name") or group == "writers" and "File" in one.get("name")]
 
         writer = self._extension("WriterFactory")
         self.good_name = "good" + (f".{writer}" if writer else "")
