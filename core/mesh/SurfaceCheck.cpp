@@ -52,32 +52,6 @@ bool repeatsCorner(const std::array<std::int32_t, 3>& t)
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-void checkIndices(const TriangleMesh& mesh)
-{
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-  {
-    for (const std::int32_t point : mesh.triangles[t])
-    {
-      if (point < 0 || static_cast<std::size_t>(point) >= mesh.points.size())
-      {
-        throw InvalidInput("triangle " + std::to_string(t) + " uses point " + std::to_string(point) + " of " +
-                           std::to_string(mesh.points.size()) + ": the surface is damaged");
-      }
-      if (!mesh.points[static_cast<std::size_t>(point)].allFinite())
-      {
-        throw InvalidInput("point " + std::to_string(point) + " of triangle " + std::to_string(t) +
-                           " has a coordinate that is not finite (NaN or infinite)");
-      }
-      if (mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff() > limits::coordinate.highest)
-      {
-        throw InvalidInput(text("point ", point, " of triangle ", t, " lies ",
-          mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff(), " µm from 0 along an axis, beyond the ",
-          limits::coordinate.highest, " µm that coordinates may have: give the surface in µm"));
-      }
-    }
-  }
-}
-
 double angleAt(const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
 {
   const Eigen::Vector3d u = a - corner;
@@ -234,9 +208,35 @@ void countPoints(const TriangleMesh& mesh, Sets& fans, SurfaceReport& report)
 
 } // namespace
 
+void requireCorners(const TriangleMesh& mesh)
+{
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    for (const std::int32_t point : mesh.triangles[t])
+    {
+      if (point < 0 || static_cast<std::size_t>(point) >= mesh.points.size())
+      {
+        throw InvalidInput("triangle " + std::to_string(t) + " uses point " + std::to_string(point) + " of " +
+                           std::to_string(mesh.points.size()) + ": the surface is damaged");
+      }
+      if (!mesh.points[static_cast<std::size_t>(point)].allFinite())
+      {
+        throw InvalidInput("point " + std::to_string(point) + " of triangle " + std::to_string(t) +
+                           " has a coordinate that is not finite (NaN or infinite)");
+      }
+      if (mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff() > limits::coordinate.highest)
+      {
+        throw InvalidInput(text("point ", point, " of triangle ", t, " lies ",
+          mesh.points[static_cast<std::size_t>(point)].cwiseAbs().maxCoeff(), " µm from 0 along an axis, beyond the ",
+          limits::coordinate.highest, " µm that coordinates may have: give the surface in µm"));
+      }
+    }
+  }
+}
+
 SurfaceReport checkSurface(const TriangleMesh& mesh, std::vector<std::uint32_t>* componentOf)
 {
-  checkIndices(mesh);
+  requireCorners(mesh);
   SurfaceReport report;
   report.triangles = mesh.triangles.size();
   if (mesh.triangles.empty())

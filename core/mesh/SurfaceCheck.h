@@ -41,6 +41,10 @@ struct SurfaceReport
   bool sound() const { return closedManifold() && outward(); }
 };
 
+/// Throws InvalidInput where a triangle names a point that is not there, or one with a coordinate that is not finite or beyond
+/// limits::coordinate.
+void requireCorners(const TriangleMesh& mesh);
+
 /// Measures one surface in time linear in its triangles. Volume by the divergence theorem about a point of the surface, so that a
 /// small surface far from the origin loses no digits. An empty surface gives a report of zeros, which is not closed. Throws
 /// InvalidInput where a triangle names a point that is not there or a used coordinate is not finite or beyond limits::coordinate.

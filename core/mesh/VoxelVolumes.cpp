@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/VoxelVolumes.h"
 
+#include "mesh/SurfaceCheck.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -199,6 +201,7 @@ VoxelVolumes blockAround(const TriangleMesh& mesh, const VoxelBoxes& voxels)
 
 VoxelVolumes voxelVolumes(const TriangleMesh& mesh, const VoxelBoxes& voxels)
 {
+  requireCorners(mesh);
   VoxelVolumes block = blockAround(mesh, voxels);
   if (block.count[0] == 0)
   {
