@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <clocale>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 namespace cactus
@@ -47,6 +49,23 @@ bool isTiny(std::string_view number)
   return exponent < -power;
 }
 
+/// takeNumber() of one that starts with 0x behind its sign. The standard library's from_chars (of g++ 12) rounds some subnormal ones to
+/// the wrong side.
+bool takeHexadecimal(std::string_view& text, double& value)
+{
+  const std::string number(text.substr(0, text.find_first_not_of("0123456789abcdefABCDEFxXpP.+-")));
+  const static locale_t c = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  char* end = nullptr;
+  const double found = ::strtod_l(number.c_str(), &end, c);
+  if (!std::isfinite(found))
+  {
+    return false;
+  }
+  value = found;
+  text.remove_prefix(static_cast<std::size_t>(end - number.c_str()));
+  return true;
+}
+
 } // namespace
 
 void appendNumber(std::string& text, double value, int digits)
@@ -69,7 +88,7 @@ void skipBlanks(std::string_view& text)
 bool takeNumber(std::string_view& text, double& value)
 {
   std::string_view rest = text;
-  // from_chars knows a minus sign, but no plus sign and no 0x.
+  // from_chars knows a minus sign, but no plus sign.
   bool negative = false;
   if (!rest.empty() && (rest.front() == '+' || rest.front() == '-'))
   {
@@ -80,21 +99,12 @@ bool takeNumber(std::string_view& text, double& value)
   {
     return false;
   }
-  const char* const last = rest.data() + rest.size();
+  if (rest.size() > 2 && rest[0] == '0' && (rest[1] == 'x' || rest[1] == 'X'))
+  {
+    return takeHexadecimal(text, value);
+  }
   double found = 0.0;
-  std::from_chars_result read = { rest.data(), std::errc::invalid_argument };
-  if (rest.size() > 2 && rest[0] == '0' && (rest[1] == 'x' || rest[1] == 'X') && rest[2] != '-')
-  {
-    read = std::from_chars(rest.data() + 2, last, found, std::chars_format::hex);
-    if (read.ec == std::errc::result_out_of_range)
-    {
-      return false;
-    }
-  }
-  if (read.ec != std::errc())
-  {
-    read = std::from_chars(rest.data(), last, found);
-  }
+  const std::from_chars_result read = std::from_chars(rest.data(), rest.data() + rest.size(), found);
   const auto length = static_cast<std::size_t>(read.ptr - rest.data());
   if (read.ec == std::errc::result_out_of_range && isTiny(rest.substr(0, length)))
   {

@@ -28,7 +28,7 @@ void skipBlanks(std::string_view& text);
 
 /// Takes a number from the front of `text` as strtod does in the C locale: with a sign or without, "1.", ".5", "1e-3", "0x1p-3";
 /// what is too small for a double is 0. Returns false, and leaves both as they are, where there is none, and where it is
-/// infinite, not a number, or too large for a double (hexadecimal ones also where too small).
+/// infinite, not a number, or too large for a double.
 bool takeNumber(std::string_view& text, double& value);
 
 /// The first characters of what was found in a file, fit for a message: without control characters, in UTF-8, and not long.

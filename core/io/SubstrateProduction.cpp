@@ -201,6 +201,14 @@ ProducedSubstrate produceSubstrate(
     spool->remove();
     throw;
   }
+  catch (...)
+  {
+    if (spool->isEmpty())
+    {
+      spool->remove();
+    }
+    throw;
+  }
 }
 
 } // namespace cactus

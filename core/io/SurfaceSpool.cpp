@@ -126,6 +126,7 @@ void SurfaceSpool::readJournal()
       throw FileError("the journal in " + this->Folder.string() + " is damaged: remove this folder");
     }
     std::memcpy(&index, record.data() + 2, sizeof(index));
+    this->IsEmpty = false;
     this->IsSpacingDone = this->IsSpacingDone || record[0] == spacingDone;
     if (record[0] == spacingDone || index >= this->Count)
     {
@@ -153,6 +154,7 @@ void SurfaceSpool::note(char step, std::size_t index, const FibreSurfacePair& pa
   std::string record{ step, static_cast<char>(isMoved ? 1 : 0) };
   record.append(reinterpret_cast<const char*>(&number), sizeof(number));
   this->Log->add(record + bytesOf(pair));
+  this->IsEmpty = false;
 }
 
 bool SurfaceSpool::recallOuter(std::size_t index, FibreSurfacePair& pair) const

@@ -6,6 +6,7 @@
 #include "surface/SurfaceJournal.h"
 
 #include <cstddef>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -34,6 +35,8 @@ public:
   SurfaceStore& inner() { return this->Inner; }
   /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
   std::size_t found() const { return this->Found; }
+  /// Whether nothing of any fibre is in the journal.
+  bool isEmpty() const { return this->IsEmpty; }
 
   bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
   void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;
@@ -77,6 +80,7 @@ private:
   std::optional<RecordLog> Log;
   Files Outer;
   Files Inner;
+  std::atomic<bool> IsEmpty{ true };
   bool IsSpacingDone = false;
   // Of each fibre, in the order of the journal.
   std::vector<std::vector<std::string>> OuterNotes;

@@ -59,7 +59,7 @@ private:
   const LabelImageFacts& Facts;
   const MyelinSurfaceOptions& Options;
   const SurfaceFilters* Filters;
-  const Context& Caller;
+  const Context Caller;
   SurfaceJournal NoJournal;
   SurfaceJournal& Journal;
   FibreMesher Mesher;

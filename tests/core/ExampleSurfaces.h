@@ -22,6 +22,19 @@ inline cactus::TriangleMesh tetrahedron(const Eigen::Vector3d& origin, double si
   return mesh;
 }
 
+/// A box from corner to corner, wound outward.
+inline cactus::TriangleMesh box(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
+{
+  cactus::TriangleMesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    mesh.points.push_back({ (corner & 1 ? upper : lower)[0], (corner & 2 ? upper : lower)[1], (corner & 4 ? upper : lower)[2] });
+  }
+  mesh.triangles = { { { 0, 2, 1 } }, { { 1, 2, 3 } }, { { 4, 5, 6 } }, { { 5, 7, 6 } }, { { 0, 1, 4 } }, { { 1, 5, 4 } },
+    { { 2, 6, 3 } }, { { 3, 6, 7 } }, { { 0, 4, 2 } }, { { 2, 4, 6 } }, { { 1, 3, 5 } }, { { 3, 7, 5 } } };
+  return mesh;
+}
+
 /// A closed tube along z around (x, y), from z = `lower` to `upper`, with capped ends; its rings are moved sideways by up to
 /// `noise`.
 inline cactus::TriangleMesh tube(double x, double y, double radius, double lower, double upper, int sides = 24, int rings = 20,

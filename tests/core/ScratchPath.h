@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Files of tests: where they are, and what is in them.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <unistd.h>
 
@@ -13,6 +17,13 @@ namespace cactus_testing
 inline std::string scratchPath(const std::string& name)
 {
   return ::testing::TempDir() + "cactus-" + std::to_string(::getpid()) + '-' + name;
+}
+
+/// All bytes of a file.
+inline std::string contentOf(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
 } // namespace cactus_testing

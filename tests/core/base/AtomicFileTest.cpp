@@ -2,6 +2,7 @@
 #include "base/AtomicFile.h"
 
 #include "ChildProcess.h"
+#include "ScratchPath.h"
 #include "base/Error.h"
 #include "base/PartialName.h"
 
@@ -23,11 +24,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-std::string textOf(const fs::path& path)
-{
-  std::ifstream file(path);
-  return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-}
+using cactus_testing::contentOf;
 
 void put(const fs::path& path, const std::string& text)
 {
@@ -116,11 +113,11 @@ TEST_F(AtomicFile, WritesThroughLinks)
   EXPECT_EQ(write(this->File, "new"), "");
   EXPECT_TRUE(fs::is_symlink(this->File));
   EXPECT_TRUE(fs::is_symlink(this->Scratch / "second"));
-  EXPECT_EQ(textOf(this->Scratch / "data/real"), "new");
+  EXPECT_EQ(contentOf(this->Scratch / "data/real"), "new");
 
   fs::create_symlink("data/not yet there", this->Scratch / "dangling");
   EXPECT_EQ(write(this->Scratch / "dangling", "new"), "");
-  EXPECT_EQ(textOf(this->Scratch / "data/not yet there"), "new");
+  EXPECT_EQ(contentOf(this->Scratch / "data/not yet there"), "new");
   fs::create_symlink("round", this->Scratch / "round");
   EXPECT_NE(write(this->Scratch / "round", "new").find("cannot follow the link"), std::string::npos);
   EXPECT_EQ(this->entries(), (Names{ "a.strands", "dangling", "data", "round", "second" }));
@@ -161,7 +158,7 @@ TEST_F(AtomicFile, RefusesWhatIsProtected)
       [this] { return cactus_testing::becomeOrdinaryUser() ? write(this->File, "new") : std::string("no other user"); });
   };
   EXPECT_NE(writeAsUser().find("write-protected"), std::string::npos);
-  EXPECT_EQ(textOf(this->File), "precious");
+  EXPECT_EQ(contentOf(this->File), "precious");
   fs::remove(this->File);
   fs::permissions(this->Scratch, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
   EXPECT_NE(writeAsUser().find("Permission denied"), std::string::npos);
@@ -180,7 +177,7 @@ TEST_F(AtomicFile, LosesNothingWhereTheDiskIsFull)
       return write(this->File, std::string(1 << 20, 'x'));
     });
   EXPECT_NE(limited.find("File too large"), std::string::npos) << limited;
-  EXPECT_EQ(textOf(this->File), "precious");
+  EXPECT_EQ(contentOf(this->File), "precious");
   EXPECT_EQ(this->entries(), Names{ "a.strands" });
 
   const std::string full = cactus_testing::inChild(
@@ -192,7 +189,7 @@ TEST_F(AtomicFile, LosesNothingWhereTheDiskIsFull)
       }
       put(this->File, "precious");
       const std::string message = write(this->File, std::string(1 << 20, 'x'));
-      return textOf(this->File) + " " + std::to_string(this->entries().size()) + " " + message;
+      return contentOf(this->File) + " " + std::to_string(this->entries().size()) + " " + message;
     });
   if (full == "no mount")
   {
@@ -214,10 +211,10 @@ TEST_F(AtomicFile, OutlivesAKillAtAnyCall)
     {
       GTEST_SKIP() << "processes may not be traced here";
     }
-    const std::string text = textOf(this->File);
+    const std::string text = contentOf(this->File);
     EXPECT_TRUE(text == "former" || text == "the new one") << text << " after call " << call;
     EXPECT_EQ(write(this->File, "next"), "");
-    EXPECT_EQ(textOf(this->File), "next");
+    EXPECT_EQ(contentOf(this->File), "next");
     EXPECT_EQ(this->entries(), Names{ "a.strands" }) << "after call " << call;
     if (fate == cactus_testing::Fate::finished)
     {
@@ -238,7 +235,7 @@ TEST_F(AtomicFile, LeavesAloneWhatMayBeAnothers)
   EXPECT_EQ(write(this->File, "new"), "");
   EXPECT_EQ(this->entries().size(), 5u);
   living.commit();
-  EXPECT_EQ(textOf(this->File), "still being written");
+  EXPECT_EQ(contentOf(this->File), "still being written");
   EXPECT_EQ(this->entries().size(), 4u);
 
   const fs::path old = this->Scratch / "a.strands.partial-00000001-00000000";

@@ -23,13 +23,9 @@
 namespace
 {
 
-using namespace cactus;
+using cactus_testing::contentOf;
 
-std::string contentOf(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
+using namespace cactus;
 
 void replaceContent(const std::string& path, const std::string& content)
 {

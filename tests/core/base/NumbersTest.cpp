@@ -30,6 +30,8 @@
 namespace
 {
 
+using cactus_testing::contentOf;
+
 using namespace cactus;
 
 /// What is read from a text as one number; NaN where it is none.
@@ -85,12 +87,6 @@ private:
   std::locale Before;
   bool HasC = false;
 };
-
-std::string contentOf(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(file), {});
-}
 
 std::string messageOf(const std::function<void()>& work)
 {
@@ -182,6 +178,9 @@ TEST(Numbers, AreReadAsInTheCLocale)
   EXPECT_EQ(taken("1,5", ",5"), 1.0);
   EXPECT_EQ(taken("0x1.8p1"), 3.0);
   EXPECT_EQ(taken("-0XA"), -10.0);
+  EXPECT_EQ(taken("0x.7efef6928463cap-1022"), 0x0.7efef6928463cp-1022) << "halfway between two";
+  EXPECT_EQ(taken("0x1p-5000"), 0.0);
+  EXPECT_EQ(taken("0xy", "xy"), 0.0);
   EXPECT_EQ(taken("4.9e-324"), 4.9e-324);
   EXPECT_EQ(taken("1e-400"), 0.0);
   EXPECT_EQ(taken("0.0001e-399"), 0.0);

@@ -28,7 +28,7 @@ enum class Kind
   Thick
 };
 
-struct Options
+struct RecordedOptions
 {
   double size = 0.1;
   int threads = 2;
@@ -37,26 +37,26 @@ struct Options
   std::uint64_t seed = 7;
   double unused = 3.0;
 
-  static const cactus::PropertyList<Options>& properties()
+  static const cactus::PropertyList<RecordedOptions>& properties()
   {
-    static const auto list = cactus::PropertyList<Options>()
-                               .add("Size", &Options::size, { 0.0, 1.0 }, "Size")
-                               .add("Threads", &Options::threads, { 0.0, 9.0 }, "Threads")
+    static const auto list = cactus::PropertyList<RecordedOptions>()
+                               .add("Size", &RecordedOptions::size, { 0.0, 1.0 }, "Size")
+                               .add("Threads", &RecordedOptions::threads, { 0.0, 9.0 }, "Threads")
                                .use(cactus::PropertyUse::Run)
-                               .add("Kind", &Options::kind, { "Thin", "Thick" }, "Kind")
-                               .add("IsOn", &Options::isOn, "Whether")
-                               .add("Seed", &Options::seed, { 0.0, 9.0 }, "Seed")
-                               .add("Unused", &Options::unused, { 0.0, 9.0 }, "Unused")
+                               .add("Kind", &RecordedOptions::kind, { "Thin", "Thick" }, "Kind")
+                               .add("IsOn", &RecordedOptions::isOn, "Whether")
+                               .add("Seed", &RecordedOptions::seed, { 0.0, 9.0 }, "Seed")
+                               .add("Unused", &RecordedOptions::unused, { 0.0, 9.0 }, "Unused")
                                .where("Kind", { 1 });
     return list;
   }
 };
 
-cactus::StageRecord stage(const std::string& filter, const Options& options = {})
+cactus::StageRecord stage(const std::string& filter, const RecordedOptions& options = {})
 {
   cactus::StageRecord record;
   record.filter = filter;
-  record.properties = Options::properties().states(options);
+  record.properties = RecordedOptions::properties().states(options);
   return record;
 }
 
@@ -69,7 +69,7 @@ DataOrigin from(const Provenance& records)
 
 Provenance source(int seed, const std::string& checksum)
 {
-  Options options;
+  RecordedOptions options;
   options.seed = static_cast<std::uint64_t>(seed);
   return provenanceOfOutput(provenanceOf(stage("Source", options)), 0, checksum);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/FibreRadialGrowth.h"
 
+#include "GrowthExamples.h"
 #include "Sanitized.h"
 #include "base/Constants.h"
 #include "base/Error.h"
@@ -26,13 +27,8 @@ namespace
 using namespace cactus;
 
 using cactus::pi;
-
-Fibres emptyFibres(double side)
-{
-  Fibres fibres;
-  fibres.domain = Domain::cube(side);
-  return fibres;
-}
+using cactus_testing::emptyFibres;
+using cactus_testing::grown;
 
 void addStraight(
   Fibres& fibres, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, int points = 2, int id = 0)
@@ -121,13 +117,6 @@ VoxelGrid extent(VoxelGrid grid, std::array<int, 3> lower, std::array<int, 3> co
   grid.lower = lower;
   grid.count = count;
   return grid;
-}
-
-LabelImage grown(const Fibres& fibres, const FibreRadialGrowthOptions& options, int threads = 2)
-{
-  Context context;
-  context.threads = threads;
-  return growFibres(fibres, options, growthFor(fibres, options, context), growthGrid(fibres.domain, options), context);
 }
 
 double filledFraction(const LabelImage& image)

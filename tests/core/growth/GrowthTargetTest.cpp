@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/GrowthTarget.h"
 
+#include "GrowthExamples.h"
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
@@ -26,13 +27,8 @@ namespace
 using namespace cactus;
 
 using cactus::pi;
-
-Fibres emptyFibres(double side)
-{
-  Fibres fibres;
-  fibres.domain = Domain::cube(side);
-  return fibres;
-}
+using cactus_testing::emptyFibres;
+using cactus_testing::grown;
 
 /// A straight fibre along z through the whole of a domain of `side`.
 void addStraight(Fibres& fibres, double x, double y, double side, double radius, double targetRadius)
@@ -42,11 +38,6 @@ void addStraight(Fibres& fibres, double x, double y, double side, double radius,
   {
     fibres.addPoint({ x, y, side * (0.25 * i - 1.0) }, radius);
   }
-}
-
-LabelImage grown(const Fibres& fibres, const FibreRadialGrowthOptions& options)
-{
-  return growFibres(fibres, options, growthFor(fibres, options), growthGrid(fibres.domain, options));
 }
 
 /// Volume (µm³) of each fibre by counting voxels, in the order of the fibres.

@@ -3,6 +3,7 @@
 #include "io/FolderReplacement.h"
 
 #include "ChildProcess.h"
+#include "ScratchPath.h"
 #include "base/Error.h"
 #include "io/SubstrateFolder.h"
 
@@ -22,11 +23,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-std::string textOf(const fs::path& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-}
+using cactus_testing::contentOf;
 
 void put(const fs::path& path, const std::string& text)
 {
@@ -42,7 +39,7 @@ std::map<std::string, std::string> snapshot(const fs::path& folder)
     const fs::path path = entry.path();
     found[path.lexically_relative(folder).string()] = entry.is_symlink()     ? "link to " + fs::read_symlink(path).string()
                                                       : entry.is_directory() ? "folder"
-                                                                             : textOf(path);
+                                                                             : contentOf(path);
   }
   return found;
 }
@@ -139,7 +136,7 @@ TEST_F(FolderReplacement, KeepsWhatTheUserChanged)
   ASSERT_EQ(write(this->Folder), "");
   const fs::path conf = this->Folder / "mcdc/intra.conf";
   const auto time = fs::last_write_time(conf);
-  std::string text = textOf(conf);
+  std::string text = contentOf(conf);
   text.replace(text.find("N 1000"), 6, "N 9000");
   put(conf, text);
   fs::last_write_time(conf, time);
@@ -184,7 +181,7 @@ TEST_F(FolderReplacement, KeepsWhatTheUserAdded)
     fs::remove(this->Folder / ("note" + std::to_string(100 + i)));
   }
   EXPECT_EQ(write(this->Folder), "") << "what is missing is no loss";
-  EXPECT_EQ(textOf(outside / "data"), "precious");
+  EXPECT_EQ(contentOf(outside / "data"), "precious");
 }
 
 TEST_F(FolderReplacement, KeepsWhatItDoesNotKnow)
@@ -210,7 +207,7 @@ TEST_F(FolderReplacement, KeepsWhatTheUserChangesMeanwhile)
   replacement.staging().write("README.txt", "new");
   put(this->Folder / "mcdc/intra.conf", "precious");
   EXPECT_THROW(replacement.commit(), cactus::FileError);
-  EXPECT_EQ(textOf(this->Folder / "mcdc/intra.conf"), "precious");
+  EXPECT_EQ(contentOf(this->Folder / "mcdc/intra.conf"), "precious");
 }
 
 TEST_F(FolderReplacement, KeepsWhatIsWriteProtected)

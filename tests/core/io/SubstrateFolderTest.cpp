@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateFolder.h"
 
+#include "ScratchPath.h"
 #include "base/Error.h"
 #include "io/PlyFile.h"
 
@@ -23,6 +24,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
+using cactus_testing::contentOf;
+
 cactus::TriangleMesh tetrahedron(double size)
 {
   cactus::TriangleMesh mesh;
@@ -38,12 +41,6 @@ cactus::FibreSurfaces surfacesOf(std::vector<int> ids, std::vector<cactus::Trian
   surfaces.bundleIds.assign(ids.size(), 1);
   surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
   return surfaces;
-}
-
-std::string textOf(const fs::path& path)
-{
-  std::ifstream file(path);
-  return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
 }
 
 class SubstrateFolder : public ::testing::Test
@@ -129,11 +126,11 @@ TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
   EXPECT_EQ(this->entries(), std::vector<std::string>{ "s" });
   for (const auto& file : files)
   {
-    EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"" + file.path + "\""), std::string::npos);
-    EXPECT_EQ(textOf(this->Scratch / "s" / file.path).substr(0, 4), "ply\n");
+    EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"" + file.path + "\""), std::string::npos);
+    EXPECT_EQ(contentOf(this->Scratch / "s" / file.path).substr(0, 4), "ply\n");
   }
-  EXPECT_EQ(textOf(this->Scratch / "s/mcdc/extra_ply_list.txt"), "1e-3\nouter/fibre_00002.ply\nouter/fibre_70000.ply\n");
-  EXPECT_EQ(textOf(this->Scratch / "s/mcdc/intra_ply_list.txt"), "1e-3\ninner/fibre_00002.ply\n");
+  EXPECT_EQ(contentOf(this->Scratch / "s/mcdc/extra_ply_list.txt"), "1e-3\nouter/fibre_00002.ply\nouter/fibre_70000.ply\n");
+  EXPECT_EQ(contentOf(this->Scratch / "s/mcdc/intra_ply_list.txt"), "1e-3\ninner/fibre_00002.ply\n");
   EXPECT_TRUE(fs::is_directory(this->Scratch / "s/mcdc/output"));
   EXPECT_FALSE(fs::exists(this->Scratch / "s/fibres.strands"));
 }
@@ -150,12 +147,12 @@ TEST_F(SubstrateFolder, HoldsItsCertificate)
   this->Contents.inner = surfacesOf({ 2 }, { inside });
   auto written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
   EXPECT_TRUE(written.certificate.certified());
-  EXPECT_EQ(textOf(this->Scratch / "s/certificate.csv").substr(0, 27), "quantity,value\nCertified,1\n");
-  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": true"), std::string::npos);
-  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("\nCERTIFIED: "), std::string::npos);
+  EXPECT_EQ(contentOf(this->Scratch / "s/certificate.csv").substr(0, 27), "quantity,value\nCertified,1\n");
+  EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"certified\": true"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/README.txt").find("\nCERTIFIED: "), std::string::npos);
   EXPECT_NE(
-    textOf(this->Scratch / "s/manifest.json").find("\"judged\": [\n    \"outer\",\n    \"inner\"\n  ]"), std::string::npos);
-  std::istringstream fibres(textOf(this->Scratch / "s/certificate_fibres.csv"));
+    contentOf(this->Scratch / "s/manifest.json").find("\"judged\": [\n    \"outer\",\n    \"inner\"\n  ]"), std::string::npos);
+  std::istringstream fibres(contentOf(this->Scratch / "s/certificate_fibres.csv"));
   std::string names;
   std::string row;
   std::getline(fibres, names);
@@ -174,9 +171,9 @@ TEST_F(SubstrateFolder, HoldsItsCertificate)
   this->Contents.certificate.minimumGap = 0.0;
   written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
   EXPECT_EQ(written.certificate.meetingPairs, 1u);
-  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"certified\": false"), std::string::npos);
-  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("NOT CERTIFIED"), std::string::npos);
-  EXPECT_NE(textOf(this->Scratch / "s/README.txt").find("1 pairs of outer surfaces cut or touch"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"certified\": false"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/README.txt").find("NOT CERTIFIED"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/README.txt").find("1 pairs of outer surfaces cut or touch"), std::string::npos);
 }
 
 // Half a substrate is not passed off as a whole one.
@@ -186,18 +183,19 @@ TEST_F(SubstrateFolder, SaysFirstWhatWasNotJudged)
   this->Contents.inner = {};
   const auto written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
   EXPECT_TRUE(written.certificate.certified());
-  const std::string readme = textOf(this->Scratch / "s/README.txt");
+  const std::string readme = contentOf(this->Scratch / "s/README.txt");
   EXPECT_EQ(readme.find("A substrate of 1 fibres without inner surfaces"), 0u) << readme;
   EXPECT_NE(readme.find("\nCERTIFIED for its outer surfaces alone, as there are no inner ones: "), std::string::npos) << readme;
-  EXPECT_EQ(textOf(this->Scratch / "s/certificate.csv").find("quantity,value\nCertified,1\nOuterJudged,1\nInnerJudged,0\n"), 0u);
-  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"judged\": [\n    \"outer\"\n  ]"), std::string::npos);
+  EXPECT_EQ(
+    contentOf(this->Scratch / "s/certificate.csv").find("quantity,value\nCertified,1\nOuterJudged,1\nInnerJudged,0\n"), 0u);
+  EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"judged\": [\n    \"outer\"\n  ]"), std::string::npos);
 }
 
 // The simulator takes similar keys for each other and ignores the rest: only ones that it knows, spelt as it spells them.
 TEST_F(SubstrateFolder, ConfigurationHoldsKnownKeysAndBoxesInMillimetres)
 {
   ASSERT_EQ(this->write(this->Scratch / "s"), "");
-  std::istringstream conf(textOf(this->Scratch / "s/mcdc/extra.conf"));
+  std::istringstream conf(contentOf(this->Scratch / "s/mcdc/extra.conf"));
   std::map<std::string, std::vector<std::string>> values;
   std::string key;
   for (std::string line; std::getline(conf, line);)
@@ -242,7 +240,7 @@ TEST_F(SubstrateFolder, ConfigurationHoldsKnownKeysAndBoxesInMillimetres)
 TEST_F(SubstrateFolder, SchemeHasTheBValuesAskedFor)
 {
   ASSERT_EQ(this->write(this->Scratch / "s"), "");
-  std::istringstream scheme(textOf(this->Scratch / "s/mcdc/pgse.scheme"));
+  std::istringstream scheme(contentOf(this->Scratch / "s/mcdc/pgse.scheme"));
   std::string version;
   std::getline(scheme, version);
   EXPECT_EQ(version, "VERSION: STEJSKALTANNER");
@@ -267,7 +265,7 @@ TEST_F(SubstrateFolder, ReplacesItsOwn)
   this->Contents.inner = {};
   EXPECT_EQ(this->write(folder), "");
   EXPECT_FALSE(fs::exists(folder / "inner")) << "nothing of the former folder stays";
-  EXPECT_EQ(textOf(folder / "mcdc/intra_ply_list.txt").substr(0, 11), "1e-3\nouter/") << "inside the outer ones then";
+  EXPECT_EQ(contentOf(folder / "mcdc/intra_ply_list.txt").substr(0, 11), "1e-3\nouter/") << "inside the outer ones then";
   fs::create_directory(this->Scratch / "empty");
   EXPECT_EQ(this->write(this->Scratch / "empty"), "");
   EXPECT_EQ(this->entries(), (std::vector<std::string>{ "empty", "s" }));
@@ -300,7 +298,7 @@ TEST_F(SubstrateFolder, LeavesNothingBehindWhereItFails)
   this->Contents.outer = surfacesOf({ 9 }, { open });
   this->Contents.allowOpenSurfaces = true;
   EXPECT_EQ(this->write(this->Scratch / "s"), "");
-  EXPECT_NE(textOf(this->Scratch / "s/manifest.json").find("\"closed\": false"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"closed\": false"), std::string::npos);
 }
 
 TEST_F(SubstrateFolder, StopsWithoutATrace)
@@ -323,7 +321,7 @@ TEST_F(SubstrateFolder, SameBytesOnAnyNumberOfThreads)
   {
     if (entry.is_regular_file())
     {
-      EXPECT_EQ(textOf(entry.path()), textOf(this->Scratch / "3" / fs::relative(entry.path(), this->Scratch / "1")));
+      EXPECT_EQ(contentOf(entry.path()), contentOf(this->Scratch / "3" / fs::relative(entry.path(), this->Scratch / "1")));
     }
   }
 }

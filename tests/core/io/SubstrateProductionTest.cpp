@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -179,11 +180,24 @@ TEST_F(Production, GoesOnWhereItWasKilled)
   }
 }
 
+TEST_F(Production, LeavesNothingWhereItMadeNothing)
+{
+  Context context;
+  context.progress = [](double, const std::string&) { throw std::bad_alloc(); };
+  EXPECT_THROW(this->produce("early", context), std::bad_alloc);
+  EXPECT_FALSE(fs::exists(this->folder("early.work")));
+  context = {};
+  context.cancelled = [] { return true; };
+  EXPECT_THROW(this->produce("early", context), Cancelled);
+  EXPECT_FALSE(fs::exists(this->folder("early.work")));
+}
+
 TEST_F(Production, StopsAndGoesOn)
 {
   Context context;
-  int asked = 0;
-  context.cancelled = [&asked] { return ++asked > 40; };
+  std::atomic<bool> isHalfDone{ false };
+  context.progress = [&](double part, const std::string&) { isHalfDone = part > 0.5; };
+  context.cancelled = [&] { return isHalfDone.load(); };
   EXPECT_THROW(this->produce("stopped", context), Cancelled);
   EXPECT_TRUE(fs::exists(this->folder("stopped.work/journal")));
   this->produce("stopped");

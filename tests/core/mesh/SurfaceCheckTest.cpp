@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceCheck.h"
 
+#include "ExampleSurfaces.h"
 #include "base/Constants.h"
 #include "base/Error.h"
 
@@ -15,21 +16,14 @@ namespace
 
 using cactus::pi;
 
-/// A cube of the given side with its lower corner at `at`, wound outward.
+/// A cube of the given side with its lower corner at `at`.
 cactus::TriangleMesh cube(double side, const Eigen::Vector3d& at)
 {
-  cactus::TriangleMesh mesh;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    mesh.points.push_back(at + side * Eigen::Vector3d(corner & 1, (corner >> 1) & 1, corner >> 2));
-  }
-  mesh.triangles = { { { 0, 2, 1 } }, { { 1, 2, 3 } }, { { 4, 5, 6 } }, { { 5, 7, 6 } }, { { 0, 1, 4 } }, { { 1, 5, 4 } },
-    { { 2, 6, 3 } }, { { 3, 6, 7 } }, { { 0, 4, 2 } }, { { 2, 4, 6 } }, { { 1, 3, 5 } }, { { 3, 7, 5 } } };
-  return mesh;
+  return example::box(at, at + Eigen::Vector3d::Constant(side));
 }
 
 /// A unit sphere: an octahedron with every triangle split in four `levels` times.
-cactus::TriangleMesh sphere(int levels)
+cactus::TriangleMesh octahedralSphere(int levels)
 {
   cactus::TriangleMesh mesh;
   mesh.points = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
@@ -100,7 +94,7 @@ TEST(SurfaceCheck, CubeFarFromTheOrigin)
 
 TEST(SurfaceCheck, SphereApproachesItsFormulas)
 {
-  const auto report = cactus::checkSurface(sphere(5));
+  const auto report = cactus::checkSurface(octahedralSphere(5));
   EXPECT_TRUE(report.closedManifold() && report.outward());
   EXPECT_EQ(report.points, report.triangles / 2 + 2); // Euler's formula for a sphere
   EXPECT_NEAR(report.volume, 4.0 / 3.0 * pi, 0.01);

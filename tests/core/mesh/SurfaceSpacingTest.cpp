@@ -80,7 +80,7 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& meshes, More&&... more
   return report;
 }
 
-const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
+const Eigen::AlignedBox3d domainBox(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
 
 // Two tips, one above the other, whose normals point nearly sideways: what moves them inwards hardly moves them apart.
 TEST(SurfaceSpacing, PartsCornersThatMoveAskew)
@@ -102,7 +102,7 @@ TEST(SurfaceSpacing, PartsCornersThatMoveAskew)
   TriangleMesh lower = tip(0.0, 0.9);
   TriangleMesh upper = tip(0.019, -0.9);
   ASSERT_TRUE(checkSurface(lower).outward() && checkSurface(upper).outward());
-  const SpacingReport report = keepApart({ &lower, &upper }, 0.02, box);
+  const SpacingReport report = keepApart({ &lower, &upper }, 0.02, domainBox);
   EXPECT_TRUE(report.tooNear.empty());
   EXPECT_GE((upper.points[0] - lower.points[0]).norm(), 0.02);
 }
@@ -121,7 +121,7 @@ TEST(SurfaceSpacing, MovesWhatIsTooNearToTheGap)
   const TriangleMesh oldFar = far;
   TriangleMesh empty;
   ASSERT_LT(sampledDistance(left, right), 0.0151);
-  const SpacingReport report = keepApart({ &left, &empty, &far, &right }, 0.02, box);
+  const SpacingReport report = keepApart({ &left, &empty, &far, &right }, 0.02, domainBox);
   EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 0, 3 }));
   EXPECT_TRUE(report.tooNear.empty());
   const double distance = sampledDistance(left, right);
@@ -147,7 +147,7 @@ TEST(SurfaceSpacing, PointsOnTheBoxStayOnIt)
   TriangleMesh left = tube(-0.5, 0.5);
   TriangleMesh right = tube(0.515, 0.5);
   const TriangleMesh before = left;
-  const SpacingReport report = keepApart({ &left, &right }, 0.02, box);
+  const SpacingReport report = keepApart({ &left, &right }, 0.02, domainBox);
   EXPECT_EQ(report.moved.size(), 2u);
   EXPECT_TRUE(report.tooNear.empty());
   EXPECT_GE(sampledDistance(left, right), 0.02);
@@ -163,7 +163,7 @@ TEST(SurfaceSpacing, NamesWhatItCannotPart)
   // One through the other: to move each inwards does not help.
   TriangleMesh left = tube(-0.1, 0.5);
   TriangleMesh right = tube(0.1, 0.5);
-  EXPECT_EQ(keepApart({ &left, &right }, 0.02, box).tooNear, (std::vector<std::size_t>{ 0, 1 }));
+  EXPECT_EQ(keepApart({ &left, &right }, 0.02, domainBox).tooNear, (std::vector<std::size_t>{ 0, 1 }));
 }
 
 TEST(SurfaceSpacing, SameBitsOnAnyNumberOfThreadsAndStops)
@@ -176,7 +176,7 @@ TEST(SurfaceSpacing, SameBitsOnAnyNumberOfThreadsAndStops)
     TriangleMesh beyond = tube(1.545, 0.5);
     Context context;
     context.threads = threads;
-    keepApart({ &left, &right, &beyond }, 0.02, box, context);
+    keepApart({ &left, &right, &beyond }, 0.02, domainBox, context);
     results.push_back(right);
   }
   EXPECT_EQ(results[0].points, results[1].points);
@@ -185,7 +185,7 @@ TEST(SurfaceSpacing, SameBitsOnAnyNumberOfThreadsAndStops)
   TriangleMesh right = tube(0.53, 0.5);
   Context context;
   context.cancelled = [] { return true; };
-  EXPECT_THROW(keepApart({ &left, &right }, 0.02, box, context), Cancelled);
+  EXPECT_THROW(keepApart({ &left, &right }, 0.02, domainBox, context), Cancelled);
 }
 
 TEST(SurfaceSpacing, LooksOnlyAtWhatHasChangedOrIsMoved)
@@ -198,12 +198,12 @@ TEST(SurfaceSpacing, LooksOnlyAtWhatHasChangedOrIsMoved)
   const std::vector<TriangleMesh*> all{ &far, &near, &left, &middle, &right };
   const TriangleMesh oldFar = far;
   const TriangleMesh oldLeft = left;
-  EXPECT_EQ(keepApart(all, std::vector<std::size_t>{ 1 }, 0.005, box).moved, std::vector<std::size_t>{});
-  const SpacingReport report = keepApart(all, std::vector<std::size_t>{ 4 }, 0.02, box);
+  EXPECT_EQ(keepApart(all, std::vector<std::size_t>{ 1 }, 0.005, domainBox).moved, std::vector<std::size_t>{});
+  const SpacingReport report = keepApart(all, std::vector<std::size_t>{ 4 }, 0.02, domainBox);
   EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 2, 3, 4 })) << "0 and 1 are too near, too, but neither has changed";
   EXPECT_EQ(far.points, oldFar.points);
   EXPECT_NE(left.points, oldLeft.points) << "3 has moved, and is too near to 2";
-  EXPECT_EQ(keepApart(all, std::vector<std::size_t>{ 1 }, 0.02, box).moved, (std::vector<std::size_t>{ 0, 1 }));
+  EXPECT_EQ(keepApart(all, std::vector<std::size_t>{ 1 }, 0.02, domainBox).moved, (std::vector<std::size_t>{ 0, 1 }));
 }
 
 /// The mesh with its axes moved on: what was along z lies along x.
