@@ -17,7 +17,10 @@ macro (cactus_vtk_module name)
     CLASSES ${classes}
     SOURCES ${shared_sources}
     PRIVATE_HEADERS ${shared_headers})
-  vtk_module_compile_options(${name} PRIVATE ${CACTUS_WARNINGS} $<$<BOOL:${CACTUS_SANITIZE}>:-O0>)
+  vtk_module_compile_options(${name} PRIVATE ${CACTUS_WARNINGS})
+  if (CACTUS_SANITIZE)
+    vtk_module_compile_options(${name} PRIVATE -O0)
+  endif ()
   if (CACTUS_QUICK_BUILD)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   endif ()
