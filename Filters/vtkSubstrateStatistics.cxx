@@ -58,6 +58,14 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("TrianglesPerArea_um-2", s.trianglesPerArea);
   number("SmallestAngle_deg", s.smallestAngle);
   number("LargestSquaredEdgeRatio", s.largestSquaredEdgeRatio);
+  number("MeanTortuosity", s.meanTortuosity);
+  number("MeanOuterCalibreVariation", s.meanOuterCalibreVariation);
+  number("MeanInnerCalibreVariation", s.meanInnerCalibreVariation);
+  number("MeanAxonAreaFluctuation_um", s.meanAreaFluctuation);
+  number("EffectiveRadius_um", s.effectiveRadius);
+  number("MiddleEffectiveRadius_um", s.middleEffectiveRadius);
+  number("IntraAxonalSurfaceToVolume_um-1", s.intraSurfaceToVolume);
+  number("ExtraAxonalSurfaceToVolume_um-1", s.extraSurfaceToVolume);
 }
 
 void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fibres)
@@ -92,6 +100,30 @@ void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fib
   integer("InnerTriangles", [](const Fibre& f) { return f.inner.triangles; });
   integer("OuterCuts", [](const Fibre& f) { return f.outerRadius.cuts; });
   integer("InnerCuts", [](const Fibre& f) { return f.innerRadius.cuts; });
+  number("Tortuosity", [](const Fibre& f) { return f.tortuosity; });
+  number("OuterCalibreVariation", [](const Fibre& f) { return f.outerCalibreVariation(); });
+  number("InnerCalibreVariation", [](const Fibre& f) { return f.innerCalibreVariation(); });
+  number("MeanInverseAxonArea_um-2", [](const Fibre& f) { return f.axon.meanInverseArea; });
+  number("AxonAreaVariance", [](const Fibre& f) { return f.axon.areaVariance; });
+  number("AxonAreaFluctuation_um", [](const Fibre& f) { return f.axon.areaFluctuation; });
+  number("AxonDiffusivityRatio", [](const Fibre& f) { return f.axon.diffusivityRatio; });
+  number("EffectiveRadius_um", [](const Fibre& f) { return f.axon.effectiveRadius; });
+  number("AxonSurfaceToVolume_um-1", [](const Fibre& f) { return f.axonSurfaceToVolume(); });
+}
+
+void fillProfiles(vtkTable* table, const std::vector<cactus::ProfilePoint>& points)
+{
+  using Point = cactus::ProfilePoint;
+  const auto number = [&](const char* name, double Point::*value)
+  { addColumn<vtkDoubleArray>(table, name, points.size(), [&](std::size_t row) { return points[row].*value; }); };
+  addColumn<vtkIntArray>(table, "FibreId", points.size(), [&](std::size_t row) { return points[row].fibreId; });
+  number("ArcLength_um", &Point::arcLength);
+  number("OuterDiameter_um", &Point::outerDiameter);
+  number("InnerDiameter_um", &Point::innerDiameter);
+  number("OuterCircularity", &Point::outerCircularity);
+  number("InnerCircularity", &Point::innerCircularity);
+  number("MyelinThickness_um", &Point::myelinThickness);
+  number("GRatio", &Point::gRatio);
 }
 
 void fillHistograms(vtkTable* table, const std::vector<cactus::FibreStatistics>& fibres, std::size_t bins)
@@ -133,7 +165,7 @@ vtkSubstrateStatistics::vtkSubstrateStatistics()
   : Properties(cactus::makeProperties<cactus::SubstrateStatisticsStage>())
 {
   this->SetNumberOfInputPorts(3);
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
 }
 
 int vtkSubstrateStatistics::FillInputPortInformation(int port, vtkInformation* info)
@@ -184,8 +216,9 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       fillSubstrate(vtkTable::GetData(outputs, 0), statistics);
       fillFibres(vtkTable::GetData(outputs, 1), statistics.fibres);
       fillHistograms(vtkTable::GetData(outputs, 2), statistics.fibres, static_cast<std::size_t>(stage.bins));
+      fillProfiles(vtkTable::GetData(outputs, 3), cactus::profilesOf(statistics.fibres, stage.options.cutSpacing));
       const auto provenance = cactus::recordOf(this, "SubstrateStatistics", stage, { "Fibres", "Outer", "Inner" });
-      for (int port = 0; port < 3; ++port)
+      for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
       {
         cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
       }

@@ -6,6 +6,7 @@
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfacePieces.h"
+#include "mesh/SurfaceWall.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,41 +21,6 @@ namespace
 
 /// Pairs of triangles of a surface that are counted: a ruined one may have half a billion.
 constexpr std::size_t mostIntersections = 10000;
-/// µm. Triangles as near as this to a face of the domain with all corners are a cap's.
-constexpr double capTolerance = 1e-6;
-
-/// The triangles that are no caps on the faces of the domain.
-std::vector<std::uint32_t> wallOf(const TriangleMesh& mesh, const Domain& box)
-{
-  Eigen::Vector3d lower = box.lower;
-  Eigen::Vector3d upper = box.upper;
-  for (const Eigen::Vector3d& point : mesh.points)
-  {
-    lower = lower.cwiseMin(point);
-    upper = upper.cwiseMax(point);
-  }
-  // Surfaces that were not clipped to the domain end in planes, too: those of the image.
-  const Eigen::Vector3d planes[4] = { box.lower, box.upper, lower, upper };
-  std::vector<unsigned> faces(mesh.points.size(), 0U);
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-  {
-    for (int face = 0; face < 12; ++face)
-    {
-      const int axis = face % 3;
-      faces[i] |= std::fabs(mesh.points[i][axis] - planes[face / 3][axis]) <= capTolerance ? 1U << face : 0U;
-    }
-  }
-  std::vector<std::uint32_t> wall;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-  {
-    const auto& t = mesh.triangles[i];
-    if ((faces[std::size_t(t[0])] & faces[std::size_t(t[1])] & faces[std::size_t(t[2])]) == 0U)
-    {
-      wall.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  return wall;
-}
 
 /// Whether a piece of `inside` cannot be shown to lie strictly inside `around`.
 bool leaves(
@@ -122,7 +88,7 @@ std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre,
     if (fibre.hasOuter)
     {
       fibre.gRatio = gRatioOf(fibre.inner.volume, fibre.outer.volume);
-      const TriangleTree wall(outer->mesh, wallOf(outer->mesh, this->Box));
+      const TriangleTree wall(outer->mesh, wallTriangles(outer->mesh, this->Box));
       const SurfaceGap gap = smallestGap(inner->tree, wall);
       fibre.myelinThickness = gap.found() ? gap.distance : notANumber;
     }

@@ -4,8 +4,9 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/Memory.h"
 #include "base/Parallel.h"
-#include "mesh/CrossSection.h"
+#include "mesh/SurfaceWall.h"
 #include "optimiser/OverlapReport.h"
 
 #include <algorithm>
@@ -20,18 +21,11 @@ namespace cactus
 namespace
 {
 
-/// µm. An outline nearer to the domain's boundary has been cut off by it; above the rounding of single-precision coordinates.
-constexpr double boundaryTolerance = 1e-3;
-
-/// The position (µm) at arc length `s` along a fibre's centre line, whose cumulative lengths are `arc`.
-Eigen::Vector3d positionAt(const Fibres& fibres, std::size_t fibre, const std::vector<double>& arc, double s)
-{
-  const auto after = std::upper_bound(arc.begin() + 1, arc.end() - 1, s);
-  const auto segment = static_cast<std::size_t>(after - arc.begin()) - 1;
-  const double weight = std::clamp((s - arc[segment]) / (arc[segment + 1] - arc[segment]), 0.0, 1.0);
-  const std::size_t first = fibres.offsets[fibre] + segment;
-  return (1.0 - weight) * fibres.points[first] + weight * fibres.points[first + 1];
-}
+/// µm. How far before a face of the domain a surface's cap may lie: MyelinSurface ends axons a quarter of a voxel before it at
+/// most.
+constexpr double largestInset = 0.5;
+/// What is kept of a cut, and what its row in a table takes, with room to grow.
+constexpr double bytesPerCut = 3.0 * sizeof(FibreCut) + 2.0 * sizeof(ProfilePoint);
 
 /// Index of every surface by fibre id, all of which have to be fibres'.
 std::unordered_map<int, std::size_t> indexOf(const FibreSurfaces& surfaces, const Fibres& fibres, const std::string& port)
@@ -92,6 +86,11 @@ double gRatioOf(double innerVolume, double outerVolume)
   return innerVolume > 0.0 && outerVolume > 0.0 ? std::sqrt(innerVolume / outerVolume) : 0.0;
 }
 
+double FibreStatistics::axonSurfaceToVolume() const
+{
+  return this->hasInner && this->inner.volume > 0.0 ? this->innerWallArea / this->inner.volume : notANumber;
+}
+
 const PropertyList<SubstrateStatisticsOptions>& SubstrateStatisticsOptions::properties()
 {
   using Options = SubstrateStatisticsOptions;
@@ -108,93 +107,45 @@ void SubstrateStatisticsOptions::validate() const
   validateProperties(*this);
 }
 
-double lengthInDomain(const Fibres& fibres, std::size_t fibre)
-{
-  double length = 0.0;
-  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
-  {
-    const auto [from, to] = fibres.domain.clip(fibres.points[i], fibres.points[i + 1]);
-    length += std::max(0.0, to - from) * (fibres.points[i + 1] - fibres.points[i]).norm();
-  }
-  return length;
-}
-
-RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing)
-{
-  std::vector<double> arc{ 0.0 };
-  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
-  {
-    arc.push_back(arc.back() + (fibres.points[i + 1] - fibres.points[i]).norm());
-  }
-  requireWithin("CutSpacing", spacing, limits::cutSpacing);
-  if (!(arc.back() / spacing <= limits::cuts))
-  {
-    throw InvalidInput(text("CutSpacing ", spacing, " µm makes more than ", limits::cuts, " cross-sections of fibre ",
-      fibres.fibreIds[fibre], ", whose centre line is ", arc.back(), " µm long: choose a larger CutSpacing"));
-  }
-  const CrossSections sections(surface);
-  std::vector<double> radii;
-  double circularities = 0.0;
-  for (std::size_t cut = 0; (static_cast<double>(cut) + 0.5) * spacing < arc.back(); ++cut)
-  {
-    const double s = (static_cast<double>(cut) + 0.5) * spacing;
-    const Eigen::Vector3d point = positionAt(fibres, fibre, arc, s);
-    // The chord over one spacing, so that a kink between two short segments does not tilt the plane.
-    const Eigen::Vector3d chord = positionAt(fibres, fibre, arc, std::min(s + 0.5 * spacing, arc.back())) -
-                                  positionAt(fibres, fibre, arc, std::max(s - 0.5 * spacing, 0.0));
-    if (fibres.domain.depth(point) <= 0.0 || chord.norm() <= 0.0)
-    {
-      continue;
-    }
-    const Eigen::Vector3d normal = chord.normalized();
-    const auto outline = sections.outlineAround(point, normal, 3.0 * fibres.targetRadii[fibre]);
-    const bool whole = std::all_of(outline.begin(), outline.end(),
-      [&](const Eigen::Vector3d& corner) { return fibres.domain.depth(corner) > boundaryTolerance; });
-    if (!outline.empty() && whole)
-    {
-      const double area = polygonArea(outline, normal);
-      const double perimeter = polygonPerimeter(outline);
-      radii.push_back(std::sqrt(area / pi));
-      circularities += 4.0 * pi * area / (perimeter * perimeter);
-    }
-  }
-
-  RadiusAlongFibre result{ radii.size(), notANumber, notANumber, notANumber };
-  if (!radii.empty())
-  {
-    double sum = 0.0;
-    for (const double radius : radii)
-    {
-      sum += radius;
-    }
-    result.mean = sum / static_cast<double>(radii.size());
-    result.circularity = circularities / static_cast<double>(radii.size());
-    double squares = 0.0;
-    for (const double radius : radii)
-    {
-      squares += (radius - result.mean) * (radius - result.mean);
-    }
-    result.deviation = std::sqrt(squares / static_cast<double>(radii.size()));
-  }
-  return result;
-}
-
 namespace
 {
 
+/// What is measured on one surface.
+struct SurfaceMeasures
+{
+  SurfaceReport& report;
+  RadiusAlongFibre& radius;
+  double& wallArea;
+  std::vector<FibreCut>& cuts;
+};
+
 void measureSurface(const Fibres& fibres, std::size_t fibre, const TriangleMesh& mesh, const std::string& what,
-  const SubstrateStatisticsOptions& options, SurfaceReport& report, RadiusAlongFibre& radius)
+  const SubstrateStatisticsOptions& options, SurfaceMeasures measures)
 {
   try
   {
-    report = checkSurface(mesh);
+    measures.report = checkSurface(mesh);
   }
   catch (const InvalidInput& error)
   {
     throw InvalidInput(what + ": " + error.what());
   }
   requireClipped(mesh, fibres.domain, options.clipTolerance, what);
-  radius = radiusAlongFibre(fibres, fibre, mesh, options.cutSpacing);
+  measures.cuts = cutsAlongFibre(fibres, fibre, mesh, options.cutSpacing);
+  measures.radius = radiusAlong(measures.cuts);
+  measures.wallArea = areaOf(mesh, wallTriangles(mesh, fibres.domain, largestInset));
+}
+
+/// Throws OutOfMemory where there is no room for the cuts of `sets` surfaces of each fibre.
+void requireRoomForCuts(const Fibres& fibres, std::size_t sets, double spacing)
+{
+  double cuts = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    cuts += std::min(limits::cuts, lengthInDomain(fibres, f) / spacing);
+  }
+  requireMemory(
+    static_cast<double>(sets) * cuts * bytesPerCut, text("CutSpacing ", spacing, " µm"), "choose a larger CutSpacing");
 }
 
 /// What the surfaces of all fibres come to; of surfaces that are not given fractions are NaN.
@@ -204,6 +155,8 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
   double outerVolume = 0.0;
   double innerVolume = 0.0;
   double area = 0.0;
+  double outerWall = 0.0;
+  double innerWall = 0.0;
   result.smallestAngle = notANumber;
   result.largestSquaredEdgeRatio = notANumber;
   for (const FibreStatistics& fibre : result.fibres)
@@ -211,6 +164,8 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
     outerVolume += fibre.outer.volume;
     innerVolume += fibre.inner.volume;
     area += fibre.outer.area + fibre.inner.area;
+    outerWall += fibre.outerWallArea;
+    innerWall += fibre.innerWallArea;
     result.triangles += fibre.outer.triangles + fibre.inner.triangles;
     result.outerClosed += fibre.hasOuter && fibre.outer.sound() ? 1 : 0;
     result.outerOpen += fibre.hasOuter && !fibre.outer.sound() ? 1 : 0;
@@ -235,6 +190,33 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
                              ? std::sqrt(std::max(0.0, 1.0 - result.myelinVolumeFraction / result.fibreVolumeFraction))
                              : 0.0;
   result.trianglesPerArea = area > 0.0 ? static_cast<double>(result.triangles) / area : notANumber;
+  const double outside = domainVolume - outerVolume;
+  result.intraSurfaceToVolume = hasInner && innerVolume > 0.0 ? innerWall / innerVolume : notANumber;
+  result.extraSurfaceToVolume = hasOuter && outside > 0.0 ? outerWall / outside : notANumber;
+}
+
+/// What the cuts of all axons come to.
+void sumUpCuts(SubstrateStatistics& result)
+{
+  EffectiveRadius all;
+  EffectiveRadius middle;
+  for (const FibreStatistics& fibre : result.fibres)
+  {
+    for (const FibreCut& cut : fibre.innerCuts)
+    {
+      all.add(cut);
+    }
+    if (!fibre.innerCuts.empty())
+    {
+      middle.add(fibre.innerCuts[fibre.innerCuts.size() / 2]);
+    }
+  }
+  result.effectiveRadius = all.value();
+  result.middleEffectiveRadius = middle.value();
+  result.meanTortuosity = meanOver(result.fibres, [](const FibreStatistics& f) { return f.tortuosity; });
+  result.meanOuterCalibreVariation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerCalibreVariation(); });
+  result.meanInnerCalibreVariation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerCalibreVariation(); });
+  result.meanAreaFluctuation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.areaFluctuation; });
 }
 
 } // namespace
@@ -246,6 +228,7 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
   validate(fibres);
   const auto outerIndex = indexOf(outer, fibres, "Outer");
   const auto innerIndex = indexOf(inner, fibres, "Inner");
+  requireRoomForCuts(fibres, (outer.size() > 0 ? 1 : 0) + (inner.size() > 0 ? 1 : 0), options.cutSpacing);
 
   SubstrateStatistics result;
   result.fibres.resize(fibres.size());
@@ -259,24 +242,29 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
       fibre.targetRadius = fibres.targetRadii[f];
       fibre.length = lengthInDomain(fibres, f);
       const auto measure = [&](const FibreSurfaces& surfaces, const std::unordered_map<int, std::size_t>& index,
-                             const std::string& name, SurfaceReport& report, RadiusAlongFibre& radius)
+                             const std::string& name, SurfaceMeasures measures)
       {
         const auto found = index.find(fibre.fibreId);
-        radius = { 0, notANumber, notANumber };
+        measures.radius = { 0, notANumber, notANumber };
         if (found != index.end())
         {
           const std::string what = "the " + name + " surface of fibre " + std::to_string(fibre.fibreId);
-          measureSurface(fibres, f, surfaces.mesh(found->second), what, options, report, radius);
+          measureSurface(fibres, f, surfaces.mesh(found->second), what, options, measures);
         }
         return found != index.end();
       };
-      fibre.hasOuter = measure(outer, outerIndex, "outer", fibre.outer, fibre.outerRadius);
-      fibre.hasInner = measure(inner, innerIndex, "inner", fibre.inner, fibre.innerRadius);
+      fibre.hasOuter =
+        measure(outer, outerIndex, "outer", { fibre.outer, fibre.outerRadius, fibre.outerWallArea, fibre.outerCuts });
+      fibre.hasInner =
+        measure(inner, innerIndex, "inner", { fibre.inner, fibre.innerRadius, fibre.innerWallArea, fibre.innerCuts });
+      fibre.axon = axonShape(fibre.innerCuts, options.cutSpacing);
+      fibre.tortuosity = tortuosityInDomain(fibres, f);
       fibre.gRatio = fibre.hasOuter && fibre.hasInner ? gRatioOf(fibre.inner.volume, fibre.outer.volume) : notANumber;
     },
     "Measuring surfaces");
 
   sumUpSurfaces(fibres.domain, outer.given(), inner.given(), result);
+  sumUpCuts(result);
   result.capsuleVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
   result.largestPenetration = measureOverlap(fibres, 0.0, context.threadCount()).largestPenetration;
   result.meanDispersion = meanDispersion(fibres);
@@ -285,6 +273,34 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
   result.meanOuterRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerRadius.mean; });
   result.meanInnerRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerRadius.mean; });
   return result;
+}
+
+std::vector<ProfilePoint> profilesOf(const std::vector<FibreStatistics>& fibres, double spacing)
+{
+  std::vector<ProfilePoint> points;
+  for (const FibreStatistics& fibre : fibres)
+  {
+    auto outer = fibre.outerCuts.begin();
+    auto inner = fibre.innerCuts.begin();
+    while (outer != fibre.outerCuts.end() || inner != fibre.innerCuts.end())
+    {
+      const bool isOuter = outer != fibre.outerCuts.end() && (inner == fibre.innerCuts.end() || outer->number <= inner->number);
+      const bool isInner = inner != fibre.innerCuts.end() && (outer == fibre.outerCuts.end() || inner->number <= outer->number);
+      ProfilePoint point;
+      point.fibreId = fibre.fibreId;
+      point.arcLength = (static_cast<double>(isOuter ? outer->number : inner->number) + 0.5) * spacing;
+      point.outerDiameter = isOuter ? 2.0 * equivalentRadius(*outer) : notANumber;
+      point.innerDiameter = isInner ? 2.0 * equivalentRadius(*inner) : notANumber;
+      point.outerCircularity = isOuter ? outer->circularity : notANumber;
+      point.innerCircularity = isInner ? inner->circularity : notANumber;
+      point.myelinThickness = 0.5 * (point.outerDiameter - point.innerDiameter);
+      point.gRatio = point.innerDiameter / point.outerDiameter;
+      points.push_back(point);
+      outer += isOuter ? 1 : 0;
+      inner += isInner ? 1 : 0;
+    }
+  }
+  return points;
 }
 
 std::vector<std::size_t> histogram(const std::vector<double>& values, double lower, double upper, std::size_t bins)

@@ -4,6 +4,7 @@
 #include "base/Context.h"
 #include "base/Properties.h"
 #include "fibres/Fibres.h"
+#include "judge/FibreProfile.h"
 #include "mesh/FibreSurfaces.h"
 #include "mesh/SurfaceCheck.h"
 
@@ -26,15 +27,6 @@ struct SubstrateStatisticsOptions
   void validate() const;
 };
 
-/// The cross-sections of one surface along its fibre. The equivalent radius of a cut is that of the circle of the same area.
-struct RadiusAlongFibre
-{
-  std::size_t cuts = 0;     ///< cross-sections that lie wholly inside the domain; without any, the others are NaN
-  double mean = 0.0;        ///< µm, of the equivalent radius
-  double deviation = 0.0;   ///< µm, standard deviation of the equivalent radius along the fibre
-  double circularity = 0.0; ///< mean of 4π · area / perimeter²: 1 for circles, 0.91 for hexagons, 0.79 for squares
-};
-
 /// What is measured on one fibre. A surface that the fibre has not leaves a report of zeros and NaN radii.
 struct FibreStatistics
 {
@@ -48,7 +40,18 @@ struct FibreStatistics
   SurfaceReport inner;
   RadiusAlongFibre outerRadius;
   RadiusAlongFibre innerRadius;
-  double gRatio = 0.0; ///< gRatioOf() the two volumes, NaN without both surfaces
+  double gRatio = 0.0;        ///< gRatioOf() the two volumes, NaN without both surfaces
+  double tortuosity = 0.0;    ///< tortuosityInDomain()
+  double outerWallArea = 0.0; ///< µm², without the caps by which the domain ends the surface
+  double innerWallArea = 0.0; ///< µm²
+  AxonShape axon;             ///< of the inner surface
+  std::vector<FibreCut> outerCuts;
+  std::vector<FibreCut> innerCuts;
+
+  double outerCalibreVariation() const { return this->outerRadius.deviation / this->outerRadius.mean; }
+  double innerCalibreVariation() const { return this->innerRadius.deviation / this->innerRadius.mean; }
+  /// µm⁻¹, of the wall of the axon over its volume: 2/r for a straight circular one; NaN without an axon.
+  double axonSurfaceToVolume() const;
 };
 
 /// sqrt(inner / outer volume); 0 unless both are positive, as those of closed, outward surfaces are.
@@ -77,24 +80,42 @@ struct SubstrateStatistics
   double trianglesPerArea = 0.0;        ///< µm⁻², over all surfaces
   double smallestAngle = 0.0;           ///< degrees, over all surfaces
   double largestSquaredEdgeRatio = 0.0; ///< over all surfaces
-  std::vector<FibreStatistics> fibres;  ///< in the order of the fibres given
+  double meanTortuosity = 0.0;          ///< over fibres that have one, as the next three
+  double meanOuterCalibreVariation = 0.0;
+  double meanInnerCalibreVariation = 0.0;
+  double meanAreaFluctuation = 0.0;    ///< µm, AxonShape::areaFluctuation: an estimate of Γ(k → 0)
+  double effectiveRadius = 0.0;        ///< µm, over all cuts of all axons
+  double middleEffectiveRadius = 0.0;  ///< µm, over the middle cut of each axon, as a section through the bundle shows them
+  double intraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the axons over their volume
+  double extraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the outer surfaces over what they leave of the domain
+  std::vector<FibreStatistics> fibres; ///< in the order of the fibres given
 };
 
 /// Measures a substrate on its final surfaces, fibre by fibre in parallel. Either set of surfaces may be empty; surfaces belong
 /// to fibres by id.
 ///
 /// Throws InvalidInput, naming the fibre, where a surface belongs to no fibre or reaches out of the domain by more than
-/// clipTolerance, and as `validate` does; Cancelled when stopped.
+/// clipTolerance, and as `validate` does; OutOfMemory where CutSpacing makes more cuts than there is room for; Cancelled when
+/// stopped.
 SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& outer, const FibreSurfaces& inner,
   const SubstrateStatisticsOptions& options = {}, const Context& context = {});
 
-/// Equivalent radius and circularity of the surface at every `spacing` µm along fibre number `fibre`'s centre line, from cuts
-/// orthogonal to it. Cuts that reach the domain's boundary, or around a point that lies outside the surface, do not count.
-/// Throws InvalidInput for a spacing out of range, or with which there would be more than limits::cuts cuts.
-RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing);
+/// One row of the profile of a fibre: what its surfaces are where they are cut. What needs a surface that is not cut there is
+/// NaN.
+struct ProfilePoint
+{
+  int fibreId = 0;
+  double arcLength = 0.0;        ///< µm, along the centre line from its first point
+  double outerDiameter = 0.0;    ///< µm, of the circle with the cut's area
+  double innerDiameter = 0.0;    ///< µm
+  double outerCircularity = 0.0; ///< see FibreCut
+  double innerCircularity = 0.0;
+  double myelinThickness = 0.0; ///< µm, half the difference of the diameters
+  double gRatio = 0.0;          ///< their ratio
+};
 
-/// Length (µm) of fibre number `fibre`'s centre line inside the domain.
-double lengthInDomain(const Fibres& fibres, std::size_t fibre);
+/// The points of all fibres, in their order and along each, where at least one surface is cut.
+std::vector<ProfilePoint> profilesOf(const std::vector<FibreStatistics>& fibres, double spacing);
 
 /// How many of the values lie in each of `bins` equal parts of [lower, upper]; the last part holds `upper` too. NaN and values
 /// outside count nowhere. Throws InvalidInput, naming NumberOfBins, unless there are 1 to 10000.

@@ -57,6 +57,7 @@ CHOICES = {
 PORTS = {
     "CapsuleOptimizer": ["Fibres", "Convergence"],
     "SubstrateCertificate": ["Certificate", "Fibres"],
+    "SubstrateStatistics": ["Substrate", "Fibres", "Histograms", "Profiles"],
 }
 
 

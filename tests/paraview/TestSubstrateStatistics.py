@@ -4,9 +4,12 @@
 import math
 
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import SubstrateStatistics
-from surfaces import EQUIVALENT, POLYGON, set_domain, surfaces, tube, two_tubes
+from paraview.simple import GroupDatasets, SubstrateStatistics
+from surfaces import EQUIVALENT, POLYGON, SIDES, fibres, set_domain, surfaces, tube, two_tubes
 from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+# Perimeter over area of the polygon in the unit circle, which the tubes have in place of a circle.
+SURFACE_TO_VOLUME = 2 * SIDES * math.sin(math.pi / SIDES) / POLYGON
 
 
 def columns(table):
@@ -63,6 +66,62 @@ class Statistics(CactusTestCase):
         self.assertEqual(table["TargetRadiusFibres"], [0, 0, 2])
         self.assertEqual(table["InnerRadiusFibres"], [0, 2, 0])
         self.assertEqual(sum(table["GRatioFibres"]), 2)
+
+    def test_what_diffusion_reads(self):
+        row = {name: values[0] for name, values in columns(fetch(self.measure())).items()}
+        self.assertAlmostEqual(row["MeanTortuosity"], 1)
+        self.assertAlmostEqual(row["MeanOuterCalibreVariation"], 0, places=5)
+        self.assertAlmostEqual(row["MeanAxonAreaFluctuation_um"], 0, places=5)
+        effective = ((0.7**6 + 0.9**6) / (0.7**2 + 0.9**2)) ** 0.25 * EQUIVALENT
+        self.assertAlmostEqual(row["EffectiveRadius_um"], effective, places=5)
+        self.assertAlmostEqual(row["MiddleEffectiveRadius_um"], effective, places=5)
+        intra = SURFACE_TO_VOLUME * (0.7 + 0.9) / (0.7**2 + 0.9**2)
+        self.assertAlmostEqual(row["IntraAxonalSurfaceToVolume_um-1"], intra, places=5)
+        wall = SURFACE_TO_VOLUME * POLYGON * (1.0 + 1.5) * 10
+        self.assertAlmostEqual(row["ExtraAxonalSurfaceToVolume_um-1"], wall / (1000 - POLYGON * 3.25 * 10), places=5)
+        table = columns(fetch(self.measure(), 1))
+        for i, radius in enumerate((0.7, 0.9)):
+            self.assertAlmostEqual(table["Tortuosity"][i], 1)
+            self.assertAlmostEqual(table["MeanInverseAxonArea_um-2"][i], 1 / (POLYGON * radius**2), places=4)
+            self.assertAlmostEqual(table["AxonAreaVariance"][i], 0, places=6)
+            self.assertAlmostEqual(table["AxonDiffusivityRatio"][i], 1, places=6)
+            self.assertAlmostEqual(table["EffectiveRadius_um"][i], radius * EQUIVALENT, places=5)
+            self.assertAlmostEqual(table["AxonSurfaceToVolume_um-1"][i], SURFACE_TO_VOLUME / radius, places=4)
+
+    def test_profiles(self):
+        table = columns(fetch(self.measure(), 3))
+        names = ["FibreId", "ArcLength_um", "OuterDiameter_um", "InnerDiameter_um", "OuterCircularity", "InnerCircularity", "MyelinThickness_um", "GRatio"]
+        self.assertEqual(list(table), names)
+        self.assertEqual(table["FibreId"], [3] * 10 + [5] * 10)
+        # The centre lines begin 1 µm before the domain.
+        self.assertEqual(table["ArcLength_um"], 2 * [i + 1.5 for i in range(10)])
+        for name, wanted in (("OuterDiameter_um", (2.0, 3.0)), ("InnerDiameter_um", (1.4, 1.8)), ("MyelinThickness_um", (0.3, 0.6))):
+            for i, value in enumerate(table[name]):
+                self.assertAlmostEqual(value, wanted[i // 10] * EQUIVALENT, places=5)
+        for i, value in enumerate(table["GRatio"]):
+            self.assertAlmostEqual(value, (0.7, 0.6)[i // 10], places=5)
+        self.assertEqual(len(columns(fetch(self.measure(CutSpacing=0.5), 3))["FibreId"]), 40)
+        alone = fetch(SubstrateStatistics(Fibres=produce(self.fibres)), 3)
+        self.assertEqual((alone.GetNumberOfRows(), alone.GetNumberOfColumns()), (0, len(names)))
+
+    def test_blocks_are_measured_as_one(self):
+        """Every port, bit for bit, but for the bundles: each block has its own."""
+        along = [z - 6 for z in range(13)]
+        lines = {3: (1.0, [(-2, 0, z) for z in along]), 5: (1.5, [(2, 0, z) for z in along])}
+
+        def grouped(parts):
+            return GroupDatasets(Input=[produce(part) for part in parts])
+
+        blocks = SubstrateStatistics(
+            Fibres=grouped(fibres({i: lines[i]}, 10) for i in lines),
+            Outer=grouped(surfaces({i: tube(x, 0, radius, 10)}, 0, 10) for i, x, radius in ((5, 2, 1.5), (3, -2, 1.0))),
+            Inner=grouped(surfaces({i: tube(x, 0, radius, 10)}, 1, 10) for i, x, radius in ((3, -2, 0.7), (5, 2, 0.9))))
+        for port in range(4):
+            found, wanted = columns(fetch(blocks, port)), columns(fetch(self.measure(), port))
+            self.assertEqual(found.pop("BundleId", None), [2, 4] if port == 1 else None)
+            wanted.pop("BundleId", None)
+            self.assertEqual(found, wanted, port)
+            self.assertGreater(len(next(iter(found.values()))), 0)
 
     def test_fibres_alone(self):
         row = {name: values[0] for name, values in columns(fetch(SubstrateStatistics(Fibres=produce(self.fibres)))).items()}

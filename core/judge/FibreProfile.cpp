@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "judge/FibreProfile.h"
+
+#include "base/Constants.h"
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "mesh/CrossSection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// µm. An outline nearer to the domain's boundary has been cut off by it; above the rounding of single-precision coordinates.
+constexpr double boundaryTolerance = 1e-3;
+
+/// The position (µm) at arc length `s` along a fibre's centre line, whose cumulative lengths are `arc`.
+Eigen::Vector3d positionAt(const Fibres& fibres, std::size_t fibre, const std::vector<double>& arc, double s)
+{
+  const auto after = std::upper_bound(arc.begin() + 1, arc.end() - 1, s);
+  const auto segment = static_cast<std::size_t>(after - arc.begin()) - 1;
+  const double weight = std::clamp((s - arc[segment]) / (arc[segment + 1] - arc[segment]), 0.0, 1.0);
+  const std::size_t first = fibres.offsets[fibre] + segment;
+  return (1.0 - weight) * fibres.points[first] + weight * fibres.points[first + 1];
+}
+
+/// Length (µm) of a centre line up to each of its points.
+std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre)
+{
+  std::vector<double> arc{ 0.0 };
+  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
+  {
+    arc.push_back(arc.back() + (fibres.points[i + 1] - fibres.points[i]).norm());
+  }
+  return arc;
+}
+
+} // namespace
+
+std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing)
+{
+  const std::vector<double> arc = arcLengths(fibres, fibre);
+  requireWithin("CutSpacing", spacing, limits::cutSpacing);
+  if (!(arc.back() / spacing <= limits::cuts))
+  {
+    throw InvalidInput(text("CutSpacing ", spacing, " µm makes more than ", limits::cuts, " cross-sections of fibre ",
+      fibres.fibreIds[fibre], ", whose centre line is ", arc.back(), " µm long: choose a larger CutSpacing"));
+  }
+  const CrossSections sections(surface);
+  std::vector<FibreCut> cuts;
+  for (std::size_t number = 0; (static_cast<double>(number) + 0.5) * spacing < arc.back(); ++number)
+  {
+    const double s = (static_cast<double>(number) + 0.5) * spacing;
+    const Eigen::Vector3d point = positionAt(fibres, fibre, arc, s);
+    // The chord over one spacing, so that a kink between two short segments does not tilt the plane.
+    const Eigen::Vector3d chord = positionAt(fibres, fibre, arc, std::min(s + 0.5 * spacing, arc.back())) -
+                                  positionAt(fibres, fibre, arc, std::max(s - 0.5 * spacing, 0.0));
+    if (fibres.domain.depth(point) <= 0.0 || chord.norm() <= 0.0)
+    {
+      continue;
+    }
+    const Eigen::Vector3d normal = chord.normalized();
+    const auto outline = sections.outlineAround(point, normal, 3.0 * fibres.targetRadii[fibre]);
+    const bool whole = std::all_of(outline.begin(), outline.end(),
+      [&](const Eigen::Vector3d& corner) { return fibres.domain.depth(corner) > boundaryTolerance; });
+    if (!outline.empty() && whole)
+    {
+      const double area = polygonArea(outline, normal);
+      const double perimeter = polygonPerimeter(outline);
+      cuts.push_back({ number, area, 4.0 * pi * area / (perimeter * perimeter) });
+    }
+  }
+  return cuts;
+}
+
+double equivalentRadius(const FibreCut& cut)
+{
+  return std::sqrt(cut.area / pi);
+}
+
+RadiusAlongFibre radiusAlong(const std::vector<FibreCut>& cuts)
+{
+  RadiusAlongFibre result{ cuts.size(), notANumber, notANumber, notANumber };
+  if (cuts.empty())
+  {
+    return result;
+  }
+  const auto count = static_cast<double>(cuts.size());
+  double sum = 0.0;
+  double circularities = 0.0;
+  for (const FibreCut& cut : cuts)
+  {
+    sum += equivalentRadius(cut);
+    circularities += cut.circularity;
+  }
+  result.mean = sum / count;
+  result.circularity = circularities / count;
+  double squares = 0.0;
+  for (const FibreCut& cut : cuts)
+  {
+    const double radius = equivalentRadius(cut);
+    squares += (radius - result.mean) * (radius - result.mean);
+  }
+  result.deviation = std::sqrt(squares / count);
+  return result;
+}
+
+RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing)
+{
+  return radiusAlong(cutsAlongFibre(fibres, fibre, surface, spacing));
+}
+
+void EffectiveRadius::add(const FibreCut& cut)
+{
+  const double square = cut.area / pi;
+  this->Squares += square;
+  this->SixthPowers += square * square * square;
+}
+
+double EffectiveRadius::value() const
+{
+  return this->Squares > 0.0 ? std::sqrt(std::sqrt(this->SixthPowers / this->Squares)) : notANumber;
+}
+
+AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing)
+{
+  AxonShape shape{ notANumber, notANumber, notANumber, notANumber, notANumber };
+  if (cuts.empty())
+  {
+    return shape;
+  }
+  const auto count = static_cast<double>(cuts.size());
+  double area = 0.0;
+  double inverse = 0.0;
+  EffectiveRadius effective;
+  for (const FibreCut& cut : cuts)
+  {
+    area += cut.area / count;
+    inverse += 1.0 / cut.area / count;
+    effective.add(cut);
+  }
+  double variance = 0.0;
+  std::complex<double> wave = 0.0;
+  const double phase = 2.0 * pi / static_cast<double>(cuts.back().number - cuts.front().number + 1);
+  for (const FibreCut& cut : cuts)
+  {
+    const double excess = cut.area / area - 1.0;
+    variance += excess * excess / count;
+    wave += excess * std::polar(1.0, -phase * static_cast<double>(cut.number - cuts.front().number));
+  }
+  shape.meanInverseArea = inverse;
+  shape.areaVariance = variance;
+  shape.areaFluctuation = cuts.size() >= 3 ? std::norm(wave) * spacing / count : notANumber;
+  shape.diffusivityRatio = 1.0 / (area * inverse);
+  shape.effectiveRadius = effective.value();
+  return shape;
+}
+
+double lengthInDomain(const Fibres& fibres, std::size_t fibre)
+{
+  double length = 0.0;
+  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
+  {
+    const auto [from, to] = fibres.domain.clip(fibres.points[i], fibres.points[i + 1]);
+    length += std::max(0.0, to - from) * (fibres.points[i + 1] - fibres.points[i]).norm();
+  }
+  return length;
+}
+
+double tortuosityInDomain(const Fibres& fibres, std::size_t fibre)
+{
+  const std::vector<double> arc = arcLengths(fibres, fibre);
+  double entered = notANumber;
+  double left = notANumber;
+  for (std::size_t segment = 0; segment + 1 < arc.size(); ++segment)
+  {
+    const std::size_t first = fibres.offsets[fibre] + segment;
+    const auto [from, to] = fibres.domain.clip(fibres.points[first], fibres.points[first + 1]);
+    if (to > from)
+    {
+      const double length = arc[segment + 1] - arc[segment];
+      entered = std::isnan(entered) ? arc[segment] + from * length : entered;
+      left = arc[segment] + to * length;
+    }
+  }
+  if (!(left > entered))
+  {
+    return notANumber;
+  }
+  const double distance = (positionAt(fibres, fibre, arc, left) - positionAt(fibres, fibre, arc, entered)).norm();
+  return distance > 0.0 ? std::max(1.0, (left - entered) / distance) : notANumber;
+}
+
+} // namespace cactus

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Domain.h"
+#include "mesh/TriangleMesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// The triangles of a fibre's surface that are no caps, in increasing order. A cap lies in a face of the domain, or in the plane
+/// where the surface ends beyond that face, as it does unless it was clipped, or at most `inset` µm before it, as inner surfaces
+/// do. Coordinates have to be finite.
+std::vector<std::uint32_t> wallTriangles(const TriangleMesh& mesh, const Domain& box, double inset = 0.0);
+
+/// The area (µm²) of some triangles.
+double areaOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles);
+
+} // namespace cactus

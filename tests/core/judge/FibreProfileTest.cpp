@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes whose measures are known in closed form.
+#include "judge/FibreProfile.h"
+
+#include "ExampleSurfaces.h"
+#include "base/Constants.h"
+#include "judge/SubstrateStatistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace
+{
+
+using cactus::pi;
+
+constexpr int sides = 24;
+constexpr double length = 20.0;
+
+/// Area of the cross-section of example::tube() of radius 1.
+double sectionOfOne()
+{
+  return 0.5 * sides * std::sin(2.0 * pi / sides);
+}
+
+/// One straight fibre along z in the middle of a cube that its ends do not reach.
+cactus::Fibres straightFibre(double side = 30.0)
+{
+  cactus::Fibres fibres;
+  fibres.domain = cactus::Domain::cube(side);
+  fibres.addFibre(7, 1, 1.0);
+  fibres.addPoint({ 0, 0, -0.5 * length }, 1.0);
+  fibres.addPoint({ 0, 0, 0.5 * length }, 1.0);
+  return fibres;
+}
+
+/// Around it, with radius radius·(1 + part·cos(2π·waves·z / length)); rings lie where it is cut.
+cactus::TriangleMesh wavyTube(double radius, double part, int waves)
+{
+  auto mesh = example::tube(0, 0, radius, -0.5 * length, 0.5 * length, sides, 400);
+  for (auto& point : mesh.points)
+  {
+    point.head<2>() *= 1.0 + part * std::cos(2.0 * pi * waves * point[2] / length);
+  }
+  return mesh;
+}
+
+cactus::FibreSurfaces surfacesOf(const std::vector<int>& ids, const std::vector<cactus::TriangleMesh>& meshes)
+{
+  cactus::FibreSurfaces surfaces;
+  surfaces.fibreIds = ids;
+  surfaces.bundleIds.assign(ids.size(), 1);
+  surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
+  return surfaces;
+}
+
+/// The tortuosity of one fibre along these points, in a cube of this side.
+double tortuosity(const std::vector<Eigen::Vector3d>& points, double side)
+{
+  cactus::Fibres fibres;
+  fibres.domain = cactus::Domain::cube(side);
+  fibres.addFibre(1, 1, 1.0);
+  for (const auto& point : points)
+  {
+    fibres.addPoint(point, 1.0);
+  }
+  return cactus::tortuosityInDomain(fibres, 0);
+}
+
+} // namespace
+
+TEST(AxonShape, OfAStraightTube)
+{
+  const auto shape = cactus::axonShape(cactus::cutsAlongFibre(straightFibre(), 0, wavyTube(0.8, 0.0, 0), 1.0), 1.0);
+  const double area = 0.64 * sectionOfOne();
+  EXPECT_NEAR(shape.meanInverseArea, 1.0 / area, 1e-9);
+  EXPECT_NEAR(shape.areaVariance, 0.0, 1e-15);
+  EXPECT_NEAR(shape.areaFluctuation, 0.0, 1e-15);
+  EXPECT_NEAR(shape.diffusivityRatio, 1.0, 1e-12);
+  EXPECT_NEAR(shape.effectiveRadius, std::sqrt(area / pi), 1e-9);
+}
+
+// Means over whole waves of r = R (1 + e cos x): of 1/r² (1 - e²)^(-3/2) / R², of powers of r by the binomial theorem.
+TEST(AxonShape, OfARadiusThatVariesAsACosine)
+{
+  const double e = 0.3;
+  const double square = 1.0 + e * e / 2.0;
+  const double fourth = 1.0 + 3.0 * e * e + 3.0 / 8.0 * std::pow(e, 4);
+  const double sixth = 1.0 + 15.0 / 2.0 * e * e + 45.0 / 8.0 * std::pow(e, 4) + 5.0 / 16.0 * std::pow(e, 6);
+  const double inverse = std::pow(1.0 - e * e, -1.5);
+  const double area = 0.64 * sectionOfOne();
+  for (const int waves : { 1, 2 })
+  {
+    const auto cuts = cactus::cutsAlongFibre(straightFibre(), 0, wavyTube(0.8, e, waves), 0.5);
+    ASSERT_EQ(cuts.size(), 40u);
+    const auto shape = cactus::axonShape(cuts, 0.5);
+    EXPECT_NEAR(shape.meanInverseArea, inverse / area, 1e-6);
+    EXPECT_NEAR(shape.areaVariance, fourth / (square * square) - 1.0, 1e-6);
+    EXPECT_NEAR(shape.diffusivityRatio, 1.0 / (square * inverse), 1e-6);
+    EXPECT_NEAR(shape.effectiveRadius, std::pow(sixth / square, 0.25) * std::sqrt(area / pi), 1e-6);
+    // A / ⟨A⟩ has the amplitude 2e / (1 + e²/2) at the wave number of the waves; the longest wave is seen only where there is
+    // one.
+    const double amplitude = waves == 1 ? 2.0 * e / square : 0.0;
+    EXPECT_NEAR(shape.areaFluctuation, amplitude * amplitude * length / 4.0, 1e-6);
+    const auto radius = cactus::radiusAlong(cuts);
+    EXPECT_NEAR(radius.deviation / radius.mean, e / std::sqrt(2.0), 1e-6);
+  }
+}
+
+TEST(AxonShape, NeedsCuts)
+{
+  const auto none = cactus::axonShape({}, 1.0);
+  EXPECT_TRUE(std::isnan(none.meanInverseArea) && std::isnan(none.areaFluctuation) && std::isnan(none.effectiveRadius));
+  const auto two = cactus::axonShape({ { 0, 1.0, 1.0 }, { 1, 3.0, 1.0 } }, 1.0);
+  EXPECT_TRUE(std::isnan(two.areaFluctuation));
+  EXPECT_NEAR(two.meanInverseArea, 2.0 / 3.0, 1e-15);
+  EXPECT_NEAR(two.areaVariance, 0.25, 1e-15);
+}
+
+TEST(Tortuosity, OfAHelixAndOfBends)
+{
+  const double radius = 2.0;
+  const double pitch = 5.0;
+  std::vector<Eigen::Vector3d> helix;
+  for (int i = 0; i <= 30000; ++i)
+  {
+    const double turn = i / 10000.0;
+    helix.emplace_back(radius * std::cos(2.0 * pi * turn), radius * std::sin(2.0 * pi * turn), pitch * (turn - 1.5));
+  }
+  EXPECT_NEAR(tortuosity(helix, 40.0), std::hypot(2.0 * pi * radius, pitch) / pitch, 1e-6);
+  EXPECT_EQ(tortuosity({ { 0, 0, -3 }, { 0, 0, 1 }, { 0, 0, 4 } }, 10.0), 1.0);
+  // Legs of 3 and 7 µm are in the domain; out of it the line goes on.
+  EXPECT_NEAR(tortuosity({ { 2, 1, -9 }, { 2, 1, -2 }, { -9, 1, -2 } }, 10.0), 10.0 / std::sqrt(58.0), 1e-12);
+  // It leaves the domain (through x = 5) and comes back: what lies between counts.
+  EXPECT_NEAR(tortuosity({ { 4, 0, -3 }, { 8, 0, -3 }, { 8, 0, 3 }, { 4, 0, 3 } }, 10.0), 14.0 / 6.0, 1e-12);
+  EXPECT_TRUE(std::isnan(tortuosity({ { 8, 0, 0 }, { 9, 0, 0 } }, 10.0)));
+  EXPECT_TRUE(std::isnan(tortuosity({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 0 } }, 10.0)));
+}
+
+// Caps are no walls: those in the domain's faces, and those of axons a little before them.
+TEST(SubstrateStatistics, SurfaceToVolumeWithoutCaps)
+{
+  cactus::Fibres fibres = straightFibre(length);
+  fibres.addFibre(9, 1, 1.0);
+  fibres.addPoint({ 5, 0, -0.5 * length }, 1.0);
+  fibres.addPoint({ 5, 0, 0.5 * length }, 1.0);
+  const auto tube = [](double x, double radius, double inset)
+  { return example::tube(x, 0, radius, -0.5 * length + inset, 0.5 * length - inset, sides); };
+  const auto outer = surfacesOf({ 7, 9 }, { tube(0, 1.0, 0.0), tube(5, 2.0, 0.0) });
+  const auto inner = surfacesOf({ 7, 9 }, { tube(0, 0.5, 0.02), tube(5, 1.0, 0.1) });
+  const auto result = cactus::measureSubstrate(fibres, outer, inner);
+  const double perimeter = 2.0 * sides * std::sin(pi / sides); // of radius 1
+  EXPECT_NEAR(result.fibres[0].axonSurfaceToVolume(), perimeter / sectionOfOne() / 0.5, 1e-9);
+  EXPECT_NEAR(result.fibres[1].axonSurfaceToVolume(), perimeter / sectionOfOne(), 1e-9);
+  EXPECT_NEAR(result.fibres[0].axonSurfaceToVolume(), 2.0 / 0.5, 0.04) << "of a circle";
+  const double axons = 0.5 * (length - 0.04) + length - 0.2;
+  const double axonVolume = 0.25 * (length - 0.04) + length - 0.2;
+  EXPECT_NEAR(result.intraSurfaceToVolume, perimeter * axons / (sectionOfOne() * axonVolume), 1e-9);
+  EXPECT_NEAR(
+    result.extraSurfaceToVolume, 3.0 * perimeter * length / (length * length * length - 5.0 * sectionOfOne() * length), 1e-9);
+  const double sixth = (std::pow(0.5, 6) + 1.0) / (0.25 + 1.0);
+  EXPECT_NEAR(result.effectiveRadius, std::pow(sixth, 0.25) * std::sqrt(sectionOfOne() / pi), 1e-9);
+  EXPECT_NEAR(result.middleEffectiveRadius, result.effectiveRadius, 1e-9);
+  EXPECT_NEAR(result.meanTortuosity, 1.0, 1e-12);
+
+  const auto bare = cactus::measureSubstrate(fibres, outer, {});
+  EXPECT_TRUE(std::isnan(bare.intraSurfaceToVolume) && std::isnan(bare.effectiveRadius));
+  EXPECT_TRUE(std::isnan(bare.fibres[0].axonSurfaceToVolume()));
+  EXPECT_EQ(bare.extraSurfaceToVolume, result.extraSurfaceToVolume);
+}
+
+// The middle cut of each axon counts once, however many cuts the axon has and whatever it is elsewhere.
+TEST(SubstrateStatistics, EffectiveRadiusOfAllCutsAndOfTheMiddleOnes)
+{
+  cactus::Fibres fibres = straightFibre();
+  const auto inner = surfacesOf({ 7 }, { wavyTube(0.8, 0.3, 1) });
+  const auto result = cactus::measureSubstrate(fibres, {}, inner);
+  EXPECT_NEAR(result.effectiveRadius, result.fibres[0].axon.effectiveRadius, 1e-12);
+  const double atHalf =
+    0.8 * (1.0 + 0.3 * std::cos(2.0 * pi * 0.5 / length)); // of 20 cuts, it lies half a µm from the middle
+  EXPECT_NEAR(result.middleEffectiveRadius, atHalf * std::sqrt(sectionOfOne() / pi), 1e-9);
+}
+
+TEST(Profiles, RowsOfBothSurfaces)
+{
+  cactus::Fibres fibres = straightFibre();
+  const auto outer = surfacesOf({ 7 }, { wavyTube(1.0, 0.2, 1) });
+  // The axon ends in the middle of the fibre.
+  const auto inner = surfacesOf({ 7 }, { example::tube(0, 0, 0.5, -0.5 * length, 0.2, sides) });
+  const auto result = cactus::measureSubstrate(fibres, outer, inner);
+  const auto points = cactus::profilesOf(result.fibres, 1.0);
+  ASSERT_EQ(points.size(), 20u);
+  const double equivalent = std::sqrt(sectionOfOne() / pi);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const auto& point = points[i];
+    const double s = double(i) + 0.5;
+    EXPECT_EQ(point.fibreId, 7);
+    EXPECT_NEAR(point.arcLength, s, 1e-12);
+    const double diameter = 2.0 * equivalent * (1.0 + 0.2 * std::cos(2.0 * pi * (s - 10.0) / length));
+    EXPECT_NEAR(point.outerDiameter, diameter, 1e-9);
+    EXPECT_NEAR(point.outerCircularity, (pi / sides) / std::tan(pi / sides), 1e-9);
+    EXPECT_EQ(std::isnan(point.innerDiameter), i >= 10);
+    EXPECT_EQ(std::isnan(point.gRatio) && std::isnan(point.myelinThickness) && std::isnan(point.innerCircularity), i >= 10);
+    if (i < 10)
+    {
+      EXPECT_NEAR(point.innerDiameter, equivalent, 1e-9);
+      EXPECT_NEAR(point.myelinThickness, 0.5 * (diameter - equivalent), 1e-9);
+      EXPECT_NEAR(point.gRatio, equivalent / diameter, 1e-9);
+    }
+  }
+  EXPECT_TRUE(cactus::profilesOf(cactus::measureSubstrate(fibres, {}, {}).fibres, 1.0).empty());
+}
