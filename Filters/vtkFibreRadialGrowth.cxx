@@ -88,6 +88,25 @@ cactus::VoxelGrid requestedGrid(
   return grid;
 }
 
+/// What MyelinSurface, the certificate and a user want to know of the image.
+void addImageFacts(const cactus::Fibres& fibres, const cactus::FibreRadialGrowthOptions& options, double spacing, double growth,
+  vtkImageData* output)
+{
+  cactus::setDomain(output, fibres.domain);
+  vtkFieldData* data = output->GetFieldData();
+  cactus::addNumber(data, "Growth", growth);
+  cactus::addNumber(data, "MinimumGap", options.minimumGap);
+  cactus::addNumber(data, "SurfaceTolerance", options.surfaceTolerance);
+  cactus::addNumber(data, "VoxelSize", spacing);
+  cactus::addColumn<vtkIntArray>(data, "FibreTable.FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
+  cactus::addColumn<vtkIntArray>(data, "FibreTable.BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
+  cactus::addColumn<vtkDoubleArray>(
+    data, "FibreTable.TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
+  // 0 for one that only passes by outside.
+  cactus::addColumn<vtkDoubleArray>(
+    data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });
+}
+
 } // namespace
 
 vtkFibreRadialGrowth::vtkFibreRadialGrowth()
@@ -166,27 +185,7 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
         return;
       }
 
-      if (this->GrowthParameterTime != this->GetMTime() || this->GrowthInputTime != cactus::changeTime(input))
-      {
-        if (stillOverlaps(input))
-        {
-          vtkWarningMacro(<< "these fibres still overlap (Converged is 0) and take space from each other: let "
-                             "CapsuleOptimizer run on or, where it keeps its history, go to the last time step");
-        }
-        if (const std::string remark = cactus::remarkOnTarget(fibres, options); !remark.empty())
-        {
-          vtkWarningMacro(<< remark);
-        }
-        // Nothing is kept of a search that fails.
-        this->Aimed.reset();
-        this->GrowthParameterTime = 0;
-        auto aimed = std::make_unique<cactus::Fibres>(cactus::aimAtTargetRadii(fibres, options, context));
-        this->Growth = cactus::growthFor(*aimed, options, context);
-        this->Aimed = std::move(aimed);
-        this->GrowthParameterTime = this->GetMTime();
-        this->GrowthInputTime = cactus::changeTime(input);
-      }
-
+      this->solve(input, fibres, context);
       auto fibreId = cactus::makeArray<vtkIntArray>("FibreId", grid.size());
       auto depth = cactus::makeArray<vtkFloatArray>("Depth", grid.size());
       cactus::growFibres(*this->Aimed, options, this->Growth, grid, fibreId->GetPointer(0), depth->GetPointer(0), context);
@@ -198,27 +197,38 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       output->GetPointData()->AddArray(depth);
       output->GetPointData()->SetActiveScalars("Depth");
 
-      cactus::setDomain(output, fibres.domain);
-      vtkFieldData* data = output->GetFieldData();
-      cactus::addNumber(data, "Growth", this->Growth);
-      cactus::addNumber(data, "MinimumGap", options.minimumGap);
-      cactus::addNumber(data, "SurfaceTolerance", options.surfaceTolerance);
-      cactus::addNumber(data, "VoxelSize", grid.spacing);
-      cactus::addColumn<vtkIntArray>(
-        data, "FibreTable.FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
-      cactus::addColumn<vtkIntArray>(
-        data, "FibreTable.BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
-      cactus::addColumn<vtkDoubleArray>(
-        data, "FibreTable.TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
-      // 0 for one that only passes by outside.
-      cactus::addColumn<vtkDoubleArray>(
-        data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });
-
+      addImageFacts(fibres, options, grid.spacing, this->Growth, output);
       cactus::setProvenance(output,
         cactus::recordOf(
           this, "FibreRadialGrowth", stage, { "Input" }, { { "Spacing", grid.spacing }, { "Growth", this->Growth } }),
         0);
     });
+}
+
+void vtkFibreRadialGrowth::solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::Context& context)
+{
+  if (this->GrowthParameterTime == this->GetMTime() && this->GrowthInputTime == cactus::changeTime(input))
+  {
+    return;
+  }
+  const auto& options = cactus::stageOf<cactus::FibreRadialGrowthStage>(this->Properties).options;
+  if (stillOverlaps(input))
+  {
+    vtkWarningMacro(<< "these fibres still overlap (Converged is 0) and take space from each other: let "
+                       "CapsuleOptimizer run on or, where it keeps its history, go to the last time step");
+  }
+  if (const std::string remark = cactus::remarkOnTarget(fibres, options); !remark.empty())
+  {
+    vtkWarningMacro(<< remark);
+  }
+  // Nothing is kept of a search that fails.
+  this->Aimed.reset();
+  this->GrowthParameterTime = 0;
+  auto aimed = std::make_unique<cactus::Fibres>(cactus::aimAtTargetRadii(fibres, options, context));
+  this->Growth = cactus::growthFor(*aimed, options, context);
+  this->Aimed = std::move(aimed);
+  this->GrowthParameterTime = this->GetMTime();
+  this->GrowthInputTime = cactus::changeTime(input);
 }
 
 void vtkFibreRadialGrowth::PrintSelf(ostream& os, vtkIndent indent)

@@ -35,8 +35,9 @@
 
 namespace cactus
 {
+struct Context;
 struct Fibres;
-}
+} // namespace cactus
 
 class CACTUSFILTERS_EXPORT vtkFibreRadialGrowth : public vtkImageAlgorithm
 {
@@ -71,6 +72,9 @@ private:
   void operator=(const vtkFibreRadialGrowth&) = delete;
 
   std::unique_ptr<cactus::FilterProperties> Properties;
+
+  /// Finds how far which fibres grow, where neither they nor a property are as they were the last time.
+  void solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::Context& context);
 
   // What the target needs, kept from one extent to the next: the fibres that grow, and how far.
   std::unique_ptr<cactus::Fibres> Aimed;

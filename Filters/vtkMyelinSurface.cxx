@@ -116,6 +116,28 @@ void giveOut(std::vector<cactus::FibreSurfacePair>& fibres, cactus::TriangleMesh
   cactus::toPolyData(std::move(surfaces), kind, output);
 }
 
+/// The table, and what the certificate and a user want to know of the surfaces.
+void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, const cactus::LabelImageFacts& facts,
+  const cactus::Provenance& provenance, vtkInformationVector* outputs)
+{
+  cactus::fillSurfaceTable(vtkTable::GetData(outputs, 2), fibres);
+  std::vector<int> wanted;
+  for (const auto& fibre : fibres)
+  {
+    if (fibre.isWanted)
+    {
+      wanted.push_back(fibre.fibreId);
+    }
+  }
+  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 0), wanted, facts.minimumGap);
+  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 1), {}, facts.minimumGap);
+  for (int port = 0; port < 3; ++port)
+  {
+    cactus::setDomain(vtkDataObject::GetData(outputs, port), facts.domain);
+    cactus::setProvenance(vtkDataObject::GetData(outputs, port), provenance, port);
+  }
+}
+
 } // namespace
 
 struct vtkMyelinSurface::KeptOuter
@@ -197,33 +219,14 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       {
         cactus::markFaults(fibres, facts.domain, facts.minimumGap, context);
       }
-      for (int port = 0; port < 3; ++port)
-      {
-        cactus::setDomain(vtkDataObject::GetData(outputs, port), facts.domain);
-      }
       const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
       const std::string remarks = cactus::notAsAsked(fibres, labels.view.grid.spacing, facts, byVtk);
       if (stage.releaseInput)
       {
         releaseImage(this);
       }
-
-      cactus::fillSurfaceTable(vtkTable::GetData(outputs, 2), fibres);
       giveOut(fibres, &cactus::FibreSurfacePair::inner, 1, vtkPolyData::GetData(outputs, 1));
-      std::vector<int> wanted;
-      for (const auto& fibre : fibres)
-      {
-        if (fibre.isWanted)
-        {
-          wanted.push_back(fibre.fibreId);
-        }
-      }
-      cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 0), wanted, facts.minimumGap);
-      cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 1), {}, facts.minimumGap);
-      for (int port = 0; port < 3; ++port)
-      {
-        cactus::setProvenance(vtkDataObject::GetData(outputs, port), provenance, port);
-      }
+      addSurfaceFacts(fibres, facts, provenance, outputs);
       if (!remarks.empty())
       {
         vtkWarningMacro(<< remarks);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -44,6 +45,75 @@ bool holds(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& p
     }
   }
   return inside;
+}
+
+/// Adds where the plane cuts a triangle, if it does.
+void cutTriangle(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t, const Eigen::Vector3d& point,
+  const Eigen::Vector3d& normal, std::vector<Piece>& pieces)
+{
+  double height[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    height[i] = (mesh.points[static_cast<std::size_t>(t[i])] - point).dot(normal);
+  }
+  Piece piece{ 0, 0, {} };
+  bool cut = false;
+  for (int i = 0; i < 3; ++i)
+  {
+    // A point on the plane counts as above it, so that a triangle has either no cut edge or two.
+    const int j = (i + 1) % 3;
+    if (height[i] >= 0.0 && height[j] < 0.0)
+    {
+      const double weight = height[i] / (height[i] - height[j]);
+      piece.from = edgeKey(t[i], t[j]);
+      piece.start =
+        (1.0 - weight) * mesh.points[static_cast<std::size_t>(t[i])] + weight * mesh.points[static_cast<std::size_t>(t[j])];
+      cut = true;
+    }
+    else if (height[i] < 0.0 && height[j] >= 0.0)
+    {
+      piece.to = edgeKey(t[i], t[j]);
+    }
+  }
+  if (cut)
+  {
+    pieces.push_back(piece);
+  }
+}
+
+/// The loop around the point that has the smallest area, of pieces in the order of where they begin; empty where there is none.
+std::vector<Eigen::Vector3d> smallestLoop(
+  const std::vector<Piece>& pieces, const Eigen::Vector3d& point, const Eigen::Vector3d& normal)
+{
+  std::vector<Eigen::Vector3d> best;
+  double bestArea = std::numeric_limits<double>::infinity();
+  std::vector<char> visited(pieces.size(), 0);
+  std::vector<Eigen::Vector3d> loop;
+  for (std::size_t first = 0; first < pieces.size(); ++first)
+  {
+    loop.clear();
+    std::size_t current = first;
+    while (current < pieces.size() && !visited[current])
+    {
+      visited[current] = 1;
+      loop.push_back(pieces[current].start);
+      const std::uint64_t wanted = pieces[current].to;
+      const auto next =
+        std::lower_bound(pieces.begin(), pieces.end(), wanted, [](const Piece& p, std::uint64_t key) { return p.from < key; });
+      current = next != pieces.end() && next->from == wanted ? static_cast<std::size_t>(next - pieces.begin()) : pieces.size();
+    }
+    if (current != first || loop.size() < 3)
+    {
+      continue; // open, within this part of the surface
+    }
+    const double area = polygonArea(loop, normal);
+    if (area > 0.0 && area < bestArea && holds(loop, point, normal))
+    {
+      bestArea = area;
+      best = loop;
+    }
+  }
+  return best;
 }
 
 } // namespace
@@ -137,72 +207,14 @@ std::vector<Eigen::Vector3d> CrossSections::outlineWithin(
     for (std::size_t entry = this->Begin[bin]; entry < this->Begin[bin + 1]; ++entry)
     {
       const std::size_t triangle = this->Triangles[entry];
-      if (std::max(this->FirstBin[triangle], firstBin) != bin)
+      if (std::max(this->FirstBin[triangle], firstBin) == bin) // else met in an earlier bin
       {
-        continue; // met in an earlier bin
-      }
-      const auto& t = this->Mesh.triangles[triangle];
-      double height[3];
-      for (int i = 0; i < 3; ++i)
-      {
-        height[i] = (this->Mesh.points[static_cast<std::size_t>(t[i])] - point).dot(normal);
-      }
-      Piece piece{ 0, 0, {} };
-      bool cut = false;
-      for (int i = 0; i < 3; ++i)
-      {
-        // A point on the plane counts as above it, so that a triangle has either no cut edge or two.
-        const int j = (i + 1) % 3;
-        if (height[i] >= 0.0 && height[j] < 0.0)
-        {
-          const double weight = height[i] / (height[i] - height[j]);
-          piece.from = edgeKey(t[i], t[j]);
-          piece.start = (1.0 - weight) * this->Mesh.points[static_cast<std::size_t>(t[i])] +
-                        weight * this->Mesh.points[static_cast<std::size_t>(t[j])];
-          cut = true;
-        }
-        else if (height[i] < 0.0 && height[j] >= 0.0)
-        {
-          piece.to = edgeKey(t[i], t[j]);
-        }
-      }
-      if (cut)
-      {
-        pieces.push_back(piece);
+        cutTriangle(this->Mesh, this->Mesh.triangles[triangle], point, normal, pieces);
       }
     }
   }
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.from < b.from; });
-
-  std::vector<Eigen::Vector3d> best;
-  double bestArea = std::numeric_limits<double>::infinity();
-  std::vector<char> visited(pieces.size(), 0);
-  std::vector<Eigen::Vector3d> loop;
-  for (std::size_t first = 0; first < pieces.size(); ++first)
-  {
-    loop.clear();
-    std::size_t current = first;
-    while (current < pieces.size() && !visited[current])
-    {
-      visited[current] = 1;
-      loop.push_back(pieces[current].start);
-      const std::uint64_t wanted = pieces[current].to;
-      const auto next =
-        std::lower_bound(pieces.begin(), pieces.end(), wanted, [](const Piece& p, std::uint64_t key) { return p.from < key; });
-      current = next != pieces.end() && next->from == wanted ? static_cast<std::size_t>(next - pieces.begin()) : pieces.size();
-    }
-    if (current != first || loop.size() < 3)
-    {
-      continue; // open, within this part of the surface
-    }
-    const double area = polygonArea(loop, normal);
-    if (area > 0.0 && area < bestArea && holds(loop, point, normal))
-    {
-      bestArea = area;
-      best = loop;
-    }
-  }
-  return best;
+  return smallestLoop(pieces, point, normal);
 }
 
 double polygonArea(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& normal)
