@@ -12,7 +12,8 @@
 namespace cactus
 {
 
-/// Keeps what was used last, up to a certain number of things. May be used from several threads.
+/// Keeps what was used last, up to a certain number of things or, where they have weights, a certain weight. May be used from
+/// several threads.
 template <typename Thing>
 class RecentThings
 {
@@ -32,30 +33,38 @@ public:
       return nullptr;
     }
     this->Things.splice(this->Things.begin(), this->Things, found->second);
-    return found->second->second;
+    return found->second->thing;
   }
 
   /// Where another thread was faster, its thing stays.
-  void keep(std::uint64_t key, std::shared_ptr<const Thing> thing)
+  void keep(std::uint64_t key, std::shared_ptr<const Thing> thing, std::size_t weight = 1)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     if (this->Places.count(key) > 0)
     {
       return;
     }
-    this->Things.emplace_front(key, std::move(thing));
+    this->Things.push_front({ key, std::move(thing), weight });
     this->Places[key] = this->Things.begin();
-    if (this->Things.size() > this->Most)
+    this->Weight += weight;
+    while (this->Weight > this->Most && this->Things.size() > 1)
     {
-      this->Places.erase(this->Things.back().first);
+      this->Weight -= this->Things.back().weight;
+      this->Places.erase(this->Things.back().key);
       this->Things.pop_back();
     }
   }
 
 private:
-  using Entry = std::pair<std::uint64_t, std::shared_ptr<const Thing>>;
+  struct Entry
+  {
+    std::uint64_t key;
+    std::shared_ptr<const Thing> thing;
+    std::size_t weight;
+  };
 
   std::size_t Most;
+  std::size_t Weight = 0;
   std::mutex Mutex;
   std::list<Entry> Things; ///< the one used last first
   std::unordered_map<std::uint64_t, typename std::list<Entry>::iterator> Places;

@@ -96,6 +96,11 @@ std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre,
   return outer;
 }
 
+std::unique_ptr<TreedSurface> FibreExamination::outerOf(int fibreId) const
+{
+  return std::make_unique<TreedSurface>(this->Outer.mesh(this->OuterIndex.at(fibreId)));
+}
+
 std::unique_ptr<TreedSurface> FibreExamination::measure(
   TriangleMesh mesh, int fibreId, const std::string& name, Findings findings) const
 {

@@ -4,33 +4,17 @@
 #include "base/Domain.h"
 #include "fibres/Fibres.h"
 #include "judge/CertificateFindings.h"
+#include "judge/OuterSurfaces.h"
 #include "mesh/FibreSurfaces.h"
-#include "mesh/TriangleTree.h"
 
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace cactus
 {
-
-/// A surface and the tree over it, which refers to it.
-struct TreedSurface
-{
-  explicit TreedSurface(TriangleMesh surface)
-    : mesh(std::move(surface))
-    , tree(this->mesh)
-  {
-  }
-  TreedSurface(const TreedSurface&) = delete;
-  TreedSurface& operator=(const TreedSurface&) = delete;
-
-  TriangleMesh mesh;
-  TriangleTree tree;
-};
 
 /// Finds out what a certificate says of one fibre by itself. May be used from several threads.
 class FibreExamination
@@ -44,6 +28,9 @@ public:
   /// to what its surfaces reach out of the domain (µm). Returns the outer surface, or null if there is none. Throws InvalidInput
   /// for a damaged surface, which it names.
   std::unique_ptr<TreedSurface> examine(FibreCertificate& fibre, double& reach) const;
+
+  /// The outer surface of a fibre that has one.
+  std::unique_ptr<TreedSurface> outerOf(int fibreId) const;
 
 private:
   using Index = std::unordered_map<int, std::size_t>;

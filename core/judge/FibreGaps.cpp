@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace cactus
@@ -17,10 +20,11 @@ namespace
 {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Share of the work that looking for first neighbours takes.
-constexpr double firstNeighboursShare = 0.25;
+constexpr float unboundedLine = std::numeric_limits<float>::infinity();
+/// Share of the work that looking for neighbours takes.
+constexpr double neighboursShare = 0.3;
 
-/// Two fibres by their places in the certificate.
+/// Two fibres.
 struct FibrePair
 {
   std::size_t a = 0;
@@ -32,131 +36,274 @@ struct FibrePair
 class GapSearch
 {
 public:
-  GapSearch(const std::vector<std::unique_ptr<TreedSurface>>& outer, SubstrateCertificate& certificate)
-    : Outer(outer)
-    , Result(certificate)
-  {
-    for (std::size_t f = 0; f < outer.size(); ++f)
-    {
-      if (outer[f] != nullptr && !outer[f]->tree.empty())
-      {
-        Present.push_back(f);
-      }
-    }
-  }
+  GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certificate);
 
   void run(const Context& context, double from)
   {
-    const double middle = from + firstNeighboursShare * (1.0 - from);
-    std::vector<double> bound(this->Outer.size(), infinite);
+    const double middle = from + neighboursShare * (1.0 - from);
+    std::vector<std::vector<std::size_t>> near(this->Present.size());
     parallelFor(
-      this->Present.size(), context, [&](std::size_t i) { bound[this->Present[i]] = this->gapToLikeliest(this->Present[i]); },
-      "Measuring gaps", from, middle);
-    std::vector<FibrePair> pairs = this->pairsWithin(bound);
-    parallelFor(
-      pairs.size(), context,
-      [&](std::size_t i)
+      near.size(), context,
+      [&](std::size_t rank)
       {
-        FibrePair& pair = pairs[i];
-        // A little more than the bound, so that what equals it is found.
-        const double below = 1.000001 * std::max(bound[pair.a], bound[pair.b]) + 1e-9;
-        pair.gap = smallestGap(this->Outer[pair.a]->tree, this->Outer[pair.b]->tree, below).distance;
-        pair.nested = pair.gap > 0.0 && (this->hasPieceInside(pair.a, pair.b) || this->hasPieceInside(pair.b, pair.a));
+        this->Bound[rank] = this->gapToLikeliest(rank);
+        near[rank] = this->thoseWithin(rank, this->Bound[rank]);
+        this->addThoseAround(rank, near[rank]);
       },
-      "Measuring gaps", middle, 1.0);
-    this->enter(pairs);
+      "Measuring gaps", from, middle);
+    std::vector<FibrePair> pairs = this->pairsOf(near);
+    parallelFor(
+      pairs.size(), context, [&](std::size_t i) { this->measure(pairs[i]); }, "Measuring gaps", middle, 1.0);
+    this->enter(std::move(pairs));
   }
 
 private:
-  const FloatBox& boxOf(std::size_t f) const { return this->Outer[f]->tree.nodes()[0].box; }
+  // Fibres are known by their ranks: those that follow each other are near each other, so that few surfaces are in use at a time.
 
-  /// The gap to the fibre whose box is nearest, which bounds how far the others matter.
-  double gapToLikeliest(std::size_t f) const
+  std::shared_ptr<const TreedSurface> surface(std::size_t rank) const { return this->Outer.get(this->Present[rank]); }
+  const FibreCertificate& findings(std::size_t rank) const { return this->Result.fibres[this->Present[rank]]; }
+
+  std::size_t likeliestNeighbour(std::size_t rank) const;
+  double gapToLikeliest(std::size_t rank) const;
+  std::vector<std::size_t> thoseWithin(std::size_t rank, double distance) const;
+  void addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const;
+  std::vector<std::size_t> thoseOnAllSides(const Eigen::Vector3d& point) const;
+  std::vector<FibrePair> pairsOf(const std::vector<std::vector<std::size_t>>& near) const;
+  void measure(FibrePair& pair) const;
+  bool hasPieceInside(
+    const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const;
+  void enter(std::vector<FibrePair> pairs);
+
+  const OuterSurfaces& Outer;
+  SubstrateCertificate& Result;
+  BoxTree Branches;                 ///< over the parts of all surfaces
+  std::vector<std::size_t> RankOf;  ///< of the fibre of a part
+  std::vector<std::size_t> Present; ///< places of fibres with an outer surface, by rank
+  std::vector<double> Bound;        ///< µm, by rank: another fibre is as near as that
+};
+
+GapSearch::GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certificate)
+  : Outer(outer)
+  , Result(certificate)
+{
+  std::vector<BoxTree::Item> items;
+  std::vector<std::size_t> placeOf;
+  for (std::size_t f = 0; f < outer.size(); ++f)
   {
-    std::size_t likeliest = f;
-    float least = std::numeric_limits<float>::infinity();
-    const auto centre = [](const FloatBox& box) -> Eigen::Array4f { return 0.5F * (box.lower + box.upper); };
-    for (const std::size_t other : this->Present)
+    for (const FloatBox& box : outer.branches(f))
     {
-      const float apart = (centre(this->boxOf(f)) - centre(this->boxOf(other))).square().sum();
-      if (other != f && apart < least)
+      items.push_back({ box, static_cast<std::uint32_t>(placeOf.size()) });
+      placeOf.push_back(f);
+    }
+  }
+  this->Branches = BoxTree(std::move(items));
+  std::vector<std::size_t> rankOf(outer.size(), outer.size());
+  for (const std::uint32_t branch : this->Branches.order())
+  {
+    std::size_t& rank = rankOf[placeOf[branch]];
+    if (rank == outer.size())
+    {
+      rank = this->Present.size();
+      this->Present.push_back(placeOf[branch]);
+    }
+  }
+  this->RankOf.reserve(placeOf.size());
+  for (const std::size_t place : placeOf)
+  {
+    this->RankOf.push_back(rankOf[place]);
+  }
+  this->Bound.resize(this->Present.size(), infinite);
+}
+
+/// The fibre with the part whose box is nearest to the middle of this one's middle part; itself where there is no other.
+std::size_t GapSearch::likeliestNeighbour(std::size_t rank) const
+{
+  const std::vector<FloatBox>& own = this->Outer.branches(this->Present[rank]);
+  const FloatBox& box = own[own.size() / 2];
+  FloatBox middle;
+  middle.lower = middle.upper = 0.5F * (box.lower + box.upper);
+  std::size_t likeliest = rank;
+  float least = std::numeric_limits<float>::infinity();
+  const auto& boxes = this->Branches.boxes();
+  visitPlaces(
+    this->Branches, [&](const FloatBox& other) { return middle.squaredDistance(other) < least; },
+    [&](std::uint32_t place)
+    {
+      const std::size_t other = this->RankOf[this->Branches.order()[place]];
+      const float apart = middle.squaredDistance(boxes[place]);
+      if (other != rank && apart < least)
       {
         least = apart;
         likeliest = other;
       }
-    }
-    return likeliest == f ? infinite : smallestGap(this->Outer[f]->tree, this->Outer[likeliest]->tree).distance;
-  }
+      return false;
+    });
+  return likeliest;
+}
 
-  /// The pairs whose boxes come as near as the bound of one of the two.
-  std::vector<FibrePair> pairsWithin(const std::vector<double>& bound) const
+double GapSearch::gapToLikeliest(std::size_t rank) const
+{
+  const std::size_t likeliest = this->likeliestNeighbour(rank);
+  return likeliest == rank ? infinite : smallestGap(this->surface(rank)->tree, this->surface(likeliest)->tree).distance;
+}
+
+/// The fibres of which a part's box is as near to one of this fibre's.
+std::vector<std::size_t> GapSearch::thoseWithin(std::size_t rank, double distance) const
+{
+  std::vector<std::size_t> found;
+  const double squared = distance * distance;
+  for (const FloatBox& box : this->Outer.branches(this->Present[rank]))
   {
-    std::vector<FibrePair> pairs;
-    for (std::size_t i = 0; i < this->Present.size(); ++i)
-    {
-      for (std::size_t j = i + 1; j < this->Present.size(); ++j)
+    const auto isNear = [&](const FloatBox& other) { return double(box.squaredDistance(other)) <= squared; };
+    visitPlaces(this->Branches, isNear,
+      [&](std::uint32_t place)
       {
-        const std::size_t a = this->Present[i];
-        const std::size_t b = this->Present[j];
-        const double reach = std::max(bound[a], bound[b]);
-        if (double(this->boxOf(a).squaredDistance(this->boxOf(b))) <= reach * reach)
+        const std::size_t other = this->RankOf[this->Branches.order()[place]];
+        if (other != rank && isNear(this->Branches.boxes()[place]))
         {
-          pairs.push_back({ a, b });
+          found.push_back(other);
         }
+        return false;
+      });
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+/// Adds the fibres that may hold a piece of this one.
+void GapSearch::addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const
+{
+  const std::shared_ptr<const TreedSurface> own = this->surface(rank);
+  for (const std::int32_t point : this->findings(rank).outer.pieces)
+  {
+    for (const std::size_t other : this->thoseOnAllSides(own->mesh.points[std::size_t(point)]))
+    {
+      if (other != rank)
+      {
+        found.push_back(other);
       }
     }
-    return pairs;
   }
+}
 
-  /// For surfaces that do not meet.
-  bool hasPieceInside(std::size_t inside, std::size_t around) const
+/// The fibres that have parts' boxes on the half-lines from a point in all six directions, as what holds the point has.
+std::vector<std::size_t> GapSearch::thoseOnAllSides(const Eigen::Vector3d& point) const
+{
+  std::vector<std::size_t> all;
+  for (int side = 0; side < 6; ++side)
   {
-    const auto& fibres = this->Result.fibres;
-    return fibres[around].outer.closed() && // else it has no inside, and is a fault by itself
-           anyLiesInside(this->Outer[inside]->mesh, fibres[inside].outer, this->Outer[around]->tree);
-  }
-
-  void enter(const std::vector<FibrePair>& pairs)
-  {
-    this->Result.smallestGap = infinite;
-    for (const FibrePair& pair : pairs)
-    {
-      FibreCertificate& a = this->Result.fibres[pair.a];
-      FibreCertificate& b = this->Result.fibres[pair.b];
-      // Pairs come by increasing ids, so that of equal gaps the smaller id stays.
-      for (auto [own, other] : { std::pair(&a, &b), std::pair(&b, &a) })
+    FloatBox ray = FloatBox::around(point);
+    (side % 2 == 0 ? ray.lower : ray.upper)[side / 2] = side % 2 == 0 ? -unboundedLine : unboundedLine;
+    std::vector<std::size_t> hit;
+    visitPlaces(
+      this->Branches, [&](const FloatBox& box) { return ray.overlaps(box); },
+      [&](std::uint32_t place)
       {
-        if (pair.gap < infinite && !(own->gap <= pair.gap))
+        if (ray.overlaps(this->Branches.boxes()[place]))
         {
-          own->gap = pair.gap;
-          own->nearestFibre = other->fibreId;
+          hit.push_back(this->RankOf[this->Branches.order()[place]]);
         }
-        own->meetingFibres += pair.gap == 0.0 || pair.nested ? 1 : 0;
-      }
-      this->Result.meetingPairs += pair.gap == 0.0 ? 1 : 0;
-      this->Result.nestedPairs += pair.nested ? 1 : 0;
-      if (pair.gap < this->Result.smallestGap)
-      {
-        this->Result.smallestGap = pair.gap;
-        this->Result.gapFibreA = a.fibreId;
-        this->Result.gapFibreB = b.fibreId;
-      }
-    }
-    if (pairs.empty())
+        return false;
+      });
+    std::sort(hit.begin(), hit.end());
+    hit.erase(std::unique(hit.begin(), hit.end()), hit.end());
+    if (side == 0)
     {
-      this->Result.smallestGap = std::numeric_limits<double>::quiet_NaN();
+      all.swap(hit);
+      continue;
+    }
+    std::vector<std::size_t> both;
+    std::set_intersection(all.begin(), all.end(), hit.begin(), hit.end(), std::back_inserter(both));
+    all.swap(both);
+  }
+  return all;
+}
+
+/// Each pair once, those near each other one after the other.
+std::vector<FibrePair> GapSearch::pairsOf(const std::vector<std::vector<std::size_t>>& near) const
+{
+  std::vector<std::pair<std::size_t, std::size_t>> ranks;
+  for (std::size_t rank = 0; rank < near.size(); ++rank)
+  {
+    for (const std::size_t other : near[rank])
+    {
+      ranks.emplace_back(std::min(rank, other), std::max(rank, other));
     }
   }
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  std::vector<FibrePair> pairs;
+  pairs.reserve(ranks.size());
+  for (const auto& [one, other] : ranks)
+  {
+    // The smaller place first: the last bits of a distance depend on it.
+    const bool isInOrder = this->Present[one] < this->Present[other];
+    pairs.push_back({ isInOrder ? one : other, isInOrder ? other : one });
+  }
+  return pairs;
+}
 
-  const std::vector<std::unique_ptr<TreedSurface>>& Outer;
-  SubstrateCertificate& Result;
-  std::vector<std::size_t> Present; ///< places of fibres with an outer surface
-};
+void GapSearch::measure(FibrePair& pair) const
+{
+  const std::shared_ptr<const TreedSurface> a = this->surface(pair.a);
+  const std::shared_ptr<const TreedSurface> b = this->surface(pair.b);
+  // A little more than the bound, so that what equals it is found.
+  const double below = 1.000001 * std::max(this->Bound[pair.a], this->Bound[pair.b]) + 1e-9;
+  pair.gap = smallestGap(a->tree, b->tree, below).distance;
+  pair.nested = pair.gap > 0.0 && (this->hasPieceInside(*a, pair.a, *b, pair.b) || this->hasPieceInside(*b, pair.b, *a, pair.a));
+}
+
+/// For surfaces that do not meet.
+bool GapSearch::hasPieceInside(
+  const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const
+{
+  return this->findings(aroundRank).outer.closed() && // else it has no inside, and is a fault by itself
+         anyLiesInside(inside.mesh, this->findings(insideRank).outer, around.tree);
+}
+
+void GapSearch::enter(std::vector<FibrePair> pairs)
+{
+  for (FibrePair& pair : pairs)
+  {
+    pair.a = this->Present[pair.a];
+    pair.b = this->Present[pair.b];
+  }
+  std::sort(
+    pairs.begin(), pairs.end(), [](const FibrePair& p, const FibrePair& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  this->Result.smallestGap = infinite;
+  for (const FibrePair& pair : pairs)
+  {
+    FibreCertificate& a = this->Result.fibres[pair.a];
+    FibreCertificate& b = this->Result.fibres[pair.b];
+    // Pairs come by increasing ids, so that of equal gaps the smaller id stays.
+    for (auto [own, other] : { std::pair(&a, &b), std::pair(&b, &a) })
+    {
+      if (pair.gap < infinite && !(own->gap <= pair.gap))
+      {
+        own->gap = pair.gap;
+        own->nearestFibre = other->fibreId;
+      }
+      own->meetingFibres += pair.gap == 0.0 || pair.nested ? 1 : 0;
+    }
+    this->Result.meetingPairs += pair.gap == 0.0 ? 1 : 0;
+    this->Result.nestedPairs += pair.nested ? 1 : 0;
+    if (pair.gap < this->Result.smallestGap)
+    {
+      this->Result.smallestGap = pair.gap;
+      this->Result.gapFibreA = a.fibreId;
+      this->Result.gapFibreB = b.fibreId;
+    }
+  }
+  if (pairs.empty())
+  {
+    this->Result.smallestGap = std::numeric_limits<double>::quiet_NaN();
+  }
+}
 
 } // namespace
 
-void findGaps(
-  const std::vector<std::unique_ptr<TreedSurface>>& outer, SubstrateCertificate& certificate, const Context& context, double from)
+void findGaps(const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context, double from)
 {
   GapSearch(outer, certificate).run(context, from);
 }

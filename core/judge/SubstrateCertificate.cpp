@@ -24,6 +24,8 @@ namespace
 constexpr int unknownBundle = std::numeric_limits<int>::max();
 /// Share of the work that looking at each fibre by itself takes.
 constexpr double surfacesDone = 0.6;
+/// What is kept of outer surfaces: 1 GiB.
+constexpr std::size_t bytesOfSurfaces = std::size_t(1) << 30;
 
 /// Those with a surface, those that were to have one, and those whose centre lines run through the domain, by increasing id.
 std::vector<FibreCertificate> fibresToExamine(const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* lines)
@@ -97,10 +99,11 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
   certificate.fibres = fibresToExamine(outer, inner, fibres);
   const std::size_t count = certificate.fibres.size();
   const FibreExamination examination(domain, outer, inner, fibres, options.cutSpacing);
-  std::vector<std::unique_ptr<TreedSurface>> surfaces(count);
+  OuterSurfaces surfaces(
+    count, bytesOfSurfaces, [&](std::size_t f) { return examination.outerOf(certificate.fibres[f].fibreId); });
   std::vector<double> reach(count, 0.0);
   parallelFor(
-    count, context, [&](std::size_t f) { surfaces[f] = examination.examine(certificate.fibres[f], reach[f]); },
+    count, context, [&](std::size_t f) { surfaces.enter(f, examination.examine(certificate.fibres[f], reach[f])); },
     "Looking at surfaces", 0.0, surfacesDone);
   findGaps(surfaces, certificate, context, surfacesDone);
   const double requiredGap = options.minimumGap < 0.0 ? outer.promisedGap : options.minimumGap;

@@ -65,17 +65,6 @@ Vector3d farPoint(const Vector3d& point, const Vector3d& lower, double size, int
     point[2] + 0.2 * size * (lift - std::floor(lift) - 0.5) };
 }
 
-FloatBox boxAround(const Vector3d& p, const Vector3d& q)
-{
-  FloatBox box;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    box.lower[axis] = std::nextafter(static_cast<float>(std::min(p[axis], q[axis])), -3e38F);
-    box.upper[axis] = std::nextafter(static_cast<float>(std::max(p[axis], q[axis])), 3e38F);
-  }
-  return box;
-}
-
 } // namespace
 
 Side sideOf(const TriangleTree& surface, const Vector3d& point)
@@ -97,9 +86,9 @@ Side sideOf(const TriangleTree& surface, const Vector3d& point)
   for (int attempt = 1;; ++attempt)
   {
     const Vector3d far = farPoint(point, lower, size, attempt);
-    const FloatBox reach = boxAround(point, far);
+    const FloatBox reach = FloatBox::around(point, far, far);
     Crossings crossings;
-    visitTriangles(
+    visitEntries(
       surface, [&reach](const FloatBox& node) { return node.overlaps(reach); },
       [&](std::uint32_t triangle)
       {

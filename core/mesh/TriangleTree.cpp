@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/TriangleTree.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace cactus
@@ -12,166 +9,36 @@ namespace cactus
 namespace
 {
 
-constexpr float unbounded = std::numeric_limits<float>::infinity();
-/// From here on at the median, which adds at most 32 levels for 32-bit indices.
-constexpr int depthOfMedians = 36;
-
-/// One or two steps down, or up: free of branches, and sure.
-float roundedDown(double value)
+std::vector<std::uint32_t> allOf(const TriangleMesh& mesh)
 {
-  const auto rounded = static_cast<float>(value);
-  return rounded - (std::fabs(rounded) * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min());
+  std::vector<std::uint32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
 }
 
-float roundedUp(double value)
+std::vector<BoxTree::Item> itemsOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles)
 {
-  const auto rounded = static_cast<float>(value);
-  return rounded + (std::fabs(rounded) * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min());
-}
-
-FloatBox boxOf(const TriangleMesh& mesh, std::size_t triangle)
-{
-  const auto& t = mesh.triangles[triangle];
-  const double* a = mesh.points[std::size_t(t[0])].data();
-  const double* b = mesh.points[std::size_t(t[1])].data();
-  const double* c = mesh.points[std::size_t(t[2])].data();
-  FloatBox box;
-  for (int axis = 0; axis < 3; ++axis)
+  std::vector<BoxTree::Item> items(triangles.size());
+  for (std::size_t i = 0; i < items.size(); ++i)
   {
-    box.lower[axis] = roundedDown(std::min({ a[axis], b[axis], c[axis] }));
-    box.upper[axis] = roundedUp(std::max({ a[axis], b[axis], c[axis] }));
+    const auto& t = mesh.triangles[triangles[i]];
+    const auto corner = [&](std::size_t c) -> const Eigen::Vector3d& { return mesh.points[std::size_t(t[c])]; };
+    items[i] = { FloatBox::around(corner(0), corner(1), corner(2)), triangles[i] };
   }
-  return box;
-}
-
-struct Item
-{
-  FloatBox box;
-  std::uint32_t triangle;
-
-  /// Twice its centre.
-  float centre(int axis) const { return this->box.lower[axis] + this->box.upper[axis]; }
-};
-
-struct ItemRange
-{
-  std::uint32_t node;
-  std::uint32_t first;
-  std::uint32_t last;
-  int depth;
-};
-
-void include(FloatBox& box, const FloatBox& other)
-{
-  box.lower = box.lower.min(other.lower);
-  box.upper = box.upper.max(other.upper);
-}
-
-/// Where to part the items of a range, which are put into that order; neither part is empty.
-std::uint32_t part(std::vector<Item>& items, const ItemRange& range)
-{
-  Eigen::Array4f lower = Eigen::Array4f::Constant(unbounded);
-  Eigen::Array4f upper = -lower;
-  for (std::uint32_t i = range.first; i < range.last; ++i)
-  {
-    const Eigen::Array4f centre = items[i].box.lower + items[i].box.upper;
-    lower = lower.min(centre);
-    upper = upper.max(centre);
-  }
-  int longest = 0;
-  (upper - lower).head<3>().maxCoeff(&longest);
-  const auto first = items.begin() + range.first;
-  const auto last = items.begin() + range.last;
-  if (range.depth < depthOfMedians)
-  {
-    const float middle = 0.5F * (lower[longest] + upper[longest]);
-    const auto split = std::partition(first, last, [&](const Item& item) { return item.centre(longest) < middle; });
-    if (split != first && split != last)
-    {
-      return static_cast<std::uint32_t>(split - items.begin());
-    }
-  }
-  const auto split = first + (last - first) / 2;
-  std::nth_element(first, split, last,
-    [longest](const Item& a, const Item& b)
-    {
-      const float ca = a.centre(longest);
-      const float cb = b.centre(longest);
-      return ca != cb ? ca < cb : a.triangle < b.triangle;
-    });
-  return static_cast<std::uint32_t>(split - items.begin());
+  return items;
 }
 
 } // namespace
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh)
-  : Mesh(&mesh)
+  : TriangleTree(mesh, allOf(mesh))
 {
-  std::vector<std::uint32_t> all(mesh.triangles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  this->build(std::move(all));
 }
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh, std::vector<std::uint32_t> triangles)
-  : Mesh(&mesh)
+TriangleTree::TriangleTree(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles)
+  : BoxTree(itemsOf(mesh, triangles))
+  , Mesh(&mesh)
 {
-  this->build(std::move(triangles));
-}
-
-void TriangleTree::build(std::vector<std::uint32_t> triangles)
-{
-  this->Order = std::move(triangles);
-  if (this->Order.empty())
-  {
-    return;
-  }
-  std::vector<Item> items(this->Order.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-  {
-    items[i] = { boxOf(*this->Mesh, this->Order[i]), this->Order[i] };
-  }
-  this->Nodes.reserve(items.size());
-  this->Nodes.emplace_back();
-  std::vector<ItemRange> ranges{ { 0, 0, static_cast<std::uint32_t>(items.size()), 0 } };
-  while (!ranges.empty())
-  {
-    const ItemRange range = ranges.back();
-    ranges.pop_back();
-    if (range.last - range.first <= leafSize)
-    {
-      Node& leaf = this->Nodes[range.node];
-      leaf = { items[range.first].box, range.first, range.last - range.first };
-      for (std::uint32_t i = range.first + 1; i < range.last; ++i)
-      {
-        include(leaf.box, items[i].box);
-      }
-      continue;
-    }
-    const std::uint32_t split = part(items, range);
-    const auto child = static_cast<std::uint32_t>(this->Nodes.size());
-    this->Nodes[range.node].first = child;
-    this->Nodes[range.node].count = 0;
-    this->Nodes.resize(this->Nodes.size() + 2);
-    ranges.push_back({ child + 1, split, range.last, range.depth + 1 });
-    ranges.push_back({ child, range.first, split, range.depth + 1 });
-  }
-  // Children come after their parents.
-  for (std::size_t n = this->Nodes.size(); n-- > 0;)
-  {
-    Node& node = this->Nodes[n];
-    if (!node.isLeaf())
-    {
-      node.box = this->Nodes[node.first].box;
-      include(node.box, this->Nodes[node.first + 1].box);
-    }
-  }
-  this->Boxes.resize(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-  {
-    this->Order[i] = items[i].triangle;
-    this->Boxes[i] = items[i].box;
-  }
-  this->Nodes.shrink_to_fit();
 }
 
 } // namespace cactus

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+/// An axis-aligned box in single precision, rounded outwards: it holds what it was made around. The fourth number is 0 and there
+/// for the vector unit.
+struct FloatBox
+{
+  Eigen::Array4f lower = Eigen::Array4f::Zero();
+  Eigen::Array4f upper = Eigen::Array4f::Zero();
+
+  bool overlaps(const FloatBox& other) const
+  {
+    return (this->lower - other.upper).max(other.lower - this->upper).maxCoeff() <= 0.0F;
+  }
+
+  /// No larger than the squared distance (µm²) of what the two boxes hold; 0 where they overlap.
+  float squaredDistance(const FloatBox& other) const
+  {
+    const Eigen::Array4f apart = (this->lower - other.upper).max(other.lower - this->upper).max(Eigen::Array4f::Zero());
+    return 0.999999F * (apart * apart).sum(); // less what rounding may have added
+  }
+
+  /// Makes it hold another one, too.
+  void include(const FloatBox& other)
+  {
+    this->lower = this->lower.min(other.lower);
+    this->upper = this->upper.max(other.upper);
+  }
+
+  float longestSide() const { return (this->upper - this->lower).maxCoeff(); }
+
+  /// The smallest one around three points (µm), but for rounding.
+  static FloatBox around(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+  static FloatBox around(const Eigen::Vector3d& point) { return around(point, point, point); }
+};
+
+/// A tree over boxes, for everything that asks which of them are near something.
+///
+/// Boxes are halved at the middle of their centres (at the median, where the middle leaves one side empty or the tree has become
+/// deep), down to leaves of up to leafSize: O(n log n), and no deeper than maximumDepth. About 70 bytes an entry. The tree is
+/// the same for the same boxes, and queries allocate nothing.
+class BoxTree
+{
+public:
+  static constexpr std::uint32_t leafSize = 4;
+  static constexpr int maximumDepth = 72;
+
+  /// What the tree is made of: a box, and what it is of.
+  struct Item
+  {
+    FloatBox box;
+    std::uint32_t entry;
+  };
+
+  struct Node
+  {
+    FloatBox box;
+    std::uint32_t first; ///< of a leaf its first place in order(), else the first of its two children, which are neighbours
+    std::uint32_t count; ///< entries of a leaf, 0 for other nodes
+
+    bool isLeaf() const { return this->count > 0; }
+  };
+
+  BoxTree() = default;
+  explicit BoxTree(std::vector<Item> items);
+
+  bool empty() const { return this->Nodes.empty(); }
+  /// Node 0 is the root, if there is one.
+  const std::vector<Node>& nodes() const { return this->Nodes; }
+  /// Entries by leaf.
+  const std::vector<std::uint32_t>& order() const { return this->Order; }
+  /// The boxes of the entries in order().
+  const std::vector<FloatBox>& boxes() const { return this->Boxes; }
+
+private:
+  std::vector<Node> Nodes;
+  std::vector<std::uint32_t> Order;
+  std::vector<FloatBox> Boxes;
+};
+
+/// Calls visit(place in order()) for the entries of all leaves that `wanted(box)` leads to, until it returns true. Returns
+/// whether it did.
+template <typename Wanted, typename Visit>
+bool visitPlaces(const BoxTree& tree, Wanted&& wanted, Visit&& visit)
+{
+  std::array<std::uint32_t, BoxTree::maximumDepth + 2> stack;
+  std::size_t height = 0;
+  if (!tree.empty())
+  {
+    stack[height++] = 0;
+  }
+  while (height > 0)
+  {
+    const BoxTree::Node& node = tree.nodes()[stack[--height]];
+    if (!wanted(node.box))
+    {
+      continue;
+    }
+    if (!node.isLeaf())
+    {
+      stack[height++] = node.first + 1;
+      stack[height++] = node.first;
+      continue;
+    }
+    for (std::uint32_t place = node.first; place < node.first + node.count; ++place)
+    {
+      if (visit(place))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Calls visit(entry) likewise.
+template <typename Wanted, typename Visit>
+bool visitEntries(const BoxTree& tree, Wanted&& wanted, Visit&& visit)
+{
+  return visitPlaces(tree, wanted, [&](std::uint32_t place) { return visit(tree.order()[place]); });
+}
+
+/// Calls visit(entry of a, entry of b) for all pairs whose boxes overlap, until it returns true. Returns whether it did. Of
+/// a tree with itself, each pair of different entries comes once.
+template <typename Visit>
+bool visitOverlaps(const BoxTree& a, const BoxTree& b, Visit&& visit)
+{
+  const bool same = &a == &b;
+  std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * BoxTree::maximumDepth + 4> stack;
+  std::size_t height = 0;
+  if (!a.empty() && !b.empty())
+  {
+    stack[height++] = { 0, 0 };
+  }
+  while (height > 0)
+  {
+    const auto [i, j] = stack[--height];
+    const BoxTree::Node& p = a.nodes()[i];
+    const BoxTree::Node& q = b.nodes()[j];
+    const bool withItself = same && i == j;
+    if (withItself && !p.isLeaf())
+    {
+      stack[height++] = { p.first, p.first + 1 };
+      stack[height++] = { p.first + 1, p.first + 1 };
+      stack[height++] = { p.first, p.first };
+      continue;
+    }
+    if (!p.box.overlaps(q.box))
+    {
+      continue;
+    }
+    if (!p.isLeaf() && (q.isLeaf() || p.box.longestSide() >= q.box.longestSide()))
+    {
+      stack[height++] = { p.first + 1, j };
+      stack[height++] = { p.first, j };
+      continue;
+    }
+    if (!q.isLeaf())
+    {
+      stack[height++] = { i, q.first + 1 };
+      stack[height++] = { i, q.first };
+      continue;
+    }
+    for (std::uint32_t m = p.first; m < p.first + p.count; ++m)
+    {
+      const FloatBox& box = a.boxes()[m];
+      for (std::uint32_t n = withItself ? m + 1 : q.first; n < q.first + q.count; ++n)
+      {
+        if (box.overlaps(b.boxes()[n]) && visit(a.order()[m], b.order()[n]))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+} // namespace cactus
