@@ -734,7 +734,7 @@ def all_cases(bench):
             add(f"bounds/{name}/{one.get('name')}")
             for value in values(one):
                 important = value in ("nan", "1e300", "-1", "0", "min", "max", "beyond-min", "beyond-max", "2^31-1")
-                add(f"property/{name}/{one.get('name')}/{value}", share=0.5 if important else 0.15)
+                add(f"property/{name}/{one.get('name')}/{value}", share=0.35 if important else 0.1)
         for one in target.texts:
             place = tempfile.mkdtemp()
             for what in playground(place, {}):
@@ -748,11 +748,11 @@ def all_cases(bench):
             data = bench.good[kind]
             for what in inputs.spoilers(data):
                 if what.count("."):
-                    share = 0.03
+                    share = 0.015
                 elif what.startswith("empty-"):
                     share = 0.2
                 else:
-                    share = 0.5 if port in ("Input", "Outer") or what in inputs.COMPOSITES else 0.2
+                    share = 0.3 if port in ("Input", "Outer") or what in inputs.COMPOSITES else 0.15
                 add(f"data/{name}/{port}/{what}", share=share)
             for source in from_paraview:
                 add(f"source/{name}/{port}/{source}", share=0.3)
