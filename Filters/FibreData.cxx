@@ -64,7 +64,8 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
 {
   if (input->GetNumberOfLines() != input->GetNumberOfCells())
   {
-    throw InvalidInput("the input holds cells that are not polylines: one polyline per fibre is expected");
+    throw InvalidInput(std::string("the input holds cells that are not polylines: one polyline per fibre is expected") +
+                       (input->GetNumberOfPolys() > 0 ? ", and not the surfaces that are made of it" : ""));
   }
   vtkDataArray* radius = scalars(input->GetPointData(), "Radius", input->GetNumberOfPoints());
   if (radius == nullptr)

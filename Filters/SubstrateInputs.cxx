@@ -3,6 +3,7 @@
 
 #include "FibreData.h"
 #include "SurfaceData.h"
+#include "base/Error.h"
 #include "vtkFibreRadialGrowth.h"
 #include "vtkMyelinSurface.h"
 
@@ -61,6 +62,22 @@ SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, 
   if (data.fibres == nullptr && growth != nullptr)
   {
     data.fibres = unlessReleased(connectedTo(growth, 0));
+  }
+  return data;
+}
+
+SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, int innerPort)
+{
+  if (connectedTo(self, outerPort) != nullptr || makerOf<vtkMyelinSurface>(self, fibrePort, 0) == nullptr)
+  {
+    return { connectedTo(self, outerPort), connectedTo(self, innerPort), connectedTo(self, fibrePort) };
+  }
+  SubstrateData data = substrateDataOf(self, fibrePort, innerPort, outerPort);
+  if (data.fibres == nullptr)
+  {
+    throw InvalidInput(
+      "Fibres holds surfaces, and the fibres that they come from are not at hand: connect these as Fibres, and the "
+      "surfaces as Outer and Inner");
   }
   return data;
 }

@@ -28,7 +28,11 @@ struct SubstrateData
 /// connects the outer surfaces alone has the whole substrate judged, not a half of it.
 SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort);
 
-/// The same, read.
+/// The same for a filter whose first port is `Fibres`: where that is given the outer surfaces of MyelinSurface, and nothing is
+/// connected as `Outer`, these are measured, with what substrateDataOf finds. Throws InvalidInput where it finds no fibres.
+SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, int innerPort);
+
+/// What is found there, read.
 struct Substrate
 {
   Domain domain;

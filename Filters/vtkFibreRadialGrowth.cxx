@@ -6,6 +6,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
+#include "OverlapRemark.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
@@ -41,19 +42,6 @@ vtkStandardNewMacro(vtkFibreRadialGrowth);
 
 namespace
 {
-
-/// Whether the optimiser has left overlaps in the input, or in one of its blocks.
-bool stillOverlaps(vtkDataObject* input)
-{
-  std::vector<vtkDataObject*> places = cactus::leavesOf(input);
-  places.push_back(input);
-  return std::any_of(places.begin(), places.end(),
-    [](vtkDataObject* place)
-    {
-      vtkDataArray* converged = place->GetFieldData()->GetArray("Converged");
-      return converged != nullptr && converged->GetNumberOfTuples() > 0 && converged->GetComponent(0, 0) == 0.0;
-    });
-}
 
 /// The part of the image that is asked for. Throws InvalidInput where it is one of an image that these fibres do not make, and
 /// OutOfMemory for more of it than the machine can hold.
@@ -186,6 +174,7 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       }
 
       this->solve(input, fibres, context);
+
       auto fibreId = cactus::makeArray<vtkIntArray>("FibreId", grid.size());
       auto depth = cactus::makeArray<vtkFloatArray>("Depth", grid.size());
       cactus::growFibres(*this->Aimed, options, this->Growth, grid, fibreId->GetPointer(0), depth->GetPointer(0), context);
@@ -212,14 +201,13 @@ void vtkFibreRadialGrowth::solve(vtkDataObject* input, const cactus::Fibres& fib
     return;
   }
   const auto& options = cactus::stageOf<cactus::FibreRadialGrowthStage>(this->Properties).options;
-  if (stillOverlaps(input))
+  for (const std::string& remark :
+    { cactus::remarkOnOverlaps(input, fibres, context.threadCount()), cactus::remarkOnTarget(fibres, options) })
   {
-    vtkWarningMacro(<< "these fibres still overlap (Converged is 0) and take space from each other: let "
-                       "CapsuleOptimizer run on or, where it keeps its history, go to the last time step");
-  }
-  if (const std::string remark = cactus::remarkOnTarget(fibres, options); !remark.empty())
-  {
-    vtkWarningMacro(<< remark);
+    if (!remark.empty())
+    {
+      vtkWarningMacro(<< remark);
+    }
   }
   // Nothing is kept of a search that fails.
   this->Aimed.reset();

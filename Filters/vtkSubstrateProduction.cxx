@@ -4,6 +4,7 @@
 #include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "OverlapRemark.h"
 #include "StageProperties.h"
 #include "SubstrateFileTable.h"
 #include "SurfaceTable.h"
@@ -58,15 +59,21 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
       {
         return;
       }
-      const cactus::Fibres fibres = cactus::fibresFrom(vtkDataObject::GetData(inputs[0]));
+      auto* input = vtkDataObject::GetData(inputs[0]);
+      const cactus::Fibres fibres = cactus::fibresFrom(input);
+      const cactus::Context context = cactus::contextFor(this, stage.threads);
       cactus::ProductionOrder order;
       order.growth = stage.growth;
       order.growth.seed = stage.surfaces.seed;
       order.surfaces = stage.surfaces;
       order.allowOpenSurfaces = stage.allowOpenSurfaces;
-      if (const std::string remark = cactus::remarkOnTarget(fibres, order.growth); !remark.empty())
+      for (const std::string& remark :
+        { cactus::remarkOnOverlaps(input, fibres, context.threadCount()), cactus::remarkOnTarget(fibres, order.growth) })
       {
-        vtkWarningMacro(<< remark);
+        if (!remark.empty())
+        {
+          vtkWarningMacro(<< remark);
+        }
       }
       cactus::Provenance records;
       order.provenance = [&](double spacing, double growth)
@@ -75,7 +82,7 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
           cactus::recordOf(this, "SubstrateProduction", stage, { "Input" }, { { "Spacing", spacing }, { "Growth", growth } });
         return records;
       };
-      const auto produced = cactus::produceSubstrate(fibres, order, stage.folderName, cactus::contextFor(this, stage.threads));
+      const auto produced = cactus::produceSubstrate(fibres, order, stage.folderName, context);
       const cactus::WrittenSubstrate& written = produced.written;
       if (!produced.remarks.empty())
       {

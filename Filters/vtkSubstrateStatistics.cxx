@@ -6,6 +6,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
+#include "SubstrateInputs.h"
 #include "SurfaceData.h"
 #include "WholeData.h"
 #include "base/Error.h"
@@ -187,7 +188,7 @@ int vtkSubstrateStatistics::ComputePipelineMTime(
   return cactus::pipelineTime(this, time);
 }
 
-int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
@@ -198,14 +199,12 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       {
         return; // one rank measures; tables of all ranks would be joined into rows that repeat
       }
-      vtkDataObject* lines = vtkDataObject::GetData(inputs[0]);
-      vtkDataObject* outerData = vtkDataObject::GetData(inputs[1]);
-      vtkDataObject* innerData = vtkDataObject::GetData(inputs[2]);
-      const cactus::Fibres fibres = cactus::fibresFrom(lines);
-      cactus::requireSameDomain(fibres.domain, outerData, "Outer");
-      cactus::requireSameDomain(fibres.domain, innerData, "Inner");
-      const cactus::FibreSurfaces outer = cactus::surfacesFrom(outerData, "Outer", 0);
-      const cactus::FibreSurfaces inner = cactus::surfacesFrom(innerData, "Inner", 1);
+      const cactus::SubstrateData data = cactus::measuredDataOf(this, 0, 1, 2);
+      const cactus::Fibres fibres = cactus::fibresFrom(data.fibres);
+      cactus::requireSameDomain(fibres.domain, data.outer, "Outer");
+      cactus::requireSameDomain(fibres.domain, data.inner, "Inner");
+      const cactus::FibreSurfaces outer = cactus::surfacesFrom(data.outer, "Outer", 0);
+      const cactus::FibreSurfaces inner = cactus::surfacesFrom(data.inner, "Inner", 1);
       const auto statistics =
         cactus::measureSubstrate(fibres, outer, inner, stage.options, cactus::contextFor(this, stage.threads));
       if (statistics.outerOpen + statistics.innerOpen > 0)

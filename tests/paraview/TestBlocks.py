@@ -3,7 +3,7 @@
 
 import os
 
-from cactus_testing import CactusTestCase, fetch, main, make, produce, proxies
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main, make, produce, proxies
 from paraview.simple import (AppendDatasets, AppendGeometry, BundleInitializer, CapsuleOptimizer, ExtractBlock, FibreRadialGrowth,
                              GroupDatasets, GroupTimeSteps, MyelinSurface, OutputPort, SaveData, StrandReader,
                              SubstrateCertificate, SubstrateStatistics, SubstrateWriter)
@@ -44,6 +44,8 @@ def blocks(*parts, kind=vtkMultiBlockDataSet):
 
 
 class Blocks(CactusTestCase):
+    expected = UNPARTED
+
     def bundle(self, **properties):
         return BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
 

@@ -4,7 +4,7 @@
 import os
 
 import numpy
-from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main, mesh_oracle, produce
 from paraview.simple import (
     BundleInitializer,
     Contour,
@@ -42,6 +42,8 @@ def volume(part):
 
 
 class FibreFieldTest(CactusTestCase):
+    expected = UNPARTED
+
     @classmethod
     def setUpClass(cls):
         fibres = BundleInitializer(Side=SIDE, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.8, MeanDispersion=5, NumberOfBundles=2, CrossingAngle=90)

@@ -8,7 +8,7 @@ import random
 
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, OutputPort, StrandReader
+from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, OutputPort, StrandReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
 
@@ -44,9 +44,9 @@ class FibreRadialGrowthTest(CactusTestCase):
     def test_takes_its_target_from_the_bundle(self):
         """Through the optimiser, of one bundle and of several; a warning names the difference where another one is given."""
         one, two = (BundleInitializer(Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed) for seed in (1, 2))
-        both = CapsuleOptimizer(Input=[one, two])
+        both, parted = CapsuleOptimizer(Input=[one, two]), CapsuleOptimizer(Input=one)
         self.assertAlmostEqual(fetch(both).GetFieldData().GetArray("GrownFibreVolumeFraction").GetValue(0), 0.7)
-        for fibres, fraction in ((one, 0.35), (OutputPort(both, 0), 0.7)):
+        for fibres, fraction in ((OutputPort(parted, 0), 0.35), (OutputPort(both, 0), 0.7)):
             image = fetch(FibreRadialGrowth(Input=fibres, VoxelSize=0.1, SurfaceRoughness=0))
             self.assertAlmostEqual(np.mean(vtk_to_numpy(image.GetPointData().GetArray("FibreId")) > 0), fraction, delta=0.005)
         with self.assertError(r"TargetFibreVolumeFraction is 0\.5.*made to fill 0\.7.*thinner.*about 15 %"):
@@ -116,6 +116,21 @@ class FibreRadialGrowthTest(CactusTestCase):
             self.assertGreater(arrays(fetch(growth))[0].max(), 0)
         optimizer.MaximumIterations = 3000
         fetch(growth)  # and says nothing
+
+    def test_fibres_that_were_never_parted_are_warned_of(self):
+        """Once, by how far they overlap; not after the optimiser, and not where nothing overlaps."""
+        bundle = BundleInitializer(Side=6, MeanDispersion=10, DispersionModel="Watson")
+        growth = FibreRadialGrowth(Input=bundle, VoxelSize=0.2)
+        with self.assertError(r"[1-9]\d* pairs of capsules.*overlap, the worst by [1-9]\d* %.*Apply CapsuleOptimizer first"):
+            fetch(growth)
+        growth.Input = OutputPort(CapsuleOptimizer(Input=bundle), 0)
+        fetch(growth)
+        fetch(FibreRadialGrowth(Input=BundleInitializer(Side=6, MeanDispersion=0), VoxelSize=0.2))
+
+    def test_bundles_that_were_parted_each_for_itself_are_warned_of(self):
+        parted = [OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed)), 0) for seed in (1, 2)]
+        with self.assertError(r"pairs of capsules.*the optimiser has not parted these fibres"):
+            fetch(FibreRadialGrowth(Input=GroupDatasets(Input=parted), VoxelSize=0.2))
 
     def test_a_requested_extent_equals_that_part_of_the_whole(self):
         growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.75)

@@ -5,7 +5,7 @@
 import glob
 import os
 
-from cactus_testing import CactusTestCase, fetch, main
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, ProgrammableFilter,
                              SaveData)
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
@@ -27,6 +27,8 @@ self.GetOutputDataObject(0).AddColumn(column)
 
 
 class Ranks(CactusTestCase):
+    expected = UNPARTED
+
     def grown(self, first, **properties):
         """The provenance of each rank's part of an image of more fibres than are parted in a second."""
         bundle = BundleInitializer(Side=30, MeanDispersion=20, DispersionModel="Watson", FibreVolumeFraction=0.7)

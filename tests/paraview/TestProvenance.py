@@ -5,7 +5,7 @@
 import json
 import os
 
-from cactus_testing import CactusTestCase, fetch, main
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main
 from paraview.simple import (AppendGeometry, BundleInitializer, CapsuleOptimizer, FibreField, FibreRadialGrowth, GroupDatasets, MyelinSurface,
                              OpenDataFile, OutputPort, SaveData, StrandReader, SubstrateStatistics, Transform)
 from vtkmodules.vtkCommonCore import vtkStringArray
@@ -25,6 +25,8 @@ def bundle(**properties):
 
 
 class Provenance(CactusTestCase):
+    expected = UNPARTED
+
     def test_values_are_values(self):
         (record,) = records(fetch(bundle(RadiusDistribution="Table", RadiusTable="0.5, 0.625", Seed=3)))
         self.assertEqual(record["filter"], "BundleInitializer")

@@ -7,7 +7,7 @@ import os
 
 import nibabel
 import numpy
-from cactus_testing import CactusTestCase, fetch, main, produce
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main, produce
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SaveData,
                              SubstrateSampler, SubstrateStatistics)
 from surfaces import POLYGON, two_tubes
@@ -21,6 +21,8 @@ def array(image, name):
 
 
 class Sampler(CactusTestCase):
+    expected = UNPARTED
+
     def tubes(self, **properties):
         lines, outer, inner = two_tubes()
         return SubstrateSampler(Outer=produce(outer), Inner=produce(inner), Fibres=produce(lines), **properties)

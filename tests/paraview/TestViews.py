@@ -3,7 +3,7 @@
 """What a render view shows of each stage without a setting: tubes in their box, a section, axons in their myelin, seen at an angle."""
 
 import numpy
-from cactus_testing import CactusTestCase, main
+from cactus_testing import UNPARTED, CactusTestCase, main
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -33,6 +33,8 @@ def bluish(image):
 
 
 class Views(CactusTestCase):
+    expected = UNPARTED
+
     def view(self):
         view = simple.CreateView("RenderView", ViewSize=[300, 300], UseColorPaletteForBackground=0, Background=[1, 1, 1], OrientationAxesVisibility=0)
         self.addCleanup(simple.Delete, view)
