@@ -56,11 +56,12 @@ def _view(pixels):
 
 def draw_substrate(outer, inner, side, filename, pixels=900):
     """Writes a PNG, 2 × `pixels` wide: left the cut at z = 0 (axon blue, myelin red, extra-axonal space white), right the fibres, of
-    which the axons stand out of the myelin at the top. `outer` and `inner` are pipeline ports, `side` the domain's side in µm."""
+    which the axons stand out of the myelin at the top. `outer` and `inner` (or None) are pipeline ports, `side` the domain's side in µm."""
     cut = _view(pixels)
     _show(_filled_cut(outer, 0.0), cut, MYELIN, flat=True)
-    # A little above, so that it covers.
-    _show(_filled_cut(inner, 0.0, lift=0.01 * side), cut, AXON, flat=True)
+    if inner is not None:
+        # A little above, so that it covers.
+        _show(_filled_cut(inner, 0.0, lift=0.01 * side), cut, AXON, flat=True)
     cut.CameraParallelProjection = 1
     cut.CameraPosition = [0.0, 0.0, 2.0 * side]
     cut.CameraFocalPoint = [0.0, 0.0, 0.0]
@@ -73,7 +74,8 @@ def draw_substrate(outer, inner, side, filename, pixels=900):
     stripped.ClipType.Normal = [0.0, 0.0, 1.0]
     stripped.Invert = 1
     _show(stripped, solid, MYELIN, flat=False)
-    _show(inner, solid, AXON, flat=False)
+    if inner is not None:
+        _show(inner, solid, AXON, flat=False)
     solid.CameraPosition = [2.2 * side, -1.7 * side, 1.6 * side]
     solid.CameraFocalPoint = [0.0, 0.0, 0.0]
     solid.CameraViewUp = [0.0, 0.0, 1.0]

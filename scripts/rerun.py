@@ -6,12 +6,13 @@ be made again.
 """
 
 import argparse
-import hashlib
 import json
 import os
 import sys
 
 from paraview import simple
+
+from substrate_folder import Refusal, manifest_path, read_manifest, sha256
 
 # What a manifest may name: a manifest may come from anybody, and must not run or write anything else.
 WRITERS = ("SubstrateWriter", "SubstrateProduction")
@@ -19,42 +20,11 @@ STAGES = ("BundleInitializer", "StrandReader", "CapsuleOptimizer", "FibreRadialG
 KEPT_NOWHERE = ("CheckpointFile", "Resume", "FolderName")
 
 
-class Refusal(Exception):
-    """Why the substrate cannot be made again, and what to do."""
-
-
 def arguments():
     parser = argparse.ArgumentParser(prog="./cactus rerun", description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("manifest", help="manifest.json of a substrate folder, or the folder")
     parser.add_argument("--output", metavar="FOLDER", help="folder to write, which must not exist (default: beside the old one, -rerun added)")
     return parser.parse_args()
-
-
-def sha256(path, header=None):
-    """Of a file, with `header` = (here, there): what its first line of comment calls the version."""
-    with open(path, "rb") as file:
-        content = file.read()
-    if header:
-        content = content.replace(header[0].encode(), header[1].encode(), 1)
-    return hashlib.sha256(content).hexdigest()
-
-
-def read_manifest(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            manifest = json.load(file)
-    except OSError as error:
-        raise Refusal(f"cannot read {path}: {error.strerror}") from error
-    except ValueError as error:
-        raise Refusal(f"{path} is no JSON: {error}") from error
-    if not isinstance(manifest, dict) or manifest.get("format") != "CACTUS substrate folder":
-        raise Refusal(f"{path} is no manifest of a substrate")
-    stages = manifest.get("provenance")
-    if not isinstance(stages, list) or not stages or not isinstance(manifest.get("sha256"), dict):
-        raise Refusal(f"{path} does not say how the substrate was made, or what its files were")
-    if not all(isinstance(stage, dict) for stage in stages):
-        raise Refusal(f"{path} says how the substrate was made in words only, as those of CACTUS before 0.2.0 do: run the stages by hand with these values")
-    return manifest
 
 
 class Chain:
@@ -200,7 +170,7 @@ def compare(manifest, folder):
 
 
 def rerun(wanted):
-    path = os.path.join(wanted.manifest, "manifest.json") if os.path.isdir(wanted.manifest) else wanted.manifest
+    path = manifest_path(wanted.manifest)
     manifest = read_manifest(path)
     output = os.path.abspath(wanted.output or os.path.dirname(os.path.abspath(path)) + "-rerun")
     if os.path.lexists(output):

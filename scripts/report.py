@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes one HTML page of a substrate folder: its verdict, what was asked and reached, distributions, pictures, and how it was made.
+
+Run it with ./cactus report. The page needs no network and no other file, and prints on two sheets.
+"""
+
+import argparse
+import base64
+import math
+import os
+import re
+import sys
+import tempfile
+
+from paraview import servermanager, simple
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkIOPLY import vtkPLYReader
+
+import report_charts
+from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
+from report_page import page
+from substrate_folder import Refusal, changed_files, manifest_path, read_manifest, read_quantities, read_rows
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.append(os.path.join(ROOT, "examples"))
+from picture import draw_substrate  # noqa: E402  (which is no room of scripts)
+
+OUTER, INNER, ASKED = "#c8553d", "#1b6ca8", "#222222"
+# How a page of ours begins, so that an earlier one may be replaced, and nothing else.
+MARK = '<meta name="generator" content="CACTUS report">'
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="./cactus report", description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("folder", help="a substrate folder, or its manifest.json")
+    parser.add_argument("--output", metavar="FILE.html", help="file to write, outside the folder (default: beside it, FOLDER-report.html)")
+    parser.add_argument("--no-pictures", action="store_true", help="do not read the surfaces to draw them")
+    return parser.parse_args()
+
+
+def beginning(path):
+    """The first characters of a file; none of what cannot be read."""
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            return file.read(1000)
+    except OSError:
+        return ""
+
+
+def check_output(output, folder):
+    """Throws Refusal where there is something else, and in the folder itself, which would no longer be as it was written."""
+    if os.path.commonpath([os.path.realpath(output), os.path.realpath(folder)]) == os.path.realpath(folder):
+        raise Refusal(f"{output} is in the folder itself, which would no longer be as it was written: name a file outside with --output")
+    if os.path.lexists(output) and MARK not in beginning(output):
+        raise Refusal(f"{output} is there already, and is no report: name another file with --output")
+
+
+def fibre_lines(folder):
+    """The fibres' centre lines as a pipeline source, or None where the folder has none."""
+    path = os.path.join(folder, "fibres.strands")
+    return simple.StrandReader(FileName=path) if os.path.isfile(path) else None
+
+
+def directions(fibres):
+    """Unit vectors from end to end of each fibre."""
+    data = servermanager.Fetch(fibres)
+    found = []
+    for i in range(data.GetNumberOfCells()):
+        ids = data.GetCell(i).GetPointIds()
+        first, last = data.GetPoint(ids.GetId(0)), data.GetPoint(ids.GetId(ids.GetNumberOfIds() - 1))
+        along = [b - a for a, b in zip(first, last)]
+        length = math.hypot(*along)
+        if length > 0:
+            found.append([part / length for part in along])
+    return found
+
+
+def mean_dispersion(fibres):
+    """Degrees between the fibres and their bundle's axis, by Substrate Statistics."""
+    table = servermanager.Fetch(simple.SubstrateStatistics(Fibres=fibres))
+    return table.GetValueByName(0, "MeanDispersion_deg").ToDouble()
+
+
+def surfaces(folder, manifest, kind):
+    """All surfaces of a kind as one source, moved so that the domain's middle is the origin; None where there are none."""
+    together = vtkAppendPolyData()
+    count = 0
+    for entry in manifest["files"]:
+        path = os.path.join(folder, entry["path"])
+        if entry["surface"] == kind and entry["path"] in manifest["sha256"] and os.path.isfile(path):
+            reader = vtkPLYReader()
+            reader.SetFileName(path)
+            reader.Update()
+            together.AddInputData(reader.GetOutput())
+            count += 1
+    if count == 0:
+        return None
+    domain = manifest["domain"]
+    centred = vtkTransform()
+    centred.Translate(*(-0.5 * (domain[2 * axis] + domain[2 * axis + 1]) for axis in range(3)))
+    moved = vtkTransformPolyDataFilter()
+    moved.SetTransform(centred)
+    moved.SetInputConnection(together.GetOutputPort())
+    moved.Update()
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(moved.GetOutput())
+    return source
+
+
+def picture(folder, manifest):
+    """A cut and a view in three dimensions, as the data URI of a PNG; or None, and why."""
+    if manifest.get("simulator", "MC/DC") not in ("MC/DC", "Reference program"):
+        return None, f"No picture: the surfaces of a folder for {manifest['simulator']} are in one file, in metres."
+    outer, inner = surfaces(folder, manifest, "outer"), surfaces(folder, manifest, "inner")
+    if outer is None:
+        return None, "No picture: there are no outer surfaces."
+    domain = manifest["domain"]
+    side = max(domain[2 * axis + 1] - domain[2 * axis] for axis in range(3))
+    with tempfile.TemporaryDirectory(prefix="cactus-report-") as scratch:
+        path = os.path.join(scratch, "substrate.png")
+        draw_substrate(outer, inner, side, path, pixels=700)
+        with open(path, "rb") as file:
+            return data_uri("image/png", file.read()), ""
+
+
+def data_uri(kind, content):
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
+
+
+def charts(manifest, fibres, lines):
+    """SVG texts of the radii, the g-ratios and the directions, and what is to be said of them."""
+    outer = [row["OuterRadius_um"] for row in fibres if math.isfinite(row["OuterRadius_um"])]
+    inner = [row["InnerRadius_um"] for row in fibres if math.isfinite(row["InnerRadius_um"])]
+    g_ratios = [row["GRatio"] for row in fibres if math.isfinite(row["GRatio"])]
+    drawn, notes = [], []
+    if outer:
+        top = math.ceil(10 * max(outer + inner)) / 10
+        density = AskedRadii(manifest).density
+        bins = 25
+        curve = ("asked", [(r, weight * len(outer) * top / bins) for r, weight in density if r <= top], ASKED) if density else None
+        drawn.append(report_charts.histograms("Radii", "radius (µm), number of fibres", [("outer", outer, OUTER), ("inner", inner, INNER)], 0.0, top, bins, curve))
+        notes.append(f"Radii are those of circles with the area of the cross-sections of the surfaces, of the {len(outer)} fibres that have one wholly in the domain.")
+    if g_ratios:
+        asked = asked_g_ratio(manifest)
+        label = "g-ratio, number of fibres" + (f"; asked {asked:g}" if asked is not None else "")
+        drawn.append(report_charts.histograms("g-ratio", label, [("reached", g_ratios, INNER)], 0.0, 1.0))
+    if lines is not None:
+        drawn.append(report_charts.rose("Directions", directions(lines), "a point for each fibre; rings: its angle from z"))
+    else:
+        notes.append("The folder has no centre lines (fibres.strands), and so no directions and no dispersion.")
+    return drawn, notes
+
+
+def citation():
+    """What CITATION.cff prefers, as a line and a link."""
+    with open(os.path.join(ROOT, "CITATION.cff"), encoding="utf-8") as file:
+        preferred = file.read().split("preferred-citation:", 1)[1]
+
+    def one(name):
+        return re.search(rf'\b{name}: "?([^"\n]+)', preferred).group(1)
+
+    authors = ", ".join(re.findall(r'family-names: "([^"]+)"', preferred))
+    return f"{authors} ({one('year')}): {one('title')}. {one('journal')} {one('volume')}:{one('start')}.", f"https://doi.org/{one('doi')}"
+
+
+def gathered(folder, manifest_file, with_pictures):
+    """All that the page shows."""
+    manifest = read_manifest(manifest_file)
+    certificate = read_quantities(os.path.join(folder, "certificate.csv"))
+    fibres = read_rows(os.path.join(folder, "certificate_fibres.csv"))
+    lines = fibre_lines(folder)
+    shown, why = picture(folder, manifest) if with_pictures else (None, "No picture: --no-pictures.")
+    drawn, notes = charts(manifest, fibres, lines)
+    name = os.path.basename(os.path.abspath(folder))
+    with open(manifest_file, "rb") as file:
+        content = file.read()
+    return {
+        "title": f"Substrate {name}", "certified": bool(manifest["certified"]), "judged": manifest["judged"], "faults": manifest["faults"],
+        "changed": changed_files(folder, manifest),
+        "rows": asked_and_reached(manifest, certificate, fibres, mean_dispersion(lines) if lines is not None else None),
+        "picture": shown, "no_picture": why, "charts": drawn, "notes": notes, "stages": manifest["provenance"],
+        "again": [f"./cactus rerun {name}/manifest.json", "(the same to the bit, with CACTUS " + manifest["version"] + ")"],
+        "manifest": data_uri("application/json", content), "citation": citation(),
+        "versions": f"Substrate: CACTUS {manifest['version']}. Report: ParaView {servermanager.vtkSMProxyManager.GetVersionMajor()}."
+                    f"{servermanager.vtkSMProxyManager.GetVersionMinor()}.{servermanager.vtkSMProxyManager.GetVersionPatch()}.",
+    }
+
+
+def write(path, text):
+    """Whole or not at all."""
+    beside = f"{path}.{os.getpid()}.part"
+    try:
+        with open(beside, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.replace(beside, path)
+    except OSError as error:
+        if os.path.exists(beside):
+            os.remove(beside)
+        raise Refusal(f"cannot write {path}: {error.strerror}") from error
+
+
+def report(wanted):
+    manifest_file = manifest_path(wanted.folder)
+    folder = os.path.dirname(os.path.abspath(manifest_file))
+    output = os.path.abspath(wanted.output or folder + "-report.html")
+    check_output(output, folder)
+    if not hasattr(simple, "SubstrateStatistics"):
+        raise Refusal("the plugin is not loaded: run this by ./cactus report")
+    write(output, page(gathered(folder, manifest_file, not wanted.no_pictures)))
+    print(f"Wrote {output}")
+    return 0
+
+
+def main():
+    try:
+        return report(arguments())
+    except Refusal as refusal:
+        print(f"report: {refusal}", file=sys.stderr)
+        return 2
+    except (KeyError, TypeError, AttributeError, ValueError) as error:
+        print(f"report: the manifest or a table is damaged ({error!r})", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

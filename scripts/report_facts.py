@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a report tells of a substrate: what was asked for, by the stages in its manifest, and what was reached, by its tables."""
+
+import math
+
+GROWING = ("FibreRadialGrowth", "SubstrateProduction")
+COATING = ("MyelinSurface", "SubstrateProduction")
+
+
+def stages_of(manifest, *filters):
+    """Properties of each stage that is one of these filters."""
+    return [stage.get("properties", {}) for stage in manifest["provenance"] if stage.get("filter") in filters]
+
+
+def only(values):
+    """The one value that all share; None where there is none, or several."""
+    different = {repr(value): value for value in values if value is not None}
+    return next(iter(different.values())) if len(different) == 1 else None
+
+
+def mean(values):
+    known = [value for value in values if math.isfinite(value)]
+    return math.fsum(known) / len(known) if known else math.nan
+
+
+class AskedRadii:
+    """The distribution of outer radii (µm) that the sources drew from, where they had one and the same."""
+
+    NAMES = ("RadiusDistribution", "GammaShape", "GammaScale", "LognormalMean", "LognormalDeviation", "MinimumRadius", "MaximumRadius")
+
+    def __init__(self, manifest):
+        self.source = only({name: source.get(name) for name in self.NAMES} for source in stages_of(manifest, "BundleInitializer"))
+        self.density = self._density() if self.source else []
+
+    def _weight(self, radius):
+        values = self.source
+        if values.get("RadiusDistribution") == "Gamma":
+            return radius ** (values["GammaShape"] - 1.0) * math.exp(-radius / values["GammaScale"])
+        variance = math.log(1.0 + (values["LognormalDeviation"] / values["LognormalMean"]) ** 2)
+        middle = math.log(values["LognormalMean"]) - 0.5 * variance
+        return math.exp(-0.5 * (math.log(radius) - middle) ** 2 / variance) / radius
+
+    def _density(self, count=400):
+        """[(radius, density)], cut to its limits. Nothing for a table, which has none."""
+        if self.source.get("RadiusDistribution") not in ("Gamma", "Lognormal"):
+            return []
+        low, high = self.source["MinimumRadius"], self.source["MaximumRadius"]
+        step = (high - low) / count
+        points = [(low + (i + 0.5) * step, self._weight(low + (i + 0.5) * step)) for i in range(count)]
+        whole = math.fsum(weight for _, weight in points) * step
+        return [(radius, weight / whole) for radius, weight in points]
+
+    def mean(self):
+        if not self.density:
+            return None
+        return math.fsum(radius * weight for radius, weight in self.density) / math.fsum(weight for _, weight in self.density)
+
+
+def asked_fraction(manifest):
+    """The fibre volume fraction that growth was to reach; None where it grew by steps."""
+    growth = only(stages_of(manifest, *GROWING))
+    if growth is None:
+        return None
+    target = growth.get("TargetFibreVolumeFraction", 0.0)
+    if target < 0.0:
+        # Fibres of files do not say what they were made for.
+        shares = [source.get("GrownFibreVolumeFraction", 0.0) for source in stages_of(manifest, "BundleInitializer", "StrandReader")]
+        target = math.fsum(shares) if all(share > 0.0 for share in shares) else 0.0
+    return target if target > 0.0 else None
+
+
+def asked_g_ratio(manifest):
+    """The one g-ratio of all fibres; None in the other models."""
+    return only(values.get("GRatio") if values.get("GRatioModel") == "Constant" else None for values in stages_of(manifest, *COATING))
+
+
+def asked_and_reached(manifest, certificate, fibres, dispersion):
+    """[(quantity, asked or None, reached)] of a substrate. `certificate` = {quantity: value}, `fibres` = rows of its table by fibre,
+    `dispersion` = the mean angle in degrees between fibres and their bundle's axis, or None."""
+    fraction, g = asked_fraction(manifest), asked_g_ratio(manifest)
+    axons = fraction * g * g if fraction is not None and g is not None else None
+    axons = only(values.get("TargetAxonVolumeFraction") for values in stages_of(manifest, *COATING)
+                 if values.get("GRatioModel") == "TargetAxonVolumeFraction") or axons
+    rows = [
+        ("fibres", None, float(len(fibres))),
+        ("fibre volume fraction (FVF)", fraction, certificate.get("FVF")),
+        ("axon volume fraction (AVF)", axons, certificate.get("AVF")),
+        ("myelin volume fraction (MVF)", fraction - axons if axons is not None and fraction is not None else None, certificate.get("MVF")),
+        ("aggregate g-ratio", g, certificate.get("AggregateGRatio")),
+        ("mean outer radius (µm)", AskedRadii(manifest).mean(), mean(fibre["OuterRadius_um"] for fibre in fibres)),
+        ("mean inner radius (µm)", None, mean(fibre["InnerRadius_um"] for fibre in fibres if math.isfinite(fibre["OuterRadius_um"]))),
+        ("mean dispersion (degrees)", only(source.get("MeanDispersion") for source in stages_of(manifest, "BundleInitializer")), dispersion),
+        ("smallest gap between fibres (µm)", certificate.get("MinimumGap_um"), certificate.get("SmallestGap_um")),
+        ("thinnest myelin (µm)", None, certificate.get("SmallestMyelin_um")),
+        ("triangles", None, certificate.get("Triangles")),
+    ]
+    return [(name, wanted, value) for name, wanted, value in rows if value is not None and not math.isnan(value)]

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-needs: display
+# ctest-timeout: 300
+"""./cactus report makes one page of a substrate folder that needs nothing but itself, says first whether it is certified, and shows numbers
+that are those of the folder's own tables; what cannot be told of is refused."""
+
+import base64
+import csv
+import html.parser
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+from cactus_testing import CactusTestCase, main
+from paraview import simple
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "report.py")
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+class Page(html.parser.HTMLParser):
+    """Texts by class or tag, addresses, and whether each tag that was opened was closed."""
+
+    EMPTY = {"meta", "img", "br", "!doctype"}
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.addresses, self.rows, self.verdict, self.words = [], [], [], "", ""
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.addresses += [(tag, attributes[name]) for name in ("src", "href", "xlink:href") if name in attributes]
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("td", "th"):
+            self.rows[-1].append("")
+        if tag not in self.EMPTY:
+            self.open.append((tag, attributes.get("class", "")))
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1][0] == tag, f"</{tag}> closes {self.open[-1:]}"
+        self.open.pop()
+
+    def handle_data(self, data):
+        self.words += data
+        if self.open and self.open[-1][1].startswith("verdict"):
+            self.verdict += data
+        if self.open and self.open[-1][0] in ("td", "th"):
+            self.rows[-1][-1] += data
+
+
+class Report(CactusTestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.home = tempfile.mkdtemp(prefix="cactus-report-test-")
+        cls.addClassCleanup(shutil.rmtree, cls.home)
+        cls.substrate = os.path.join(cls.home, "substrate")
+        bundle = simple.BundleInitializer(Side=6, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6, MinimumRadius=0.3)
+        fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
+        surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
+        simple.SubstrateWriter(Outer=simple.OutputPort(surfaces, 0), FolderName=cls.substrate).UpdatePipeline()
+
+    def report(self, *words):
+        done = subprocess.run(["pvpython", SCRIPT, *words], capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr.replace("ERR|", "")
+
+    def made(self, folder, *words):
+        """The text of the page of a folder."""
+        output = os.path.join(self.folder, "page.html")
+        code, said = self.report(folder, "--output", output, *words)
+        self.assertEqual(code, 0, said)
+        with open(output, encoding="utf-8") as file:
+            return file.read()
+
+    def copied(self):
+        folder = os.path.join(self.folder, "copy")
+        shutil.copytree(self.substrate, folder)
+        return folder
+
+    def changed(self, **values):
+        """A copy whose manifest says something else."""
+        folder = self.copied()
+        path = os.path.join(folder, "manifest.json")
+        with open(path, encoding="utf-8") as file:
+            manifest = {**json.load(file), **values}
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(manifest, file)
+        return folder
+
+    def test_the_page(self):
+        text = self.made(self.substrate)
+        page = Page(text)
+        self.assertEqual(page.open, [])
+        self.assertTrue(page.verdict.startswith("CERTIFIED"), page.verdict)
+        # Nothing is fetched: what is shown is in the page, and what leads out is a link to click on.
+        for tag, address in page.addresses:
+            self.assertTrue(address.startswith("data:") or tag == "a", address)
+        self.assertNotRegex(text, r"<script|<link|@import|url\(")
+        self.check_numbers(page)
+        self.check_picture(next(address for tag, address in page.addresses if tag == "img"))
+        charts = re.findall(r"<svg .*?</svg>", text, re.S)
+        self.assertEqual(len(charts), 3)
+        for chart in charts:
+            ElementTree.fromstring(chart)
+        self.assertEqual(len(re.findall(r'r="1.6"', charts[2])), self.quantities()["Fibres"])
+        for words in ("GammaShape\xa02.4", "TargetFibreVolumeFraction\xa0-1.0", "./cactus rerun substrate/manifest.json", "Villarreal-Haro", "10.3389/fninf.2023.1208073"):
+            self.assertIn(words, page.words)
+        address = next(address for tag, address in page.addresses if address.startswith("data:application/json"))
+        with open(os.path.join(self.substrate, "manifest.json"), "rb") as file:
+            self.assertEqual(base64.b64decode(address.split(",", 1)[1]), file.read())
+
+    def quantities(self):
+        with open(os.path.join(self.substrate, "certificate.csv"), encoding="utf-8") as file:
+            return {row["quantity"]: float(row["value"]) for row in csv.DictReader(file)}
+
+    def check_numbers(self, page):
+        rows = {row[0]: row[1:] for row in page.rows}
+        table = self.quantities()
+        for name, asked, reached in (("fibre volume fraction (FVF)", 0.6, table["FVF"]), ("aggregate g-ratio", 0.7, table["AggregateGRatio"]),
+                                     ("axon volume fraction (AVF)", 0.6 * 0.49, table["AVF"]), ("smallest gap between fibres (µm)", 0.02, table["SmallestGap_um"])):
+            self.assertAlmostEqual(float(rows[name][0]), asked, places=4)
+            self.assertAlmostEqual(float(rows[name][1]), reached, delta=1e-3 * reached)
+        self.assertEqual(rows["mean dispersion (degrees)"][0], "5")
+        # Of a gamma distribution cut to 0.3 to 2 µm, by summing up.
+        weights = [(r, r**1.4 * 2.718281828459045 ** (-r / 0.25)) for r in (0.3 + 1.7 * (i + 0.5) / 10000 for i in range(10000))]
+        mean = sum(r * w for r, w in weights) / sum(w for _, w in weights)
+        self.assertAlmostEqual(float(rows["mean outer radius (µm)"][0]), mean, places=3)
+
+    def check_picture(self, address):
+        self.assertTrue(address.startswith("data:image/png;base64,"))
+        path = os.path.join(self.folder, "picture.png")
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(address.split(",", 1)[1]))
+        reader = vtkPNGReader()
+        reader.SetFileName(path)
+        reader.Update()
+        self.assertEqual(reader.GetOutput().GetDimensions()[:2], (1400, 700))
+        low, high = reader.GetOutput().GetPointData().GetScalars().GetRange()
+        self.assertLess(low + 100, high)  # something is drawn
+
+    def test_what_was_changed_is_said_first(self):
+        folder = self.copied()
+        with open(os.path.join(folder, "outer", "fibre_00001.ply"), "a", encoding="utf-8") as file:
+            file.write("\n")
+        page = Page(self.made(folder, "--no-pictures"))
+        self.assertRegex(page.verdict, r"^CHANGED SINCE: 1 files.*outer/fibre_00001\.ply")
+
+    def test_what_is_not_certified_is_said_with_its_reasons(self):
+        page = Page(self.made(self.changed(certified=False, faults=["2 pairs of surfaces meet"]), "--no-pictures"))
+        self.assertRegex(page.verdict, r"^NOT CERTIFIED.*2 pairs of surfaces meet")
+
+    def test_texts_of_a_manifest_stay_texts(self):
+        """A manifest may come from anybody."""
+        text = self.made(self.changed(certified=False, faults=["<script>alert(1)</script>"], version="<b>9</b>"), "--no-pictures")
+        self.assertNotIn("<script>", text)
+        self.assertNotIn("<b>9</b>", text)
+        self.assertEqual(Page(text).open, [])
+
+    def test_beside_the_folder(self):
+        folder = self.copied()
+        code, said = self.report(folder, "--no-pictures")
+        self.assertEqual(code, 0, said)
+        self.assertTrue(os.path.isfile(folder + "-report.html"))
+        self.assertEqual(self.report(folder + "/manifest.json", "--no-pictures")[0], 0)  # again, over the first
+
+    def test_refusals(self):
+        other = os.path.join(self.folder, "other.html")
+        with open(other, "w", encoding="utf-8") as file:
+            file.write("<html>my own</html>")
+        inside = os.path.join(self.substrate, "report.html")
+        for words, message in (((self.substrate, "--output", other), "is no report"), ((self.substrate, "--output", inside), "in the folder itself"),
+                               ((self.folder,), "cannot read"), ((self.changed(format="another"),), "no manifest of a substrate")):
+            code, said = self.report(*words, "--no-pictures")
+            self.assertEqual(code, 2, said)
+            self.assertIn(message, said)
+        with open(other, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "<html>my own</html>")
+        self.assertFalse(os.path.exists(inside))
+
+    @unittest.skipUnless(CHROMIUM, "chromium is not installed")
+    def test_in_a_browser(self):
+        """It is laid out as it is meant, without a network, and prints on two pages."""
+        self.made(self.substrate)
+        printed = os.path.join(self.folder, "page.pdf")
+        browser = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={self.folder}/profile", "--host-resolver-rules=MAP * ~NOTFOUND"]
+        address = f"file://{self.folder}/page.html"
+        subprocess.run([*browser, f"--print-to-pdf={printed}", "--no-pdf-header-footer", address], check=True, capture_output=True, timeout=100)
+        with open(printed, "rb") as file:
+            self.assertEqual(len(re.findall(rb"/Type\s*/Page\b", file.read())), 2)
+        shown = subprocess.run([*browser, "--dump-dom", address], check=True, capture_output=True, text=True, timeout=100).stdout
+        self.assertIn('<div class="verdict good">CERTIFIED', shown)
+
+
+if __name__ == "__main__":
+    main()
