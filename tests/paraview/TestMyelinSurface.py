@@ -7,7 +7,7 @@ import math
 import os
 
 import numpy
-from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main, mesh_oracle, produce
 from paraview.simple import FibreRadialGrowth, MyelinSurface, OutputPort, StrandReader, SubstrateCertificate, SubstrateStatistics
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference, vtkDoubleArray, vtkPoints
@@ -92,6 +92,8 @@ def column(table, name):
 
 
 class MyelinSurfaceTest(CactusTestCase):
+    expected = UNPARTED
+
     def growth(self, text, **properties):
         path = os.path.join(self.folder, "fibres.strands")
         with open(path, "w") as file:
