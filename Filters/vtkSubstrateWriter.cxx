@@ -105,6 +105,7 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
   contents.format = stage.format;
   contents.mcdc.permeability = stage.permeability;
+  contents.voxelSize = stage.voxelSize;
   contents.startPositions = stage.startPositions;
   contents.seed = stage.seed;
   contents.allowOpenSurfaces = stage.allowOpenSurfaces;

@@ -6,7 +6,8 @@
  * Input 0 `Outer`, input 1 `Inner` (optional): closed, outward triangle surfaces with cell data `FibreId` and `BundleId`. Input 2
  * `Fibres` (optional): their centre lines. The folder is written when the filter executes for the first time after one of its own
  * properties or connections has changed, and by Write(); not because its input has changed. It holds the surfaces as the
- * simulator named by `Format` reads them (for MC/DC one ASCII PLY file (µm) per fibre and surface, and configurations), a
+ * simulator named by `Format` reads them (for MC/DC one ASCII PLY file (µm) per fibre and surface, and configurations; for RMS
+ * labels of voxels besides), a
  * certificate (see vtkSubstrateCertificate), a manifest, a README.txt and, with `Fibres`, a strand file.
  *
  * Output: a table of the files written, with fibre, bundle, triangles, volume and area. A warning says why the surfaces, as the
@@ -35,6 +36,7 @@ public:
   CACTUS_FILE_PROPERTY(FolderName)
   CACTUS_WHOLE_PROPERTY(Format)
   CACTUS_NUMBER_PROPERTY(Permeability)
+  CACTUS_NUMBER_PROPERTY(VoxelSize)
   CACTUS_WHOLE_PROPERTY(StartPositions)
   CACTUS_WHOLE_PROPERTY(Seed)
   CACTUS_SWITCH_PROPERTY(AllowOpenSurfaces)

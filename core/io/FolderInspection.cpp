@@ -12,6 +12,8 @@
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <string>
 #include <unistd.h>
 
 namespace cactus
@@ -24,25 +26,60 @@ namespace
 
 constexpr std::uintmax_t largestManifest = std::uintmax_t(1) << 29; ///< bytes; about 110 for a file
 
+/// Names of files that are written piece by piece, and so have another one until they are whole.
+const std::set<std::string>& streamedFiles()
+{
+  static const std::set<std::string> names{ "fibres.strands", manifestName, "optimized_final.txt", "outer.ply", "inner.ply",
+    "outer_vertices.npy", "outer_faces.npy", "inner_vertices.npy", "inner_faces.npy", "intra/fiber.txt", "extra/fiber.txt" };
+  return names;
+}
+
+/// Names of the other files, those of surfaces apart.
+const std::set<std::string>& wholeFiles()
+{
+  static const auto names = []
+  {
+    std::set<std::string> all{ "README.txt", "certificate.csv", "certificate_fibres.csv", "mcdc/pgse.scheme", "mcdc/intra.conf",
+      "mcdc/extra.conf", "mcdc/intra_ply_list.txt", "mcdc/extra_ply_list.txt", "start/intra.txt", "start/myelin.txt",
+      "start/extra.txt" };
+    for (const char* rms : { "simParamInput.txt", "diffusivity.txt", "T2.txt", "bval.txt", "bvec.txt" })
+    {
+      all.insert(std::string("intra/") + rms);
+      all.insert(std::string("extra/") + rms);
+    }
+    return all;
+  }();
+  return names;
+}
+
+/// Whether a path is `start`, five digits or more, and `end`.
+bool isNumbered(const std::string& path, const std::string& start, const std::string& end)
+{
+  constexpr std::size_t digits = 5;
+  if (path.size() < start.size() + digits + end.size() || path.compare(0, start.size(), start) != 0 ||
+      path.compare(path.size() - end.size(), end.size(), end) != 0)
+  {
+    return false;
+  }
+  return path.substr(start.size(), path.size() - start.size() - end.size()).find_first_not_of("0123456789") == std::string::npos;
+}
+
 /// A path under which the writer has a file, before there is a manifest: in a folder whose writing was ended.
 bool isFileOfWriter(const std::string& path)
 {
-  static const std::set<std::string> names{ "README.txt", "certificate.csv", "certificate_fibres.csv", "fibres.strands",
-    manifestName, "mcdc/pgse.scheme", "mcdc/intra.conf", "mcdc/extra.conf", "mcdc/intra_ply_list.txt",
-    "mcdc/extra_ply_list.txt" };
-  if (names.count(path) > 0 || isPartialName(path, "fibres.strands") || isPartialName(path, manifestName))
-  {
-    return true;
-  }
-  const std::string start = path.substr(0, 12);
-  const std::string id = path.size() > 16 ? path.substr(12, path.size() - 16) : "";
-  return (start == "outer/fibre_" || start == "inner/fibre_") && id.size() >= 5 &&
-         id.find_first_not_of("0123456789") == std::string::npos && path.substr(path.size() - 4) == ".ply";
+  const auto& streamed = streamedFiles();
+  const auto isPart = [&](const std::string& name) { return isPartialName(path, name); };
+  const std::string strand = "meshes/simulations/strand_";
+  return wholeFiles().count(path) > 0 || streamed.count(path) > 0 || std::any_of(streamed.begin(), streamed.end(), isPart) ||
+         isNumbered(path, "outer/fibre_", ".ply") || isNumbered(path, "inner/fibre_", ".ply") ||
+         isNumbered(path, strand, "_outer_erode_0.ply") || isNumbered(path, strand, "_inner_erode_0.ply");
 }
 
 bool isFolderOfWriter(const std::string& path)
 {
-  return path == "outer" || path == "inner" || path == "mcdc" || path == "mcdc/output";
+  static const std::set<std::string> names{ "outer", "inner", "mcdc", "mcdc/output", "meshes", "meshes/simulations", "start",
+    "intra", "extra" };
+  return names.count(path) > 0;
 }
 
 bool sameTime(const timespec& a, const timespec& b)

@@ -78,21 +78,31 @@ std::string mcdcScheme(const McdcOptions& options)
   };
   out << "VERSION: STEJSKALTANNER\n";
   line({ 0.0, 0.0, 1.0 }, 0.0);
-  const double golden = pi * (3.0 - std::sqrt(5.0));
+  const auto directions = mcdcDirections(options.directions);
   for (const double b : options.bValues)
   {
     // Stejskal & Tanner 1965: b = (γ G δ)² (Δ - δ / 3)
     const double gradient = std::sqrt(b / (options.gradientSeparation - options.gradientDuration / 3.0)) /
                             (gyromagneticRatio * options.gradientDuration);
-    for (int i = 0; i < options.directions; ++i)
+    for (const Eigen::Vector3d& direction : directions)
     {
-      // A golden-angle spiral from the pole to the equator: the first direction runs close to the bundles' usual axis, z.
-      const double z = 1.0 - (i + 0.5) / options.directions;
-      const double radius = std::sqrt(1.0 - z * z);
-      line({ radius * std::cos(golden * i), radius * std::sin(golden * i), z }, gradient);
+      line(direction, gradient);
     }
   }
   return out.str();
+}
+
+std::vector<Eigen::Vector3d> mcdcDirections(int count)
+{
+  const double golden = pi * (3.0 - std::sqrt(5.0));
+  std::vector<Eigen::Vector3d> directions;
+  for (int i = 0; i < count; ++i)
+  {
+    const double z = 1.0 - (i + 0.5) / count;
+    const double radius = std::sqrt(1.0 - z * z);
+    directions.emplace_back(radius * std::cos(golden * i), radius * std::sin(golden * i), z);
+  }
+  return directions;
 }
 
 std::string mcdcPlyList(const std::vector<std::string>& paths, double permeability)

@@ -3,6 +3,8 @@
 
 #include "base/Domain.h"
 
+#include <Eigen/Core>
+
 #include <string>
 #include <vector>
 
@@ -36,6 +38,9 @@ std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, 
 
 /// The acquisition (PGSE, format VERSION: STEJSKALTANNER): one line without gradient, then every b-value along every direction.
 std::string mcdcScheme(const McdcOptions& options);
+
+/// Unit vectors: a golden-angle spiral from the pole to the equator, of which the first runs close to the bundles' usual axis, z.
+std::vector<Eigen::Vector3d> mcdcDirections(int count);
 
 /// The list of obstacles: the scale from µm to the simulator's mm, then one path per line; for permeable ones, one line each of
 /// path, scale and permeability.

@@ -21,7 +21,8 @@ enum class SubstrateFormat
   Mcdc = 0,      ///< MC/DC: a PLY file per surface (µm), configurations that run as written
   Reference = 1, ///< the reference program's run folder, as dmipy-sim loads it (µm)
   Camino = 2,    ///< one PLY file per kind of surface (m)
-  Disimpy = 3    ///< NumPy arrays of vertices (m) and faces per kind of surface
+  Disimpy = 3,   ///< NumPy arrays of vertices (m) and faces per kind of surface
+  Rms = 4        ///< RMS: labels of voxels, beside a PLY file per surface (µm)
 };
 
 /// What goes into a substrate folder.
@@ -36,6 +37,7 @@ struct SubstrateFolderContents
   SubstrateCertificateOptions certificate;
   SubstrateFormat format = SubstrateFormat::Mcdc;
   McdcOptions mcdc;
+  double voxelSize = 0.1; ///< µm, of label volumes
   int startPositions = 0; ///< points in each compartment for walkers to start from
   std::uint64_t seed = 1; ///< of their places
 };

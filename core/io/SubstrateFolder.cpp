@@ -9,6 +9,7 @@
 #include "io/FolderReplacement.h"
 #include "io/FolderWriter.h"
 #include "io/PlyFile.h"
+#include "io/RmsFiles.h"
 #include "io/StartFiles.h"
 #include "io/StrandFile.h"
 #include "io/SubstrateManifest.h"
@@ -136,7 +137,7 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
                                                : writeDisimpySurfaces(surfaces, kind, writer, context);
     return files;
   }
-  if (contents.format == SubstrateFormat::Mcdc)
+  if (contents.format == SubstrateFormat::Mcdc || contents.format == SubstrateFormat::Rms)
   {
     writer.makeFolder(kind);
   }
@@ -251,7 +252,14 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
   substrate.files = writeSurfaces(contents, "outer", substrate.certificate, writer, context, judged, between);
   const auto more = writeSurfaces(contents, "inner", substrate.certificate, writer, context, between, 1.0);
   substrate.files.insert(substrate.files.end(), more.begin(), more.end());
-  writeStartPositions(contents, writer, context);
+  if (contents.format == SubstrateFormat::Rms)
+  {
+    writeRms(contents, writer, context);
+  }
+  else
+  {
+    writeStartPositions(contents, writer, context);
+  }
   writeTexts(contents, substrate, writer);
   replacement.commit(context);
   substrate.leftovers = replacement.leftovers();

@@ -24,6 +24,11 @@ std::string filesFor(SubstrateFormat format)
            "      -meshsep X Y Z -voxelsizefrac 1 -schemefile FILE\n\n"
            "X Y Z are the sides of the domain in metres (manifest.json has it in micrometres); -initial extra goes with "
            "outer.ply.\n";
+  case SubstrateFormat::Rms:
+    return "intra/, extra/  simulations for RMS: fiber.txt holds the labels of the voxels (1: walkers), simParamInput.txt their\n"
+           "                size and numbers, the time step and how many "
+           "(github.com/NYU-DiffusionMRI/monte-carlo-simulation-3D-RMS)\n\n"
+           "    cd intra && cp .../hpc_code/lib/main.cu . && nvcc main.cu -o main_cuda && ./main_cuda\n";
   default:
     return "outer_vertices.npy, outer_faces.npy, inner_...   all outer, and all inner, surfaces, in metres, with their box's "
            "lower\n"
@@ -94,14 +99,15 @@ std::string readmeText(const SubstrateFolderContents& contents, const SubstrateC
   const bool hasOuter = contents.outer.size() > 0;
   std::string text = headText(contents, certificate);
   text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
-  if (contents.startPositions > 0)
+  if (contents.startPositions > 0 && contents.format != SubstrateFormat::Rms)
   {
     text += "start/          points for walkers to start from, one a line, in the unit of the simulator\n";
   }
-  if (contents.format != SubstrateFormat::Mcdc)
+  const std::string certificateLine =
+    "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
+  if (contents.format != SubstrateFormat::Mcdc && contents.format != SubstrateFormat::Rms)
   {
-    return text + "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n" +
-           filesFor(contents.format);
+    return text + certificateLine + filesFor(contents.format);
   }
   if (hasOuter)
   {
@@ -115,8 +121,8 @@ std::string readmeText(const SubstrateFolderContents& contents, const SubstrateC
   {
     text += "fibres.strands  centre lines and radii\n";
   }
-  text += "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
-  return text + mcdcText(hasInner, hasOuter);
+  text += certificateLine;
+  return text + (contents.format == SubstrateFormat::Mcdc ? mcdcText(hasInner, hasOuter) : filesFor(contents.format));
 }
 
 } // namespace cactus

@@ -256,10 +256,8 @@ private:
 
 const PropertyList<SubstrateSamplerOptions>& SubstrateSamplerOptions::properties()
 {
-  // From a hundredth of usual voxels of growth to those of images.
-  static constexpr Range voxel{ 1e-3, 1e5, " µm" };
   static const auto list = PropertyList<SubstrateSamplerOptions>().add(
-    "VoxelSize", &SubstrateSamplerOptions::voxelSize, voxel, "Edge of a voxel, which is a cube");
+    "VoxelSize", &SubstrateSamplerOptions::voxelSize, sampledVoxel, "Edge of a voxel, which is a cube");
   return list;
 }
 

@@ -14,6 +14,9 @@
 namespace cactus
 {
 
+/// Edges of voxels: from a hundredth of usual ones of growth to those of images.
+constexpr Range sampledVoxel{ 1e-3, 1e5, " µm" };
+
 struct SubstrateSamplerOptions
 {
   double voxelSize = 1.0; ///< µm, edge of a voxel

@@ -153,12 +153,16 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
     PropertyList<Stage>()
       .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
       .use(PropertyUse::Run)
-      .add("Format", &Stage::format, { "MC/DC", "Reference program", "Camino", "Disimpy" },
+      .add("Format", &Stage::format, { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS" },
         "The simulator that is to read the folder")
       .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
       .where("Format", { 0 })
+      .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a voxel of the labels; it has to divide the domain's sides")
+      .where("Format", { 4 })
       .add("StartPositions", &Stage::startPositions, startCount, "Points to draw in each compartment, for walkers to start from")
+      .where("Format", { 0, 1, 2, 3 })
       .add("Seed", &Stage::seed, limits::seed, "Chooses the random points")
+      .where("Format", { 0, 1, 2, 3 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
       .add("MinimumGap", &Stage::minimumGap, limits::judgedGap,

@@ -116,6 +116,7 @@ struct SubstrateWriterStage
   std::string folderName;
   SubstrateFormat format = SubstrateFormat::Mcdc;
   double permeability = McdcOptions().permeability;
+  double voxelSize = SubstrateFolderContents().voxelSize; ///< µm
   int startPositions = 0;
   std::uint64_t seed = 1;
   bool allowOpenSurfaces = false;

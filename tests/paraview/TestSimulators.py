@@ -6,9 +6,10 @@ import os
 import re
 
 import numpy
-from cactus_testing import CactusTestCase, main, produce
-from paraview.simple import SubstrateWriter
-from surfaces import POLYGON, two_tubes
+from cactus_testing import CactusTestCase, fetch, main, produce
+from paraview.simple import SubstrateSampler, SubstrateWriter
+from surfaces import POLYGON, surfaces, tube, two_tubes
+from vtkmodules.vtkIOImage import vtkMetaImageWriter
 
 AXONS = {3: (-2, 0.7), 5: (2, 0.9)}
 FIBRES = {3: (-2, 1.0), 5: (2, 1.5)}
@@ -127,6 +128,82 @@ class Simulators(CactusTestCase):
             text = file.read()
         self.assertIn("\nply_file_list_scale_permeability mcdc/intra_ply_list.txt\n", text)
         self.assertIn("\npermeability 0.02\n", text)
+
+    def read_rms(self, folder):
+        """As RMS's main.cu reads it: numbers in their order, whatever the line they are in; voxel (x, y, z) at (x·ny + y)·nz + z."""
+        words = {}
+        for name in ("simParamInput", "fiber", "diffusivity", "T2", "bval", "bvec"):
+            with open(os.path.join(folder, name + ".txt")) as file:
+                words[name] = file.read().split()
+        step, steps, walkers, gradients, compartments, edge, *count = words["simParamInput"]
+        count = [int(n) for n in count]
+        labels = numpy.array(words["fiber"], int)
+        self.assertEqual(len(labels), math.prod(count))
+        self.assertEqual([len(words[name]) for name in ("diffusivity", "T2", "bval", "bvec")],
+                         [int(compartments)] * 2 + [int(gradients), 3 * int(gradients)])
+        numbers = {name: numpy.array(words[name], float) for name in ("diffusivity", "T2", "bval", "bvec")}
+        return labels.reshape(count), float(step), int(steps), int(walkers), float(edge), numbers
+
+    def test_rms(self):
+        path = self.write(Format="RMS", VoxelSize=0.125)
+        self.assertEqual(sorted(os.listdir(path("outer"))), ["fibre_00003.ply", "fibre_00005.ply"])
+        middles = (numpy.arange(80) + 0.5) * 0.125 - 5
+        x, y, z = (axis.ravel() for axis in numpy.meshgrid(middles, middles, middles, indexing="ij"))
+        place = numpy.column_stack([x, y, z])
+        deep = {kind: numpy.minimum(depth(place, tubes), LENGTH[kind] / 2 - abs(z)) for kind, tubes in TUBES.items()}
+        half = 0.125 * math.sqrt(3) / 2  # of a voxel's diagonal: beyond it a voxel is wholly in or out
+        for compartment, kind, sign in (("intra", "inner", 1), ("extra", "outer", -1)):
+            labels, step, steps, walkers, edge, numbers = self.read_rms(path(compartment))
+            self.assertEqual((labels.shape, edge, walkers, sorted(set(labels.ravel()))), ((80, 80, 80), 0.125, 1000, [0, 1]))
+            wanted = sign * deep[kind] > 0
+            sure = abs(deep[kind]) > half
+            self.assertTrue(sure.mean() > 0.8 and (labels.ravel()[sure] == wanted[sure]).all())
+            volume = 10 * POLYGON * sum(r * r for _, r in TUBES[kind].values())
+            volume = volume * LENGTH[kind] / 10 if sign > 0 else 1000 - volume
+            self.assertAlmostEqual(labels.sum() * edge**3 / volume, 1, delta=0.02)
+            # Steps of at most half a voxel, a multiple of the thousand moments that RMS saves, over MC/DC's 35 ms.
+            self.assertEqual(steps % 1000, 0)
+            self.assertAlmostEqual(step * steps, 35, places=4)
+            self.assertLessEqual(math.sqrt(6 * 2 * step), 0.5 * edge * (1 + 1e-6))
+            self.assertEqual(numbers["diffusivity"].tolist(), [0, 2])
+            self.assertTrue((numbers["T2"] > 1e6).all())
+            self.assertEqual(sorted(set(numbers["bval"])), [1, 2, 3])
+            numpy.testing.assert_allclose(numpy.linalg.norm(numbers["bvec"].reshape(-1, 3), axis=1), 1, atol=1e-7)
+
+    def test_raw_file_and_header(self):
+        """The lines of docs/simulators.md."""
+        _, outer, inner = two_tubes(inset=0.05)
+        image = fetch(SubstrateSampler(Outer=produce(outer), Inner=produce(inner), VoxelSize=0.25))
+        image.GetPointData().SetActiveScalars("Compartment")
+        writer = vtkMetaImageWriter()
+        writer.SetInputData(image)
+        writer.SetFileName(os.path.join(self.folder, "compartment.mhd"))
+        writer.SetRAWFileName(os.path.join(self.folder, "compartment.raw"))
+        writer.SetCompression(False)
+        writer.Write()
+        labels = numpy.fromfile(os.path.join(self.folder, "compartment.raw"), numpy.uint8).reshape(40, 40, 40)
+        with open(os.path.join(self.folder, "compartment.mhd")) as file:
+            head = dict(line.strip().split(" = ") for line in file)
+        self.assertEqual((head["ElementType"], head["DimSize"], head["ElementSpacing"]), ("MET_UCHAR", "40 40 40", "0.25 0.25 0.25"))
+        self.assertEqual([float(word) for word in head["Offset"].split()], [-4.875] * 3)
+        row = labels[20, 20]  # along x, beside the middles of both fibres
+        x = (numpy.arange(40) + 0.5) * 0.25 - 5
+        for fibre, (middle, radius) in FIBRES.items():
+            self.assertEqual(set(row[abs(x - middle) < AXONS[fibre][1] - 0.25]), {1})
+            self.assertEqual(set(row[abs(abs(x - middle) - (radius + AXONS[fibre][1]) / 2) < 0.1]), {2})
+        self.assertEqual(row[[0, 20, 39]].tolist(), [0, 0, 0])
+
+    def test_labels_that_rms_could_not_use(self):
+        near = {3: tube(-1, 0, 0.9, 9.9), 5: tube(1, 0, 0.9, 9.9)}
+        around = {3: tube(-1, 0, 0.95, 10), 5: tube(1, 0, 0.95, 10)}
+        folder = os.path.join(self.folder, "substrate")
+        for size, why in ((0.3, r"VoxelSize 0.3 µm does not divide the domain's side of 10 µm.* such as 0.294117647"),
+                          (1.0, "voxels inside fibres 3 and 5 share a face.* choose a smaller one"),
+                          (10.0, "leaves no voxel to the walkers of intra/fiber.txt")):
+            with self.assertError(why):
+                SubstrateWriter(Outer=produce(surfaces(around, 0, 10)), Inner=produce(surfaces(near, 1, 10)), FolderName=folder, Format="RMS",
+                                VoxelSize=size).UpdatePipeline()
+            self.assertEqual(os.listdir(self.folder), [])
 
     def test_what_a_format_needs(self):
         _, outer, _ = two_tubes()

@@ -3,6 +3,7 @@
 
 #include "ScratchPath.h"
 #include "base/Error.h"
+#include "io/FolderInspection.h"
 #include "io/PlyFile.h"
 
 #include <gtest/gtest.h>
@@ -299,6 +300,38 @@ TEST_F(SubstrateFolder, LeavesNothingBehindWhereItFails)
   this->Contents.allowOpenSurfaces = true;
   EXPECT_EQ(this->write(this->Scratch / "s"), "");
   EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"closed\": false"), std::string::npos);
+}
+
+// What a writer that was killed has left is known for its own, whatever the format: else it would stay for ever as the user's.
+TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
+{
+  cactus::Fibres fibres;
+  fibres.domain = this->Contents.domain;
+  for (const int id : { 2, 70000 })
+  {
+    fibres.addFibre(id, 1, 1.0);
+    fibres.addPoint({ 0, 0, -15 }, 1.0);
+    fibres.addPoint({ 0, 0, 15 }, 1.0);
+  }
+  this->Contents.fibres = &fibres;
+  this->Contents.outer = surfacesOf({ 2, 70000 }, { tetrahedron(13.0), tetrahedron(14.0) });
+  this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
+  this->Contents.voxelSize = 0.5;
+  this->Contents.startPositions = 1;
+  for (const auto format : { cactus::SubstrateFormat::Mcdc, cactus::SubstrateFormat::Reference, cactus::SubstrateFormat::Camino,
+         cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms })
+  {
+    this->Contents.format = format;
+    const fs::path folder = this->Scratch / std::to_string(int(format));
+    EXPECT_EQ(this->write(folder), "");
+    fs::remove(folder / "manifest.json");
+    const auto found = cactus::inspectFolder(folder, {}, {});
+    EXPECT_FALSE(found.isFinished);
+    EXPECT_EQ(found.added, std::vector<std::string>{}) << int(format);
+    EXPECT_GT(found.files.size(), 5u);
+    std::ofstream(folder / "notes.txt") << "mine";
+    EXPECT_EQ(cactus::inspectFolder(folder, {}, {}).added, std::vector<std::string>{ "notes.txt" });
+  }
 }
 
 TEST_F(SubstrateFolder, StopsWithoutATrace)

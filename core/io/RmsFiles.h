@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "io/FolderWriter.h"
+#include "io/SubstrateContents.h"
+
+namespace cactus
+{
+
+/// Writes `intra/` and, where there are outer surfaces, `extra/`: two simulations for the realistic microstructure simulator
+/// (RMS; Lee et al. 2021, J Neurosci Methods 350:109018), each with
+///
+///   fiber.txt           labels of voxels of contents.voxelSize: 1 where walkers are, 0 elsewhere; z runs fastest, x slowest
+///   simParamInput.txt   step (ms), steps, walkers, gradients, compartments, voxel size (µm), voxels along x, y, z
+///   diffusivity.txt     µm²/ms, of label 0 and of label 1
+///   T2.txt              ms, likewise
+///   bval.txt, bvec.txt  ms/µm² and unit vectors, those of MC/DC's scheme
+///
+/// A voxel is what most of it is (see SampledSubstrate). Two simulations, since RMS lets walkers go from any label but 0 into any
+/// other. Throws InvalidInput where VoxelSize does not divide the domain, at whose faces RMS mirrors the substrate, where it
+/// leaves no voxel to walkers, and where voxels inside two fibres share a face, through which walkers would go from one into the
+/// other; OutOfMemory, FileError and Cancelled.
+void writeRms(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context);
+
+} // namespace cactus
