@@ -139,7 +139,7 @@ def charts(manifest, fibres, lines):
         top = math.ceil(10 * max(outer + inner)) / 10
         density = AskedRadii(manifest).density
         bins = 25
-        curve = ("asked", [(r, weight * len(outer) * top / bins) for r, weight in density if r <= top], ASKED) if density else None
+        curve = ("asked (outer)", [(r, weight * len(outer) * top / bins) for r, weight in density if r <= top], ASKED) if density else None
         drawn.append(report_charts.histograms("Radii", "radius (µm), number of fibres", [("outer", outer, OUTER), ("inner", inner, INNER)], 0.0, top, bins, curve))
         notes.append(f"Radii are those of circles with the area of the cross-sections of the surfaces, of the {len(outer)} fibres that have one wholly in the domain.")
     if g_ratios:

@@ -4,7 +4,7 @@
 import html
 import math
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 300, 200, 38, 8, 22, 34
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 230, 180, 28, 8, 22, 34
 GRID, INK = "#dddddd", "#222222"
 
 
@@ -12,8 +12,8 @@ def _text(x, y, words, anchor="middle", more=""):
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" {more}>{html.escape(words)}</text>'
 
 
-def _frame(title, parts, height=HEIGHT):
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" role="img" aria-label="{html.escape(title, quote=True)}" '
+def _frame(title, parts):
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{html.escape(title, quote=True)}" '
             f'font-family="sans-serif" font-size="9" fill="{INK}">' + _text(WIDTH / 2, 12, title, more='font-weight="bold" font-size="10"') + "".join(parts) + "</svg>")
 
 
@@ -65,24 +65,23 @@ def histograms(title, label, series, low, high, bins=25, curve=None):
 
 def rose(title, directions, note):
     """Directions (unit vectors) as points by their angle from the z axis and around it, each axis once, with rings in degrees."""
-    height = 240
-    middle, reach = (WIDTH / 2, TOP + 98), 88
+    middle, reach = (WIDTH / 2, TOP + 68), 56
     angles = []
     for x, y, z in directions:
         if z < 0:
             x, y, z = -x, -y, -z
         angles.append((math.degrees(math.acos(min(1.0, z))), math.atan2(y, x)))
-    step = nice_step(max([1.0] + [angle for angle, _ in angles]), 4)
+    step = nice_step(max([1.0] + [angle for angle, _ in angles]), 2)
     rings = max(1, math.ceil(max([1.0] + [angle for angle, _ in angles]) / step))
     parts = []
     for k in range(1, rings + 1):
         r = reach * k / rings
         parts.append(f'<circle cx="{middle[0]}" cy="{middle[1]}" r="{r:.1f}" fill="none" stroke="{GRID}"/>')
-        parts.append(_text(middle[0] + r * math.cos(0.7) + 2, middle[1] - r * math.sin(0.7), f"{k * step:g}°", "start"))
+        parts.append(_text(middle[0] + r * math.cos(0.8) + 3, middle[1] - r * math.sin(0.8), f"{k * step:g}°", "start"))
     for label, x, y in (("x", reach + 6, 3), ("y", 0, -reach - 3)):
         parts.append(_text(middle[0] + x, middle[1] + y, label))
     for angle, around in angles:
         r = reach * angle / (rings * step)
         parts.append(f'<circle cx="{middle[0] + r * math.cos(around):.1f}" cy="{middle[1] - r * math.sin(around):.1f}" r="1.6" fill="#1b6ca8" fill-opacity="0.6"/>')
-    parts.append(_text(WIDTH / 2, height - 6, note))
-    return _frame(title, parts, height)
+    parts.append(_text(WIDTH / 2, HEIGHT - 6, note))
+    return _frame(title, parts)
