@@ -3,11 +3,13 @@
 #pragma once
 
 #include "base/Constants.h"
+#include "mesh/FibreSurfaces.h"
 #include "mesh/TriangleMesh.h"
 
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <vector>
 
 namespace example
 {
@@ -82,6 +84,16 @@ inline cactus::TriangleMesh both(cactus::TriangleMesh a, const cactus::TriangleM
     a.triangles.push_back({ { t[0] + shift, t[1] + shift, t[2] + shift } });
   }
   return a;
+}
+
+/// Surfaces of fibres with these ids, increasing, in one bundle.
+inline cactus::FibreSurfaces surfacesOf(const std::vector<int>& ids, const std::vector<cactus::TriangleMesh>& meshes)
+{
+  cactus::FibreSurfaces surfaces;
+  surfaces.fibreIds = ids;
+  surfaces.bundleIds.assign(ids.size(), 1);
+  surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
+  return surfaces;
 }
 
 } // namespace example

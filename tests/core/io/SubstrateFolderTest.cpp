@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateFolder.h"
 
+#include "ExampleSurfaces.h"
 #include "ScratchPath.h"
 #include "base/Error.h"
 #include "io/FolderInspection.h"
@@ -26,6 +27,7 @@ namespace
 {
 
 using cactus_testing::contentOf;
+using example::surfacesOf;
 
 cactus::TriangleMesh tetrahedron(double size)
 {
@@ -33,15 +35,6 @@ cactus::TriangleMesh tetrahedron(double size)
   mesh.points = { { 0, 0, 0 }, { size, 0, 0 }, { 0, size, 0 }, { 0, 0, size } };
   mesh.triangles = { { { 0, 2, 1 } }, { { 0, 1, 3 } }, { { 0, 3, 2 } }, { { 1, 2, 3 } } };
   return mesh;
-}
-
-cactus::FibreSurfaces surfacesOf(std::vector<int> ids, std::vector<cactus::TriangleMesh> meshes)
-{
-  cactus::FibreSurfaces surfaces;
-  surfaces.fibreIds = ids;
-  surfaces.bundleIds.assign(ids.size(), 1);
-  surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
-  return surfaces;
 }
 
 class SubstrateFolder : public ::testing::Test

@@ -14,8 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <atomic>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -15,6 +15,7 @@ namespace
 {
 
 using cactus::pi;
+using example::surfacesOf;
 
 constexpr int sides = 24;
 constexpr double length = 20.0;
@@ -45,15 +46,6 @@ cactus::TriangleMesh wavyTube(double radius, double part, int waves)
     point.head<2>() *= 1.0 + part * std::cos(2.0 * pi * waves * point[2] / length);
   }
   return mesh;
-}
-
-cactus::FibreSurfaces surfacesOf(const std::vector<int>& ids, const std::vector<cactus::TriangleMesh>& meshes)
-{
-  cactus::FibreSurfaces surfaces;
-  surfaces.fibreIds = ids;
-  surfaces.bundleIds.assign(ids.size(), 1);
-  surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
-  return surfaces;
 }
 
 /// The tortuosity of one fibre along these points, in a cube of this side.
@@ -178,8 +170,7 @@ TEST(SubstrateStatistics, EffectiveRadiusOfAllCutsAndOfTheMiddleOnes)
   const auto inner = surfacesOf({ 7 }, { wavyTube(0.8, 0.3, 1) });
   const auto result = cactus::measureSubstrate(fibres, {}, inner);
   EXPECT_NEAR(result.effectiveRadius, result.fibres[0].axon.effectiveRadius, 1e-12);
-  const double atHalf =
-    0.8 * (1.0 + 0.3 * std::cos(2.0 * pi * 0.5 / length)); // of 20 cuts, it lies half a µm from the middle
+  const double atHalf = 0.8 * (1.0 + 0.3 * std::cos(2.0 * pi * 0.5 / length)); // of 20 cuts, it lies half a µm from the middle
   EXPECT_NEAR(result.middleEffectiveRadius, atHalf * std::sqrt(sectionOfOne() / pi), 1e-9);
 }
 

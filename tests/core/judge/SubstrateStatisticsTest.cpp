@@ -19,6 +19,7 @@ namespace
 {
 
 using cactus::pi;
+using example::surfacesOf;
 
 /// A closed prism over a regular polygon, along z from -half to half, centred on (x, y).
 cactus::TriangleMesh tube(double x, double y, double radius, double half, int sides = 24, int rings = 40)
@@ -29,15 +30,6 @@ cactus::TriangleMesh tube(double x, double y, double radius, double half, int si
 double polygonFactor(int sides)
 {
   return 0.5 * sides * std::sin(2.0 * pi / sides); // area of a regular polygon in the unit circle
-}
-
-cactus::FibreSurfaces surfacesOf(std::vector<int> ids, std::vector<cactus::TriangleMesh> meshes)
-{
-  cactus::FibreSurfaces surfaces;
-  surfaces.fibreIds = ids;
-  surfaces.bundleIds.assign(ids.size(), 1);
-  surfaces.mesh = [meshes](std::size_t i) { return meshes[i]; };
-  return surfaces;
 }
 
 /// Two straight fibres along z in a cube of side 10.
