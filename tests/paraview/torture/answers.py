@@ -19,7 +19,9 @@ PIPELINE = re.compile(r"returned failure for request|Failed to execute|Could not
 CLASS_MISMATCH = re.compile(r"^Input for connection index \d+ on input port index \d+ for algorithm .* is of type \w+, but an? .* is required\.$", re.S)
 # Measures that need not exist: of cuts where none lies wholly inside the domain, of axons without any, over an edge of no length, of
 # bends where all is straight.
-MAY_BE_MISSING = re.compile(r"row\..*(Radius|Circularity|SmallestMyelin|GRatio|EdgeRatio|Aspect)|field\.Smallest(Bend|Curvature)Radius")
+MAY_BE_MISSING = re.compile(
+    r"row\..*(Radius|Circularity|SmallestMyelin|GRatio|EdgeRatio|Aspect|Tortuosity|CalibreVariation|AxonArea|DiffusivityRatio|SurfaceToVolume|Diameter|MyelinThickness)"
+    r"|field\.Smallest(Bend|Curvature)Radius")
 THINGS = re.compile(
     r"fibre|point|cell|array|tractogram|header|truncated|field data|Domain|voxel|surface|triangle|input|block|image|extent|polyline|segment|file|line|folder|link|memory|Radius|Side|Id\b",
     re.I,
