@@ -226,7 +226,7 @@ bool holdsItself(const TriangleMesh& mesh)
         triangles.push_back(static_cast<std::uint32_t>(t));
       }
     }
-    const TriangleTree tree(mesh, std::move(triangles));
+    const TriangleTree tree(mesh, triangles);
     for (std::uint32_t inside = 0; inside < pieces.size(); ++inside)
     {
       if (inside != around && sideOf(tree, mesh.points[std::size_t(pieces[inside])]) == Side::Inside)
