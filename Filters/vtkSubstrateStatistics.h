@@ -4,8 +4,8 @@
  * @brief Measures a substrate on its final surfaces.
  *
  * Input 0 `Fibres`: polylines with point data `Radius`. Input 1 `Outer` and input 2 `Inner`, both optional: closed triangle
- * surfaces with cell data `FibreId`, clipped to the Domain and capped. Where input 0 is given the outer surfaces of a vtkMyelinSurface
- * and input 1 nothing, these are measured, with that filter's inner surfaces and the fibres before it.
+ * surfaces with cell data `FibreId`, clipped to the Domain and capped. Where input 0 is given the outer surfaces of a
+ * vtkMyelinSurface and input 1 nothing, these are measured, with that filter's inner surfaces and the fibres before it.
  *
  * Output 0 `Substrate`: one row; volume fractions, aggregate g-ratio sqrt(1 - MVF / FVF) (Stikov 2015), dispersion, mean radii,
  * and how many surfaces are closed, outward 2-manifolds. Output 1 `Fibres`: one row per fibre. Output 2 `Histograms`: one row per

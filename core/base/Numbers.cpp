@@ -49,8 +49,8 @@ bool isTiny(std::string_view number)
   return exponent < -power;
 }
 
-/// takeNumber() of one that starts with 0x behind its sign. The standard library's from_chars (of g++ 12) rounds some subnormal ones to
-/// the wrong side.
+/// takeNumber() of one that starts with 0x behind its sign. The standard library's from_chars (of g++ 12) rounds some subnormal
+/// ones to the wrong side.
 bool takeHexadecimal(std::string_view& text, double& value)
 {
   const std::string number(text.substr(0, text.find_first_not_of("0123456789abcdefABCDEFxXpP.+-")));

@@ -5,8 +5,8 @@
 #include "mesh/SurfaceStore.h"
 #include "surface/SurfaceJournal.h"
 
-#include <cstddef>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
