@@ -84,13 +84,15 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
       };
       const auto produced = cactus::produceSubstrate(fibres, order, stage.folderName, context);
       const cactus::WrittenSubstrate& written = produced.written;
-      if (!produced.remarks.empty())
-      {
-        vtkWarningMacro(<< produced.remarks);
-      }
+      std::string remarks = produced.remarks;
       if (!written.certificate.certified())
       {
-        vtkWarningMacro(<< "the substrate in " << stage.folderName << " is not certified: " << written.certificate.verdict());
+        remarks += (remarks.empty() ? "" : ". So ") + ("the substrate in " + stage.folderName + " is not certified: ") +
+                   written.certificate.verdict();
+      }
+      if (!remarks.empty())
+      {
+        vtkWarningMacro(<< remarks);
       }
       for (const std::string& leftover : written.leftovers)
       {
