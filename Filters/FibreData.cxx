@@ -195,21 +195,13 @@ Fibres fibresFrom(vtkDataObject* input)
 
 Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs)
 {
-  Fibres all;
-  for (std::size_t i = 0; i < inputs.size(); ++i)
+  std::vector<Fibres> fibres;
+  fibres.reserve(inputs.size());
+  for (vtkDataObject* input : inputs)
   {
-    Fibres fibres = fibresFrom(inputs[i]);
-    if (i == 0)
-    {
-      all = std::move(fibres);
-      continue;
-    }
-    if (!isSame(fibres.domain, all.domain))
-    {
-      throw InvalidInput("input " + std::to_string(i + 1) + " has another Domain than the first: give all bundles the same Side");
-    }
-    appendFibres(fibres, all);
+    fibres.push_back(fibresFrom(input));
   }
+  Fibres all = joinFibres(std::move(fibres));
   validate(all);
   return all;
 }

@@ -2,15 +2,13 @@
 #include "OverlapRemark.h"
 
 #include "InputBlocks.h"
-#include "base/Error.h"
-#include "optimiser/OverlapReport.h"
+#include "stages/StageWork.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace cactus
@@ -18,9 +16,6 @@ namespace cactus
 
 namespace
 {
-
-/// Well above what the optimiser leaves (OverlapTolerance, 0.001), and above the digits of a file.
-constexpr double harmlessPenetration = 0.01;
 
 /// What the optimiser has said in each part of the input: Converged, 1 or 0.
 std::vector<bool> verdictsOfOptimiser(const std::vector<vtkDataObject*>& parts)
@@ -55,15 +50,7 @@ std::string remarkOnOverlaps(vtkDataObject* input, const Fibres& fibres, int thr
   {
     return {};
   }
-  const OverlapReport report = measureOverlap(fibres, harmlessPenetration, threads);
-  if (report.overlappingPairs == 0)
-  {
-    return {};
-  }
-  return text(report.overlappingPairs, " pairs of capsules of different fibres overlap, the worst by ",
-    std::lround(100.0 * report.largestPenetration),
-    " % of their radii, and take space from each other: the optimiser has not parted these fibres. Apply CapsuleOptimizer first, "
-    "and grow what it gives");
+  return remarkOnOverlaps(fibres, threads);
 }
 
 } // namespace cactus

@@ -10,13 +10,10 @@
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Context.h"
-#include "base/Error.h"
-#include "base/Numbers.h"
 #include "fibres/FibreShape.h"
-#include "fibres/TrimToDomain.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "optimiser/OverlapReport.h"
-#include "stages/Stages.h"
+#include "stages/StageWork.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
@@ -31,7 +28,7 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
-#include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -82,41 +79,6 @@ vtkMTimeType inputTime(vtkInformationVector* inputs)
     newest = std::max(newest, cactus::changeTime(data));
   }
   return newest;
-}
-
-/// For the provenance.
-const char* reasonName(cactus::StopReason reason)
-{
-  switch (reason)
-  {
-  case cactus::StopReason::MaximumIterations:
-    return "MaximumIterations";
-  case cactus::StopReason::Stagnated:
-    return "Stagnated";
-  case cactus::StopReason::TimeBudget:
-    return "TimeBudget";
-  case cactus::StopReason::Stopped:
-    return "Stopped";
-  default:
-    return "Converged";
-  }
-}
-
-const char* reasonText(cactus::StopReason reason)
-{
-  switch (reason)
-  {
-  case cactus::StopReason::MaximumIterations:
-    return "MaximumIterations were used up";
-  case cactus::StopReason::Stagnated:
-    return "nothing more was gained";
-  case cactus::StopReason::TimeBudget:
-    return "TimeBudget ran out";
-  case cactus::StopReason::Stopped:
-    return "the run was stopped";
-  default:
-    return "converged";
-  }
 }
 
 } // namespace
@@ -320,16 +282,8 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   const cactus::FibreShape after = cactus::measureShape(fibres);
 
   auto* output = vtkPolyData::GetData(outputs, 0);
-  std::vector<std::size_t> kept(fibres.points.size());
-  std::iota(kept.begin(), kept.end(), std::size_t(0));
-  if (stage.trimToDomain)
-  {
-    fibres = cactus::trimToDomain(fibres, &kept);
-  }
-  if (fibres.size() == 0)
-  {
-    throw cactus::InvalidInput("no fibre comes near the Domain: check its position, or switch TrimToDomain off");
-  }
+  std::vector<std::size_t> kept;
+  fibres = cactus::trimmedFibres(stage, std::move(fibres), kept);
   cactus::toPolyData(fibres, output);
   cactus::addColumn<vtkDoubleArray>(
     output->GetPointData(), "Overlap", kept.size(), [&](std::size_t i) { return overlaps[kept[i]]; });
@@ -351,8 +305,7 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   const int iterations = isResult ? run.lastIteration() : run.States[state].Iteration;
   cactus::setProvenance(output,
     cactus::recordOf(this, "CapsuleOptimizer", stage, { "Input" },
-      { { "Iterations", std::int64_t(iterations) }, { "MaximumPenetration", penetration },
-        { "Ended", std::string(reasonName(run.Optimisation.reason)) }, { "IsResult", isResult } }),
+      cactus::optimiserReached(iterations, penetration, run.Optimisation.reason, isResult)),
     0);
   fillTable(run.Optimisation.convergence, vtkTable::GetData(outputs, 1));
 }
@@ -393,18 +346,12 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
           vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
         }
       }
-      const cactus::OptimisationResult& result = run.Optimisation;
-      if (!run.WasReported && !result.checkpointFailure.empty())
+      if (!run.WasReported)
       {
-        vtkWarningMacro(<< "the run could not be written down to go on from: " << result.checkpointFailure);
-      }
-      if (!run.WasReported && result.maximumPenetration > this->Stage().options.overlapTolerance)
-      {
-        vtkWarningMacro(<< "overlaps remain: " << reasonText(result.reason) << " after " << run.lastIteration()
-                        << " iterations with " << result.overlappingPairs << " capsule pairs above OverlapTolerance "
-                        << cactus::text(this->Stage().options.overlapTolerance, ", the largest penetration being ",
-                             result.maximumPenetration)
-                        << ". The best state is kept. Allow more iterations or time, or ask for a lower density.");
+        for (const std::string& remark : cactus::remarksOnOptimisation(run.Optimisation, this->Stage().options.overlapTolerance))
+        {
+          vtkWarningMacro(<< remark);
+        }
       }
       run.WasReported = true;
       if (!this->Stage().keepHistory)

@@ -5,9 +5,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
-#include "base/Error.h"
-#include "io/StrandFile.h"
-#include "stages/Stages.h"
+#include "stages/StageWork.h"
 
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -26,17 +24,9 @@ int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInf
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::StrandReaderStage>(this->Properties);
-      if (stage.fileName.empty())
-      {
-        throw cactus::InvalidInput("FileName is empty: name the strand file to read");
-      }
       auto* output = vtkPolyData::GetData(outputs);
-      cactus::toPolyData(cactus::readStrandFile(stage.fileName), output);
-      cactus::StageRecord record;
-      record.filter = "StrandReader";
-      record.properties = cactus::StrandReaderStage::properties().states(stage);
-      record.files.push_back({ "FileName", stage.fileName });
-      cactus::setProvenance(output, cactus::provenanceOf(record), 0);
+      cactus::toPolyData(cactus::strandsOf(stage), output);
+      cactus::setProvenance(output, cactus::provenanceOf(cactus::strandRecord(stage)), 0);
     });
 }
 

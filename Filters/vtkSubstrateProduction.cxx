@@ -9,10 +9,8 @@
 #include "SubstrateFileTable.h"
 #include "SurfaceTable.h"
 #include "WholeData.h"
-#include "base/Numbers.h"
 #include "growth/TargetRadii.h"
-#include "io/SubstrateProduction.h"
-#include "stages/Stages.h"
+#include "stages/StageWork.h"
 
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
@@ -62,11 +60,14 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
       auto* input = vtkDataObject::GetData(inputs[0]);
       const cactus::Fibres fibres = cactus::fibresFrom(input);
       const cactus::Context context = cactus::contextFor(this, stage.threads);
-      cactus::ProductionOrder order;
-      order.growth = stage.growth;
-      order.growth.seed = stage.surfaces.seed;
-      order.surfaces = stage.surfaces;
-      order.allowOpenSurfaces = stage.allowOpenSurfaces;
+      cactus::Provenance records;
+      const cactus::ProductionOrder order = cactus::productionOrder(stage,
+        [&](double spacing, double growth)
+        {
+          records =
+            cactus::recordOf(this, "SubstrateProduction", stage, { "Input" }, { { "Spacing", spacing }, { "Growth", growth } });
+          return records;
+        });
       for (const std::string& remark :
         { cactus::remarkOnOverlaps(input, fibres, context.threadCount()), cactus::remarkOnTarget(fibres, order.growth) })
       {
@@ -75,13 +76,6 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
           vtkWarningMacro(<< remark);
         }
       }
-      cactus::Provenance records;
-      order.provenance = [&](double spacing, double growth)
-      {
-        records =
-          cactus::recordOf(this, "SubstrateProduction", stage, { "Input" }, { { "Spacing", spacing }, { "Growth", growth } });
-        return records;
-      };
       const auto produced = cactus::produceSubstrate(fibres, order, stage.folderName, context);
       const cactus::WrittenSubstrate& written = produced.written;
       std::string remarks = produced.remarks;

@@ -10,7 +10,7 @@
 #include "WholeData.h"
 #include "base/Numbers.h"
 #include "io/SubstrateFolder.h"
-#include "stages/Stages.h"
+#include "stages/StageWork.h"
 
 #include <vtkDataObject.h>
 #include <vtkErrorCode.h>
@@ -103,13 +103,7 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   contents.domain = substrate.domain;
   contents.fibres = substrate.fibresOrNull();
   contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
-  contents.format = stage.format;
-  contents.mcdc.permeability = stage.permeability;
-  contents.voxelSize = stage.voxelSize;
-  contents.startPositions = stage.startPositions;
-  contents.seed = stage.seed;
-  contents.allowOpenSurfaces = stage.allowOpenSurfaces;
-  contents.certificate.minimumGap = stage.minimumGap;
+  cactus::setWriterOptions(stage, contents);
   const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads));
   if (!written.certificate.certified())
   {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
 
@@ -49,29 +48,18 @@ Json propertiesOf(const std::vector<PropertyState>& states)
   return properties;
 }
 
-std::string fileChecksum(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  Sha256 checksum;
-  std::vector<char> piece(std::size_t(1) << 16);
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())), file.gcount() > 0)
-  {
-    checksum.add(piece.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (!file.is_open() || file.bad())
-  {
-    throw FileError("cannot read " + path + " again for its checksum");
-  }
-  return checksum.digest();
-}
-
 Json filesOf(const std::vector<FileRead>& files)
 {
   Json all = Json::array();
   for (const FileRead& file : files)
   {
-    all.push_back({ { "property", file.property }, { "path", std::filesystem::absolute(file.path).string() },
-      { "sha256", fileChecksum(file.path) } });
+    const std::optional<std::string> checksum = sha256OfFile(file.path);
+    if (!checksum)
+    {
+      throw FileError("cannot read " + file.path + " again for its checksum");
+    }
+    all.push_back(
+      { { "property", file.property }, { "path", std::filesystem::absolute(file.path).string() }, { "sha256", *checksum } });
   }
   return all;
 }

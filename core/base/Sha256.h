@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace cactus
@@ -29,5 +30,8 @@ private:
 
 /// The checksum of a text.
 std::string sha256(const std::string& text);
+
+/// The checksum of a file; nothing where it cannot be read.
+std::optional<std::string> sha256OfFile(const std::string& path);
 
 } // namespace cactus

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace cactus
@@ -51,6 +52,25 @@ void appendFibres(const Fibres& added, Fibres& all)
   }
   const bool isKnown = all.grownFraction > 0.0 && added.grownFraction > 0.0;
   all.grownFraction = isKnown ? all.grownFraction + added.grownFraction : 0.0;
+}
+
+Fibres joinFibres(std::vector<Fibres> inputs)
+{
+  Fibres all;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    if (i == 0)
+    {
+      all = std::move(inputs.front());
+      continue;
+    }
+    if (!isSame(inputs[i].domain, all.domain))
+    {
+      throw InvalidInput("input " + std::to_string(i + 1) + " has another Domain than the first: give all bundles the same Side");
+    }
+    appendFibres(inputs[i], all);
+  }
+  return all;
 }
 
 bool isSame(const Domain& a, const Domain& b)

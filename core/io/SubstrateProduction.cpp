@@ -9,6 +9,7 @@
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
 #include "io/FolderReplacement.h"
+#include "io/MadeSurfaces.h"
 #include "io/SubstrateFolder.h"
 #include "io/SurfaceSpool.h"
 #include "surface/SurfaceMaker.h"
@@ -68,16 +69,6 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   return sum.digest();
 }
 
-LabelImageFacts factsOf(const Fibres& fibres, const FibreRadialGrowthOptions& growth)
-{
-  LabelImageFacts facts = labelImageFacts(fibres, growth);
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    facts.lengths.push_back(lengthInDomain(fibres, f));
-  }
-  return facts;
-}
-
 std::unique_ptr<SurfaceSpool> openSpool(const std::string& folder, const std::string& identity, std::size_t count)
 {
   try
@@ -90,27 +81,6 @@ std::unique_ptr<SurfaceSpool> openSpool(const std::string& folder, const std::st
                        " holds what was made of other fibres, with other parameters or by another version, and is kept: restore "
                        "those and run again to go on there, remove it, or choose another FolderName");
   }
-}
-
-/// The surfaces of one kind, where they are.
-FibreSurfaces surfacesIn(
-  const SurfaceStore& store, const std::vector<FibreSurfacePair>& fibres, SurfaceReport FibreSurfacePair::*report, double gap)
-{
-  FibreSurfaces surfaces;
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < fibres.size(); ++i)
-  {
-    if ((fibres[i].*report).triangles > 0)
-    {
-      surfaces.fibreIds.push_back(fibres[i].fibreId);
-      surfaces.bundleIds.push_back(fibres[i].bundleId);
-      places.push_back(i);
-    }
-  }
-  surfaces.mesh = [&store, places = std::move(places)](std::size_t index) { return *store.get(places[index]); };
-  surfaces.isGiven = true;
-  surfaces.promisedGap = gap;
-  return surfaces;
 }
 
 /// A part of the caller's progress, with the pace of the whole.
@@ -140,7 +110,7 @@ ProducedSubstrate produceFrom(
   const auto tiles =
     std::make_shared<GrownTiles>(aimed, order.growth, growth, tilesPerThread * std::size_t(context.threadCount()));
   const double spacing = tiles->grid().spacing;
-  const LabelImageFacts facts = factsOf(fibres, order.growth);
+  const LabelImageFacts facts = grownImageFacts(fibres, order.growth);
   const Context making = partOf(context, growthSolved, surfacesMade, pace);
   SubstrateFolderContents contents;
   {
@@ -149,16 +119,7 @@ ProducedSubstrate produceFrom(
     maker.makeInner(spool.outer(), spool.inner());
     result.fibres = maker.fibres();
     result.remarks = notAsAsked(maker.fibres(), spacing, facts);
-    const double gap = order.growth.minimumGap;
-    contents.outer = surfacesIn(spool.outer(), maker.fibres(), &FibreSurfacePair::outerReport, gap);
-    contents.inner = surfacesIn(spool.inner(), maker.fibres(), &FibreSurfacePair::innerReport, gap);
-    for (const FibreSurfacePair& fibre : maker.fibres())
-    {
-      if (fibre.isWanted)
-      {
-        contents.outer.wantedIds.push_back(fibre.fibreId);
-      }
-    }
+    addMadeSurfaces(maker.fibres(), spool.outer(), spool.inner(), order.growth.minimumGap, contents);
   }
   contents.domain = fibres.domain;
   contents.fibres = &fibres;

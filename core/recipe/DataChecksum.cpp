@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recipe/DataChecksum.h"
+
+#include "base/FastChecksum.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// The numbers by which VTK calls the types of its arrays.
+enum class ArrayType : std::uint64_t
+{
+  None = 0, ///< there is no such array
+  Int = 6,
+  Float = 10,
+  Double = 11
+};
+
+void addArray(FastChecksum& checksum, ArrayType type, const void* values, std::size_t bytes)
+{
+  checksum.add(static_cast<std::uint64_t>(type));
+  checksum.add(values, bytes);
+}
+
+void addNone(FastChecksum& checksum)
+{
+  checksum.add(static_cast<std::uint64_t>(ArrayType::None));
+}
+
+template <typename Value>
+void addArray(FastChecksum& checksum, ArrayType type, const std::vector<Value>& values)
+{
+  addArray(checksum, type, values.data(), values.size() * sizeof(Value));
+}
+
+/// One number for each triangle of each surface.
+template <typename NumberOf>
+void addForTriangles(FastChecksum& checksum, const std::vector<FibreSurfacePair>& fibres,
+  const std::vector<std::size_t>& triangles, NumberOf&& numberOf)
+{
+  std::vector<std::int32_t> numbers;
+  for (std::size_t i = 0; i < fibres.size(); ++i)
+  {
+    numbers.insert(numbers.end(), triangles[i], numberOf(fibres[i]));
+  }
+  addArray(checksum, ArrayType::Int, numbers);
+}
+
+} // namespace
+
+std::string dataChecksum(const Fibres& fibres)
+{
+  FastChecksum checksum;
+  checksum.add(static_cast<std::uint64_t>(fibres.size()));
+  addArray(checksum, ArrayType::Double, fibres.points);
+  addArray(checksum, ArrayType::Double, fibres.radii);
+  addArray(checksum, ArrayType::Int, fibres.fibreIds);
+  addArray(checksum, ArrayType::Int, fibres.bundleIds);
+  addArray(checksum, ArrayType::Double, fibres.targetRadii);
+  addNone(checksum); // they have no Surface
+  return checksum.digest();
+}
+
+std::string dataChecksum(const LabelImage& image)
+{
+  FastChecksum checksum;
+  std::array<std::int32_t, 6> extent{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    extent[2 * axis] = image.grid.lower[axis];
+    extent[2 * axis + 1] = image.grid.lower[axis] + image.grid.count[axis] - 1;
+  }
+  const std::array<double, 3> spacing{ { image.grid.spacing, image.grid.spacing, image.grid.spacing } };
+  checksum.add(extent.data(), sizeof(extent));
+  checksum.add(image.grid.origin.data(), 3 * sizeof(double));
+  checksum.add(spacing.data(), sizeof(spacing));
+  addArray(checksum, ArrayType::Int, image.fibreId);
+  addArray(checksum, ArrayType::Float, image.depth);
+  addNone(checksum); // it is no Field
+  return checksum.digest();
+}
+
+std::string dataChecksum(const std::vector<FibreSurfacePair>& fibres, const SurfaceSource& surfaces, int kind)
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::size_t> triangles;
+  std::size_t triangleCount = 0;
+  for (std::size_t i = 0; i < fibres.size(); ++i)
+  {
+    const std::shared_ptr<const TriangleMesh> mesh = surfaces.get(i);
+    points.insert(points.end(), mesh->points.begin(), mesh->points.end());
+    triangles.push_back(mesh->triangles.size());
+    triangleCount += mesh->triangles.size();
+  }
+  FastChecksum checksum;
+  checksum.add(static_cast<std::uint64_t>(triangleCount));
+  addArray(checksum, ArrayType::Double, points);
+  addNone(checksum); // they have no Radius
+  addForTriangles(checksum, fibres, triangles, [](const FibreSurfacePair& fibre) { return fibre.fibreId; });
+  addForTriangles(checksum, fibres, triangles, [](const FibreSurfacePair& fibre) { return fibre.bundleId; });
+  addNone(checksum); // nor a TargetRadius
+  addForTriangles(checksum, fibres, triangles, [kind](const FibreSurfacePair&) { return kind; });
+  return checksum.digest();
+}
+
+} // namespace cactus

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recipe/RecipeRun.h"
+
+#include "base/Provenance.h"
+#include "fibres/JoinFibres.h"
+#include "growth/FibreRadialGrowth.h"
+#include "growth/GrowthTarget.h"
+#include "growth/TargetRadii.h"
+#include "io/FolderReplacement.h"
+#include "io/MadeSurfaces.h"
+#include "io/SubstrateFolder.h"
+#include "io/SubstrateProduction.h"
+#include "recipe/DataChecksum.h"
+#include "stages/StageWork.h"
+#include "surface/SurfaceMaker.h"
+#include "surface/SurfaceRemarks.h"
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Fibres that a stage has given.
+struct MadeFibres
+{
+  Fibres fibres;
+  bool isParted = false; ///< by one optimiser
+};
+
+/// The label image, and what surfaces are to be told of it.
+struct GrownImage
+{
+  LabelImage image;
+  LabelImageFacts facts;
+  double gap = 0.0;
+  Fibres fibres; ///< that it was grown from
+};
+
+struct MadeSurfaces
+{
+  explicit MadeSurfaces(std::size_t count)
+    : outer(count)
+    , inner(count)
+  {
+  }
+
+  std::vector<FibreSurfacePair> fibres;
+  SurfacesInMemory outer;
+  SurfacesInMemory inner;
+  LabelImageFacts facts;
+  Fibres grownFrom;
+};
+
+/// The work, stage by stage.
+class RecipeRun
+{
+public:
+  RecipeRun(const Recipe& recipe, const std::string& folder, const Context& context,
+    const std::function<void(const std::string&)>& remark)
+    : All(recipe)
+    , Folder(folder)
+    , Caller(context)
+    , Remark(remark)
+  {
+  }
+
+  WrittenSubstrate run()
+  {
+    for (std::size_t i = 0; i < this->All.stages.size(); ++i)
+    {
+      this->Caller.checkpoint();
+      this->Now = i;
+      std::visit([this](const auto& stage) { this->work(stage); }, this->All.stages[i].options);
+    }
+    return std::move(this->Written);
+  }
+
+private:
+  const RecipeStage& stage() const { return this->All.stages[this->Now]; }
+
+  void say(const std::string& what) const
+  {
+    if (!what.empty() && this->Remark)
+    {
+      this->Remark(what);
+    }
+  }
+
+  Context contextFor(int threads) const
+  {
+    Context context = this->Caller;
+    context.threads = this->Caller.threads > 0 ? this->Caller.threads : threads;
+    const std::string title =
+      std::to_string(this->Now + 1) + '/' + std::to_string(this->All.stages.size()) + ' ' + this->stage().name;
+    context.progress = [this, title](double fraction, const std::string& message)
+    { this->Caller.report(fraction, message.empty() ? title : title + ": " + message); };
+    return context;
+  }
+
+  // What comes in.
+
+  Fibres fibresFrom(const RecipeSource& source) const
+  {
+    if (source.blocks.empty())
+    {
+      return this->FibresOf.at(source.stage).fibres;
+    }
+    return this->fibresFrom(source.blocks);
+  }
+
+  Fibres fibresFrom(const std::vector<RecipeSource>& sources) const
+  {
+    std::vector<Fibres> inputs;
+    inputs.reserve(sources.size());
+    for (const RecipeSource& source : sources)
+    {
+      inputs.push_back(this->fibresFrom(source));
+    }
+    return joinFibres(std::move(inputs));
+  }
+
+  bool isParted(const RecipeSource& source) const { return source.blocks.empty() && this->FibresOf.at(source.stage).isParted; }
+
+  DataOrigin originOf(const RecipeSource& source) const
+  {
+    DataOrigin origin;
+    for (const RecipeSource& block : source.blocks)
+    {
+      origin.parts.push_back(this->originOf(block));
+    }
+    if (source.blocks.empty())
+    {
+      origin.records = this->RecordsOf.at({ source.stage, source.port });
+    }
+    return origin;
+  }
+
+  template <typename Options>
+  Provenance record(const Options& options, std::vector<std::pair<std::string, PropertyValue>> reached = {}) const
+  {
+    StageRecord record{ this->stage().name, Options::properties().states(options), std::move(reached), {}, {} };
+    for (const auto& [name, sources] : this->stage().inputs)
+    {
+      record.inputs.emplace_back(name, std::vector<DataOrigin>());
+      for (const RecipeSource& source : sources)
+      {
+        record.inputs.back().second.push_back(this->originOf(source));
+      }
+    }
+    return provenanceOf(record);
+  }
+
+  // What goes out.
+
+  void giveFibres(Fibres fibres, const Provenance& records, bool isParted)
+  {
+    this->RecordsOf[{ this->Now, 0 }] = provenanceOfOutput(records, 0, dataChecksum(fibres));
+    this->FibresOf[this->Now] = { std::move(fibres), isParted };
+  }
+
+  // The stages.
+
+  void work(const BundleInitializerStage& stage)
+  {
+    const BundleInitializerOptions options = bundleOptions(stage);
+    BundleInitializerReport report;
+    Fibres fibres = initialiseBundles(options, this->contextFor(0), &report);
+    const Provenance records = provenanceOf(bundleRecord(stage, options, fibres.size(), report));
+    this->giveFibres(std::move(fibres), records, false);
+  }
+
+  void work(const StrandReaderStage& stage) { this->giveFibres(strandsOf(stage), provenanceOf(strandRecord(stage)), false); }
+
+  void work(const CapsuleOptimizerStage& stage)
+  {
+    Fibres fibres = this->fibresFrom(this->stage().input("Input"));
+    validate(fibres);
+    const OptimisationResult result = optimise(fibres, stage.options, this->contextFor(stage.threads));
+    this->Caller.checkpoint(); // it keeps its best state where it is stopped
+    std::vector<std::size_t> kept;
+    fibres = trimmedFibres(stage, std::move(fibres), kept);
+    for (const std::string& remark : remarksOnOptimisation(result, stage.options.overlapTolerance))
+    {
+      this->say("CapsuleOptimizer: " + remark);
+    }
+    const int iterations = result.convergence.back().iteration;
+    this->giveFibres(
+      std::move(fibres), this->record(stage, optimiserReached(iterations, result.maximumPenetration, result.reason, true)), true);
+  }
+
+  /// What is to grow, and what is to be said of it.
+  Fibres growingFibres(const FibreRadialGrowthOptions& options, const Context& context) const
+  {
+    const RecipeSource& source = this->stage().input("Input").front();
+    Fibres fibres = this->fibresFrom(source);
+    if (!this->isParted(source))
+    {
+      this->say(remarkOnOverlaps(fibres, context.threadCount()));
+    }
+    this->say(remarkOnTarget(fibres, options));
+    return fibres;
+  }
+
+  void work(const FibreRadialGrowthStage& stage)
+  {
+    const FibreRadialGrowthOptions& options = stage.options;
+    const Context context = this->contextFor(stage.threads);
+    Fibres fibres = this->growingFibres(options, context);
+    const Fibres aimed = aimAtTargetRadii(fibres, options, context);
+    const double growth = growthFor(aimed, options, context);
+    const VoxelGrid grid = growthGrid(fibres.domain, options);
+    LabelImage image = growFibres(aimed, options, growth, grid, context);
+    this->RecordsOf[{ this->Now, 0 }] =
+      provenanceOfOutput(this->record(stage, { { "Spacing", grid.spacing }, { "Growth", growth } }), 0, dataChecksum(image));
+    GrownImage grown{ std::move(image), grownImageFacts(fibres, options), options.gap(), {} };
+    grown.fibres = std::move(fibres);
+    this->Grown = std::move(grown);
+  }
+
+  void work(const MyelinSurfaceStage& stage)
+  {
+    GrownImage grown = std::move(*this->Grown);
+    this->Grown.reset();
+    const LabelImageView view{ grown.image.grid, grown.image.fibreId.data(), grown.image.depth.data(), grown.gap };
+    SurfaceMaker maker(std::make_shared<LabelImageInMemory>(view), grown.facts, stage.options, this->contextFor(stage.threads));
+    auto made = std::make_unique<MadeSurfaces>(maker.fibres().size());
+    maker.makeOuter(made->outer);
+    maker.makeInner(made->outer, made->inner);
+    this->say(notAsAsked(maker.fibres(), view.grid.spacing, grown.facts));
+    made->fibres = maker.fibres();
+    made->facts = std::move(grown.facts);
+    made->grownFrom = std::move(grown.fibres);
+    const Provenance records = this->record(stage);
+    for (const int port : { 0, 1 })
+    {
+      const SurfacesInMemory& surfaces = port == 0 ? made->outer : made->inner;
+      this->RecordsOf[{ this->Now, port }] = provenanceOfOutput(records, port, dataChecksum(made->fibres, surfaces, port));
+    }
+    this->Surfaces = std::move(made);
+  }
+
+  void work(const SubstrateWriterStage& stage)
+  {
+    const MadeSurfaces& made = *this->Surfaces;
+    const std::vector<RecipeSource>& centreLines = this->stage().input("Fibres");
+    const Fibres fibres = centreLines.empty() ? made.grownFrom : this->fibresFrom(centreLines);
+    SubstrateFolderContents contents;
+    contents.domain = made.facts.domain;
+    addMadeSurfaces(made.fibres, made.outer, made.inner, made.facts.minimumGap, contents);
+    contents.fibres = &fibres;
+    contents.provenance = this->record(stage);
+    setWriterOptions(stage, contents);
+    this->Written = writeSubstrateFolder(contents, this->Folder, this->contextFor(stage.threads));
+    this->sayOfFolder(this->Written);
+  }
+
+  void work(const SubstrateProductionStage& stage)
+  {
+    const Context context = this->contextFor(stage.threads);
+    const ProductionOrder order = productionOrder(stage,
+      [&](double spacing, double growth) {
+        return this->record(stage, { { "Spacing", spacing }, { "Growth", growth } });
+      });
+    const Fibres fibres = this->growingFibres(order.growth, context);
+    ProducedSubstrate produced = produceSubstrate(fibres, order, this->Folder, context);
+    this->say(produced.remarks);
+    this->Written = std::move(produced.written);
+    this->sayOfFolder(this->Written);
+  }
+
+  void sayOfFolder(const WrittenSubstrate& written) const
+  {
+    for (const std::string& leftover : written.leftovers)
+    {
+      this->say(leftover);
+    }
+  }
+
+  const Recipe& All;
+  const std::string& Folder;
+  const Context& Caller;
+  const std::function<void(const std::string&)>& Remark;
+  std::size_t Now = 0; ///< the stage at work
+  std::map<std::size_t, MadeFibres> FibresOf;
+  std::map<std::pair<std::size_t, int>, Provenance> RecordsOf; ///< of each stage's output
+  std::optional<GrownImage> Grown;
+  std::unique_ptr<MadeSurfaces> Surfaces;
+  WrittenSubstrate Written;
+};
+
+} // namespace
+
+WrittenSubstrate runRecipe(
+  const Recipe& recipe, const std::string& folder, const Context& context, const std::function<void(const std::string&)>& remark)
+{
+  {
+    const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
+  }
+  return RecipeRun(recipe, folder, context, remark).run();
+}
+
+} // namespace cactus

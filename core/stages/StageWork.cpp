@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/StageWork.h"
+
+#include "base/Error.h"
+#include "fibres/TrimToDomain.h"
+#include "io/StrandFile.h"
+#include "optimiser/OverlapReport.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Well above what the optimiser leaves (OverlapTolerance, 0.001), and above the digits of a file.
+constexpr double harmlessPenetration = 0.01;
+
+/// For the record.
+const char* reasonName(StopReason reason)
+{
+  switch (reason)
+  {
+  case StopReason::MaximumIterations:
+    return "MaximumIterations";
+  case StopReason::Stagnated:
+    return "Stagnated";
+  case StopReason::TimeBudget:
+    return "TimeBudget";
+  case StopReason::Stopped:
+    return "Stopped";
+  default:
+    return "Converged";
+  }
+}
+
+const char* reasonText(StopReason reason)
+{
+  switch (reason)
+  {
+  case StopReason::MaximumIterations:
+    return "MaximumIterations were used up";
+  case StopReason::Stagnated:
+    return "nothing more was gained";
+  case StopReason::TimeBudget:
+    return "TimeBudget ran out";
+  case StopReason::Stopped:
+    return "the run was stopped";
+  default:
+    return "converged";
+  }
+}
+
+} // namespace
+
+BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage)
+{
+  BundleInitializerOptions options = stage.options;
+  if (options.radius.model != RadiusModel::Table)
+  {
+    return options;
+  }
+  options.radius.table = parseRadiusTable(stage.radiusTable);
+  if (!stage.radiusTableFile.empty())
+  {
+    if (!options.radius.table.empty())
+    {
+      throw InvalidInput("RadiusTable and RadiusTableFile are both given: clear one of them");
+    }
+    options.radius.table = readRadiusTable(stage.radiusTableFile);
+  }
+  return options;
+}
+
+StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitializerOptions& options, std::size_t fibres,
+  const BundleInitializerReport& report)
+{
+  StageRecord record;
+  record.filter = "BundleInitializer";
+  record.properties = BundleInitializerStage::properties().states(stage);
+  for (PropertyState& state : record.properties)
+  {
+    if (state.facts->name == "RadiusTable" && stage.radiusTableFile.empty())
+    {
+      state.value = options.radius.table;
+    }
+  }
+  if (options.radius.model == RadiusModel::Table && !stage.radiusTableFile.empty())
+  {
+    record.files.push_back({ "RadiusTableFile", stage.radiusTableFile });
+  }
+  record.reached = { { "Fibres", static_cast<std::int64_t>(fibres) }, { "FibreVolumeFraction", report.fibreVolumeFraction },
+    { "MeanDispersion", report.meanDispersion } };
+  return record;
+}
+
+Fibres strandsOf(const StrandReaderStage& stage)
+{
+  if (stage.fileName.empty())
+  {
+    throw InvalidInput("FileName is empty: name the strand file to read");
+  }
+  return readStrandFile(stage.fileName);
+}
+
+StageRecord strandRecord(const StrandReaderStage& stage)
+{
+  StageRecord record;
+  record.filter = "StrandReader";
+  record.properties = StrandReaderStage::properties().states(stage);
+  record.files.push_back({ "FileName", stage.fileName });
+  return record;
+}
+
+std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
+  int iterations, double penetration, StopReason reason, bool isResult)
+{
+  return { { "Iterations", std::int64_t(iterations) }, { "MaximumPenetration", penetration },
+    { "Ended", std::string(reasonName(reason)) }, { "IsResult", isResult } };
+}
+
+Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vector<std::size_t>& kept)
+{
+  kept.resize(fibres.points.size());
+  std::iota(kept.begin(), kept.end(), std::size_t(0));
+  if (stage.trimToDomain)
+  {
+    fibres = trimToDomain(fibres, &kept);
+  }
+  if (fibres.size() == 0)
+  {
+    throw InvalidInput("no fibre comes near the Domain: check its position, or switch TrimToDomain off");
+  }
+  return fibres;
+}
+
+std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, double overlapTolerance)
+{
+  std::vector<std::string> remarks;
+  if (!result.checkpointFailure.empty())
+  {
+    remarks.push_back("the run could not be written down to go on from: " + result.checkpointFailure);
+  }
+  if (result.maximumPenetration > overlapTolerance)
+  {
+    remarks.push_back(
+      text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration, " iterations with ",
+        result.overlappingPairs, " capsule pairs above OverlapTolerance ", overlapTolerance, ", the largest penetration being ",
+        result.maximumPenetration, ". The best state is kept. Allow more iterations or time, or ask for a lower density."));
+  }
+  return remarks;
+}
+
+std::string remarkOnOverlaps(const Fibres& fibres, int threads)
+{
+  const OverlapReport report = measureOverlap(fibres, harmlessPenetration, threads);
+  if (report.overlappingPairs == 0)
+  {
+    return {};
+  }
+  return text(report.overlappingPairs, " pairs of capsules of different fibres overlap, the worst by ",
+    std::lround(100.0 * report.largestPenetration),
+    " % of their radii, and take space from each other: the optimiser has not parted these fibres. Apply CapsuleOptimizer first, "
+    "and grow what it gives");
+}
+
+void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents& contents)
+{
+  contents.format = stage.format;
+  contents.mcdc.permeability = stage.permeability;
+  contents.voxelSize = stage.voxelSize;
+  contents.startPositions = stage.startPositions;
+  contents.seed = stage.seed;
+  contents.allowOpenSurfaces = stage.allowOpenSurfaces;
+  contents.certificate.minimumGap = stage.minimumGap;
+}
+
+ProductionOrder productionOrder(
+  const SubstrateProductionStage& stage, std::function<Provenance(double spacing, double growth)> provenance)
+{
+  ProductionOrder order;
+  order.growth = stage.growth;
+  order.growth.seed = stage.surfaces.seed;
+  order.surfaces = stage.surfaces;
+  order.allowOpenSurfaces = stage.allowOpenSurfaces;
+  order.provenance = std::move(provenance);
+  return order;
+}
+
+} // namespace cactus

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a stage does around its method, the same in ParaView and without it: properties become options, what is kept of a run in
+// its record, and what its user is told.
+#pragma once
+
+#include "base/Provenance.h"
+#include "bundle/BundleInitializer.h"
+#include "fibres/Fibres.h"
+#include "io/SubstrateContents.h"
+#include "io/SubstrateProduction.h"
+#include "optimiser/CapsuleOptimizer.h"
+#include "stages/Stages.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cactus
+{
+
+/// The options, with the radii of a table that is given as text or as a file. Throws InvalidInput for both at once, FileError,
+/// and as the readers of such tables do.
+BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage);
+
+/// What was asked of a bundle and reached. A table of radii is kept as numbers, a file of them by its name and checksum.
+StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitializerOptions& options, std::size_t fibres,
+  const BundleInitializerReport& report);
+
+/// The fibres of the file. Throws InvalidInput where none is named, and as readStrandFile() does.
+Fibres strandsOf(const StrandReaderStage& stage);
+StageRecord strandRecord(const StrandReaderStage& stage);
+
+/// What is kept of an optimisation, or of a state on its way.
+std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
+  int iterations, double penetration, StopReason reason, bool isResult);
+
+/// The fibres, trimmed to their domain if the stage says so; `kept` as of trimToDomain(). Throws InvalidInput where none is left.
+Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vector<std::size_t>& kept);
+
+/// How the optimiser's run fell short, in sentences; empty where it did not.
+std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, double overlapTolerance);
+
+/// That fibres which no optimiser has parted overlap, where capsules of different ones have more than a hundredth of their radii
+/// in common; empty else.
+std::string remarkOnOverlaps(const Fibres& fibres, int threads);
+
+/// Puts what the writer was told into what is to be written.
+void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents& contents);
+
+/// What a production was told.
+ProductionOrder productionOrder(
+  const SubstrateProductionStage& stage, std::function<Provenance(double spacing, double growth)> provenance);
+
+} // namespace cactus

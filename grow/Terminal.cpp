@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Terminal.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace
+{
+
+/// Columns of the terminal.
+std::size_t width()
+{
+  winsize size{};
+  constexpr std::size_t usual = 80;
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+}
+
+/// As much of a text in UTF-8 as is at most so many characters.
+std::string shortened(const std::string& text, std::size_t most)
+{
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const bool isFirst = (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80;
+    if (isFirst && characters++ == most)
+    {
+      return text.substr(0, i);
+    }
+  }
+  return text;
+}
+
+/// Without what would move the cursor: a message may hold what stands in somebody's file.
+std::string onOneLine(std::string text)
+{
+  std::replace_if(
+    text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, ' ');
+  return text;
+}
+
+} // namespace
+
+Terminal::Terminal()
+  : IsTerminal(::isatty(STDERR_FILENO) != 0)
+{
+}
+
+Terminal::~Terminal()
+{
+  this->clear();
+}
+
+void Terminal::progress(double fraction, const std::string& message)
+{
+  const auto now = std::chrono::steady_clock::now();
+  if (!this->IsTerminal || (this->IsShown && now - this->LastTime < std::chrono::milliseconds(100)))
+  {
+    return;
+  }
+  this->LastTime = now;
+  this->IsShown = true;
+  char percent[16];
+  std::snprintf(percent, sizeof(percent), "%3d %%  ", static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0)));
+  std::fprintf(stderr, "\r%s\033[K", shortened(percent + onOneLine(message), width() - 1).c_str());
+  std::fflush(stderr);
+}
+
+void Terminal::say(const std::string& message)
+{
+  this->clear();
+  std::fprintf(stderr, "cactus-grow: %s\n", onOneLine(message).c_str());
+}
+
+void Terminal::clear()
+{
+  if (this->IsShown)
+  {
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+    this->IsShown = false;
+  }
+}

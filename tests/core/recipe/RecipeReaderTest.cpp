@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantee: a recipe says what its text says, defaults included, and nothing that a stage would not take gets by.
+#include "recipe/RecipeReader.h"
+
+#include "ScratchPath.h"
+#include "base/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace cactus;
+
+std::vector<std::string> stageNames(const Recipe& recipe)
+{
+  std::vector<std::string> names;
+  for (const RecipeStage& stage : recipe.stages)
+  {
+    names.push_back(stage.name);
+  }
+  return names;
+}
+
+template <typename Stage>
+const Stage& stageIn(const Recipe& recipe, std::size_t place)
+{
+  return std::get<Stage>(recipe.stages.at(place).options);
+}
+
+std::string refusal(const std::string& text)
+{
+  try
+  {
+    readRecipe(text, "");
+  }
+  catch (const InvalidInput& error)
+  {
+    return error.what();
+  }
+  return "none";
+}
+
+} // namespace
+
+TEST(RecipeReader, NothingIsTheDefaultChain)
+{
+  const Recipe recipe = readRecipe("{}", "");
+  EXPECT_EQ(stageNames(recipe), (std::vector<std::string>{ "BundleInitializer", "CapsuleOptimizer", "FibreRadialGrowth",
+                                  "MyelinSurface", "SubstrateWriter" }));
+  EXPECT_EQ(stageIn<BundleInitializerStage>(recipe, 0).options.side, BundleInitializerOptions().side);
+  EXPECT_EQ(stageIn<FibreRadialGrowthStage>(recipe, 2).options.targetFibreVolumeFraction, -1.0);
+  EXPECT_EQ(recipe.stages[4].input("Inner").at(0).port, 1);
+  EXPECT_EQ(recipe.stages[4].input("Fibres").at(0).stage, 1u);
+  EXPECT_EQ(recipe.folderName(), "");
+  EXPECT_EQ(recipe.version, "");
+}
+
+TEST(RecipeReader, ValuesArriveAsTheyStand)
+{
+  const Recipe recipe = readRecipe(R"({ // a remark
+    "BundleInitializer": { "Side": 20, "Seed": 2147483647, "RadiusDistribution": "Table", "RadiusTable": [0.5, 0.1e1] },
+    "CapsuleOptimizer": { "TrimToDomain": false, "MaximumIterations": 7.0, "CheckpointFile": "run.checkpoint" },
+    "MyelinSurface": { "GRatioModel": 2, "GRatio": 0.65 },
+    "SubstrateWriter": { "Format": "Disimpy", "FolderName": "/out/here" } })",
+    "/in/there");
+  const auto& bundle = stageIn<BundleInitializerStage>(recipe, 0);
+  EXPECT_EQ(bundle.options.side, 20.0);
+  EXPECT_EQ(bundle.options.seed, 2147483647u);
+  EXPECT_EQ(bundle.radiusTable, "0.5 1");
+  const auto& optimiser = stageIn<CapsuleOptimizerStage>(recipe, 1);
+  EXPECT_FALSE(optimiser.trimToDomain);
+  EXPECT_EQ(optimiser.options.maximumIterations, 7);
+  EXPECT_EQ(optimiser.options.checkpointFile, "/in/there/run.checkpoint");
+  EXPECT_EQ(stageIn<MyelinSurfaceStage>(recipe, 3).options.model, GRatioModel(2));
+  EXPECT_EQ(stageIn<SubstrateWriterStage>(recipe, 4).format, SubstrateFormat::Disimpy);
+  EXPECT_EQ(recipe.folderName(), "/out/here");
+}
+
+TEST(RecipeReader, SeveralSourcesGoToOneOptimiser)
+{
+  const Recipe recipe =
+    readRecipe(R"({ "BundleInitializer": [ {"Seed": 1}, {"Seed": 2} ], "SubstrateProduction": {"Seed": 5} })", "");
+  EXPECT_EQ(stageNames(recipe),
+    (std::vector<std::string>{ "BundleInitializer", "BundleInitializer", "CapsuleOptimizer", "SubstrateProduction" }));
+  EXPECT_EQ(stageIn<BundleInitializerStage>(recipe, 1).options.seed, 2u);
+  EXPECT_EQ(recipe.stages[2].input("Input").size(), 2u);
+  EXPECT_EQ(stageIn<SubstrateProductionStage>(recipe, 3).surfaces.seed, 5u);
+}
+
+TEST(RecipeReader, WithoutOptimiserSeveralSourcesAreBlocks)
+{
+  const Recipe recipe = readRecipe(R"({ "BundleInitializer": [ {}, {"Seed": 2} ], "CapsuleOptimizer": false })", "");
+  ASSERT_EQ(recipe.stages.size(), 5u);
+  const std::vector<RecipeSource>& input = recipe.stages[2].input("Input");
+  ASSERT_EQ(input.size(), 1u);
+  ASSERT_EQ(input[0].blocks.size(), 2u);
+  EXPECT_EQ(input[0].blocks[1].stage, 1u);
+}
+
+TEST(RecipeReader, NumbersThatAMemberCannotHoldAreRefused)
+{
+  EXPECT_EQ(refusal(R"({"BundleInitializer": {"NumberOfBundles": 4294967297}})"),
+    "BundleInitializer: NumberOfBundles is 4294967297: give 1 to 2; append several sources for more bundles or other directions");
+  EXPECT_EQ(refusal(R"({"SubstrateWriter": {"Format": 99}})").substr(0, 46), "SubstrateWriter: Format is 99: give \"MC/DC\", \"");
+  EXPECT_EQ(refusal(R"({"SubstrateWriter": {"Format": -1}})").substr(0, 36), "SubstrateWriter: Format is -1: give ");
+  EXPECT_EQ(refusal(R"({"BundleInitializer": {"Seed": true}})"), "BundleInitializer: Seed is true: give a number");
+}
+
+TEST(RecipeReader, NamesTheLikelyProperty)
+{
+  EXPECT_EQ(
+    refusal(R"({"FibreRadialGrowth": {"Voxelsize": 1}})"), "FibreRadialGrowth: there is no property Voxelsize: is it VoxelSize?");
+  EXPECT_EQ(refusal(R"({"FibreRadialGrowth": {"GRatio": 1}})"), "FibreRadialGrowth: there is no property GRatio");
+}
+
+TEST(RecipeReader, RecordsInARingOrWithoutEndAreRefused)
+{
+  const std::string stage =
+    R"({"id": "a", "filter": "CapsuleOptimizer", "properties": {}, "inputs": {"Input": [{"stage": "a"}]}})";
+  EXPECT_EQ(refusal(R"({"provenance": [)" + stage + "]}"),
+    "the provenance is damaged: input Input of CapsuleOptimizer comes from a later stage");
+  std::string many = stage;
+  for (int i = 0; i < 2000; ++i)
+  {
+    many += ", " + stage;
+  }
+  EXPECT_EQ(refusal(R"({"provenance": [)" + many + "]}"), "the provenance is damaged: it has 2001 stages");
+}

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""command.py PROGRAM RECIPES: cactus-grow as a user has it: what it makes, what it refuses, how it ends, and that it leaves nothing half
+done. RECIPES is the folder of the examples."""
+
+import glob
+import json
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM, RECIPES = sys.argv[1:3]
+
+# A second of work.
+SMALL = {
+    "BundleInitializer": {"Side": 4, "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0},
+    "FibreRadialGrowth": {"VoxelSize": 0.2, "GrowthIterations": 1},
+}
+
+
+def files(folder):
+    found = {}
+    for path, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(path, name), "rb") as file:
+                found[os.path.relpath(os.path.join(path, name), folder)] = file.read()
+    return found
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="cactus-grow-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def recipe(self, content, name="recipe.json"):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(content if isinstance(content, str) else json.dumps(content))
+        return path
+
+    def run_it(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=self.folder, **options)
+
+    def assertRefused(self, content, pattern, status=2):
+        """One line that says why, and nothing written."""
+        before = sorted(os.listdir(self.folder)) + ["recipe.json"]
+        done = self.run_it(self.recipe(content))
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertRegex(done.stderr, "^cactus-grow: .*" + pattern)
+        self.assertEqual(done.stdout, "")
+        self.assertLessEqual(set(os.listdir(self.folder)), set(before))
+
+    def test_makes_a_substrate_and_makes_it_again(self):
+        done = self.run_it(self.recipe(SMALL), "--threads", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        first = os.path.join(self.folder, "recipe")
+        self.assertRegex(done.stdout, r"^.*/recipe: certified, \d+ outer and \d+ inner surfaces of \d+ triangles\n$")
+        with open(os.path.join(first, "manifest.json"), encoding="utf-8") as file:
+            manifest = json.load(file)
+        self.assertTrue(manifest["certified"])
+        self.assertEqual([stage["filter"] for stage in manifest["provenance"]],
+                         ["BundleInitializer", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", "SubstrateWriter"])
+        again = self.run_it(first, "-t", "1")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(files(first + "-rerun"), files(first))
+        other = self.run_it(os.path.join(first, "manifest.json"), "--output=other")
+        self.assertEqual(other.returncode, 0, other.stderr)
+        self.assertEqual(files(os.path.join(self.folder, "other")), files(first))
+        self.assertEqual(set(os.listdir(self.folder)), {"recipe.json", "recipe", "recipe-rerun", "other"})
+
+    def test_production_writes_the_same_surfaces(self):
+        growth = SMALL["FibreRadialGrowth"]
+        streamed = {"BundleInitializer": SMALL["BundleInitializer"], "SubstrateProduction": {**growth, "FolderName": "streamed"}}
+        for recipe in (streamed, {**SMALL, "SubstrateWriter": {"FolderName": "held"}}):
+            done = self.run_it(self.recipe(recipe))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        one, two = (files(os.path.join(self.folder, name)) for name in ("streamed", "held"))
+        for name in two:
+            if name != "manifest.json":
+                self.assertEqual(one[name], two[name], name)
+        again = self.run_it("streamed")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(files(os.path.join(self.folder, "streamed-rerun")), one)
+
+    def test_sources_in_a_list_and_from_a_file(self):
+        bundle = SMALL["BundleInitializer"]
+        several = {**SMALL, "BundleInitializer": [{**bundle, "FibreVolumeFraction": 0.15}, {**bundle, "FibreVolumeFraction": 0.1, "Seed": 2}]}
+        done = self.run_it(self.recipe(several))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        strands = os.path.join(self.folder, "recipe", "fibres.strands")
+        shutil.move(strands, self.folder)
+        # The file is named from where the recipe is, whatever folder the command runs in; its fibres do not overlap.
+        recipe = self.recipe({"StrandReader": {"FileName": "fibres.strands"}, "CapsuleOptimizer": False,
+                              "FibreRadialGrowth": SMALL["FibreRadialGrowth"]}, "strands.json")
+        done = subprocess.run([PROGRAM, recipe], capture_output=True, text=True, cwd="/")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.run_it("strands").returncode, 0)
+        with open(os.path.join(self.folder, "fibres.strands"), "a", encoding="utf-8") as file:
+            file.write("\n")
+        done = self.run_it("strands", "--output", "third")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, r"StrandReader: .*fibres\.strands, which it has read, is another file than it was")
+
+    def test_refuses_what_is_no_recipe(self):
+        for content, pattern in (
+            ({"BundleInitializer": {"Side": -6}}, r"BundleInitializer: Side is -6: give 0\.1 to 100000 µm$"),
+            ({"BundleInitializer": {"side": 6}}, r"BundleInitializer: there is no property side: is it Side\?$"),
+            ({"BundleInitializer": {"Colour": 6}}, r"BundleInitializer: there is no property Colour$"),
+            ({"CapsuleOptimizer": {"Momentum": 0.5}}, r"there is no property Momentum$"),
+            ({"BundleInitializer": {"Seed": 1.5}}, r"Seed is 1\.5: give a whole number$"),
+            ({"BundleInitializer": {"NumberOfBundles": 5e9}}, r"NumberOfBundles is 5000000000: give 1 to 2"),
+            ({"BundleInitializer": {"MaximumRadius": "2"}}, r"MaximumRadius is \"2\": give a number$"),
+            ({"BundleInitializer": {"MinimumRadius": 3}}, r"BundleInitializer: .*MinimumRadius"),
+            ({"BundleInitializer": {"DispersionModel": "Wattson"}}, r'DispersionModel is "Wattson": give "Watson", "Cone" or "Coherent"$'),
+            ({"CapsuleOptimizer": {"TrimToDomain": 1}}, r"TrimToDomain is 1: give true or false$"),
+            ({"CapsuleOptimizer": {"KeepHistory": True}}, r"CapsuleOptimizer: KeepHistory is of use in ParaView only"),
+            ({"MyelinSurface": {"Meshing": "VTK filters"}}, r"MyelinSurface: Meshing by VTK filters needs ParaView"),
+            ({"Bundle": {}}, r"there is no stage Bundle in a recipe: use BundleInitializer, "),
+            ({"MyelinSurface": {}, "SubstrateProduction": {}}, r"MyelinSurface and SubstrateProduction, .*leave one out"),
+            ({"MyelinSurface": 0.7}, r"MyelinSurface is 0\.7: give its properties in braces"),
+            ({"StrandReader": {"FileName": "missing.strands"}}, r"missing\.strands"),
+            ('{"MyelinSurface": {"GRatio": 0.7, "GRatio": 0.6}}', r'"GRatio" stands twice'),
+            ('{"MyelinSurface": {"GRatio": 0.7},\n}', r"it is no JSON: parse error at line 2"),
+            ('{"MyelinSurface": {"GRatio": 1e999}}', r"it is no JSON: number overflow"),
+            (100 * "[", r"nested more deeply"),
+            ("[]", r"it is no recipe"),
+            ("", r"it is no JSON"),
+            ({"provenance": ["BundleInitializer 0.1.0: Side=5"]}, r"in words only"),
+            ({"provenance": []}, r"does not say how"),
+        ):
+            with self.subTest(content=content):
+                self.assertRefused(content, pattern)
+
+    def test_refuses_what_a_manifest_must_not_have(self):
+        self.assertEqual(self.run_it(self.recipe(SMALL), "--output", "good").returncode, 0)
+        with open(os.path.join(self.folder, "good", "manifest.json"), encoding="utf-8") as file:
+            good = json.load(file)
+        stages = [stage["filter"] for stage in good["provenance"]]
+
+        def changed(stage, change):
+            manifest = json.loads(json.dumps(good))
+            change(manifest["provenance"][stages.index(stage)])
+            return manifest
+
+        for stage, change, pattern in (
+            ("CapsuleOptimizer", lambda s: s["properties"].update(CheckpointFile="/tmp/x"), r"there is no property CheckpointFile$"),
+            ("SubstrateWriter", lambda s: s["properties"].update(FolderName="/tmp/x"), r"there is no property FolderName$"),
+            ("CapsuleOptimizer", lambda s: s.update(filter="ProgrammableFilter"), r"there is no stage ProgrammableFilter"),
+            ("FibreRadialGrowth", lambda s: s["inputs"].update(Input=[{}]), r"where input Input of FibreRadialGrowth came from is not known"),
+            ("FibreRadialGrowth", lambda s: s["inputs"]["Input"][0].update(changed=True), r"were changed after CapsuleOptimizer"),
+            ("FibreRadialGrowth", lambda s: s["inputs"].update(Input=[{"filter": "vtkTransformFilter", "inputs": []}]), r"a vtkTransformFilter was at work"),
+            ("FibreRadialGrowth", lambda s: s["inputs"].update(Input=[]), r"FibreRadialGrowth: it takes one Input, and has 0"),
+            ("MyelinSurface", lambda s: s["inputs"].update(Input=[{"stage": good["provenance"][0]["id"], "port": 0}]), r"MyelinSurface: it cannot take"),
+            ("BundleInitializer", lambda s: s["inputs"].update(Input=[{"stage": good["provenance"][4]["id"]}]), r"comes from a later stage"),
+            ("CapsuleOptimizer", lambda s: s["reached"].update(IsResult=False), r"a state on its way"),
+        ):
+            with self.subTest(pattern=pattern):
+                self.assertRefused(changed(stage, change), pattern)
+
+    def test_arguments(self):
+        for arguments, pattern in (
+            ((), "no recipe is named"),
+            (("--outptu", "x"), "there is no option --outptu"),
+            (("one.json", "two.json"), '"two.json" is another'),
+            (("one.json", "--threads", "many"), "--threads is many: give a whole number from 0 to 65536"),
+            (("one.json", "--threads"), "--threads wants a value"),
+            (("one.json",), "cannot read one.json"),
+        ):
+            done = self.run_it(*arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(pattern, done.stderr)
+        self.assertIn("Usage: cactus-grow RECIPE", self.run_it("--help").stdout)
+        self.assertRegex(self.run_it("--version").stdout, r"^cactus-grow \d+\.\d+\.\d+\n$")
+
+    def test_a_run_that_fails_and_one_that_is_not_certified(self):
+        infeasible = {**SMALL, "FibreRadialGrowth": {"VoxelSize": 0.2, "TargetFibreVolumeFraction": 0.99, "MinimumGap": 0.3}}
+        self.assertRefused(infeasible, "TargetFibreVolumeFraction", status=1)
+        strict = {**SMALL, "SubstrateWriter": {"MinimumGap": 2}}
+        done = self.run_it(self.recipe(strict, "strict.json"))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("is not certified", done.stderr)
+        self.assertIn("NOT certified", done.stdout)
+        with open(os.path.join(self.folder, "strict", "manifest.json"), encoding="utf-8") as file:
+            self.assertFalse(json.load(file)["certified"])
+
+    def test_what_is_the_users_is_kept(self):
+        recipe = self.recipe(SMALL)
+        self.assertEqual(self.run_it(recipe).returncode, 0)
+        self.assertEqual(self.run_it(recipe).returncode, 0, "a folder that nobody has changed is replaced")
+        with open(os.path.join(self.folder, "recipe", "notes.txt"), "w", encoding="utf-8") as file:
+            file.write("mine\n")
+        before = files(self.folder)
+        done = self.run_it(recipe)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("notes.txt", done.stderr)
+        self.assertEqual(files(self.folder), before)
+
+    def stop(self, wait_for, number):
+        """The command, stopped by a signal once it shows what is waited for."""
+        recipe = self.recipe({"BundleInitializer": {"Side": 9}}, "large.json")
+        master, slave = pty.openpty()
+        with subprocess.Popen([PROGRAM, recipe, "-o", "large"], stdout=slave, stderr=slave, cwd=self.folder) as process:
+            os.close(slave)
+            shown = b""
+            while wait_for not in shown:
+                shown += os.read(master, 1 << 16)
+            process.send_signal(number)
+            begin = time.monotonic()
+            try:
+                while True:
+                    shown += os.read(master, 1 << 16)
+            except OSError:  # the other end is closed
+                pass
+        os.close(master)
+        self.assertLess(time.monotonic() - begin, 20)
+        return process.returncode, shown.decode()
+
+    def test_progress_and_signals_at_any_stage(self):
+        for wait_for, number in ((b"2/5 CapsuleOptimizer", signal.SIGINT), (b"3/5 FibreRadialGrowth", signal.SIGTERM),
+                                 (b"4/5 MyelinSurface", signal.SIGINT)):
+            with self.subTest(stage=wait_for):
+                status, shown = self.stop(wait_for, number)
+                self.assertEqual(status, 128 + number, shown)
+                self.assertRegex(shown, r"\r *\d+ %  ")
+                self.assertRegex(shown, r"cactus-grow: stopped: large is as it was\r\n$")
+                self.assertEqual(os.listdir(self.folder), ["large.json"])
+
+    def test_the_examples_are_recipes(self):
+        examples = sorted(glob.glob(os.path.join(RECIPES, "*.json")))
+        self.assertGreaterEqual(len(examples), 3)
+        os.mkdir(os.path.join(self.folder, "taken"))
+        with open(os.path.join(self.folder, "taken", "notes.txt"), "w", encoding="utf-8") as file:
+            file.write("mine\n")
+        for example in examples:
+            # A good recipe gets as far as the folder, which is not free.
+            done = self.run_it(example, "--output", "taken")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("taken", done.stderr)
+
+    def test_needs_no_paraview(self):
+        libraries = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
+        self.assertNotRegex(libraries, "(?i)vtk|paraview|libpython|Qt|mpi")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

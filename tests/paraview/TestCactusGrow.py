@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 300
+"""cactus-grow, which knows nothing of ParaView, writes the folders that the filters write, byte for byte."""
+
+import json
+import os
+import subprocess
+
+from cactus_testing import CactusTestCase, main
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
+                             SubstrateProduction, SubstrateWriter)
+
+PROGRAM = os.path.join(os.environ["CACTUS_TOOLS"], "cactus-grow")
+BUNDLE = {"Side": 4, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0}
+OTHER = {**BUNDLE, "RadiusDistribution": "Lognormal", "Seed": 2}
+TABLE = {**BUNDLE, "RadiusDistribution": "Table", "DispersionModel": "Watson"}
+GROWTH = {"VoxelSize": 0.2, "GrowthIterations": 1, "Seed": 3}
+SURFACES = {"GRatioModel": "Distributed", "GRatioDeviation": 0.05, "Seed": 9}
+
+
+def files(folder):
+    found = {}
+    for path, _, names in os.walk(folder):
+        for name in names:
+            with open(os.path.join(path, name), "rb") as file:
+                found[os.path.relpath(os.path.join(path, name), folder)] = file.read()
+    return found
+
+
+class CactusGrow(CactusTestCase):
+    def write(self, fibres, growth, surfaces, **properties):
+        """A folder by the filters."""
+        made = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, **growth), **surfaces)
+        SubstrateWriter(Outer=OutputPort(made, 0), Inner=OutputPort(made, 1), Fibres=fibres, FolderName=self.path("filters"),
+                        **properties).UpdatePipeline()
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def grow(self, recipe, name):
+        """A folder by cactus-grow."""
+        path = recipe
+        if not isinstance(recipe, str):
+            path = self.path(name + ".json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(recipe, file)
+        done = subprocess.run([PROGRAM, path, "--output", self.path(name), "--threads", "2"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def assertSame(self, one, two):
+        one, two = files(self.path(one)), files(self.path(two))
+        self.assertEqual(sorted(one), sorted(two))
+        self.assertIn("manifest.json", one)
+        self.assertIn("fibres.strands", one)
+        for name, content in one.items():
+            self.assertEqual(content, two[name], name)
+
+    def test_a_grown_bundle(self):
+        bundle = {"Side": 5, "Seed": 4}
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(**bundle)), 0)
+        self.write(fibres, {"VoxelSize": 0.15}, {"GRatio": 0.65})
+        self.grow({"BundleInitializer": bundle, "FibreRadialGrowth": {"VoxelSize": 0.15}, "MyelinSurface": {"GRatio": 0.65}}, "grown")
+        self.assertSame("filters", "grown")
+        self.grow(self.path("filters"), "again")
+        self.assertSame("filters", "again")
+
+    def test_two_bundles_distributed_g_ratios_and_another_simulator(self):
+        fibres = OutputPort(CapsuleOptimizer(Input=[BundleInitializer(**BUNDLE), BundleInitializer(**OTHER)]), 0)
+        self.write(fibres, GROWTH, SURFACES, Format="RMS", VoxelSize=0.2)
+        self.grow({"BundleInitializer": [BUNDLE, OTHER], "FibreRadialGrowth": GROWTH, "MyelinSurface": SURFACES,
+                   "SubstrateWriter": {"Format": "RMS", "VoxelSize": 0.2}}, "grown")
+        self.assertSame("filters", "grown")
+
+    def test_blocks_and_tables_from_a_manifest(self):
+        path = self.path("radii.txt")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("0.4 0.55\n0.7\n")
+        sources = [BundleInitializer(RadiusTable="0.4 0.45;0.61", **TABLE), BundleInitializer(RadiusTableFile=path, **TABLE)]
+        fibres = OutputPort(CapsuleOptimizer(Input=GroupDatasets(Input=sources)), 0)
+        self.write(fibres, GROWTH, {}, StartPositions=20)
+        self.grow(self.path("filters"), "grown")
+        self.assertSame("filters", "grown")
+
+    def test_a_production(self):
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(**BUNDLE)), 0)
+        SubstrateProduction(Input=fibres, FolderName=self.path("filters"), **GROWTH).UpdatePipeline()
+        self.grow({"BundleInitializer": BUNDLE, "SubstrateProduction": GROWTH}, "grown")
+        self.assertSame("filters", "grown")
+
+
+if __name__ == "__main__":
+    main()
