@@ -134,7 +134,7 @@ Domain readDomain(vtkAbstractArray* array)
 }
 
 /// Adds the colours `Direction` (red, green and blue are the parts of the tangent along x, y and z, as diffusion imaging has
-/// them), as the array that views show first.
+/// them), which views show where no array is chosen.
 void addDirections(const Fibres& fibres, vtkPointData* data)
 {
   auto colours = makeArray<vtkUnsignedCharArray>("Direction", fibres.points.size(), 3);
@@ -154,7 +154,6 @@ void addDirections(const Fibres& fibres, vtkPointData* data)
     }
   }
   data->AddArray(colours);
-  data->SetActiveScalars("Direction");
 }
 
 } // namespace

@@ -69,10 +69,17 @@ void vtkFibreTubesRepresentation::UpdateColoringParameters()
   for (vtkMapper* mapper : { this->Mapper, this->LODMapper })
   {
     mapper->SetColorModeToDefault();
+    if (this->DirectionColors && !mapper->GetScalarVisibility())
+    {
+      mapper->ScalarVisibilityOn();
+      mapper->SetScalarModeToUsePointFieldData();
+      mapper->SelectColorArray("Direction");
+    }
   }
 }
 
 void vtkFibreTubesRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "DirectionColors: " << this->DirectionColors << '\n';
 }

@@ -5,9 +5,10 @@
  *
  * Polylines with point data `Radius` (µm) are drawn as tubes of that radius, with fewer sides the more points there are, and in
  * many points as lines. Where the data carry field data `Domain` (xmin xmax ymin ymax zmin zmax, µm) its box is drawn around
- * them. Other data, composite ones among them, are shown as by vtkGeometryRepresentation. Arrays of red, green and blue (unsigned
- * char) are shown as the colours they are. A render view whose camera nobody has moved yet is turned, so that fibres along z are
- * not seen end-on.
+ * them. Other data, composite ones among them, are shown as by vtkGeometryRepresentation. Arrays of red, green and blue
+ * (unsigned char) are shown as the colours they are; where no array is chosen, point data `Direction` is one, unless
+ * DirectionColors is off. (Chosen as an array it would get a scalar bar, of its magnitude.) A render view whose camera nobody
+ * has moved yet is turned, so that fibres along z are not seen end-on.
  */
 #ifndef vtkFibreTubesRepresentation_h
 #define vtkFibreTubesRepresentation_h
@@ -31,6 +32,10 @@ public:
   using vtkGeometryRepresentationWithFaces::GetInternalOutputPort;
   vtkAlgorithmOutput* GetInternalOutputPort(int port, int connection) override;
 
+  /** Colours fibres by their direction where no array is chosen. On by default. */
+  vtkSetMacro(DirectionColors, bool);
+  vtkGetMacro(DirectionColors, bool);
+
 protected:
   vtkFibreTubesRepresentation();
   ~vtkFibreTubesRepresentation() override;
@@ -42,6 +47,7 @@ private:
   vtkFibreTubesRepresentation(const vtkFibreTubesRepresentation&) = delete;
   void operator=(const vtkFibreTubesRepresentation&) = delete;
 
+  bool DirectionColors = true;
   vtkNew<vtkTrivialProducer> Tubes;
 };
 

@@ -46,12 +46,23 @@ void requireChoice(const PropertyFacts& facts, const PropertyValue& value)
   throw InvalidInput(message + facts.advice);
 }
 
+bool isGiven(const PropertyValue& value)
+{
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? !text->empty() : numberOf(value) != 0.0;
+}
+
+bool hasOneOf(const PropertyValue& value, const std::vector<double>& values)
+{
+  return std::find(values.begin(), values.end(), numberOf(value)) != values.end();
+}
+
 bool holds(const PropertyCondition& condition, const std::vector<PropertyState>& states)
 {
   const auto other = std::find_if(
     states.begin(), states.end(), [&](const PropertyState& state) { return state.facts->name == condition.property; });
   return other != states.end() && hasEffect(*other->facts, states) &&
-         std::find(condition.values.begin(), condition.values.end(), numberOf(other->value)) != condition.values.end();
+         (condition.values.empty() ? isGiven(other->value) : hasOneOf(other->value, condition.values));
 }
 
 } // namespace

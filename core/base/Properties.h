@@ -29,7 +29,8 @@ enum class PropertyUse
   Code    ///< of the options in C++; no stage shows it to users
 };
 
-/// A property has an effect only where another one has one of these values (choices by number).
+/// A property has an effect only where another one has one of these values (choices by number), or, where there are none, any
+/// but 0, off and the empty text.
 struct PropertyCondition
 {
   std::string property;
@@ -127,6 +128,8 @@ public:
     this->Properties[this->Last].facts.conditions.push_back({ property, std::move(values) });
     return *this;
   }
+  /// The last property has an effect only where `property` is not 0, off or empty.
+  PropertyList& whereGiven(const char* property) { return this->where(property, {}); }
   /// How messages about the last property end.
   PropertyList& advise(const char* advice)
   {

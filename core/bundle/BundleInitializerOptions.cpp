@@ -43,6 +43,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .add("SheetThickness", &Options::sheetThickness, limits::sheetThickness,
         "Least thickness of each sheet; 0: a sixth of the height, or what the largest radius needs")
       .where("CrossingStyle", { 1 })
+      .where("NumberOfBundles", { 2 })
       .add("Margin", &Options::margin, limits::bundleMargin,
         "Width by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides")
       .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,

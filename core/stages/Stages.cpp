@@ -50,6 +50,10 @@ const PropertyList<CapsuleOptimizerStage>& CapsuleOptimizerStage::properties()
   static const auto list =
     PropertyList<Stage>()
       .include(&Stage::options, CapsuleOptimizerOptions::properties())
+      .at("RadiusWeight")
+      .whereGiven("RadiusTolerance")
+      .at("CheckpointInterval")
+      .whereGiven("CheckpointFile")
       .add("TrimToDomain", &Stage::trimToDomain, "Cut away what lies outside the domain, but for what growth could bring back in")
       .add("KeepHistory", &Stage::keepHistory, "Keep states of the run and offer them as time steps")
       .use(PropertyUse::Run)
@@ -67,6 +71,8 @@ const PropertyList<FibreRadialGrowthStage>& FibreRadialGrowthStage::properties()
   using Stage = FibreRadialGrowthStage;
   static const auto list = PropertyList<Stage>()
                              .include(&Stage::options, FibreRadialGrowthOptions::properties())
+                             .at("Seed")
+                             .whereGiven("SurfaceRoughness")
                              .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
                              .use(PropertyUse::Run);
   return list;
@@ -82,6 +88,8 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
       .where("Meshing", { 0 })
       .at("DecimationError")
       .where("Meshing", { 0 })
+      .at("Seed")
+      .where("GRatioModel", { 2 })
       .add("Meshing", &Stage::meshing, { "CACTUS", "VTK filters" },
         "What makes the surfaces: contouring, coarsening and spacing with guarantees, or filters of VTK, which promise nothing")
       .include(&Stage::vtkMeshing, VtkMeshingOptions::properties())
@@ -163,6 +171,7 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
       .where("Format", { 0, 1, 2, 3 })
       .add("Seed", &Stage::seed, limits::seed, "Chooses the random points")
       .where("Format", { 0, 1, 2, 3 })
+      .whereGiven("StartPositions")
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
       .add("MinimumGap", &Stage::minimumGap, limits::judgedGap,

@@ -2,6 +2,8 @@
 # ctest-timeout: 400
 """A property out of its range, or not a number, gets one error that names the property, from every source and filter."""
 
+import os
+
 from cactus_testing import UNPARTED, CactusTestCase, fetch, main, make, proxies
 from paraview import simple
 from paraview.servermanager import vtkSMPropertyHelper
@@ -50,12 +52,21 @@ class PropertyRanges(CactusTestCase):
     def make(self, element, one):
         """The source or filter with good inputs, and with what switches the property on."""
         proxy = make(element, {"Outer": self.outer, "vtkPolyData": self.fibres, "vtkImageData": self.image})
-        switches = one.findall("Hints/PropertyWidgetDecorator[@value]")
+        switches = one.findall("Hints//PropertyWidgetDecorator[@value]")
         while switches:
             switch = switches.pop()
-            vtkSMPropertyHelper(proxy.SMProxy, switch.get("property")).Set(float(switch.get("value")))
-            switches += element.findall(f"*[@name='{switch.get('property')}']/Hints/PropertyWidgetDecorator[@value]")
+            if switch.get("inverse") == "1":  # any but 0, or none
+                self.give(proxy, switch.get("property"))
+            else:
+                vtkSMPropertyHelper(proxy.SMProxy, switch.get("property")).Set(float(switch.get("value")))
+            switches += element.findall(f"*[@name='{switch.get('property')}']/Hints//PropertyWidgetDecorator[@value]")
         return proxy
+
+    def give(self, proxy, name):
+        """Any value but 0, and some text."""
+        kind = proxy.SMProxy.GetProperty(name).GetClassName()
+        value = {"vtkSMStringVectorProperty": os.path.join(self.folder, "given"), "vtkSMDoubleVectorProperty": 0.5}.get(kind, 1)
+        vtkSMPropertyHelper(proxy.SMProxy, name).Set(value)
 
     def test_each_gets_one_error_that_names_it(self):
         checked = 0

@@ -48,9 +48,17 @@ class Views(CactusTestCase):
         shown = simple.Show(bundle, view)
         simple.ResetCamera(view)
         self.assertEqual(shown.Representation, "Tubes")
-        self.assertEqual(list(shown.ColorArrayName), ["POINTS", "Direction"])
+        # An array that was chosen would get a scalar bar in the window, of a magnitude that says nothing.
+        self.assertEqual(shown.ColorArrayName[1], "")
         tubes = bluish(pixels(view))
         self.assertGreater(tubes, 15000)  # of 90,000: a block, seen at an angle
+        shown.DirectionColors = 0
+        self.assertEqual(bluish(pixels(view)), 0)
+        shown.DirectionColors = 1
+        simple.ColorBy(shown, ("POINTS", "Radius"))
+        self.assertLess(bluish(pixels(view)), tubes)
+        simple.ColorBy(shown, None)
+        self.assertEqual(bluish(pixels(view)), tubes)
         shown.Representation = "Wireframe"
         self.assertLess(bluish(pixels(view)), tubes / 3)
 

@@ -87,7 +87,7 @@ std::string conditionText(const cactus::PropertyCondition& condition, const cact
       }
     }
   }
-  return condition.property + " is " + text;
+  return condition.property + (text.empty() ? " is given" : " is " + text);
 }
 
 void printTables()

@@ -44,6 +44,8 @@ struct Options
   bool isOn = false;
   std::string name;
   double thickness = 0.5;
+  double colour = 0.5;
+  double gloss = 0.5;
 
   static const PropertyList<Options>& properties()
   {
@@ -58,7 +60,11 @@ struct Options
                                .use(cactus::PropertyUse::Run)
                                .add("Name", &Options::name, "What it is called")
                                .add("Thickness", &Options::thickness, { 0.0, 1.0 }, "How thick it is")
-                               .where("Count", { 3 });
+                               .where("Count", { 3 })
+                               .add("Colour", &Options::colour, { 0.0, 1.0 }, "How dark it is")
+                               .whereGiven("Name")
+                               .add("Gloss", &Options::gloss, { 0.0, 1.0 }, "How bright it is")
+                               .whereGiven("Colour");
     return list;
   }
 };
@@ -131,6 +137,17 @@ TEST(Properties, WithoutEffectAreNotLookedAt)
   // What it depends on has no effect itself.
   thick.shape = Shape::Flat;
   EXPECT_EQ(messageFor("Thickness", 2.0, thick), "");
+}
+
+TEST(Properties, ThatNeedAnotherAreLookedAtWhereItIsGiven)
+{
+  Options named;
+  named.name = "one";
+  EXPECT_NE(messageFor("Colour", 2.0, named), "");
+  EXPECT_EQ(messageFor("Colour", 2.0), "");
+  EXPECT_NE(messageFor("Gloss", 2.0, named), "");
+  named.colour = 0.0;
+  EXPECT_EQ(messageFor("Gloss", 2.0, named), "");
 }
 
 TEST(Properties, AreReadable)

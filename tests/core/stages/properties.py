@@ -40,9 +40,15 @@ def limits(one):
 
 
 def switches(one):
-    """{property: values} of those on whose values the panel shows it."""
-    decorators = one.findall(".//PropertyWidgetDecorator[@property]")
-    return {deep.get("property"): [float(value) for value in deep.get("values", deep.get("value")).split()] for deep in decorators}
+    """{property: values} of those on whose values the panel shows it; no values where it needs any but 0 or none."""
+    found = {}
+    for decorator in one.findall(".//PropertyWidgetDecorator[@property]"):
+        values = found.setdefault(decorator.get("property"), set())
+        if decorator.get("inverse") == "1":
+            assert decorator.get("value") in ("0", ""), "is shown by an inverse that is not described"
+        else:
+            values.update(float(value) for value in decorator.get("values", decorator.get("value")).split())
+    return found
 
 
 def differences(facts, one):
@@ -61,9 +67,9 @@ def differences(facts, one):
     wanted = [facts["lowest"], facts["highest"]] if "lowest" in facts else None
     if limits(one) != wanted:
         yield f"has the range {limits(one)} instead of {wanted}"
-    for name, values in switches(one).items():
-        if not set(values) <= set(facts["conditions"].get(name, ())):
-            yield f"is shown where {name} is {values}, and has an effect where {facts['conditions']}"
+    needed = {name: set(values) for name, values in facts["conditions"].items()}
+    if switches(one) != needed:
+        yield f"is shown where {switches(one)}, and has an effect where {needed}"
 
 
 def main():
