@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 300
+# ctest-processors: 2
+"""examples/sweep.py makes every case once, by one rank or shared by several with the same bits, makes nothing again that is there, and its
+table says what the folders say."""
+
+import csv
+import hashlib
+import json
+import os
+import subprocess
+
+from cactus_testing import CactusTestCase, main
+
+SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "sweep.py")
+TINY = ("--side", "5", "--voxel-size", "0.2", "--dispersions", "0", "8", "--fractions", "0.5", "--seeds", "1")
+RANKS = ("mpiexec", "-n", "2", "pvbatch")
+
+
+def checksums(folder):
+    """{file: checksum} of the surfaces and fibres below a folder."""
+    found = {}
+    for place, _, names in os.walk(folder):
+        for name in names:
+            if name.endswith((".ply", ".strands")):
+                path = os.path.join(place, name)
+                with open(path, "rb") as file:
+                    found[os.path.relpath(path, folder)] = hashlib.sha256(file.read()).hexdigest()
+    return found
+
+
+class Sweep(CactusTestCase):
+    def sweep(self, place, *words, start=("pvpython",)):
+        # This process is a run of MPI of its own, of which mpiexec must not know.
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("PMIX_") and (not name.startswith("OMPI_") or name.startswith(("OMPI_MCA_rmaps", "OMPI_MCA_mpi", "OMPI_ALLOW")))}
+        command = [*start, SCRIPT, *TINY, "--output", os.path.join(self.folder, place), *words]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment)
+        return done.returncode, done.stdout + done.stderr.replace("ERR|", "")
+
+    def rows(self, place):
+        with open(os.path.join(self.folder, place, "sweep.csv"), newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    def test_alone_and_in_ranks(self):
+        code, said = self.sweep("alone")
+        self.assertEqual(code, 0, said)
+        rows = self.rows("alone")
+        self.assertEqual([float(row["dispersion_deg"]) for row in rows], [0.0, 8.0])
+        for row in rows:
+            folder = os.path.join(self.folder, "alone", f"dispersion-{row['dispersion_deg']}_fraction-0.5_seed-1_side-5.0_voxel-0.2")
+            with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+                stages = {stage["filter"]: stage["properties"] for stage in json.load(file)["provenance"]}
+            self.assertEqual(stages["BundleInitializer"]["MeanDispersion"], float(row["dispersion_deg"]))
+            self.assertEqual(float(row["Certified"]), 1.0)
+            self.assertAlmostEqual(float(row["FVF"]), 0.5, delta=0.01)
+            self.assertEqual(sum(name.endswith(".ply") for name in os.listdir(os.path.join(folder, "outer"))), float(row["OuterSurfaces"]))
+
+        # Two ranks make one each, the same.
+        code, said = self.sweep("shared", start=(*RANKS, "--sym"))
+        self.assertEqual(code, 0, said)
+        for rank in (0, 1):
+            self.assertEqual(said.count(f"(rank {rank})"), 1, said)
+        self.assertEqual(checksums(os.path.join(self.folder, "shared")), checksums(os.path.join(self.folder, "alone")))
+        self.assertEqual(self.rows("shared"), rows)
+
+        # What is there is not made again.
+        self.make_one_more(rows)
+
+    def make_one_more(self, rows):
+        before = {name: os.stat(os.path.join(self.folder, "alone", name)).st_ino for name in os.listdir(os.path.join(self.folder, "alone")) if name != "sweep.csv"}
+        code, said = self.sweep("alone", "--seeds", "1", "2", "--dispersions", "8")
+        self.assertEqual(code, 0, said)
+        self.assertEqual(said.count("(rank 0)"), 1, said)
+        self.assertEqual(before, {name: os.stat(os.path.join(self.folder, "alone", name)).st_ino for name in before})
+        again = self.rows("alone")
+        self.assertEqual([row["seed"] for row in again], ["1", "2"])
+        self.assertEqual(again[0], rows[1])
+
+    def test_refusals(self):
+        """Ranks that would all make everything, and a table that is somebody's own."""
+        code, said = self.sweep("shared", start=RANKS)
+        self.assertNotEqual(code, 0)
+        self.assertIn("--sym", said)
+        os.mkdir(os.path.join(self.folder, "mine"))
+        mine = os.path.join(self.folder, "mine", "sweep.csv")
+        with open(mine, "w", encoding="utf-8") as file:
+            file.write("my own")
+        code, said = self.sweep("mine")
+        self.assertNotEqual(code, 0)
+        self.assertIn("is no table of a sweep", said)
+        with open(mine, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "my own")
+        self.assertEqual(os.listdir(os.path.join(self.folder, "mine")), ["sweep.csv"])
+
+
+if __name__ == "__main__":
+    main()
