@@ -4,11 +4,7 @@
     ./cactus pvpython benchmarks/substrates.py --side 50 --fraction 0.955 dispersion-0 dispersion-25 crossing-90
     ./cactus pvpython benchmarks/substrates.py --side 30 histology-1 histology-2 histology-3 histology-4
 
-dispersion-D is one bundle with a mean dispersion of D degrees, each fibre's direction for itself, as in the paper; coherent-D one whose
-neighbouring fibres point alike, which is the default of BundleInitializer; crossing-A are two bundles, of 5° each, that cross at A degrees (the
-rows of the paper's table of maximum fibre volume fractions); histology-N is row N of its table of histological targets; radii-F is one
-bundle that is packed for a fibre volume fraction F and grown to it, so that fibres end at their target radii. Radii are the
-defaults, Γ(2.4, 0.25) cut to 0.2-2 µm; the last columns compare those that were asked for with those of the meshes.
+Their names are those of examples/paper.py. The last columns compare the radii that were asked for with those of the meshes.
 """
 
 import argparse
@@ -22,8 +18,8 @@ import numpy as np
 from paraview import servermanager
 from paraview.simple import *
 
-# Axon and fibre volume fraction (paper, table of histological targets).
-HISTOLOGY = [(0.25, 0.60), (0.25, 0.68), (0.31, 0.75), (0.39, 0.76)]
+sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "examples"))
+import paper  # noqa: E402  (which is in another folder)
 
 
 def columns_of(proxy, index):
@@ -61,27 +57,8 @@ def seconds(work):
 
 def properties(name, arguments):
     """The properties of BundleInitializer, FibreRadialGrowth and MyelinSurface for a substrate of that name."""
-    kind, _, number = name.partition("-")
-    bundle = {"Side": arguments.side, "Seed": arguments.seed}
-    growth = {"TargetFibreVolumeFraction": arguments.fraction, "SurfaceTolerance": arguments.tolerance}
-    myelin = {"GRatio": 0.7}
-    if kind == "dispersion":
-        bundle.update(MeanDispersion=float(number), DispersionModel="Watson")
-    elif kind == "coherent":
-        bundle["MeanDispersion"] = float(number)
-    elif kind == "crossing":
-        bundle.update(MeanDispersion=5, NumberOfBundles=2, CrossingAngle=float(number))
-    elif kind == "histology":
-        axons, fibres = HISTOLOGY[int(number) - 1]
-        bundle.update(MeanDispersion=5, FibreVolumeFraction=min(0.7, 0.9 * fibres), GrownFibreVolumeFraction=fibres)
-        growth = {"TargetFibreVolumeFraction": fibres}
-        myelin = {"GRatioModel": "TargetAxonVolumeFraction", "TargetAxonVolumeFraction": axons}
-    elif kind == "radii":
-        bundle.update(MeanDispersion=10, GrownFibreVolumeFraction=float(number))
-        growth = {"TargetFibreVolumeFraction": float(number)}
-    else:
-        sys.exit(f"{name} is no substrate: dispersion-D, coherent-D, crossing-A, histology-N or radii-F")
-    return bundle, growth, myelin
+    found = paper.properties(name, arguments.side, arguments.seed, arguments.fraction, arguments.tolerance)
+    return found or sys.exit(f"{name} is no substrate: dispersion-D, coherent-D, crossing-A, histology-N or radii-F")
 
 
 def substrate(name, arguments):
@@ -135,7 +112,7 @@ def parser_for(description, side, fraction, tolerance):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="+", metavar="SUBSTRATE")
     parser.add_argument("--side", type=float, default=side, help="side of the cube, µm (%(default)s)")
-    parser.add_argument("--fraction", type=float, default=fraction, help="TargetFibreVolumeFraction (%(default)s)")
+    parser.add_argument("--fraction", type=float, default=fraction, help="fibre volume fraction of the dense ones (%(default)s)")
     parser.add_argument("--tolerance", type=float, default=tolerance, help="SurfaceTolerance, µm (%(default)s)")
     parser.add_argument("--voxel", type=float, default=0.1, help="VoxelSize, µm (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="Seed of the bundle (%(default)s)")

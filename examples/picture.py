@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a substrate: a cut across it in the colours of the paper's cross-sections, beside a view in three dimensions."""
+"""Pictures of substrates: cuts across them, filled in the colours asked for, and views in three dimensions."""
 
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonTransforms import vtkTransform
@@ -10,17 +10,17 @@ AXON = [0.26, 0.45, 0.80]
 EXTRA_AXONAL = [1.0, 1.0, 1.0]
 
 
-def _filled_cut(surface, height, lift=0.0):
-    """The cross-section of closed surfaces at z = height, as filled polygons, shown higher by `lift` (µm)."""
+def _filled_cut(surface, normal, lift):
+    """The cross-section of closed surfaces through the origin, as filled polygons, moved along the normal by `lift` (µm)."""
     cut = simple.Slice(Input=surface)
-    cut.SliceType.Origin = [0.0, 0.0, height]
-    cut.SliceType.Normal = [0.0, 0.0, 1.0]
+    cut.SliceType.Origin = [0.0, 0.0, 0.0]
+    cut.SliceType.Normal = list(normal)
     cut.UpdatePipeline()
     triangulator = vtkContourTriangulator()
     triangulator.SetInputData(servermanager.Fetch(cut))
     # Not the representation's property for this, which is Position up to ParaView 5.12, and Translation from 5.13 on.
     transform = vtkTransform()
-    transform.Translate(0.0, 0.0, lift)
+    transform.Translate(*(lift * part for part in normal))
     lifted = vtkTransformPolyDataFilter()
     lifted.SetTransform(transform)
     lifted.SetInputConnection(triangulator.GetOutputPort())
@@ -31,7 +31,8 @@ def _filled_cut(surface, height, lift=0.0):
     return filled
 
 
-def _show(source, view, colour, flat):
+def show(source, view, colour, flat=False):
+    """In one colour; `flat` is without light and shadow."""
     display = simple.Show(source, view)
     display.ColorArrayName = ["POINTS", ""]
     display.DiffuseColor = colour
@@ -44,9 +45,9 @@ def _show(source, view, colour, flat):
     return display
 
 
-def _view(pixels):
+def white_view(width, height):
     view = simple.CreateRenderView()
-    view.ViewSize = [pixels, pixels]
+    view.ViewSize = [width, height]
     view.UseColorPaletteForBackground = 0
     view.BackgroundColorMode = "Single Color"
     view.Background = EXTRA_AXONAL
@@ -54,34 +55,48 @@ def _view(pixels):
     return view
 
 
+def section_view(layers, window, pixels, normal=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0)):
+    """The cut through the origin across `normal` (a unit vector), in a square of `window` µm. `layers` are (surfaces, colour), each drawn
+    over those before it; what none of them covers is white."""
+    view = white_view(pixels, pixels)
+    for i, (surfaces, colour) in enumerate(layers):
+        show(_filled_cut(surfaces, normal, lift=0.01 * window * i), view, colour, flat=True)
+    view.CameraParallelProjection = 1
+    view.CameraPosition = [2.0 * window * part for part in normal]
+    view.CameraFocalPoint = [0.0, 0.0, 0.0]
+    view.CameraViewUp = list(up)
+    view.CameraParallelScale = 0.5 * window
+    return view
+
+
+def solid_view(layers, side, pixels):
+    """Surfaces in three dimensions, seen at an angle: `layers` are (surfaces, colour)."""
+    view = white_view(pixels, pixels)
+    for surfaces, colour in layers:
+        show(surfaces, view, colour)
+    view.CameraPosition = [2.2 * side, -1.7 * side, 1.6 * side]
+    view.CameraFocalPoint = [0.0, 0.0, 0.0]
+    view.CameraViewUp = [0.0, 0.0, 1.0]
+    simple.ResetCamera(view)
+    view.GetActiveCamera().Zoom(1.0)
+    return view
+
+
+def below(surfaces, height):
+    """What lies below z = height (µm), so that what is inside stands out."""
+    clipped = simple.Clip(Input=surfaces, ClipType="Plane")
+    clipped.ClipType.Origin = [0.0, 0.0, height]
+    clipped.ClipType.Normal = [0.0, 0.0, 1.0]
+    clipped.Invert = 1
+    return clipped
+
+
 def draw_substrate(outer, inner, side, filename, pixels=900):
     """Writes a PNG, 2 × `pixels` wide: left the cut at z = 0 (axon blue, myelin red, extra-axonal space white), right the fibres, of
     which the axons stand out of the myelin at the top. `outer` and `inner` (or None) are pipeline ports, `side` the domain's side in µm."""
-    cut = _view(pixels)
-    _show(_filled_cut(outer, 0.0), cut, MYELIN, flat=True)
-    if inner is not None:
-        # A little above, so that it covers.
-        _show(_filled_cut(inner, 0.0, lift=0.01 * side), cut, AXON, flat=True)
-    cut.CameraParallelProjection = 1
-    cut.CameraPosition = [0.0, 0.0, 2.0 * side]
-    cut.CameraFocalPoint = [0.0, 0.0, 0.0]
-    cut.CameraViewUp = [0.0, 1.0, 0.0]
-    cut.CameraParallelScale = 0.51 * side
-
-    solid = _view(pixels)
-    stripped = simple.Clip(Input=outer, ClipType="Plane")
-    stripped.ClipType.Origin = [0.0, 0.0, 0.22 * side]
-    stripped.ClipType.Normal = [0.0, 0.0, 1.0]
-    stripped.Invert = 1
-    _show(stripped, solid, MYELIN, flat=False)
-    if inner is not None:
-        _show(inner, solid, AXON, flat=False)
-    solid.CameraPosition = [2.2 * side, -1.7 * side, 1.6 * side]
-    solid.CameraFocalPoint = [0.0, 0.0, 0.0]
-    solid.CameraViewUp = [0.0, 0.0, 1.0]
-    simple.ResetCamera(solid)
-    solid.GetActiveCamera().Zoom(1.0)
-
+    axons = [] if inner is None else [(inner, AXON)]
+    cut = section_view([(outer, MYELIN), *axons], 1.02 * side, pixels)
+    solid = solid_view([(below(outer, 0.22 * side), MYELIN), *axons], side, pixels)
     layout = simple.CreateLayout("Substrate")
     simple.AssignViewToLayout(view=cut, layout=layout, hint=0)
     layout.SplitHorizontal(0, 0.5)
