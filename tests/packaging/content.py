@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""content.py FOLDER VERSION PARAVIEW: what is in the Debian package of FOLDER: all that a user needs, where Debian has it, for this
+Debian's ParaView; lintian, where it is installed, is content; and the plugin that it holds is loaded by pvpython."""
+
+import glob
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FOLDER, VERSION, PARAVIEW = sys.argv[1:4]
+ARCHITECTURE = subprocess.run(["dpkg", "--print-architecture"], capture_output=True, text=True, check=True).stdout.strip()
+PACKAGE = os.path.join(FOLDER, f"cactus-paraview_{VERSION}_{ARCHITECTURE}.deb")
+
+
+def output(*command, **options):
+    return subprocess.run(command, capture_output=True, text=True, check=True, **options).stdout
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.root = tempfile.mkdtemp(prefix="cactus-package-")
+        cls.addClassCleanup(shutil.rmtree, cls.root)
+        output("dpkg-deb", "--extract", PACKAGE, cls.root)
+
+    def one(self, pattern):
+        found = glob.glob(os.path.join(self.root, pattern))
+        self.assertEqual(len(found), 1, pattern)
+        return found[0]
+
+    def test_is_the_only_one(self):
+        self.assertEqual(glob.glob(os.path.join(FOLDER, "*.deb")), [PACKAGE])
+
+    def test_depends_on_this_paraview(self):
+        depends = output("dpkg-deb", "--field", PACKAGE, "Depends")
+        self.assertRegex(depends, rf"(^|, )paraview \(>= {PARAVIEW.split('-')[1]}")
+        self.assertRegex(depends, r"(^|, )paraview \(<< ")
+        for package in ("python3-paraview", "libzip", "libgomp1", "libstdc\\+\\+6"):
+            self.assertRegex(depends, rf"(^|, ){package}")
+        self.assertNotIn("cactus", depends)
+
+    def test_paraview_finds_the_plugin(self):
+        with open(os.path.join(self.root, "usr/bin/paraview.conf"), encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        self.assertEqual(len(lines), 1)
+        self.assertTrue(lines[0].endswith(f"/{PARAVIEW}/plugins/cactus.plugins.xml"), lines)
+        with open(self.root + lines[0], encoding="utf-8") as file:
+            self.assertIn('<Plugin name="CACTUS" auto_load="1"', file.read())
+        # In the folder of ParaView's own plugins.
+        self.assertTrue(os.path.exists(os.path.join(os.path.dirname(lines[0]), "paraview.plugins.xml")), lines)
+
+    def test_everything_is_where_debian_has_it(self):
+        for pattern in ("usr/bin/cactus-grow", "usr/share/man/man1/cactus-grow.1.gz", "usr/share/doc/cactus-paraview/copyright",
+                        "usr/share/doc/cactus-paraview/changelog.gz", "usr/share/doc/cactus-paraview/README.md*",
+                        "usr/share/doc/cactus-paraview/docs/cactus-grow.md*", "usr/share/doc/cactus-paraview/examples/recipes/bundle.json"):
+            self.one(pattern)
+        self.assertEqual(sorted(os.listdir(self.root)), ["usr"])
+        self.assertEqual(sorted(os.listdir(os.path.join(self.root, "usr"))), ["bin", "lib", "share"])
+        self.assertEqual(sorted(os.listdir(os.path.join(self.root, "usr/bin"))), ["cactus-grow", "paraview.conf"])
+        self.assertEqual(glob.glob(os.path.join(self.root, "usr/lib/*")), [self.one("usr/lib/*-linux-*")])
+
+    def test_the_plugin_loads_and_needs_nothing_of_the_build(self):
+        plugin = self.one(f"usr/lib/*/{PARAVIEW}/plugins/CACTUS/CACTUS.so")
+        for library in [plugin, *glob.glob(os.path.join(os.path.dirname(plugin), "lib*.so"))]:
+            # Found beside it, and nothing in a folder of the build.
+            for line in output("ldd", library).splitlines():
+                self.assertNotIn("not found", line)
+                if "libCactus" in line:
+                    self.assertIn(os.path.dirname(plugin), line)
+        script = os.path.join(self.root, "script.py")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write("from paraview.simple import *\nb = BundleInitializer(Side=5)\nb.UpdatePipeline()\nprint('fibres', b.GetDataInformation().GetNumberOfCells())\n")
+        self.addCleanup(os.remove, script)
+        environment = {**os.environ, "PV_PLUGIN_CONFIG_FILE": self.one(f"usr/lib/*/{PARAVIEW}/plugins/cactus.plugins.xml"), "PV_PLUGIN_PATH": ""}
+        self.assertRegex(output("pvpython", script, env=environment), r"fibres [1-9]")
+        self.assertIn(VERSION, output(os.path.join(self.root, "usr/bin/cactus-grow"), "--version"))
+
+    @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed")
+    def test_lintian_is_content(self):
+        done = subprocess.run(["lintian", "--fail-on", "error,warning", "--allow-root", "--tag-display-limit", "0", PACKAGE],
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
