@@ -10,6 +10,20 @@ AXON = [0.26, 0.45, 0.80]
 EXTRA_AXONAL = [1.0, 1.0, 1.0]
 
 
+def moved(algorithm, offset):
+    """The polygons that a VTK algorithm makes, moved by `offset` (µm), as a pipeline source. Not the property of representations for
+    this, which is Position up to ParaView 5.12, and Translation from 5.13 on."""
+    transform = vtkTransform()
+    transform.Translate(offset)
+    mover = vtkTransformPolyDataFilter()
+    mover.SetTransform(transform)
+    mover.SetInputConnection(algorithm.GetOutputPort())
+    mover.Update()
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(mover.GetOutput())
+    return source
+
+
 def _filled_cut(surface, normal, lift):
     """The cross-section of closed surfaces through the origin, as filled polygons, moved along the normal by `lift` (µm)."""
     cut = simple.Slice(Input=surface)
@@ -18,15 +32,7 @@ def _filled_cut(surface, normal, lift):
     cut.UpdatePipeline()
     triangulator = vtkContourTriangulator()
     triangulator.SetInputData(servermanager.Fetch(cut))
-    # Not the representation's property for this, which is Position up to ParaView 5.12, and Translation from 5.13 on.
-    transform = vtkTransform()
-    transform.Translate(*(lift * part for part in normal))
-    lifted = vtkTransformPolyDataFilter()
-    lifted.SetTransform(transform)
-    lifted.SetInputConnection(triangulator.GetOutputPort())
-    lifted.Update()
-    filled = simple.TrivialProducer()
-    filled.GetClientSideObject().SetOutput(lifted.GetOutput())
+    filled = moved(triangulator, [lift * part for part in normal])
     simple.Delete(cut)
     return filled
 

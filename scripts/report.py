@@ -13,19 +13,17 @@ import sys
 import tempfile
 
 from paraview import servermanager, simple
-from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
-from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
 from report_page import page
-from substrate_folder import Refusal, changed_files, manifest_path, read_manifest, read_quantities, read_rows
+from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.append(os.path.join(ROOT, "examples"))
-from picture import draw_substrate  # noqa: E402  (which is no room of scripts)
+from picture import draw_substrate, moved  # noqa: E402  (which is no room of scripts)
 
 OUTER, INNER, ASKED = "#c8553d", "#1b6ca8", "#222222"
 # How a page of ours begins, so that an earlier one may be replaced, and nothing else.
@@ -98,15 +96,7 @@ def surfaces(folder, manifest, kind):
     if count == 0:
         return None
     domain = manifest["domain"]
-    centred = vtkTransform()
-    centred.Translate(*(-0.5 * (domain[2 * axis] + domain[2 * axis + 1]) for axis in range(3)))
-    moved = vtkTransformPolyDataFilter()
-    moved.SetTransform(centred)
-    moved.SetInputConnection(together.GetOutputPort())
-    moved.Update()
-    source = simple.TrivialProducer()
-    source.GetClientSideObject().SetOutput(moved.GetOutput())
-    return source
+    return moved(together, [-0.5 * (domain[2 * axis] + domain[2 * axis + 1]) for axis in range(3)])
 
 
 def picture(folder, manifest):
@@ -213,16 +203,5 @@ def report(wanted):
     return 0
 
 
-def main():
-    try:
-        return report(arguments())
-    except Refusal as refusal:
-        print(f"report: {refusal}", file=sys.stderr)
-        return 2
-    except (KeyError, TypeError, AttributeError, ValueError) as error:
-        print(f"report: the manifest or a table is damaged ({error!r})", file=sys.stderr)
-        return 2
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended("report", lambda: report(arguments())))

@@ -12,7 +12,7 @@ import sys
 
 from paraview import simple
 
-from substrate_folder import Refusal, manifest_path, read_manifest, sha256
+from substrate_folder import Refusal, ended, manifest_path, read_manifest, sha256
 
 # What a manifest may name: a manifest may come from anybody, and must not run or write anything else.
 WRITERS = ("SubstrateWriter", "SubstrateProduction")
@@ -199,16 +199,5 @@ def rerun(wanted):
     return 1
 
 
-def main():
-    try:
-        return rerun(arguments())
-    except Refusal as refusal:
-        print(f"rerun: {refusal}", file=sys.stderr)
-        return 2
-    except (KeyError, TypeError, AttributeError) as error:
-        print(f"rerun: the manifest's provenance is damaged ({error!r})", file=sys.stderr)
-        return 2
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ended("rerun", lambda: rerun(arguments())))

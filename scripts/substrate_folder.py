@@ -6,10 +6,22 @@ import hashlib
 import json
 import math
 import os
+import sys
 
 
 class Refusal(Exception):
     """Why a script cannot do what it was asked for, and what to do."""
+
+
+def ended(name, run):
+    """The exit status of the script `name`, whose work is `run`: 2, and one line of why, where it refuses or cannot make out the folder."""
+    try:
+        return run()
+    except Refusal as refusal:
+        print(f"{name}: {refusal}", file=sys.stderr)
+    except (KeyError, TypeError, AttributeError, ValueError) as error:
+        print(f"{name}: the manifest or a table is damaged ({error!r})", file=sys.stderr)
+    return 2
 
 
 def sha256(path, header=None):

@@ -42,16 +42,24 @@ struct Method
   std::string whole;
 };
 
-std::string path()
+/// In a folder of its own: a file is written after a look at what its folder holds, and others may hold thousands.
+std::string folder()
 {
   static const std::string name = []
   {
     std::error_code error;
-    const std::string folder =
+    std::filesystem::path made =
       std::filesystem::is_directory("/dev/shm", error) ? "/dev/shm" : std::filesystem::temp_directory_path();
-    return folder + "/cactus-fuzz-" + std::to_string(::getpid()) + ".checkpoint";
+    made /= "cactus-fuzz-" + std::to_string(::getpid());
+    std::filesystem::create_directory(made);
+    return made.string();
   }();
   return name;
+}
+
+std::string path()
+{
+  return folder() + "/checkpoint";
 }
 
 Method methods[2];
@@ -67,8 +75,8 @@ void run(const CapsuleOptimizerOptions& options, Fibres& fibres)
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
-  path(); // made before, so that it is still there at the exit
-  std::atexit([] { std::remove(path().c_str()); });
+  folder(); // made before, so that it is still there at the exit
+  std::atexit([] { std::filesystem::remove_all(folder()); });
   std::vector<std::string> seeds;
   for (int m = 0; m < 2; ++m)
   {

@@ -3,25 +3,12 @@
 """The optimiser's convergence in its chart view, without a setting: two columns on logarithmic axes with titles, both drawn."""
 
 import numpy
-from cactus_testing import CactusTestCase, fetch, main
+from cactus_testing import CactusTestCase, fetch, main, pixels
 from paraview import simple
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkChartsCore import vtkAxis
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 
 COLUMNS = {"MaximumPenetration", "OverlappingPairs"}
-
-
-def pixels(view):
-    simple.Render(view)
-    grab = vtkWindowToImageFilter()
-    grab.SetInput(view.GetRenderWindow())
-    grab.ReadFrontBufferOff()
-    grab.Update()
-    image = grab.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3].astype(int)
 
 
 class ConvergenceChart(CactusTestCase):

@@ -3,25 +3,11 @@
 """What a render view shows of each stage without a setting: tubes in their box, a section, axons in their myelin, seen at an angle."""
 
 import numpy
-from cactus_testing import UNPARTED, CactusTestCase, main
+from cactus_testing import UNPARTED, CactusTestCase, main, pixels
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 SIDE = 6.0
-
-
-def pixels(view):
-    """The view as rows, columns and red, green, blue."""
-    simple.Render(view)
-    grab = vtkWindowToImageFilter()
-    grab.SetInput(view.GetRenderWindow())
-    grab.ReadFrontBufferOff()
-    grab.Update()
-    image: vtkImageData = grab.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3].astype(int)
 
 
 def reddish(image):

@@ -18,7 +18,9 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 from paraview import servermanager, simple
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_STRING, vtkLogger, vtkOutputWindow
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 _ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 _REPORT = re.compile(r"(ERROR|Warning|Generic Warning): In ")
@@ -92,6 +94,18 @@ def fetch(proxy, port=0):
     output = servermanager.OutputPort(proxy, port)
     output.UpdatePipeline()
     return servermanager.Fetch(proxy, idx=port)
+
+
+def pixels(view):
+    """The view as rows, columns and red, green, blue."""
+    simple.Render(view)
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(view.GetRenderWindow())
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    image = grab.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3].astype(int)
 
 
 def produce(data):
