@@ -43,6 +43,10 @@ def show(source, view, colour, flat=False):
     display.ColorArrayName = ["POINTS", ""]
     display.DiffuseColor = colour
     display.AmbientColor = colour
+    # Myelin Surface's outputs have colours of their own, by which their caps are told apart.
+    for name in ("MyelinColor", "AxonColor"):
+        if name in display.ListProperties():
+            setattr(display, name, colour)
     if flat:
         display.Ambient, display.Diffuse = 1.0, 0.0
     else:
