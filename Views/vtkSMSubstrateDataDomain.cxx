@@ -29,9 +29,10 @@ bool isOf(const std::string& kind, vtkPVDataInformation* data)
   {
     return fibres;
   }
-  if (kind == "surfaces")
+  const bool surfaces = !fibres && (has(data, vtkDataObject::CELL, "FibreId") || has(data, vtkDataObject::FIELD, "FibreId"));
+  if (kind == "surfaces" || kind == "lines")
   {
-    return !fibres && (has(data, vtkDataObject::CELL, "FibreId") || has(data, vtkDataObject::FIELD, "FibreId"));
+    return surfaces == (kind == "surfaces");
   }
   return has(data, vtkDataObject::POINT, "FibreId") && has(data, vtkDataObject::POINT, "Depth");
 }
@@ -77,9 +78,9 @@ int vtkSMSubstrateDataDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXM
   std::istringstream kinds(element->GetAttributeOrEmpty("kinds"));
   for (std::string kind; kinds >> kind;)
   {
-    if (kind != "fibres" && kind != "surfaces" && kind != "labels")
+    if (kind != "fibres" && kind != "surfaces" && kind != "labels" && kind != "lines")
     {
-      vtkErrorMacro("there is no kind '" << kind << "': fibres, surfaces or labels");
+      vtkErrorMacro("there is no kind '" << kind << "': fibres, surfaces, labels or lines");
       return 0;
     }
     this->Kinds.push_back(kind);

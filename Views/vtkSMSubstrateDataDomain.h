@@ -7,7 +7,8 @@
  * what is taken, one of which the data have to be:
  * - `fibres`: point data Radius;
  * - `surfaces`: cell data FibreId, or field data FibreId as a block of one fibre has it, and no Radius;
- * - `labels`: point data FibreId and Depth.
+ * - `labels`: point data FibreId and Depth;
+ * - `lines`: what is not `surfaces`. (What cells the data have, ParaView does not tell.)
  *
  * ParaView's menu of filters asks the input whose name comes first in the alphabet, although it connects what is selected to the
  * one that comes first in XML. So an input may name the latter as required property `First`: as long as nothing is connected

@@ -16,7 +16,7 @@ from substrate_folder import Refusal, ended, manifest_path, read_manifest, sha25
 
 # What a manifest may name: a manifest may come from anybody, and must not run or write anything else.
 WRITERS = ("SubstrateWriter", "SubstrateProduction")
-STAGES = ("BundleInitializer", "StrandReader", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", *WRITERS)
+STAGES = ("BundleInitializer", "StrandReader", "TractogramReader", "TractFibres", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", *WRITERS)
 KEPT_NOWHERE = ("CheckpointFile", "Resume", "FolderName")
 
 
@@ -110,7 +110,8 @@ class Chain:
             # The clock and the user stop elsewhere the next time.
             values["MaximumIterations"], values["TimeBudget"] = reached["Iterations"], 0
         for read in stage.get("files", []):
-            values[read["property"]] = read["path"]
+            if not os.path.isdir(values.get(read["property"], "")):  # of a folder, all its files are listed
+                values[read["property"]] = read["path"]
         names = set(proxy.ListProperties()) - set(KEPT_NOWHERE)
         for name, value in values.items():
             if name not in names:

@@ -103,6 +103,15 @@ inline constexpr Range bundleMargin{ 0.0, 1e4, " µm" };
 inline constexpr Range spacingFactor{ 1e-2, 1e3 };
 inline constexpr Range spacing{ 1e-2, 1e5, " µm" };
 
+// TractFibres.
+
+/// How many, 0 for all.
+inline constexpr Range streamlines{ 0.0, 2147483647.0 };
+/// Of a point in the unit of streamlines: the scanner's range in µm.
+inline constexpr Range streamlineCoordinate{ -1e9, 1e9 };
+inline constexpr Range scaleFactor{ 1e-6, 1e3 };
+inline constexpr Range bundleDiameter{ 1e-2, 1e5, " µm", 0.0 };
+
 // CapsuleOptimizer.
 
 inline constexpr Range iterations{ 0.0, 1e7 };

@@ -291,4 +291,23 @@ std::vector<double> readRadiusTable(const std::string& path)
   return readRadiusTable(file, path);
 }
 
+RadiusDistributionOptions withTable(const RadiusDistributionOptions& options, const std::string& text, const std::string& path)
+{
+  RadiusDistributionOptions result = options;
+  if (options.model != RadiusModel::Table)
+  {
+    return result;
+  }
+  result.table = parseRadiusTable(text);
+  if (!path.empty())
+  {
+    if (!result.table.empty())
+    {
+      throw InvalidInput("RadiusTable and RadiusTableFile are both given: clear one of them");
+    }
+    result.table = readRadiusTable(path);
+  }
+  return result;
+}
+
 } // namespace cactus

@@ -68,4 +68,8 @@ std::vector<double> readRadiusTable(const std::string& path);
 /// The same from a stream; `name` is what messages call it.
 std::vector<double> readRadiusTable(std::istream& stream, const std::string& name);
 
+/// The options with the radii of a table that is given as text or as a file (an empty path for none), where the model is one.
+/// Throws InvalidInput where both are given, and as the two above do.
+RadiusDistributionOptions withTable(const RadiusDistributionOptions& options, const std::string& text, const std::string& path);
+
 } // namespace cactus

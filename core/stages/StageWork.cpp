@@ -54,24 +54,28 @@ const char* reasonText(StopReason reason)
   }
 }
 
+/// Notes the table of radii that was drawn from: the numbers, or of a file its name and checksum.
+void keepRadiusTable(const RadiusDistributionOptions& radius, const std::string& path, StageRecord& record)
+{
+  for (PropertyState& state : record.properties)
+  {
+    if (state.facts->name == "RadiusTable" && path.empty())
+    {
+      state.value = radius.table;
+    }
+  }
+  if (radius.model == RadiusModel::Table && !path.empty())
+  {
+    record.files.push_back({ "RadiusTableFile", path });
+  }
+}
+
 } // namespace
 
 BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage)
 {
   BundleInitializerOptions options = stage.options;
-  if (options.radius.model != RadiusModel::Table)
-  {
-    return options;
-  }
-  options.radius.table = parseRadiusTable(stage.radiusTable);
-  if (!stage.radiusTableFile.empty())
-  {
-    if (!options.radius.table.empty())
-    {
-      throw InvalidInput("RadiusTable and RadiusTableFile are both given: clear one of them");
-    }
-    options.radius.table = readRadiusTable(stage.radiusTableFile);
-  }
+  options.radius = withTable(options.radius, stage.radiusTable, stage.radiusTableFile);
   return options;
 }
 
@@ -81,20 +85,48 @@ StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitia
   StageRecord record;
   record.filter = "BundleInitializer";
   record.properties = BundleInitializerStage::properties().states(stage);
-  for (PropertyState& state : record.properties)
-  {
-    if (state.facts->name == "RadiusTable" && stage.radiusTableFile.empty())
-    {
-      state.value = options.radius.table;
-    }
-  }
-  if (options.radius.model == RadiusModel::Table && !stage.radiusTableFile.empty())
-  {
-    record.files.push_back({ "RadiusTableFile", stage.radiusTableFile });
-  }
+  keepRadiusTable(options.radius, stage.radiusTableFile, record);
   record.reached = { { "Fibres", static_cast<std::int64_t>(fibres) }, { "FibreVolumeFraction", report.fibreVolumeFraction },
     { "MeanDispersion", report.meanDispersion } };
   return record;
+}
+
+TractFibresOptions tractOptions(const TractFibresStage& stage)
+{
+  TractFibresOptions options = stage.options;
+  options.radius = withTable(options.radius, stage.radiusTable, stage.radiusTableFile);
+  return options;
+}
+
+StageRecord tractRecord(
+  const TractFibresStage& stage, const TractFibresOptions& options, std::size_t fibres, const TractFibresReport& report)
+{
+  StageRecord record;
+  record.filter = "TractFibres";
+  record.properties = TractFibresStage::properties().states(stage);
+  keepRadiusTable(options.radius, stage.radiusTableFile, record);
+  record.reached = { { "Fibres", static_cast<std::int64_t>(fibres) },
+    { "Streamlines", static_cast<std::int64_t>(report.streamlines) }, { "FibreVolumeFraction", report.fibreVolumeFraction },
+    { "BundleDiameter", report.bundleDiameter }, { "Smoothing", report.smoothing },
+    { "Middle", std::vector<double>(report.middle.data(), report.middle.data() + 3) } };
+  return record;
+}
+
+std::string remarksOnTract(const TractFibresReport& report)
+{
+  std::string told;
+  if (report.smoothing > 0.0)
+  {
+    told = text("bends sharper than a bundle of ", report.bundleDiameter, " µm can follow were rounded off (by a Gaussian of ",
+      report.smoothing, " µm); a smaller BundleDiameter follows them");
+  }
+  if (report.ends > 0)
+  {
+    told +=
+      text(told.empty() ? "" : "; ", report.ends, report.ends == 1 ? " end of a streamline lies" : " ends of streamlines lie",
+        " in the domain, from where the fibres run on straight");
+  }
+  return told;
 }
 
 Fibres strandsOf(const StrandReaderStage& stage)

@@ -5,6 +5,7 @@
 
 #include "base/Provenance.h"
 #include "bundle/BundleInitializer.h"
+#include "bundle/TractFibres.h"
 #include "fibres/Fibres.h"
 #include "io/SubstrateContents.h"
 #include "io/SubstrateProduction.h"
@@ -27,6 +28,14 @@ BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage);
 /// What was asked of a bundle and reached. A table of radii is kept as numbers, a file of them by its name and checksum.
 StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitializerOptions& options, std::size_t fibres,
   const BundleInitializerReport& report);
+
+/// The same two for fibres along a tract.
+TractFibresOptions tractOptions(const TractFibresStage& stage);
+StageRecord tractRecord(
+  const TractFibresStage& stage, const TractFibresOptions& options, std::size_t fibres, const TractFibresReport& report);
+
+/// What of the streamlines the fibres do not follow; empty where they follow all.
+std::string remarksOnTract(const TractFibresReport& report);
 
 /// The fibres of the file. Throws InvalidInput where none is named, and as readStrandFile() does.
 Fibres strandsOf(const StrandReaderStage& stage);

@@ -14,6 +14,19 @@ constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0
 constexpr Range partOfHits{ 0.0, 1.0 };
 constexpr Range startCount{ 0.0, 1e7 };
 
+/// The options of a stage that draws radii, with their table as text or as a file.
+template <typename Stage, typename Options>
+PropertyList<Stage> withRadiusTable()
+{
+  return PropertyList<Stage>()
+    .include(&Stage::options, Options::properties())
+    .add(
+      "RadiusTable", &Stage::radiusTable, "Radii in µm to draw from, each as likely as the others, separated by blanks or commas")
+    .where("RadiusDistribution", { 2 })
+    .add("RadiusTableFile", &Stage::radiusTableFile, "Text file of such radii, instead of RadiusTable")
+    .where("RadiusDistribution", { 2 });
+}
+
 template <typename Stage>
 StageDescription description(const char* name)
 {
@@ -33,14 +46,13 @@ StageDescription description(const char* name)
 
 const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
 {
-  using Stage = BundleInitializerStage;
-  static const auto list = PropertyList<Stage>()
-                             .include(&Stage::options, BundleInitializerOptions::properties())
-                             .add("RadiusTable", &Stage::radiusTable,
-                               "Radii in µm to draw from, each as likely as the others, separated by blanks or commas")
-                             .where("RadiusDistribution", { 2 })
-                             .add("RadiusTableFile", &Stage::radiusTableFile, "Text file of such radii, instead of RadiusTable")
-                             .where("RadiusDistribution", { 2 });
+  static const auto list = withRadiusTable<BundleInitializerStage, BundleInitializerOptions>();
+  return list;
+}
+
+const PropertyList<TractFibresStage>& TractFibresStage::properties()
+{
+  static const auto list = withRadiusTable<TractFibresStage, TractFibresOptions>();
   return list;
 }
 
@@ -245,13 +257,13 @@ const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
 std::vector<StageDescription> describeStages()
 {
   return { description<BundleInitializerStage>("BundleInitializer"), description<StrandReaderStage>("StrandReader"),
-    description<TractogramReaderStage>("TractogramReader"), description<CapsuleOptimizerStage>("CapsuleOptimizer"),
-    description<FibreRadialGrowthStage>("FibreRadialGrowth"), description<FibreFieldStage>("FibreField"),
-    description<MyelinSurfaceStage>("MyelinSurface"), description<SubstrateStatisticsStage>("SubstrateStatistics"),
-    description<SubstrateCertificateStage>("SubstrateCertificate"), description<SubstrateSamplerStage>("SubstrateSampler"),
-    description<SubstrateWriterStage>("SubstrateWriter"), description<SubstrateProductionStage>("SubstrateProduction"),
-    description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
-    description<NiftiWriterStage>("NiftiWriter") };
+    description<TractogramReaderStage>("TractogramReader"), description<TractFibresStage>("TractFibres"),
+    description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
+    description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
+    description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
+    description<SubstrateSamplerStage>("SubstrateSampler"), description<SubstrateWriterStage>("SubstrateWriter"),
+    description<SubstrateProductionStage>("SubstrateProduction"), description<StrandWriterStage>("StrandWriter"),
+    description<TractogramWriterStage>("TractogramWriter"), description<NiftiWriterStage>("NiftiWriter") };
 }
 
 } // namespace cactus

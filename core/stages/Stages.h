@@ -2,8 +2,10 @@
 // The stages of the chain as their users see them: the options of the method, and what a filter asks for besides.
 #pragma once
 
+#include "base/LengthUnit.h"
 #include "base/Properties.h"
 #include "bundle/BundleInitializerOptions.h"
+#include "bundle/TractFibresOptions.h"
 #include "growth/FibreRadialGrowthOptions.h"
 #include "io/SubstrateContents.h"
 #include "judge/SubstrateCertificate.h"
@@ -27,6 +29,15 @@ struct BundleInitializerStage
   std::string radiusTableFile; ///< the same as a file
 
   static const PropertyList<BundleInitializerStage>& properties();
+};
+
+struct TractFibresStage
+{
+  TractFibresOptions options;
+  std::string radiusTable;     ///< as BundleInitializerStage has it
+  std::string radiusTableFile; ///< the same as a file
+
+  static const PropertyList<TractFibresStage>& properties();
 };
 
 struct CapsuleOptimizerStage
@@ -149,13 +160,6 @@ struct StrandWriterStage
   std::string fileName;
 
   static const PropertyList<StrandWriterStage>& properties();
-};
-
-/// What a length is counted in.
-enum class LengthUnit
-{
-  Micrometre = 0,
-  Millimetre = 1
 };
 
 struct TractogramReaderStage

@@ -10,6 +10,7 @@ from paraview import servermanager, simple
 
 FIBRES = {"CapsuleOptimizer", "FibreRadialGrowth", "SubstrateProduction", "SubstrateStatistics"}
 LABELS = {"FibreField", "MyelinSurface"}
+LINES = {"TractFibres"}
 SURFACES = {"SubstrateCertificate", "SubstrateSampler", "SubstrateStatistics", "SubstrateWriter"}
 FIBRE_FILES = {"strands", "tck", "trx"}
 SURFACE_FILES = {"substrate"}
@@ -52,7 +53,7 @@ class Offers(CactusTestCase):
     def assertOffered(self, source, filters, files=frozenset(), port=0):
         source = simple.OutputPort(source, port) if port or source.Port == 0 else source
         source.UpdatePipeline()
-        self.assertEqual({name for name in FIBRES | LABELS | SURFACES if is_offered(name, source)}, set(filters))
+        self.assertEqual({name for name in FIBRES | LINES | LABELS | SURFACES if is_offered(name, source)}, set(filters))
         self.assertEqual(formats(source), set(files))
 
     def bundle(self, seed=1):
@@ -66,7 +67,7 @@ class Offers(CactusTestCase):
         surfaces = simple.MyelinSurface(Input=grown)
         outer = simple.OutputPort(surfaces, 0)
         for data in (bundle, fibres):
-            self.assertOffered(data, FIBRES, FIBRE_FILES)
+            self.assertOffered(data, FIBRES | LINES, FIBRE_FILES)
         self.assertOffered(optimizer, (), port=1)
         self.assertOffered(grown, LABELS, IMAGE_FILES)
         self.assertOffered(outer, SURFACES, SURFACE_FILES)
@@ -78,7 +79,7 @@ class Offers(CactusTestCase):
 
     def test_blocks(self):
         both = simple.GroupDatasets(Input=[self.bundle(), self.bundle(2)])
-        self.assertOffered(both, FIBRES, FIBRE_FILES)
+        self.assertOffered(both, FIBRES | LINES, FIBRE_FILES)
         fields = simple.FibreField(Input=simple.FibreRadialGrowth(Input=self.bundle(), VoxelSize=0.2), Select="All fibres")
         self.assertOffered(fields, ())
         contours = simple.Contour(Input=fields, ContourBy=["POINTS", "Field"], Isosurfaces=[0])
@@ -88,11 +89,11 @@ class Offers(CactusTestCase):
         path = os.path.join(self.folder, "two.strands")
         with open(path, "w", encoding="utf-8") as file:
             file.write("6\n2\n2\n-1 0 -4 0.7\n-1 0 4 0.7\n2\n1 0 -4 0.7\n1 0 4 0.7\n")
-        self.assertOffered(simple.StrandReader(FileName=path), FIBRES, FIBRE_FILES)
+        self.assertOffered(simple.StrandReader(FileName=path), FIBRES | LINES, FIBRE_FILES)
 
     def test_other_data(self):
         for source in (simple.Sphere(), simple.Line()):
-            self.assertOffered(source, ())
+            self.assertOffered(source, LINES)  # what cells they have, ParaView does not tell
         self.assertOffered(simple.Wavelet(), (), IMAGE_FILES)
 
     def test_other_inputs_of_a_filter(self):

@@ -9,7 +9,7 @@ import subprocess
 
 from cactus_testing import CactusTestCase, main
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
-                             StrandReader, SubstrateWriter)
+                             SaveData, StrandReader, SubstrateWriter, TractFibres, TractogramReader)
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "rerun.py")
 
@@ -52,6 +52,14 @@ class Rerun(CactusTestCase):
         table = {"RadiusDistribution": "Table", "RadiusTable": "0.4 0.45;0.61", "DispersionModel": "Watson"}
         grouped = GroupDatasets(Input=[bundle(**table), bundle(Seed=5)])
         self.assertSame(self.write(grouped, growth={"TargetFibreVolumeFraction": 0.4}, surface={"GRatioModel": "Distributed", "GRatioDeviation": 0.05, "Seed": 9}))
+
+    def test_a_tract_in_a_file(self):
+        tract = os.path.join(self.folder, "tract.tck")
+        SaveData(tract, proxy=bundle())
+        fibres = TractFibres(Input=TractogramReader(FileName=tract), Side=5, FibreVolumeFraction=0.25, MinimumRadius=0.4, GrownFibreVolumeFraction=0)
+        with self.assertError("end of a streamline|ends of streamlines"):  # they are as long as the domain
+            fibres.UpdatePipeline()
+        self.assertSame(self.write(fibres))
 
     def test_a_table_in_a_file(self):
         table = os.path.join(self.folder, "radii.txt")

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bundle/Streamlines.h"
+
+class vtkDataObject;
+
+namespace cactus
+{
+
+/// Polylines as streamlines, validated, those of several blocks one after the other, with the cell data `BundleId` if all blocks
+/// have it. Throws InvalidInput for anything else.
+Streamlines streamlinesFrom(vtkDataObject* input);
+
+} // namespace cactus

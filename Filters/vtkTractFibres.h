@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkTractFibres
+ * @brief Lays a bundle of fibres around each of some streamlines, as the start of a substrate that runs as a tract does.
+ *
+ * Input: polylines, such as vtkTractogramReader's, with or without cell data `BundleId`. Output: fibres as vtkBundleInitializer
+ * makes them, in a cubic domain around the origin whose middle lies on a streamline; axes stay as they are. The method is
+ * cactus::layTractFibres, whose header says how it works and what it promises. A warning says where bends had to be rounded off,
+ * or a streamline that ends in the domain was carried on.
+ */
+#ifndef vtkTractFibres_h
+#define vtkTractFibres_h
+
+#include "CactusFiltersModule.h"
+#include "FilterProperties.h"
+
+#include <vtkPolyDataAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkTractFibres : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkTractFibres* New();
+  vtkTypeMacro(vtkTractFibres, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  CACTUS_WHOLE_PROPERTY(Select)
+  CACTUS_WHOLE_PROPERTY(FirstStreamline)
+  CACTUS_WHOLE_PROPERTY(LastStreamline)
+  CACTUS_WHOLE_PROPERTY(BundleId)
+  CACTUS_WHOLE_PROPERTY(NumberOfStreamlines)
+  CACTUS_WHOLE_PROPERTY(Middle)
+  CACTUS_NUMBER_PROPERTY(PointX)
+  CACTUS_NUMBER_PROPERTY(PointY)
+  CACTUS_NUMBER_PROPERTY(PointZ)
+  CACTUS_WHOLE_PROPERTY(LengthUnit)
+  CACTUS_NUMBER_PROPERTY(ScaleFactor)
+  CACTUS_NUMBER_PROPERTY(Side)
+  CACTUS_NUMBER_PROPERTY(FibreVolumeFraction)
+  CACTUS_NUMBER_PROPERTY(GrownFibreVolumeFraction)
+  CACTUS_NUMBER_PROPERTY(BundleDiameter)
+  CACTUS_NUMBER_PROPERTY(Margin)
+  CACTUS_WHOLE_PROPERTY(RadiusDistribution)
+  CACTUS_NUMBER_PROPERTY(GammaShape)
+  CACTUS_NUMBER_PROPERTY(GammaScale)
+  CACTUS_NUMBER_PROPERTY(LognormalMean)
+  CACTUS_NUMBER_PROPERTY(LognormalDeviation)
+  CACTUS_TEXT_PROPERTY(RadiusTable)
+  CACTUS_FILE_PROPERTY(RadiusTableFile)
+  CACTUS_NUMBER_PROPERTY(MinimumRadius)
+  CACTUS_NUMBER_PROPERTY(MaximumRadius)
+  CACTUS_NUMBER_PROPERTY(SpacingFactor)
+  CACTUS_NUMBER_PROPERTY(MinimumSpacing)
+  CACTUS_NUMBER_PROPERTY(MaximumSpacing)
+  CACTUS_WHOLE_PROPERTY(Seed)
+
+  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+
+protected:
+  vtkTractFibres();
+  ~vtkTractFibres() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkTractFibres(const vtkTractFibres&) = delete;
+  void operator=(const vtkTractFibres&) = delete;
+
+  std::unique_ptr<cactus::FilterProperties> Properties;
+};
+
+#endif

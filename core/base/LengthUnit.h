@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace cactus
+{
+
+/// What a length is counted in.
+enum class LengthUnit
+{
+  Micrometre = 0,
+  Millimetre = 1
+};
+
+/// Micrometres in a unit.
+constexpr double micrometresIn(LengthUnit unit)
+{
+  return unit == LengthUnit::Millimetre ? 1e3 : 1.0;
+}
+
+} // namespace cactus

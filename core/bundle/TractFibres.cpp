@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/TractFibres.h"
+
+#include "base/Constants.h"
+#include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Memory.h"
+#include "bundle/BundleLayout.h"
+#include "bundle/BundlePacking.h"
+#include "bundle/TractPath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// A path bends with a radius no smaller than this many of its bundle's.
+constexpr double leastBend = 1.1;
+/// Circles that are packed at least, so that their density can be that asked for.
+constexpr double fewestCircles = 64.0;
+
+/// Sizes (µm) that follow from the options.
+struct TractSizes
+{
+  BundleInitializerOptions straight; ///< the bundle with its fibres as thin as they start
+  double thinning = 1.0;
+  double reach = 0.0; ///< of the farthest that a fibre may be from the domain's middle and still come into it
+};
+
+TractSizes sizesOf(const TractFibresOptions& options)
+{
+  TractSizes sizes;
+  sizes.straight = options.straightBundle();
+  sizes.thinning = sizes.straight.thinning();
+  sizes.straight.radius = options.radius.scaled(sizes.thinning);
+  sizes.reach = std::sqrt(3.0) * (0.5 * options.side + options.margin + options.radius.maximum);
+  return sizes;
+}
+
+/// How long a stretch runs within the domain (µm).
+double lengthWithin(const std::vector<Eigen::Vector3d>& points, const Domain& domain)
+{
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    const auto part = domain.clip(points[i - 1], points[i]);
+    length += std::max(0.0, part[1] - part[0]) * (points[i] - points[i - 1]).norm();
+  }
+  return length;
+}
+
+/// The stretches of the streamlines that come into the domain, as samples as far apart as a bundle that covers it allows.
+struct ChosenStretches
+{
+  std::vector<StreamlinePlace> places;
+  double length = 0.0; ///< µm, of all of them within the domain
+};
+
+ChosenStretches stretchesWithin(
+  const Streamlines& streamlines, const StreamlineChoice& choice, const TractFibresOptions& options, double reach)
+{
+  ChosenStretches chosen;
+  for (const StreamlinePlace& place : choice.places)
+  {
+    const TractStretch stretch = stretchAround(streamlines, place, choice.middle, options.scale(), 2.0 * reach, reach / 64.0);
+    const double length = lengthWithin(stretch.points, Domain::cube(options.side));
+    if (length > 0.0)
+    {
+      chosen.places.push_back(place);
+      chosen.length += length;
+    }
+  }
+  return chosen;
+}
+
+/// Throws OutOfMemory where the circles of one bundle, and the fibres in the domain, could not be held.
+void requireMemoryForTract(const TractFibresOptions& options, const TractSizes& sizes, double radius)
+{
+  const double each = meanCircleArea(sizes.straight.radius);
+  const double circles = fewestCircles + options.fibreVolumeFraction * 4.0 * radius * radius / each;
+  const double width = options.side + 2.0 * (options.margin + options.radius.maximum);
+  const double points = options.fibreVolumeFraction * std::pow(width, 3) / (each * options.minimumSpacing);
+  requireMemory(circles * 600.0 + points * 160.0, text("Side ", options.side, " µm with ", circles, " fibres"),
+    "choose a smaller Side, a smaller Margin or larger radii");
+}
+
+/// A fibre's place in its bundle's cross-section.
+struct PlacedCircle
+{
+  Eigen::Vector2d centre;
+  double radius;
+};
+
+/// Packed circles around the origin whose area comes as near as whole circles do to the part asked of a disc plus `owed`, which
+/// is left with what is missing (µm²).
+std::vector<PlacedCircle> circlesWithin(
+  double radius, const TractSizes& sizes, std::size_t path, double& owed, const Context& context)
+{
+  BundleInitializerOptions square = sizes.straight;
+  const double needed = std::sqrt(fewestCircles * meanCircleArea(square.radius) / square.fibreVolumeFraction);
+  square.side = std::max({ 2.0 * (radius + square.radius.maximum), 4.0 * square.radius.maximum, needed });
+  square.margin = 0.0;
+  square.seed = sizes.straight.seed + (static_cast<std::uint64_t>(path) << 32); // seeds of users have 31 bits
+  std::vector<Bundle> bundles = { layOutSingle(square) };
+  packFaces(bundles, square, context);
+  const Circles& circles = bundles.front().bottom;
+
+  std::vector<std::size_t> order(circles.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t a, std::size_t b) { return circles.centres[a].squaredNorm() < circles.centres[b].squaredNorm(); });
+  owed += square.fibreVolumeFraction * pi * radius * radius;
+  std::vector<PlacedCircle> placed;
+  Eigen::Vector2d balance = Eigen::Vector2d::Zero();
+  double area = 0.0;
+  for (const std::size_t i : order)
+  {
+    const double own = pi * circles.radii[i] * circles.radii[i];
+    if (own >= 2.0 * owed)
+    {
+      break;
+    }
+    owed -= own;
+    area += own;
+    balance += own * circles.centres[i];
+    placed.push_back({ circles.centres[i], circles.radii[i] });
+  }
+  for (PlacedCircle& circle : placed)
+  {
+    circle.centre -= balance / area;
+  }
+  return placed;
+}
+
+/// The part of a line from where it first comes into a domain grown by `margin` to where it last leaves it.
+std::vector<Eigen::Vector3d> partWithin(const std::vector<Eigen::Vector3d>& line, const Domain& domain, double margin)
+{
+  std::vector<Eigen::Vector3d> kept;
+  std::vector<Eigen::Vector3d> outside; ///< since it was left
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+  {
+    const auto part = domain.clip(line[i], line[i + 1], margin);
+    const Eigen::Vector3d along = line[i + 1] - line[i];
+    if (part[1] > part[0])
+    {
+      kept.insert(kept.end(), outside.begin(), outside.end());
+      outside.clear();
+      if (kept.empty())
+      {
+        kept.emplace_back(line[i] + part[0] * along);
+      }
+      kept.emplace_back(line[i] + part[1] * along);
+    }
+    else if (!kept.empty())
+    {
+      outside.push_back(line[i + 1]);
+    }
+  }
+  return kept;
+}
+
+/// Adds a fibre along a line, its control points evenly apart.
+void addAlong(
+  const std::vector<Eigen::Vector3d>& line, double length, int bundleId, double radius, double spacing, Fibres& fibres)
+{
+  const int segments = std::max(2, static_cast<int>(std::lround(length / spacing)));
+  fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundleId, radius);
+  fibres.addPoint(line.front(), radius);
+  double begin = 0.0;
+  int next = 1;
+  for (std::size_t i = 1; i < line.size() && next < segments; ++i)
+  {
+    const Eigen::Vector3d along = line[i] - line[i - 1];
+    const double step = along.norm();
+    for (; next < segments && length * next / segments <= begin + step; ++next)
+    {
+      fibres.addPoint(line[i - 1] + (length * next / segments - begin) / step * along, radius);
+    }
+    begin += step;
+  }
+  fibres.addPoint(line.back(), radius);
+}
+
+/// Carries the circles along a path.
+void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, int bundleId, const TractFibresOptions& options,
+  double thinning, Fibres& fibres)
+{
+  for (const PlacedCircle& circle : circles)
+  {
+    std::vector<Eigen::Vector3d> line;
+    line.reserve(path.points.size());
+    for (std::size_t i = 0; i < path.points.size(); ++i)
+    {
+      line.push_back(path.beside(i, circle.centre));
+    }
+    const double target = circle.radius / thinning;
+    const std::vector<Eigen::Vector3d> kept = partWithin(line, fibres.domain, options.margin + target);
+    const double length = lengthOf(kept);
+    // What is shorter cuts a corner of the grown domain too far outside for the fibre to touch the domain.
+    if (length > 0.8 * target)
+    {
+      const double spacing = std::clamp(options.spacingFactor * circle.radius, options.minimumSpacing, options.maximumSpacing);
+      addAlong(kept, length, bundleId, circle.radius, spacing, fibres);
+      fibres.targetRadii.back() = target;
+    }
+  }
+}
+
+/// Sets what the fibres are to grow to, in proportion to what they fill of the domain.
+void setGrownFraction(const TractFibresOptions& options, double thinning, double reached, Fibres& fibres)
+{
+  const double grown = reached / (thinning * thinning);
+  if (grown > limits::fraction.highest)
+  {
+    throw Infeasible(text("the fibres would fill ", grown,
+      " of the domain, as the bundles of its streamlines overlap: choose a smaller BundleDiameter or NumberOfStreamlines"));
+  }
+  fibres.grownFraction = options.grownFibreVolumeFraction > 0.0 ? grown : 0.0;
+}
+
+/// How many ends of streamlines lie in the domain.
+int endsWithin(const TractStretch& stretch, const Domain& domain)
+{
+  return static_cast<int>(
+    std::count_if(stretch.ends.begin(), stretch.ends.end(), [&](const Eigen::Vector3d& end) { return domain.depth(end) > 0.0; }));
+}
+
+} // namespace
+
+Fibres layTractFibres(
+  const Streamlines& streamlines, const TractFibresOptions& options, const Context& context, TractFibresReport* report)
+{
+  options.validate();
+  validate(streamlines);
+  context.report(0.0, "Choosing streamlines");
+  const TractSizes sizes = sizesOf(options);
+  const StreamlineChoice choice = chooseStreamlines(streamlines, options, sizes.reach / options.scale());
+  const ChosenStretches chosen = stretchesWithin(streamlines, choice, options, sizes.reach);
+  const bool coversDomain = chosen.places.size() == 1 && options.bundleDiameter == 0.0;
+  double radius = 0.5 * options.bundleDiameter;
+  if (options.bundleDiameter == 0.0)
+  {
+    radius = coversDomain ? sizes.reach : std::sqrt(std::pow(options.side, 3) / (pi * chosen.length));
+  }
+  requireMemoryForTract(options, sizes, radius);
+
+  TractFibresReport reached;
+  reached.streamlines = chosen.places.size();
+  reached.bundleDiameter = 2.0 * radius;
+  reached.middle = choice.middle;
+  Fibres fibres;
+  fibres.domain = Domain::cube(options.side);
+  double owed = 0.0;
+  const double far = 1.5 * (sizes.reach + radius);
+  for (std::size_t p = 0; p < chosen.places.size(); ++p)
+  {
+    context.checkpoint();
+    const StreamlinePlace& place = chosen.places[p];
+    TractStretch stretch = stretchAround(streamlines, place, choice.middle, options.scale(), far, radius / 16.0);
+    const double smoothing = roundOff(stretch, leastBend * radius);
+    if (coversDomain && smoothing > 0.0)
+    {
+      bringToOrigin(stretch, far);
+    }
+    reached.smoothing = std::max(reached.smoothing, smoothing);
+    reached.ends += endsWithin(stretch, fibres.domain);
+    const TractPath path = pathThrough(stretch, sizes.reach, radius);
+    const int bundleId = streamlines.bundleIds.empty() ? static_cast<int>(p) + 1 : streamlines.bundleIds[place.streamline];
+    addBundle(path, circlesWithin(radius, sizes, p, owed, context), bundleId, options, sizes.thinning, fibres);
+  }
+  if (fibres.size() == 0)
+  {
+    throw Infeasible("no fibre comes into the domain: enlarge BundleDiameter, FibreVolumeFraction or Side");
+  }
+  reached.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+  setGrownFraction(options, sizes.thinning, reached.fibreVolumeFraction, fibres);
+  validate(fibres);
+  if (report != nullptr)
+  {
+    *report = reached;
+  }
+  context.report(1.0, "Fibres laid");
+  return fibres;
+}
+
+} // namespace cactus
