@@ -44,9 +44,14 @@ class Target:
         while pending:
             for hint in pending.pop().findall("Hints//PropertyWidgetDecorator[@value]"):
                 if hint.get("property") not in found:
-                    found[hint.get("property")] = float(hint.get("value"))
-                    pending += self.element.findall(f"*[@name='{hint.get('property')}']")
+                    needed = self.element.find(f"*[@name='{hint.get('property')}']")
+                    found[hint.get("property")] = GIVEN[needed.tag] if hint.get("inverse") == "1" else float(hint.get("value"))
+                    pending.append(needed)
         return found
+
+
+# A value of each kind where any but 0, or some text, makes another property count.
+GIVEN = {"IntVectorProperty": 1.0, "DoubleVectorProperty": 0.5, "StringVectorProperty": "given"}
 
 
 def targets():
