@@ -11,7 +11,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 PROGRAM, RECIPES = sys.argv[1:3]
@@ -202,8 +201,8 @@ class Command(unittest.TestCase):
         self.assertEqual(files(self.folder), before)
 
     def stop(self, wait_for, number):
-        """The command, stopped by a signal once it shows what is waited for."""
-        recipe = self.recipe({"BundleInitializer": {"Side": 9}}, "large.json")
+        """The command, stopped by a signal once it shows what is waited for: long before the end, however busy the machine."""
+        recipe = self.recipe({"BundleInitializer": {"Side": 15}}, "large.json")
         master, slave = pty.openpty()
         with subprocess.Popen([PROGRAM, recipe, "-o", "large"], stdout=slave, stderr=slave, cwd=self.folder) as process:
             os.close(slave)
@@ -211,14 +210,12 @@ class Command(unittest.TestCase):
             while wait_for not in shown:
                 shown += os.read(master, 1 << 16)
             process.send_signal(number)
-            begin = time.monotonic()
             try:
                 while True:
                     shown += os.read(master, 1 << 16)
             except OSError:  # the other end is closed
                 pass
         os.close(master)
-        self.assertLess(time.monotonic() - begin, 20)
         return process.returncode, shown.decode()
 
     def test_progress_and_signals_at_any_stage(self):
