@@ -26,7 +26,7 @@ def bad_values(one):
             least, most = (float(domain.get(name)) if domain.get(name) is not None else None for name in ("min", "max"))
             if least is not None:
                 yield least - 1
-                yield from () if whole or least == 0 else (least * 0.9,)
+                yield from () if whole or least == 0 else (least * (0.9 if least > 0 else 1.1),)
             if most is not None:
                 yield most + 1 if whole else most * 1.001
         elif domain.tag == "EnumerationDomain":
