@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/Descent.h"
 
+#include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Parallel.h"
 #include "optimiser/OverlapCost.h"
@@ -55,6 +56,7 @@ Descent::Descent(Fibres& fibres, const CapsuleOptimizerOptions& options, int thr
 
 ConvergenceRow Descent::evaluate()
 {
+  this->requireFinite();
   this->refreshNeighbours();
   ConvergenceRow row;
   const Stopwatch watch;
@@ -99,6 +101,20 @@ void Descent::step()
   if (momentum)
   {
     this->State.relaxation = std::max(1e-8, this->State.relaxation * this->Options.relaxation);
+  }
+}
+
+/// Steps are bounded, but quotients by the length of a segment that is next to nothing are not.
+void Descent::requireFinite() const
+{
+  const std::vector<Eigen::Vector3d>& points = this->State.fibres.points;
+  if (!std::all_of(points.begin(), points.end(), [](const Eigen::Vector3d& point) { return point.allFinite(); }))
+  {
+    throw InvalidInput(
+      this->Options.resume
+        ? text("CheckpointFile ", this->Options.checkpointFile,
+            " holds a state from which fibres leave all bounds, and is kept: remove it, or name another file")
+        : std::string("fibres leave all bounds, since some of their control points nearly coincide: resample them"));
   }
 }
 

@@ -41,6 +41,7 @@ public:
   bool couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const;
 
 private:
+  void requireFinite() const;
   void refreshNeighbours();
   void setAllowances();
   void gatherOverlap(std::size_t f);
