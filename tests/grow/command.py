@@ -13,6 +13,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "paraview"))
+from folder_content import files  # noqa: E402  (which is in another folder)
+
 PROGRAM, RECIPES = sys.argv[1:3]
 
 # A second of work.
@@ -20,15 +23,6 @@ SMALL = {
     "BundleInitializer": {"Side": 4, "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0},
     "FibreRadialGrowth": {"VoxelSize": 0.2, "GrowthIterations": 1},
 }
-
-
-def files(folder):
-    found = {}
-    for path, _, names in os.walk(folder):
-        for name in names:
-            with open(os.path.join(path, name), "rb") as file:
-                found[os.path.relpath(os.path.join(path, name), folder)] = file.read()
-    return found
 
 
 class Command(unittest.TestCase):

@@ -7,6 +7,7 @@ import os
 import subprocess
 
 from cactus_testing import CactusTestCase, main
+from folder_content import files
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
                              SubstrateProduction, SubstrateWriter)
 
@@ -16,15 +17,6 @@ OTHER = {**BUNDLE, "RadiusDistribution": "Lognormal", "Seed": 2}
 TABLE = {**BUNDLE, "RadiusDistribution": "Table", "DispersionModel": "Watson"}
 GROWTH = {"VoxelSize": 0.2, "GrowthIterations": 1, "Seed": 3}
 SURFACES = {"GRatioModel": "Distributed", "GRatioDeviation": 0.05, "Seed": 9}
-
-
-def files(folder):
-    found = {}
-    for path, _, names in os.walk(folder):
-        for name in names:
-            with open(os.path.join(path, name), "rb") as file:
-                found[os.path.relpath(os.path.join(path, name), folder)] = file.read()
-    return found
 
 
 class CactusGrow(CactusTestCase):

@@ -11,6 +11,7 @@ import subprocess
 import unittest
 
 from cactus_testing import CactusTestCase, fetch, main
+from folder_content import files
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateProduction,
                              SubstrateWriter)
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -40,15 +41,6 @@ def rank():
 def ranks():
     controller = vtkMultiProcessController.GetGlobalController()
     return controller.GetNumberOfProcesses() if controller else 1
-
-
-def files(folder):
-    found = {}
-    for base, _, names in os.walk(folder):
-        for name in names:
-            with open(os.path.join(base, name), "rb") as file:
-                found[os.path.relpath(os.path.join(base, name), folder)] = file.read()
-    return found
 
 
 class SubstrateProductionTest(CactusTestCase):
