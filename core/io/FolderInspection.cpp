@@ -70,8 +70,16 @@ bool isFileOfWriter(const std::string& path)
   const auto& streamed = streamedFiles();
   const auto isPart = [&](const std::string& name) { return isPartialName(path, name); };
   const std::string strand = "meshes/simulations/strand_";
+  for (const std::string kind : { "outer/", "inner/" })
+  {
+    const std::size_t slash = path.rfind('/');
+    if (isNumbered(path, kind + "fibre_", ".ply") || (slash != std::string::npos && isNumbered(path.substr(0, slash), kind, "") &&
+                                                       isNumbered(path.substr(slash), "/fibre_", ".ply")))
+    {
+      return true;
+    }
+  }
   return wholeFiles().count(path) > 0 || streamed.count(path) > 0 || std::any_of(streamed.begin(), streamed.end(), isPart) ||
-         isNumbered(path, "outer/fibre_", ".ply") || isNumbered(path, "inner/fibre_", ".ply") ||
          isNumbered(path, strand, "_outer_erode_0.ply") || isNumbered(path, strand, "_inner_erode_0.ply");
 }
 
@@ -79,7 +87,7 @@ bool isFolderOfWriter(const std::string& path)
 {
   static const std::set<std::string> names{ "outer", "inner", "mcdc", "mcdc/output", "meshes", "meshes/simulations", "start",
     "intra", "extra" };
-  return names.count(path) > 0;
+  return names.count(path) > 0 || isNumbered(path, "outer/", "") || isNumbered(path, "inner/", "");
 }
 
 bool sameTime(const timespec& a, const timespec& b)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/PlyFile.h"
 
+#include "base/ByteOrder.h"
 #include "base/Error.h"
 
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <sstream>
 
 namespace cactus
@@ -21,9 +23,8 @@ char* writeCoordinate(char (&text)[longestNumber], double value)
   return std::to_chars(text, text + longestNumber, value, std::chars_format::general, 9).ptr;
 }
 
-} // namespace
-
-std::string plyText(const TriangleMesh& mesh, const std::string& comment)
+/// Throws for what a reader would take for something else.
+void requireComment(const std::string& comment)
 {
   std::istringstream words(comment);
   for (std::string word; words >> word;)
@@ -38,9 +39,10 @@ std::string plyText(const TriangleMesh& mesh, const std::string& comment)
   {
     throw InvalidInput("the comment of a PLY file must not hold a line break");
   }
-  std::string text = "ply\nformat ascii 1.0\ncomment " + comment + "\nelement vertex " + std::to_string(mesh.points.size()) +
-                     "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                     std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+void appendAsText(std::string& text, const TriangleMesh& mesh)
+{
   text.reserve(text.size() + 48 * mesh.points.size() + 26 * mesh.triangles.size());
   char number[longestNumber];
   for (const Eigen::Vector3d& point : mesh.points)
@@ -61,17 +63,55 @@ std::string plyText(const TriangleMesh& mesh, const std::string& comment)
     }
     text += '\n';
   }
+}
+
+void appendAsBytes(std::string& bytes, const TriangleMesh& mesh)
+{
+  bytes.reserve(bytes.size() + 12 * mesh.points.size() + 13 * mesh.triangles.size());
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      appendLittleEndian(bytes, static_cast<float>(point[axis]));
+    }
+  }
+  for (const auto& triangle : mesh.triangles)
+  {
+    bytes += '\x03';
+    for (const std::int32_t corner : triangle)
+    {
+      appendLittleEndian(bytes, corner);
+    }
+  }
+}
+
+} // namespace
+
+std::string plyText(const TriangleMesh& mesh, const std::string& comment, PlyEncoding encoding)
+{
+  requireComment(comment);
+  const bool isBinary = encoding == PlyEncoding::Binary;
+  std::string text = std::string("ply\nformat ") + (isBinary ? "binary_little_endian" : "ascii") + " 1.0\ncomment " + comment +
+                     "\nelement vertex " + std::to_string(mesh.points.size()) +
+                     "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                     std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  isBinary ? appendAsBytes(text, mesh) : appendAsText(text, mesh);
   return text;
 }
 
-TriangleMesh asWritten(TriangleMesh mesh)
+TriangleMesh asWritten(TriangleMesh mesh, PlyEncoding encoding)
 {
   char number[longestNumber];
   for (Eigen::Vector3d& point : mesh.points)
   {
-    for (int axis = 0; axis < 3; ++axis)
+    for (double& coordinate : point)
     {
-      std::from_chars(number, writeCoordinate(number, point[axis]), point[axis]);
+      if (encoding == PlyEncoding::Binary)
+      {
+        coordinate = static_cast<float>(coordinate);
+        continue;
+      }
+      std::from_chars(number, writeCoordinate(number, coordinate), coordinate);
     }
   }
   return mesh;

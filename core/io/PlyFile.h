@@ -8,14 +8,21 @@
 namespace cactus
 {
 
-/// The text of an ASCII PLY file (µm): vertices exactly `x y z` with nine significant digits, faces `3 i j k`, no normals and no
-/// colours. `comment` goes into the header as one line.
+/// How numbers stand in a PLY file.
+enum class PlyEncoding
+{
+  Ascii = 0, ///< coordinates with nine significant digits
+  Binary = 1 ///< the lowest byte first: 12 bytes a vertex, in single precision, and 13 a triangle
+};
+
+/// What is in a PLY file (µm): vertices exactly `x y z`, faces `3 i j k`, no normals and no colours. `comment` goes into the
+/// header as one line.
 ///
 /// Simulators read the header word by word, so that the comment must hold neither of the words vertex, face, nx and end_header;
 /// throws InvalidInput where it does, or has a line break.
-std::string plyText(const TriangleMesh& mesh, const std::string& comment);
+std::string plyText(const TriangleMesh& mesh, const std::string& comment, PlyEncoding encoding = PlyEncoding::Ascii);
 
-/// The surface that a reader of plyText() gets: with coordinates rounded to nine significant digits.
-TriangleMesh asWritten(TriangleMesh mesh);
+/// The surface that a reader of plyText() gets: with coordinates as rounded as they are there.
+TriangleMesh asWritten(TriangleMesh mesh, PlyEncoding encoding = PlyEncoding::Ascii);
 
 } // namespace cactus

@@ -21,6 +21,7 @@ double unitOf(SubstrateFormat format)
   case SubstrateFormat::Mcdc:
     return 1e-3;
   case SubstrateFormat::Reference:
+  case SubstrateFormat::Surfaces:
     return 1.0;
   default:
     return 1e-6;

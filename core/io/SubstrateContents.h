@@ -5,6 +5,7 @@
 #include "base/Provenance.h"
 #include "fibres/Fibres.h"
 #include "io/McdcConfiguration.h"
+#include "io/PlyFile.h"
 #include "judge/SubstrateCertificate.h"
 #include "mesh/FibreSurfaces.h"
 
@@ -22,7 +23,8 @@ enum class SubstrateFormat
   Reference = 1, ///< the reference program's run folder, as dmipy-sim loads it (µm)
   Camino = 2,    ///< one PLY file per kind of surface (m)
   Disimpy = 3,   ///< NumPy arrays of vertices (m) and faces per kind of surface
-  Rms = 4        ///< RMS: labels of voxels, beside a PLY file per surface (µm)
+  Rms = 4,       ///< RMS: labels of voxels, beside a PLY file per surface (µm)
+  Surfaces = 5   ///< no simulator's: a PLY file per surface (µm) and nothing beside
 };
 
 /// What goes into a substrate folder.
@@ -36,11 +38,18 @@ struct SubstrateFolderContents
   bool allowOpenSurfaces = false; ///< write surfaces that leak, too
   SubstrateCertificateOptions certificate;
   SubstrateFormat format = SubstrateFormat::Mcdc;
+  PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files that no simulator reads, see mayBeBinary()
   McdcOptions mcdc;
   double voxelSize = 0.1; ///< µm, of label volumes
   int startPositions = 0; ///< points in each compartment for walkers to start from
   std::uint64_t seed = 1; ///< of their places
 };
+
+/// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
+inline bool mayBeBinary(SubstrateFormat format)
+{
+  return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces;
+}
 
 /// One surface's file, as the manifest lists it.
 struct SubstrateFile

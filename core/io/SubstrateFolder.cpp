@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 namespace cactus
 {
@@ -25,12 +26,27 @@ namespace cactus
 namespace
 {
 
-/// The file of one surface, `kind` being "outer" or "inner".
-std::string surfacePath(SubstrateFormat format, const std::string& kind, int id)
+/// Files of one kind in a folder, beyond which there are folders for every so many ids.
+constexpr std::size_t filesInFolder = 1000;
+
+std::string inDigits(int number)
 {
-  std::string digits = std::to_string(id);
-  digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, '0');
-  switch (format)
+  const std::string digits = std::to_string(number);
+  return std::string(5 - std::min<std::size_t>(5, digits.size()), '0') + digits;
+}
+
+/// The folder of one surface's file, with a slash, where each fibre has a file; `kind` is "outer" or "inner".
+std::string surfaceFolder(const SubstrateFolderContents& contents, const std::string& kind, int id)
+{
+  const bool isMany = std::max(contents.outer.size(), contents.inner.size()) > filesInFolder;
+  return kind + '/' + (isMany ? inDigits(id / int(filesInFolder)) + '/' : "");
+}
+
+/// The file of one surface.
+std::string surfacePath(const SubstrateFolderContents& contents, const std::string& kind, int id)
+{
+  const std::string digits = inDigits(id);
+  switch (contents.format)
   {
   case SubstrateFormat::Reference:
     return "meshes/simulations/strand_" + digits + '_' + kind + "_erode_0.ply";
@@ -39,7 +55,7 @@ std::string surfacePath(SubstrateFormat format, const std::string& kind, int id)
   case SubstrateFormat::Disimpy:
     return kind + "_vertices.npy";
   default:
-    return kind + "/fibre_" + digits + ".ply";
+    return surfaceFolder(contents, kind, id) + "fibre_" + digits + ".ply";
   }
 }
 
@@ -86,8 +102,9 @@ void requireSound(const SubstrateCertificate& certificate)
 
 /// What the manifest says of each surface.
 std::vector<SubstrateFile> surfaceFiles(
-  const FibreSurfaces& surfaces, const std::string& kind, const SubstrateCertificate& certificate, SubstrateFormat format)
+  const SubstrateFolderContents& contents, const std::string& kind, const SubstrateCertificate& certificate)
 {
+  const FibreSurfaces& surfaces = kind == "outer" ? contents.outer : contents.inner;
   std::vector<SubstrateFile> files;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
@@ -95,15 +112,31 @@ std::vector<SubstrateFile> surfaceFiles(
     const auto fibre = std::lower_bound(certificate.fibres.begin(), certificate.fibres.end(), id,
       [](const FibreCertificate& f, int wanted) { return f.fibreId < wanted; });
     const SurfaceReport& report = kind == "outer" ? fibre->outer : fibre->inner;
-    files.push_back({ surfacePath(format, kind, id), kind, id, surfaces.bundleIds[i], report.triangles, report.volume,
+    files.push_back({ surfacePath(contents, kind, id), kind, id, surfaces.bundleIds[i], report.triangles, report.volume,
       report.area, report.sound() });
   }
   return files;
 }
 
+/// The folders that these files are in, the outer ones first.
+void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
+{
+  std::set<std::string> made;
+  for (const SubstrateFile& file : files)
+  {
+    for (std::size_t end = file.path.find('/'); end != std::string::npos; end = file.path.find('/', end + 1))
+    {
+      if (made.insert(file.path.substr(0, end)).second)
+      {
+        writer.makeFolder(file.path.substr(0, end));
+      }
+    }
+  }
+}
+
 /// Writes each surface to a file of its own.
-void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, FolderWriter& writer,
-  const Context& context, double from, double to)
+void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, PlyEncoding encoding,
+  FolderWriter& writer, const Context& context, double from, double to)
 {
   std::vector<std::string> checksums(surfaces.size());
   parallelFor(
@@ -112,7 +145,7 @@ void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateF
     {
       const std::string comment = "CACTUS " CACTUS_VERSION ", " + files[i].surface + " surface of fibre " +
                                   std::to_string(files[i].fibreId) + ", micrometres";
-      checksums[i] = writer.folder().write(files[i].path, plyText(surfaces.mesh(i), comment));
+      checksums[i] = writer.folder().write(files[i].path, plyText(surfaces.mesh(i), comment, encoding));
     },
     "Writing surfaces", from, to);
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -129,7 +162,7 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
   {
     return {};
   }
-  auto files = surfaceFiles(surfaces, kind, certificate, contents.format);
+  auto files = surfaceFiles(contents, kind, certificate);
   if (isCombined(contents.format))
   {
     context.report(from, "Writing surfaces");
@@ -137,19 +170,19 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
                                                : writeDisimpySurfaces(surfaces, kind, writer, context);
     return files;
   }
-  if (contents.format == SubstrateFormat::Mcdc || contents.format == SubstrateFormat::Rms)
+  if (contents.format != SubstrateFormat::Reference) // whose surfaces of both kinds are in one folder
   {
-    writer.makeFolder(kind);
+    makeFolders(files, writer);
   }
-  writeSeparately(surfaces, files, writer, context, from, to);
+  writeSeparately(surfaces, files, contents.encoding, writer, context, from, to);
   return files;
 }
 
 /// The surfaces as a reader of the files gets them.
-FibreSurfaces asWritten(const FibreSurfaces& surfaces)
+FibreSurfaces asWritten(const FibreSurfaces& surfaces, PlyEncoding encoding)
 {
   FibreSurfaces written = surfaces;
-  written.mesh = [&surfaces](std::size_t i) { return asWritten(surfaces.mesh(i)); };
+  written.mesh = [&surfaces, encoding](std::size_t i) { return asWritten(surfaces.mesh(i), encoding); };
   return written;
 }
 
@@ -196,6 +229,11 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
     throw InvalidInput(
       "Format Reference program has both surfaces of each fibre and their centre lines: connect Inner and Fibres");
   }
+  if (contents.encoding == PlyEncoding::Binary && !mayBeBinary(contents.format))
+  {
+    throw InvalidInput("Encoding Binary is not for simulators that read PLY files, which take ASCII only: choose Encoding ASCII, "
+                       "or Format Surfaces alone or RMS");
+  }
 }
 
 /// Writes everything but the surfaces, the manifest last: where there is one, the folder is whole.
@@ -235,8 +273,8 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
   Context judging = context;
   judging.progress = [&context](double fraction, const std::string& message) { context.report(judged * fraction, message); };
   WrittenSubstrate substrate;
-  substrate.certificate = certify(
-    contents.domain, asWritten(contents.outer), asWritten(contents.inner), contents.fibres, contents.certificate, judging);
+  substrate.certificate = certify(contents.domain, asWritten(contents.outer, contents.encoding),
+    asWritten(contents.inner, contents.encoding), contents.fibres, contents.certificate, judging);
   if (!contents.allowOpenSurfaces)
   {
     requireSound(substrate.certificate);

@@ -11,7 +11,8 @@ namespace cactus
 
 /// Writes a folder for simulators:
 ///
-///   outer/fibre_00001.ply, inner/…   ASCII PLY, µm, one file per fibre and surface
+///   outer/fibre_00001.ply, inner/…   PLY, µm, one file per fibre and surface; of more than 1,000 fibres
+///                                    outer/00000/fibre_00001.ply, where the ids from 0 to 999 are, and so on
 ///   mcdc/intra.conf, mcdc/extra.conf MC/DC configurations that run as written, with lists of the surfaces and a PGSE scheme
 ///   fibres.strands                   the centre lines, where given
 ///   certificate.csv, certificate_fibres.csv   what certify() found on the surfaces as written
@@ -21,8 +22,8 @@ namespace cactus
 /// FolderReplacement). One that is there is replaced if it is a substrate folder in which all is as it was written, by the
 /// checksums in its manifest; it is refused, by name, where anything was added, changed or write-protected: results of
 /// simulations, an edited configuration, notes. Surfaces that meet or come too near are written, and their certificate says so.
-/// Throws InvalidInput (no surfaces, a surface that is not a closed outward 2-manifold, unless allowed; the message names the
-/// fibre), FileError, and Cancelled when stopped.
+/// Throws InvalidInput (no surfaces, an encoding that the simulator cannot read, a surface that is not a closed outward
+/// 2-manifold, unless allowed; the message names the fibre), FileError, and Cancelled when stopped.
 WrittenSubstrate writeSubstrateFolder(
   const SubstrateFolderContents& contents, const std::string& folder, const Context& context = {});
 

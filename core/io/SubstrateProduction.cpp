@@ -124,6 +124,9 @@ ProducedSubstrate produceFrom(
   contents.domain = fibres.domain;
   contents.fibres = &fibres;
   contents.provenance = order.provenance ? order.provenance(spacing, growth) : Provenance();
+  contents.format = order.format;
+  contents.encoding = order.encoding;
+  contents.voxelSize = spacing;
   contents.allowOpenSurfaces = order.allowOpenSurfaces;
   contents.certificate.minimumGap = order.growth.minimumGap;
   result.written = writeSubstrateFolder(contents, folder, partOf(context, surfacesMade, 1.0, pace));

@@ -21,6 +21,8 @@ struct ProductionOrder
 {
   FibreRadialGrowthOptions growth;
   MyelinSurfaceOptions surfaces;
+  SubstrateFormat format = SubstrateFormat::Mcdc; ///< labels of voxels are those of growth's voxels
+  PlyEncoding encoding = PlyEncoding::Ascii;
   bool allowOpenSurfaces = false;
   /// Of what is written, from the size of a voxel and the growth that was solved for (µm).
   std::function<Provenance(double spacing, double growth)> provenance;

@@ -29,6 +29,8 @@ std::string filesFor(SubstrateFormat format)
            "                size and numbers, the time step and how many "
            "(github.com/NYU-DiffusionMRI/monte-carlo-simulation-3D-RMS)\n\n"
            "    cd intra && cp .../hpc_code/lib/main.cu . && nvcc main.cu -o main_cuda && ./main_cuda\n";
+  case SubstrateFormat::Surfaces:
+    return "";
   default:
     return "outer_vertices.npy, outer_faces.npy, inner_...   all outer, and all inner, surfaces, in metres, with their box's "
            "lower\n"
@@ -56,6 +58,12 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
   }
   text += certificate.certified() ? "" : "\n";
   return text;
+}
+
+/// Whether each surface is in a file of its own below outer and inner.
+bool hasFilePerSurface(SubstrateFormat format)
+{
+  return format == SubstrateFormat::Mcdc || mayBeBinary(format);
 }
 
 /// How MC/DC is run here.
@@ -101,17 +109,19 @@ std::string readmeText(const SubstrateFolderContents& contents, const SubstrateC
   text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
   if (contents.startPositions > 0 && contents.format != SubstrateFormat::Rms)
   {
-    text += "start/          points for walkers to start from, one a line, in the unit of the simulator\n";
+    text += "start/          points for walkers to start from, one a line, in the unit of the simulator, or micrometres\n";
   }
   const std::string certificateLine =
     "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
-  if (contents.format != SubstrateFormat::Mcdc && contents.format != SubstrateFormat::Rms)
+  if (!hasFilePerSurface(contents.format))
   {
     return text + certificateLine + filesFor(contents.format);
   }
   if (hasOuter)
   {
-    text += "outer/          outer surfaces, one ASCII PLY file per fibre, in micrometres, normals outward\n";
+    text += std::string("outer/          outer surfaces, one ") +
+            (contents.encoding == PlyEncoding::Binary ? "binary" : "ASCII") +
+            " PLY file per fibre, in micrometres, normals outward\n";
   }
   if (hasInner)
   {

@@ -202,6 +202,7 @@ std::string remarkOnOverlaps(const Fibres& fibres, int threads)
 void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents& contents)
 {
   contents.format = stage.format;
+  contents.encoding = stage.encoding;
   contents.mcdc.permeability = stage.permeability;
   contents.voxelSize = stage.voxelSize;
   contents.startPositions = stage.startPositions;
@@ -217,6 +218,8 @@ ProductionOrder productionOrder(
   order.growth = stage.growth;
   order.growth.seed = stage.surfaces.seed;
   order.surfaces = stage.surfaces;
+  order.format = stage.format;
+  order.encoding = stage.encoding;
   order.allowOpenSurfaces = stage.allowOpenSurfaces;
   order.provenance = std::move(provenance);
   return order;

@@ -11,6 +11,11 @@ namespace
 
 constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0: all";
 
+// Of what is written.
+const std::vector<std::string> formatNames{ "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone" };
+constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
+const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
+constexpr char encodingMeaning[] = "Of PLY files that no simulator reads: text, or bytes, which take half the room";
 constexpr Range partOfHits{ 0.0, 1.0 };
 constexpr Range startCount{ 0.0, 1e7 };
 
@@ -173,16 +178,17 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
     PropertyList<Stage>()
       .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
       .use(PropertyUse::Run)
-      .add("Format", &Stage::format, { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS" },
-        "The simulator that is to read the folder")
+      .add("Format", &Stage::format, formatNames, formatMeaning)
+      .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
+      .where("Format", { 4, 5 })
       .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
       .where("Format", { 0 })
       .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a voxel of the labels; it has to divide the domain's sides")
       .where("Format", { 4 })
       .add("StartPositions", &Stage::startPositions, startCount, "Points to draw in each compartment, for walkers to start from")
-      .where("Format", { 0, 1, 2, 3 })
+      .where("Format", { 0, 1, 2, 3, 5 })
       .add("Seed", &Stage::seed, limits::seed, "Chooses the random points")
-      .where("Format", { 0, 1, 2, 3 })
+      .where("Format", { 0, 1, 2, 3, 5 })
       .whereGiven("StartPositions")
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
@@ -203,6 +209,9 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // whose Seed takes the place of the other one
       .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
       .use(PropertyUse::Run)
+      .add("Format", &Stage::format, formatNames, formatMeaning)
+      .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
+      .where("Format", { 4, 5 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)

@@ -126,6 +126,7 @@ struct SubstrateWriterStage
 {
   std::string folderName;
   SubstrateFormat format = SubstrateFormat::Mcdc;
+  PlyEncoding encoding = PlyEncoding::Ascii;
   double permeability = McdcOptions().permeability;
   double voxelSize = SubstrateFolderContents().voxelSize; ///< µm
   int startPositions = 0;
@@ -142,6 +143,8 @@ struct SubstrateProductionStage
   FibreRadialGrowthOptions growth; ///< the seed apart, which is that of the surfaces
   MyelinSurfaceOptions surfaces;
   std::string folderName;
+  SubstrateFormat format = SubstrateFormat::Mcdc;
+  PlyEncoding encoding = PlyEncoding::Ascii;
   bool allowOpenSurfaces = false;
   int threads = 0;
 

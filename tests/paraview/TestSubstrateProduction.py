@@ -10,7 +10,7 @@ import signal
 import subprocess
 import unittest
 
-from cactus_testing import CactusTestCase, fetch, main
+from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, random_walk
 from folder_content import files
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateProduction,
                              SubstrateWriter)
@@ -80,6 +80,28 @@ class SubstrateProductionTest(CactusTestCase):
             for column in range(found.GetNumberOfColumns()):
                 for row in range(found.GetNumberOfRows()):
                     self.assertEqual(found.GetValue(row, column), expected.GetValue(row, column))
+
+    def test_writes_surfaces_alone_in_binary_files(self):
+        """Which are judged by programs of their own."""
+        folder = os.path.join(self.folder, "binary")
+        SubstrateProduction(Input=self.fibres(4.0), FolderName=folder, Format="Surfaces alone", Encoding="Binary", **GROWTH, **SURFACES).UpdatePipeline()
+        self.assertFalse(os.path.exists(os.path.join(folder, "mcdc")))
+        with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+            manifest = json.load(file)
+        self.assertTrue(manifest["certified"])
+        self.assertEqual(manifest["simulator"], "Surfaces alone")
+        meshes = mesh_oracle(folder)["meshes"]
+        self.assertEqual(len(meshes), len(manifest["files"]))
+        for mesh in meshes:
+            self.assertTrue(mesh["closed"] and mesh["outward"] and not mesh["self_intersecting"], mesh)
+            with open(os.path.join(folder, mesh["file"]), "rb") as file:
+                self.assertEqual(file.read(31), b"ply\nformat binary_little_endian")
+        triangles = sum(entry["triangles"] for entry in manifest["files"])
+        size = sum(os.path.getsize(os.path.join(folder, entry["path"])) for entry in manifest["files"])
+        heads = 260 * len(manifest["files"])
+        self.assertLess((size - heads) / triangles, 19.5)
+        walked = random_walk(folder, walkers=5, steps=2000, step=0.1)
+        self.assertEqual([walked[name]["leaked"] for name in ("inner", "myelin", "outside")], [0, 0, 0])
 
     def script(self, folder, margin):
         """SCRIPT in a process of its own."""

@@ -9,6 +9,8 @@ import os
 from cactus_testing import CactusTestCase, fetch, main, produce
 from paraview.simple import SubstrateWriter
 from surfaces import EQUIVALENT, POLYGON, surfaces, tube, two_tubes
+from vtkmodules.vtkFiltersCore import vtkMassProperties
+from vtkmodules.vtkIOPLY import vtkPLYReader
 
 
 def read_ply(path):
@@ -94,6 +96,29 @@ class Writer(CactusTestCase):
             self.assertTrue(is_closed(triangles))
             self.assertTrue(entry["closed"])
             self.assertEqual(len({i for t in triangles for i in t}), len(points), "no point is left over")
+
+    def test_vtk_reads_binary_files(self):
+        self.write(Format="Surfaces alone", Encoding="Binary", StartPositions=3)
+        self.assertEqual(sorted(os.listdir(self.target)), ["README.txt", "certificate.csv", "certificate_fibres.csv", "inner", "manifest.json", "outer", "start"])
+        for name, surface in (("outer/fibre_00003.ply", 3), ("outer/fibre_00005.ply", 5)):
+            path = os.path.join(self.target, name)
+            reader = vtkPLYReader()
+            reader.SetFileName(path)
+            reader.Update()
+            mass = vtkMassProperties()
+            mass.SetInputData(reader.GetOutput())
+            self.assertAlmostEqual(mass.GetVolume(), {3: 10, 5: 22.5}[surface] * POLYGON, places=3)
+            with open(path, "rb") as file:
+                body = file.read().split(b"end_header\n", 1)[1]
+            self.assertEqual(len(body), 13 * reader.GetOutput().GetNumberOfCells() + 12 * reader.GetOutput().GetNumberOfPoints())
+        with open(os.path.join(self.target, "start", "intra.txt")) as file:
+            self.assertTrue(all(abs(float(number)) < 5 for number in file.read().split()), "µm")
+
+    def test_simulators_get_no_binary_files(self):
+        for name in ("MC/DC", "Reference program", "Camino", "Disimpy"):
+            with self.subTest(Format=name), self.assertError("Encoding Binary is not for simulators that read PLY files"):
+                self.write(Format=name, Encoding="Binary", Fibres=produce(self.fibres))
+            self.assertFalse(os.path.exists(self.target))
 
     def test_holds_its_certificate(self):
         self.write(Fibres=produce(self.fibres))

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // cactus_random_walk [--walkers N] [--steps N] [--step LENGTH] [--seed N] FOLDER: whether walkers leak.
 //
-// Shares no code with the product. Reads FOLDER/outer/*.ply and FOLDER/inner/*.ply (µm), starts walkers at random inside the
-// inner surfaces, in the myelin (inside an outer surface and no inner one) and outside, and moves them by steps of a fixed length
-// in random directions, which every triangle reflects, and so does the box around all surfaces. Every thousand steps, and at the
-// end, the surfaces that a walker is inside of are found anew, by which of them a line to the outside crosses how often, and must
-// be those that it started in. Prints one JSON object: for each compartment its walkers, those that leaked, how often one was
-// reflected, and mean squared displacements along x, y and z.
+// Shares no code with the product. Reads every PLY file below FOLDER/outer and FOLDER/inner (µm, ASCII or binary), starts walkers
+// at random inside the inner surfaces, in the myelin (inside an outer surface and no inner one) and outside, and moves them by
+// steps of a fixed length in random directions, which every triangle reflects, and so does the box around all surfaces. Every
+// thousand steps, and at the end, the surfaces that a walker is inside of are found anew, by which of them a line to the outside
+// crosses how often, and must be those that it started in. Prints one JSON object: for each compartment its walkers, those that
+// leaked, how often one was reflected, and mean squared displacements along x, y and z.
 //
 // The result is 0 whatever is found, 1 where a file cannot be read or there is no room to start, 2 for wrong arguments.
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -81,6 +82,42 @@ constexpr double skin = 1e-7;
 /// µm. The box's walls stand a little inside of it, so that they do not coincide with caps.
 constexpr double boxInset = 1e-3;
 
+/// Four bytes, the lowest first.
+std::uint32_t fourBytes(std::istream& file)
+{
+  std::uint32_t bits = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    bits |= static_cast<std::uint32_t>(file.get() & 0xff) << (8 * i);
+  }
+  return bits;
+}
+
+double coordinate(std::istream& file, bool isBinary)
+{
+  if (isBinary)
+  {
+    const std::uint32_t bits = fourBytes(file);
+    float number = 0.0F;
+    std::memcpy(&number, &bits, sizeof(number));
+    return number;
+  }
+  double number = 0.0;
+  file >> number;
+  return number;
+}
+
+std::size_t place(std::istream& file, bool isBinary)
+{
+  if (isBinary)
+  {
+    return fourBytes(file);
+  }
+  std::size_t number = 0;
+  file >> number;
+  return number;
+}
+
 class Walls
 {
 public:
@@ -93,9 +130,12 @@ public:
         continue;
       }
       std::vector<std::filesystem::path> files;
-      for (const auto& entry : std::filesystem::directory_iterator(folder / kind))
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / kind))
       {
-        files.push_back(entry.path());
+        if (entry.is_regular_file())
+        {
+          files.push_back(entry.path());
+        }
       }
       std::sort(files.begin(), files.end());
       for (const auto& file : files)
@@ -166,13 +206,18 @@ public:
 private:
   void read(const std::filesystem::path& path)
   {
-    std::ifstream file(path);
+    std::ifstream file(path, std::ios::binary);
     std::string word;
     std::size_t points = 0;
     std::size_t faces = 0;
+    bool isBinary = false;
     while (file >> word && word != "end_header")
     {
-      if (word == "vertex")
+      if (word == "binary_little_endian")
+      {
+        isBinary = true;
+      }
+      else if (word == "vertex")
       {
         file >> points;
       }
@@ -181,10 +226,11 @@ private:
         file >> faces;
       }
     }
+    file.get();
     std::vector<Vector> p(points);
     for (Vector& v : p)
     {
-      file >> v.x >> v.y >> v.z;
+      v = { coordinate(file, isBinary), coordinate(file, isBinary), coordinate(file, isBinary) };
       this->Lower = { std::min(this->Lower.x, v.x), std::min(this->Lower.y, v.y), std::min(this->Lower.z, v.z) };
       this->Upper = { std::max(this->Upper.x, v.x), std::max(this->Upper.y, v.y), std::max(this->Upper.z, v.z) };
     }
@@ -192,7 +238,18 @@ private:
     {
       std::size_t corners = 0;
       std::array<std::size_t, 3> t{};
-      file >> corners >> t[0] >> t[1] >> t[2];
+      if (isBinary)
+      {
+        corners = static_cast<std::size_t>(file.get());
+      }
+      else
+      {
+        file >> corners;
+      }
+      for (std::size_t& corner : t)
+      {
+        corner = place(file, isBinary);
+      }
       if (!file || corners != 3 || std::max({ t[0], t[1], t[2] }) >= points)
       {
         throw std::runtime_error(path.string() + " cannot be read");

@@ -2,6 +2,7 @@
 #include "io/SubstrateFolder.h"
 
 #include "ExampleSurfaces.h"
+#include "RandomBundle.h"
 #include "ScratchPath.h"
 #include "base/Error.h"
 #include "io/FolderInspection.h"
@@ -17,6 +18,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <unistd.h>
@@ -106,6 +108,92 @@ TEST(PlyFile, Text)
   EXPECT_EQ(all[14], "3 0 2 1");
   EXPECT_THROW(cactus::plyText(mesh, "a face of it"), cactus::InvalidInput);
   EXPECT_THROW(cactus::plyText(mesh, "two\nlines"), cactus::InvalidInput);
+}
+
+// Read again byte by byte: single precision and triangles, the lowest byte first, and nothing else.
+TEST(PlyFile, Bytes)
+{
+  auto mesh = tetrahedron(1.0);
+  mesh.points[1] = { 1.0 / 3.0, -2e-7, 123456.789123 };
+  const std::string text = cactus::plyText(mesh, "one surface", cactus::PlyEncoding::Binary);
+  const std::string end = "end_header\n";
+  const std::string head = text.substr(0, text.find(end));
+  EXPECT_EQ(head, "ply\nformat binary_little_endian 1.0\ncomment one surface\nelement vertex 4\nproperty float x\n"
+                  "property float y\nproperty float z\nelement face 4\nproperty list uchar int vertex_indices\n");
+  const std::string bytes = text.substr(head.size() + end.size());
+  ASSERT_EQ(bytes.size(), 4u * 12u + 4u * 13u);
+  const auto number = [&](std::size_t at)
+  {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      bits |= std::uint32_t(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+    }
+    return bits;
+  };
+  EXPECT_EQ(number(12), 0x3eaaaaabu); // 1/3
+  EXPECT_EQ(number(20), 0x47f12065u); // 123456.789
+  EXPECT_EQ(bytes[48], 3);
+  EXPECT_EQ(number(48 + 1), 0u);
+  EXPECT_EQ(number(48 + 5), 2u);
+  const auto written = cactus::asWritten(mesh, cactus::PlyEncoding::Binary);
+  EXPECT_EQ(written.points[1][0], double(1.0F / 3.0F));
+  EXPECT_EQ(written.points[1][2], double(123456.789123F));
+  EXPECT_THROW(cactus::plyText(mesh, "a face of it", cactus::PlyEncoding::Binary), cactus::InvalidInput);
+}
+
+// Simulators that read PLY files know text only, and are not given bytes.
+TEST_F(SubstrateFolder, HasBytesWhereNoSimulatorReadsThem)
+{
+  using Format = cactus::SubstrateFormat;
+  const cactus::Fibres fibres = randomBundle(1, 2, 4, 30.0, 0.0);
+  this->Contents.fibres = &fibres;
+  this->Contents.encoding = cactus::PlyEncoding::Binary;
+  for (const Format format : { Format::Mcdc, Format::Reference, Format::Camino, Format::Disimpy })
+  {
+    this->Contents.format = format;
+    EXPECT_NE(this->write(this->Scratch / "s").find("Encoding Binary is not for"), std::string::npos);
+    EXPECT_FALSE(fs::exists(this->Scratch / "s"));
+  }
+  this->Contents.format = Format::Surfaces;
+  ASSERT_EQ(this->write(this->Scratch / "s"), "");
+  EXPECT_EQ(contentOf(this->Scratch / "s/outer/fibre_00002.ply").substr(0, 31), "ply\nformat binary_little_endian");
+  EXPECT_FALSE(fs::exists(this->Scratch / "s/mcdc"));
+  EXPECT_NE(contentOf(this->Scratch / "s/README.txt").find("one binary PLY file per fibre"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"simulator\": \"Surfaces alone\""), std::string::npos);
+  EXPECT_EQ(this->write(this->Scratch / "s"), "") << "is replaced";
+}
+
+// Of more than a thousand fibres each folder holds a thousand files at most; the lists of MC/DC follow, and the folder is known
+// as ours: it is replaced, and what is left of one whose writing was ended is removed.
+TEST_F(SubstrateFolder, HasFoldersForEachThousandOfMany)
+{
+  std::vector<int> ids(1001);
+  std::iota(ids.begin(), ids.end(), 500);
+  const auto mesh = [](std::size_t i) {
+    return example::tetrahedron({ -14.0 + 0.5 * double(i % 50), 0.5 * double(i / 50), 0 }, 0.2);
+  };
+  this->Contents.outer.fibreIds = ids;
+  this->Contents.outer.bundleIds.assign(ids.size(), 1);
+  this->Contents.outer.mesh = mesh;
+  this->Contents.inner = {};
+  ASSERT_EQ(this->write(this->Scratch / "s"), "");
+  std::map<std::string, std::size_t> files;
+  for (const auto& entry : fs::recursive_directory_iterator(this->Scratch / "s/outer"))
+  {
+    files[entry.path().parent_path().filename().string()] += entry.is_regular_file() ? 1 : 0;
+  }
+  EXPECT_EQ(files, (std::map<std::string, std::size_t>{ { "outer", 0 }, { "00000", 500 }, { "00001", 501 } }));
+  const std::string list = contentOf(this->Scratch / "s/mcdc/extra_ply_list.txt");
+  EXPECT_NE(list.find("\nouter/00000/fibre_00999.ply\nouter/00001/fibre_01000.ply\n"), std::string::npos);
+  EXPECT_EQ(this->write(this->Scratch / "s"), "") << "is replaced";
+  std::ofstream(this->Scratch / "s/outer/00001/mine.ply") << "mine";
+  EXPECT_NE(this->write(this->Scratch / "s").find("outer/00001/mine.ply"), std::string::npos);
+  fs::remove(this->Scratch / "s/outer/00001/mine.ply");
+  fs::remove(this->Scratch / "s/manifest.json");
+  const cactus::FolderInspection ended = cactus::inspectFolder(this->Scratch / "s");
+  EXPECT_TRUE(ended.asWritten()) << ended.added.size();
+  EXPECT_TRUE(cactus::removeInspected(this->Scratch / "s", ended));
 }
 
 TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
@@ -312,7 +400,7 @@ TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
   this->Contents.voxelSize = 0.5;
   this->Contents.startPositions = 1;
   for (const auto format : { cactus::SubstrateFormat::Mcdc, cactus::SubstrateFormat::Reference, cactus::SubstrateFormat::Camino,
-         cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms })
+         cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms, cactus::SubstrateFormat::Surfaces })
   {
     this->Contents.format = format;
     const fs::path folder = this->Scratch / std::to_string(int(format));
