@@ -88,9 +88,9 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
       {
         vtkWarningMacro(<< remarks);
       }
-      for (const std::string& leftover : written.leftovers)
+      for (const std::string& sentence : written.allRemarks())
       {
-        vtkWarningMacro(<< leftover);
+        vtkWarningMacro(<< sentence);
       }
       cactus::fillFileTable(vtkTable::GetData(outputs, 0), written.files);
       cactus::fillSurfaceTable(vtkTable::GetData(outputs, 1), produced.fibres);

@@ -109,9 +109,9 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   {
     vtkWarningMacro(<< "the substrate in " << stage.folderName << " is not certified: " << written.certificate.verdict());
   }
-  for (const std::string& leftover : written.leftovers)
+  for (const std::string& sentence : written.allRemarks())
   {
-    vtkWarningMacro(<< leftover);
+    vtkWarningMacro(<< sentence);
   }
   cactus::fillFileTable(files, written.files);
   cactus::setProvenance(files, contents.provenance, 0);

@@ -24,7 +24,8 @@ enum class SubstrateFormat
   Camino = 2,    ///< one PLY file per kind of surface (m)
   Disimpy = 3,   ///< NumPy arrays of vertices (m) and faces per kind of surface
   Rms = 4,       ///< RMS: labels of voxels, beside a PLY file per surface (µm)
-  Surfaces = 5   ///< no simulator's: a PLY file per surface (µm) and nothing beside
+  Surfaces = 5,  ///< no simulator's: a PLY file per surface (µm) and nothing beside
+  SpinDoctor = 6 ///< finite elements: one complex of triangles for tetgen, beside a PLY file per surface (µm)
 };
 
 /// What goes into a substrate folder.
@@ -48,7 +49,7 @@ struct SubstrateFolderContents
 /// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
 inline bool mayBeBinary(SubstrateFormat format)
 {
-  return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces;
+  return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor;
 }
 
 /// One surface's file, as the manifest lists it.
@@ -69,8 +70,17 @@ struct WrittenSubstrate
 {
   std::vector<SubstrateFile> files;
   SubstrateCertificate certificate; ///< of the surfaces as the files hold them
+  /// What its user has to know of it as the format has it: a sentence for each thing.
+  std::vector<std::string> remarks;
   /// What writes that were killed have left beside the folder and is kept, as it holds what is the user's: a sentence for each.
   std::vector<std::string> leftovers;
+
+  std::vector<std::string> allRemarks() const
+  {
+    std::vector<std::string> all = remarks;
+    all.insert(all.end(), leftovers.begin(), leftovers.end());
+    return all;
+  }
 };
 
 } // namespace cactus

@@ -6,6 +6,7 @@
 #include "base/Parallel.h"
 #include "io/CertificateText.h"
 #include "io/CombinedSurfaces.h"
+#include "io/ElementFiles.h"
 #include "io/FolderReplacement.h"
 #include "io/FolderWriter.h"
 #include "io/PlyFile.h"
@@ -232,7 +233,11 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   if (contents.encoding == PlyEncoding::Binary && !mayBeBinary(contents.format))
   {
     throw InvalidInput("Encoding Binary is not for simulators that read PLY files, which take ASCII only: choose Encoding ASCII, "
-                       "or Format Surfaces alone or RMS");
+                       "or Format Surfaces alone, RMS or SpinDoctor");
+  }
+  if (contents.format == SubstrateFormat::SpinDoctor && contents.outer.size() == 0)
+  {
+    throw InvalidInput("Format SpinDoctor has a compartment outside the fibres: connect MyelinSurface's Outer");
   }
 }
 
@@ -251,7 +256,7 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
   }
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
-  writer.write("README.txt", readmeText(contents, substrate.certificate));
+  writer.write("README.txt", readmeText(contents, substrate));
   writer.folder().writeBy(manifestName,
     [&](const std::string& path)
     {
@@ -293,6 +298,10 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
   if (contents.format == SubstrateFormat::Rms)
   {
     writeRms(contents, writer, context);
+  }
+  else if (contents.format == SubstrateFormat::SpinDoctor)
+  {
+    substrate.remarks = writeElementFiles(contents, writer, context);
   }
   else
   {

@@ -31,6 +31,15 @@ std::string filesFor(SubstrateFormat format)
            "    cd intra && cp .../hpc_code/lib/main.cu . && nvcc main.cu -o main_cuda && ./main_cuda\n";
   case SubstrateFormat::Surfaces:
     return "";
+  case SubstrateFormat::SpinDoctor:
+    return "substrate_dir/  all surfaces and the faces of the domain as one complex of triangles, in micrometres\n"
+           "compartments.csv   which compartment is which fibre's, with its volume\n\n"
+           "    tetgen -pqA substrate_dir/substrate_mesh.poly   (any finite elements)\n\n"
+           "setup_substrate.m, substrate_cells   for SpinDoctor (github.com/SpinDoctorMRI/SpinDoctor), in MATLAB, in its "
+           "folder:\n\n"
+           "    addpath(genpath('src')); run('.../setup_substrate.m')\n"
+           "    setup.pde = prepare_pde(setup); setup = prepare_experiments(setup);\n"
+           "    femesh = create_geometry(setup);\n";
   default:
     return "outer_vertices.npy, outer_faces.npy, inner_...   all outer, and all inner, surfaces, in metres, with their box's "
            "lower\n"
@@ -101,13 +110,18 @@ std::string mcdcText(bool hasInner, bool hasOuter)
 
 } // namespace
 
-std::string readmeText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate)
+std::string readmeText(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate)
 {
   const bool hasInner = contents.inner.size() > 0;
   const bool hasOuter = contents.outer.size() > 0;
-  std::string text = headText(contents, certificate);
+  std::string text = headText(contents, substrate.certificate);
+  for (const std::string& remark : substrate.remarks)
+  {
+    text += remark + ".\n\n";
+  }
   text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
-  if (contents.startPositions > 0 && contents.format != SubstrateFormat::Rms)
+  const bool isVolume = contents.format == SubstrateFormat::Rms || contents.format == SubstrateFormat::SpinDoctor;
+  if (contents.startPositions > 0 && !isVolume)
   {
     text += "start/          points for walkers to start from, one a line, in the unit of the simulator, or micrometres\n";
   }

@@ -9,6 +9,6 @@ namespace cactus
 {
 
 /// The README.txt of a substrate folder: what is in it, how good it is, and how to simulate with it.
-std::string readmeText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate);
+std::string readmeText(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate);
 
 } // namespace cactus

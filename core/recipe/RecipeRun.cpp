@@ -278,9 +278,9 @@ private:
 
   void sayOfFolder(const WrittenSubstrate& written) const
   {
-    for (const std::string& leftover : written.leftovers)
+    for (const std::string& sentence : written.allRemarks())
     {
-      this->say(leftover);
+      this->say(sentence);
     }
   }
 

@@ -12,7 +12,8 @@ namespace
 constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0: all";
 
 // Of what is written.
-const std::vector<std::string> formatNames{ "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone" };
+const std::vector<std::string> formatNames{ "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone",
+  "SpinDoctor" };
 constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
 constexpr char encodingMeaning[] = "Of PLY files that no simulator reads: text, or bytes, which take half the room";
@@ -180,7 +181,7 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formatNames, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .where("Format", { 4, 5 })
+      .where("Format", { 4, 5, 6 })
       .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
       .where("Format", { 0 })
       .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a voxel of the labels; it has to divide the domain's sides")
@@ -211,7 +212,7 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formatNames, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .where("Format", { 4, 5 })
+      .where("Format", { 4, 5, 6 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)

@@ -50,7 +50,7 @@ class ManifestSchema(CactusTestCase):
         self.assertGreaterEqual(len(formats()), 5)
         for name in formats():
             with self.subTest(format=name):
-                more = {"VoxelSize": 0.25} if name == "RMS" else {"StartPositions": 5}
+                more = {"RMS": {"VoxelSize": 0.25}, "SpinDoctor": {}}.get(name, {"StartPositions": 5})
                 manifest = self.write(Format=name, **self.tubes(), **more)
                 self.assertEqual(manifest["simulator"], name)
                 self.assertValid(manifest)

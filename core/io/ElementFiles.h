@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Context.h"
+#include "io/FolderWriter.h"
+#include "io/SubstrateContents.h"
+
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// Writes what SpinDoctor (Li et al. 2019, NeuroImage 202:116120), and finite elements in general, mesh with tetrahedra by
+/// tetgen:
+///
+///   substrate_dir/substrate_mesh.node, .poly   points (µm); triangles of all surfaces and of the domain's faces, which meet in
+///                                              edges and corners only, each with the number of its boundary; a point in each
+///                                              part of each compartment, with its number
+///   compartments.csv                           what compartment is which fibre's, with its volume
+///   substrate_cells, setup_substrate.m         for SpinDoctor, which then makes no cells and surfaces of its own
+///
+/// Compartments are numbered as SpinDoctor does: axons from 1, then the myelin of each fibre, then the extra-axonal space; and so
+/// are boundaries: between axons and myelin, myelin and the extra-axonal space, and those that lie in the domain's faces, of
+/// axons, of myelin and of the extra-axonal space. Lines are laid out as its reader expects them.
+///
+/// Axons, whose surfaces end just before the domain's faces, are extended to them, but for those that would meet their myelin.
+/// Returned is what the user has to know: a sentence on such axons, and one where SpinDoctor, which wants an axon and an end of
+/// each kind in each fibre, would refuse the mesh. Throws InvalidInput where there are no outer surfaces, or one
+/// for which joinInBox() throws; FileError and Cancelled.
+std::vector<std::string> writeElementFiles(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context);
+
+} // namespace cactus
