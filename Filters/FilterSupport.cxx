@@ -5,6 +5,7 @@
 #include "Ranks.h"
 #include "base/Error.h"
 #include "base/Memory.h"
+#include "base/Sharing.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
@@ -221,6 +222,11 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
     leaveEmpty(self, message);
     remember(self, message, true);
     sayStopped(self);
+  }
+  catch (const ReportedElsewhere& error)
+  {
+    leaveEmpty(self, error.what());
+    remember(self, error.what(), false);
   }
   catch (const Error& error)
   {

@@ -19,7 +19,7 @@ namespace cactus
 Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
 
 /// Runs `work`, and tells whether it came to its end. Whatever it throws is reported once, as the algorithm's error; all outputs
-/// are then empty and hold the message as field data `Error`, a string array.
+/// are then empty and hold the message as field data `Error`, a string array. What another rank reports is not said again.
 ///
 /// Where an input holds that mark, directly or in a block, the fault has been reported: `work` is not run, nothing is said, and
 /// the outputs are marked likewise. The same holds where the pipeline asks again for what has just failed. What the user has

@@ -4,21 +4,27 @@
 #include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "InputBlocks.h"
 #include "OverlapRemark.h"
+#include "RankTeam.h"
 #include "StageProperties.h"
 #include "SubstrateFileTable.h"
 #include "SurfaceTable.h"
 #include "WholeData.h"
+#include "base/Sharing.h"
 #include "growth/TargetRadii.h"
 #include "stages/StageWork.h"
 
 #include <vtkDataObject.h>
+#include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkSubstrateProduction);
 
@@ -46,60 +52,87 @@ int vtkSubstrateProduction::ComputePipelineMTime(
   return cactus::pipelineTime(this, time);
 }
 
-int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
     {
-      const auto& stage = cactus::stageOf<cactus::SubstrateProductionStage>(this->Properties);
-      cactus::validateProperties(stage);
-      if (!cactus::ownsWholeOutput(request, outputs))
+      cactus::RankTeam ranks;
+      const cactus::Sharing sharing(&ranks);
+      if (!this->Kept.isWritten(this))
       {
-        return;
+        sharing.together([this] { this->Produce(); });
+        this->Kept.noteWritten(this, cactus::changeTime(this->GetInputDataObject(0, 0)));
       }
-      auto* input = vtkDataObject::GetData(inputs[0]);
-      const cactus::Fibres fibres = cactus::fibresFrom(input);
-      const cactus::Context context = cactus::contextFor(this, stage.threads);
-      cactus::Provenance records;
-      const cactus::ProductionOrder order = cactus::productionOrder(stage,
-        [&](double spacing, double growth)
-        {
-          records =
-            cactus::recordOf(this, "SubstrateProduction", stage, { "Input" }, { { "Spacing", spacing }, { "Growth", growth } });
-          return records;
-        });
-      for (const std::string& remark :
-        { cactus::remarkOnOverlaps(input, fibres, context.threadCount()), cactus::remarkOnTarget(fibres, order.growth) })
+      const std::string remark = this->Kept.remark(this->GetFolderName(), cactus::changeTime(this->GetInputDataObject(0, 0)));
+      if (!remark.empty() && sharing.isFirst())
       {
-        if (!remark.empty())
-        {
-          vtkWarningMacro(<< remark);
-        }
+        vtkWarningMacro(<< remark);
       }
-      const auto produced = cactus::produceSubstrate(fibres, order, stage.folderName, context);
-      const cactus::WrittenSubstrate& written = produced.written;
-      std::string remarks = produced.remarks;
-      if (!written.certificate.certified())
+      if (cactus::ownsWholeOutput(request, outputs))
       {
-        remarks += (remarks.empty() ? "" : ". So ") + ("the substrate in " + stage.folderName + " is not certified: ") +
-                   written.certificate.verdict();
-      }
-      if (!remarks.empty())
-      {
-        vtkWarningMacro(<< remarks);
-      }
-      for (const std::string& sentence : written.allRemarks())
-      {
-        vtkWarningMacro(<< sentence);
-      }
-      cactus::fillFileTable(vtkTable::GetData(outputs, 0), written.files);
-      cactus::fillSurfaceTable(vtkTable::GetData(outputs, 1), produced.fibres);
-      for (int port = 0; port < 2; ++port)
-      {
-        cactus::setDomain(vtkDataObject::GetData(outputs, port), fibres.domain);
-        cactus::setProvenance(vtkDataObject::GetData(outputs, port), records, port);
+        vtkTable::GetData(outputs, 0)->ShallowCopy(this->Files);
+        vtkTable::GetData(outputs, 1)->ShallowCopy(this->Fibres);
       }
     });
+}
+
+void vtkSubstrateProduction::Produce()
+{
+  const auto& stage = cactus::stageOf<cactus::SubstrateProductionStage>(this->Properties);
+  cactus::validateProperties(stage);
+  cactus::RankTeam ranks;
+  vtkDataObject* input = this->GetInputDataObject(0, 0);
+  const cactus::Fibres fibres = cactus::fibresFrom(input);
+  const cactus::Context context = cactus::contextFor(this, stage.threads);
+  cactus::Provenance records;
+  const cactus::ProductionOrder order = cactus::productionOrder(stage,
+    [&](double spacing, double growth)
+    {
+      records =
+        cactus::recordOf(this, "SubstrateProduction", stage, { "Input" }, { { "Spacing", spacing }, { "Growth", growth } });
+      return records;
+    });
+  const auto say = [&](const std::string& remark)
+  {
+    if (!remark.empty() && ranks.place() == 0)
+    {
+      vtkWarningMacro(<< remark);
+    }
+  };
+  if (ranks.place() == 0)
+  {
+    say(cactus::remarkOnOverlaps(input, fibres, context.threadCount()));
+    say(cactus::remarkOnTarget(fibres, order.growth));
+  }
+  const auto produced = cactus::produceSubstrate(fibres, order, stage.folderName, context, &ranks);
+  const cactus::WrittenSubstrate& written = produced.written;
+  std::string remarks = produced.remarks;
+  if (!written.certificate.certified())
+  {
+    remarks += (remarks.empty() ? "" : ". So ") + ("the substrate in " + stage.folderName + " is not certified: ") +
+               written.certificate.verdict();
+  }
+  say(remarks);
+  const std::vector<std::string> sentences = written.allRemarks();
+  std::for_each(sentences.begin(), sentences.end(), say);
+  this->Files->Initialize();
+  this->Fibres->Initialize();
+  cactus::fillFileTable(this->Files, written.files);
+  cactus::fillSurfaceTable(this->Fibres, produced.fibres);
+  int port = 0;
+  for (vtkTable* table : { this->Files.Get(), this->Fibres.Get() })
+  {
+    cactus::setDomain(table, fibres.domain);
+    cactus::setProvenance(table, records, port++);
+  }
+}
+
+int vtkSubstrateProduction::Write()
+{
+  const bool isWritten = cactus::writeNow(this);
+  this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // setting it would count as a change
+  return isWritten ? 1 : 0;
 }
 
 void vtkSubstrateProduction::PrintSelf(ostream& os, vtkIndent indent)

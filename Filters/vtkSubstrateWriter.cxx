@@ -17,7 +17,6 @@
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 #include <vtkTable.h>
 
@@ -80,16 +79,19 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
         return;
       }
       auto* table = vtkTable::GetData(outputs);
-      if (this->WrittenTime == this->GetMTime())
+      if (this->Kept.isWritten(this))
       {
-        this->KeepFolder();
+        const std::string remark = this->Kept.remark(this->GetFolderName(), newestInput(this));
+        if (!remark.empty())
+        {
+          vtkWarningMacro(<< remark);
+        }
         table->ShallowCopy(this->WrittenFiles);
         return;
       }
       this->WriteFolder(table);
       this->WrittenFiles->ShallowCopy(table);
-      this->WrittenInputTime = newestInput(this);
-      this->WrittenTime = this->GetMTime();
+      this->Kept.noteWritten(this, newestInput(this));
     });
 }
 
@@ -117,26 +119,9 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   cactus::setProvenance(files, contents.provenance, 0);
 }
 
-void vtkSubstrateWriter::KeepFolder()
-{
-  const vtkMTimeType newest = newestInput(this);
-  if (newest != this->WrittenInputTime)
-  {
-    this->WrittenInputTime = newest;
-    vtkWarningMacro(
-      << "what comes in has changed since " << this->GetFolderName()
-      << " was written, which stays as it is: press Write, or in a script call InvokeCommand(\"Write\"), to write it "
-         "again, or give another FolderName");
-  }
-}
-
 int vtkSubstrateWriter::Write()
 {
-  this->Modified();
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  const bool isParallel = controller != nullptr && controller->GetNumberOfProcesses() > 1;
-  this->UpdatePiece(isParallel ? controller->GetLocalProcessId() : 0, isParallel ? controller->GetNumberOfProcesses() : 1, 0);
-  const bool isWritten = cactus::errorOf(this->GetOutputDataObject(0)).empty();
+  const bool isWritten = cactus::writeNow(this);
   this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // setting it would count as a change
   return isWritten ? 1 : 0;
 }

@@ -21,6 +21,7 @@
 
 #include "CactusFiltersModule.h"
 #include "FilterProperties.h"
+#include "KeptFolder.h"
 
 #include <vtkNew.h>
 #include <vtkTable.h>
@@ -62,13 +63,10 @@ private:
   void operator=(const vtkSubstrateWriter&) = delete;
 
   void WriteFolder(vtkTable* files);
-  /// Says once of each change of the input that the folder does not hold it.
-  void KeepFolder();
 
   std::unique_ptr<cactus::FilterProperties> Properties;
-  vtkMTimeType WrittenTime = 0;      ///< of the properties and connections that the folder was written for; 0: of none
-  vtkMTimeType WrittenInputTime = 0; ///< of the input that was written then, or of which it was said that it was not
-  vtkNew<vtkTable> WrittenFiles;     ///< what was written then
+  cactus::KeptFolder Kept;
+  vtkNew<vtkTable> WrittenFiles; ///< what was written last
 };
 
 #endif

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/Capsules.h"
 
+#include "base/Error.h"
 #include "base/Random.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 namespace cactus
 {
@@ -19,6 +22,8 @@ Capsules capsulesOf(const Fibres& fibres)
     const double y = uniform(engine);
     capsules.places.emplace_back(x, y, uniform(engine));
   }
+  require(fibres.points.size() <= std::numeric_limits<std::uint32_t>::max(),
+    "the fibres have more control points than 32 bits count: make the domain smaller, or the points fewer");
   capsules.bodies.reserve(fibres.points.size());
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {

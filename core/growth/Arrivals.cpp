@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace cactus
 {
@@ -16,6 +17,19 @@ namespace
 /// Width of the classes (µm) in which arrivals are counted.
 constexpr double growthClass = 0.00025;
 
+/// The layers of a grid that are this process's, whole blocks of a sweep.
+VoxelGrid partOf(const VoxelGrid& grid, const Sharing& sharing)
+{
+  constexpr int layers = 16;
+  const int blocks = (grid.count[2] + layers - 1) / layers;
+  const auto startOf = [&](int place)
+  { return std::min(grid.count[2], layers * static_cast<int>(std::int64_t(blocks) * place / sharing.size())); };
+  VoxelGrid part = grid;
+  part.lower[2] += startOf(sharing.place());
+  part.count[2] = startOf(sharing.place() + 1) - startOf(sharing.place());
+  return part;
+}
+
 double largestRadius(const Fibres& fibres)
 {
   return *std::max_element(fibres.radii.begin(), fibres.radii.end());
@@ -23,8 +37,8 @@ double largestRadius(const Fibres& fibres)
 
 } // namespace
 
-Arrivals countArrivals(
-  const Fibres& fibres, const FibreRadialGrowthOptions& options, const VoxelGrid& grid, double reach, const Context& context)
+Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& options, const VoxelGrid& grid, double reach,
+  const Context& context, const Sharing& sharing)
 {
   const double first = -largestRadius(fibres) - growthClass;
   const auto classes = std::size_t(std::ceil((reach - first) / growthClass)) + 1;
@@ -36,7 +50,7 @@ Arrivals countArrivals(
   relevance.contrast = options.gap();
   const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, grid.box(), reach + options.gap() + grid.spacing);
   const auto gap = static_cast<float>(options.gap());
-  field.sweep(grid, relevance, context, 0.3, 0.5, "finding the growth that reaches the target",
+  field.sweep(partOf(grid, sharing), relevance, context, 0.3, 0.5, "finding the growth that reaches the target",
     [&](const FieldCell& cell, int thread)
     {
       auto& counts = perThread[std::size_t(thread)];
@@ -59,9 +73,10 @@ Arrivals countArrivals(
     for (std::size_t c = 0; c < classes; ++c)
     {
       arrivals.counts[c] += counts[c];
-      arrivals.reachable += counts[c];
     }
   }
+  sharing.addUp(arrivals.counts);
+  arrivals.reachable = std::accumulate(arrivals.counts.begin(), arrivals.counts.end(), std::uint64_t(0));
   return arrivals;
 }
 
@@ -96,12 +111,12 @@ VoxelGrid sampleGrid(const Domain& domain, double samples)
   return grid;
 }
 
-double roughGrowth(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context)
+double roughGrowth(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
 {
   Context quiet = context;
   quiet.progress = nullptr;
   const VoxelGrid grid = sampleGrid(fibres.domain, samplesForTarget / 64.0);
-  return growthAt(countArrivals(fibres, options, grid, largestGrowth, quiet), targetFraction(fibres, options));
+  return growthAt(countArrivals(fibres, options, grid, largestGrowth, quiet, sharing), targetFraction(fibres, options));
 }
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Sharing.h"
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/LabelImage.h"
@@ -25,8 +26,8 @@ struct Arrivals
 };
 
 /// Counts over `grid`, up to a growth of `reach`. Throws OutOfMemory and Cancelled.
-Arrivals countArrivals(
-  const Fibres& fibres, const FibreRadialGrowthOptions& options, const VoxelGrid& grid, double reach, const Context& context);
+Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& options, const VoxelGrid& grid, double reach,
+  const Context& context, const Sharing& sharing = Sharing());
 
 /// The growth at which `target` of the samples lie in a fibre; infinite where the counts end before.
 double growthAt(const Arrivals& arrivals, double target);
@@ -38,6 +39,7 @@ constexpr double samplesForTarget = 8e6;
 VoxelGrid sampleGrid(const Domain& domain, double samples);
 
 /// The growth at which the target is met over few samples: roughly how far to grow; infinite where it is not met.
-double roughGrowth(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context);
+double roughGrowth(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing = Sharing());
 
 } // namespace cactus

@@ -12,7 +12,7 @@
 namespace cactus
 {
 
-double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context)
+double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
 {
   validate(fibres);
   const VoxelGrid whole = growthGrid(fibres.domain, options);
@@ -23,12 +23,12 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
   }
 
   // Few samples tell roughly how far to grow: the less far the many have to look, the faster.
-  double reach = std::min(roughGrowth(fibres, options, context) + 0.1, largestGrowth);
-  Arrivals arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForTarget), reach, context);
+  double reach = std::min(roughGrowth(fibres, options, context, sharing) + 0.1, largestGrowth);
+  Arrivals arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForTarget), reach, context, sharing);
   while (!std::isfinite(growthAt(arrivals, target)) && reach < largestGrowth)
   {
     reach = std::min(reach + 2.0, largestGrowth);
-    arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForTarget), reach, context);
+    arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForTarget), reach, context, sharing);
   }
   const double growth = growthAt(arrivals, target);
   if (!std::isfinite(growth))

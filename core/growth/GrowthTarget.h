@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Sharing.h"
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowth.h"
 
@@ -13,6 +14,7 @@ namespace cactus
 /// sample points spread evenly over the domain, so it depends neither on the voxel size nor on the part of the image asked for.
 /// Throws InvalidInput (options, fibres); Infeasible, with the largest fraction that can be reached, where a target cannot, and
 /// where it needs so much shrinkage that a fibre vanishes; OutOfMemory; Cancelled.
-double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {});
+double growthFor(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {}, const Sharing& sharing = Sharing());
 
 } // namespace cactus

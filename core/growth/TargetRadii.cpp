@@ -65,7 +65,7 @@ VoxelGrid slabGrid(const Domain& domain, double spacing, int slab, int round)
 
 /// How many samples of the domain, `spacing` apart, each fibre holds after growth.
 std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, double spacing,
-  int round, const Context& context, double from, double to)
+  int round, const Context& context, double from, double to, const Sharing& sharing)
 {
   FieldRelevance relevance;
   relevance.bestReach = growth;
@@ -80,7 +80,7 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   const auto lowest = static_cast<float>(-growth);
 
   const int slabs = (layersOf(fibres.domain, spacing) + slabLayers - 1) / slabLayers;
-  for (int slab = 0; slab < slabs; ++slab)
+  for (int slab = sharing.place(); slab < slabs; slab += sharing.size())
   {
     const VoxelGrid grid = slabGrid(fibres.domain, spacing, slab, round);
     const double step = (to - from) / slabs;
@@ -98,15 +98,19 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
           });
       });
   }
-  std::vector<double> samples(fibres.size(), 0.0);
-  for (std::size_t rank = 0; rank < field.size(); ++rank)
+  std::vector<std::uint64_t> sums(field.size(), 0);
+  for (const auto& counts : perThread)
   {
-    std::uint64_t sum = 0;
-    for (const auto& counts : perThread)
+    for (std::size_t rank = 0; rank < sums.size(); ++rank)
     {
-      sum += counts[rank];
+      sums[rank] += counts[rank];
     }
-    samples[field.fibre(static_cast<int>(rank))] = static_cast<double>(sum);
+  }
+  sharing.addUp(sums);
+  std::vector<double> samples(fibres.size(), 0.0);
+  for (std::size_t rank = 0; rank < sums.size(); ++rank)
+  {
+    samples[field.fibre(static_cast<int>(rank))] = static_cast<double>(sums[rank]);
   }
   return samples;
 }
@@ -203,7 +207,8 @@ void correctFactors(const std::vector<double>& counted, const std::vector<double
 
 } // namespace
 
-Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context)
+Fibres aimAtTargetRadii(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
 {
   validate(fibres);
   validate(options);
@@ -242,10 +247,10 @@ Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& op
     }
     if (round == 0)
     {
-      growth = std::min(roughGrowth(aimed, options, context), 1.0);
+      growth = std::min(roughGrowth(aimed, options, context, sharing), 1.0);
     }
     const std::vector<double> counted =
-      countPerFibre(aimed, options, growth, spacing, round, context, 0.3 * round / rounds, 0.3 * (round + 1) / rounds);
+      countPerFibre(aimed, options, growth, spacing, round, context, 0.3 * round / rounds, 0.3 * (round + 1) / rounds, sharing);
     correctFactors(counted, wished, aim);
   }
   return aimed;

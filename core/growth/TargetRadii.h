@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Sharing.h"
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowth.h"
 
@@ -22,7 +23,9 @@ namespace cactus
 /// beyond what leaves that one whole, and gets the rest from growth, like all others.
 ///
 /// Throws InvalidInput (options, fibres), OutOfMemory, Cancelled.
-Fibres aimAtTargetRadii(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {});
+/// Processes that share it count a part of the samples each, and all get the result.
+Fibres aimAtTargetRadii(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {}, const Sharing& sharing = Sharing());
 
 /// What is to be said where growth will not end at the target radii because the fibres were made for another fraction than the
 /// one that they are grown to, with the difference; empty where the two agree, and where it is not known what they were made for.

@@ -3,9 +3,11 @@
 
 #include "base/AtomicFile.h"
 #include "base/ByteOrder.h"
+#include "base/Error.h"
 #include "base/Numbers.h"
 #include "io/PlyFile.h"
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 
@@ -107,13 +109,22 @@ SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context)
   return box;
 }
 
+std::string caminoHead(const SurfaceBox& box)
+{
+  if (box.points > std::size_t(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw InvalidInput("Format Camino has all surfaces in one file, which numbers " +
+                       std::to_string(std::numeric_limits<std::int32_t>::max()) + " points at most, and these have " +
+                       std::to_string(box.points) + ": write fewer fibres, or choose another Format");
+  }
+  return "ply\nformat ascii 1.0\ncomment closed surface\nelement vertex " + std::to_string(box.points) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(box.triangles) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
 void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context)
 {
-  const SurfaceBox box = surfaceBox(surfaces, context);
-  const std::string head = "ply\nformat ascii 1.0\ncomment closed surface\nelement vertex " + std::to_string(box.points) +
-                           "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                           std::to_string(box.triangles) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  writeInPasses(surfaces, kind + ".ply", head, writer, context,
+  writeInPasses(surfaces, kind + ".ply", caminoHead(surfaceBox(surfaces, context)), writer, context,
     { [](const TriangleMesh& mesh, std::size_t) { return plyVertices(mesh); },
       [](const TriangleMesh& mesh, std::size_t before) { return plyFaces(mesh, before); } });
 }

@@ -28,7 +28,11 @@ struct SurfaceBox
 /// Of the surfaces as they are written (see asWritten()), with the lower corner as origin. Throws Cancelled.
 SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context);
 
-/// `KIND.ply` for Camino: ASCII, metres, with the comment by which it tells inside from outside. Throws FileError and Cancelled.
+/// What `KIND.ply` begins with. Throws InvalidInput for more points than the format can number.
+std::string caminoHead(const SurfaceBox& box);
+
+/// `KIND.ply` for Camino: ASCII, metres, with the comment by which it tells inside from outside. Throws as caminoHead() does,
+/// FileError and Cancelled.
 void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context);
 
 /// `KIND_vertices.npy` (n × 3, float64, metres from the lower corner of the box around them, as Disimpy moves them) and

@@ -37,9 +37,14 @@ std::string bytesOf(std::uint64_t number)
 
 } // namespace
 
-RecordLog::RecordLog(const std::string& path, const std::string& identity)
+RecordLog::RecordLog(const std::string& path, Descriptor file)
   : Path(path)
-  , File(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
+  , File(std::move(file))
+{
+}
+
+RecordLog::RecordLog(const std::string& path, const std::string& identity)
+  : RecordLog(path, Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)))
 {
   if (!this->File)
   {
@@ -55,16 +60,41 @@ RecordLog::RecordLog(const std::string& path, const std::string& identity)
   {
     this->fail(systemMessage(errno));
   }
-  if (this->Records.empty())
+  if (!this->takeIdentity(identity))
   {
     this->add(identity);
-    return;
+  }
+}
+
+std::vector<std::string> RecordLog::recordsOf(const std::string& path, const std::string& identity)
+{
+  RecordLog log(path, Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)));
+  if (!log.File && errno == ENOENT)
+  {
+    return {};
+  }
+  if (!log.File)
+  {
+    log.fail(systemMessage(errno));
+  }
+  log.read();
+  log.takeIdentity(identity);
+  return std::move(log.Records);
+}
+
+/// Takes the first record away, which says what the file belongs to; whether there was one.
+bool RecordLog::takeIdentity(const std::string& identity)
+{
+  if (this->Records.empty())
+  {
+    return false;
   }
   if (this->Records.front() != identity)
   {
-    throw InvalidInput(path + " belongs to other fibres, parameters or another version of this program");
+    throw InvalidInput(this->Path + " belongs to other fibres, parameters or another version of this program");
   }
   this->Records.erase(this->Records.begin());
+  return true;
 }
 
 /// Reads all whole records; returns where they end.

@@ -21,11 +21,16 @@ public:
 
   /// What was in the file when it was opened.
   const std::vector<std::string>& records() const { return this->Records; }
+  /// What is in a file that another process may have open, or has left. Throws as the constructor does, but for a file that is
+  /// not there or empty, which has no records.
+  static std::vector<std::string> recordsOf(const std::string& path, const std::string& identity);
   /// Several threads may add. Throws FileError.
   void add(const std::string& record);
 
 private:
+  RecordLog(const std::string& path, Descriptor file);
   std::size_t read();
+  bool takeIdentity(const std::string& identity);
   [[noreturn]] void fail(const std::string& why) const;
 
   std::string Path;

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace cactus
 {
@@ -45,6 +46,12 @@ StagingFolder::StagingFolder(const fs::path& place)
     }
   }
   this->fail("no temporary name is free");
+}
+
+StagingFolder::StagingFolder(fs::path place, fs::path container)
+  : Place(std::move(place))
+  , Container(std::move(container))
+{
 }
 
 /// Whether that has worked; if not, another name may. Throws FileError if none will.

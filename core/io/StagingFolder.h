@@ -25,6 +25,8 @@ class StagingFolder
 public:
   /// Makes one for `place`, which is whole. Throws FileError.
   explicit StagingFolder(const std::filesystem::path& place);
+  /// The one that another process has made for `place`, and holds.
+  StagingFolder(std::filesystem::path place, std::filesystem::path container);
   StagingFolder(const StagingFolder&) = delete;
   StagingFolder& operator=(const StagingFolder&) = delete;
 

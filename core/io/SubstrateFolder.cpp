@@ -9,6 +9,7 @@
 #include "io/ElementFiles.h"
 #include "io/FolderReplacement.h"
 #include "io/FolderWriter.h"
+#include "io/NumberedName.h"
 #include "io/PlyFile.h"
 #include "io/RmsFiles.h"
 #include "io/StartFiles.h"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <set>
 
 namespace cactus
@@ -27,26 +29,17 @@ namespace cactus
 namespace
 {
 
-/// Files of one kind in a folder, beyond which there are folders for every so many ids.
-constexpr std::size_t filesInFolder = 1000;
-
-std::string inDigits(int number)
-{
-  const std::string digits = std::to_string(number);
-  return std::string(5 - std::min<std::size_t>(5, digits.size()), '0') + digits;
-}
-
 /// The folder of one surface's file, with a slash, where each fibre has a file; `kind` is "outer" or "inner".
 std::string surfaceFolder(const SubstrateFolderContents& contents, const std::string& kind, int id)
 {
-  const bool isMany = std::max(contents.outer.size(), contents.inner.size()) > filesInFolder;
-  return kind + '/' + (isMany ? inDigits(id / int(filesInFolder)) + '/' : "");
+  const bool isMany = std::max(contents.outer.size(), contents.inner.size()) > filesInAFolder;
+  return kind + '/' + (isMany ? fiveDigits(std::size_t(id) / filesInAFolder) + '/' : "");
 }
 
 /// The file of one surface.
 std::string surfacePath(const SubstrateFolderContents& contents, const std::string& kind, int id)
 {
-  const std::string digits = inDigits(id);
+  const std::string digits = fiveDigits(std::size_t(id));
   switch (contents.format)
   {
   case SubstrateFormat::Reference:
@@ -119,6 +112,13 @@ std::vector<SubstrateFile> surfaceFiles(
   return files;
 }
 
+/// What a part of the writing needs of its caller.
+struct SharedRun
+{
+  const Context& context;
+  const Sharing& sharing;
+};
+
 /// The folders that these files are in, the outer ones first.
 void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
 {
@@ -137,17 +137,18 @@ void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
 
 /// Writes each surface to a file of its own.
 void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, PlyEncoding encoding,
-  FolderWriter& writer, const Context& context, double from, double to)
+  FolderWriter& writer, const SharedRun& run, double from, double to)
 {
   std::vector<std::string> checksums(surfaces.size());
-  parallelFor(
-    surfaces.size(), context,
+  run.sharing.loop(
+    surfaces.size(), run.context,
     [&](std::size_t i)
     {
       const std::string comment = "CACTUS " CACTUS_VERSION ", " + files[i].surface + " surface of fibre " +
                                   std::to_string(files[i].fibreId) + ", micrometres";
       checksums[i] = writer.folder().write(files[i].path, plyText(surfaces.mesh(i), comment, encoding));
     },
+    [&](std::size_t i) { return checksums[i]; }, [&](std::size_t i, const std::string& checksum) { checksums[i] = checksum; },
     "Writing surfaces", from, to);
   for (std::size_t i = 0; i < files.size(); ++i)
   {
@@ -156,7 +157,7 @@ void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateF
 }
 
 std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents, const std::string& kind,
-  const SubstrateCertificate& certificate, FolderWriter& writer, const Context& context, double from, double to)
+  const SubstrateCertificate& certificate, FolderWriter& writer, const SharedRun& run, double from, double to)
 {
   const FibreSurfaces& surfaces = kind == "outer" ? contents.outer : contents.inner;
   if (surfaces.size() == 0)
@@ -166,16 +167,20 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
   auto files = surfaceFiles(contents, kind, certificate);
   if (isCombined(contents.format))
   {
-    context.report(from, "Writing surfaces");
-    contents.format == SubstrateFormat::Camino ? writeCaminoSurfaces(surfaces, kind, writer, context)
-                                               : writeDisimpySurfaces(surfaces, kind, writer, context);
+    run.context.report(from, "Writing surfaces");
+    if (run.sharing.isFirst())
+    {
+      contents.format == SubstrateFormat::Camino ? writeCaminoSurfaces(surfaces, kind, writer, run.context)
+                                                 : writeDisimpySurfaces(surfaces, kind, writer, run.context);
+    }
     return files;
   }
-  if (contents.format != SubstrateFormat::Reference) // whose surfaces of both kinds are in one folder
+  if (run.sharing.isFirst() && contents.format != SubstrateFormat::Reference) // whose surfaces of both kinds are in one folder
   {
     makeFolders(files, writer);
   }
-  writeSeparately(surfaces, files, contents.encoding, writer, context, from, to);
+  run.sharing.exchange();
+  writeSeparately(surfaces, files, contents.encoding, writer, run, from, to);
   return files;
 }
 
@@ -266,20 +271,16 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
     });
 }
 
-} // namespace
-
-WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, const std::string& folder, const Context& context)
+/// Judges and writes all but what one process has to write by itself.
+WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWriter& writer, const SharedRun& run)
 {
-  requireWritable(contents, folder);
-  FolderReplacement replacement(folder, context);
-  FolderWriter writer(replacement.staging());
   // Judging takes about as long as writing.
   constexpr double judged = 0.5;
-  Context judging = context;
-  judging.progress = [&context](double fraction, const std::string& message) { context.report(judged * fraction, message); };
+  Context judging = run.context;
+  judging.progress = [&run](double fraction, const std::string& message) { run.context.report(judged * fraction, message); };
   WrittenSubstrate substrate;
   substrate.certificate = certify(contents.domain, asWritten(contents.outer, contents.encoding),
-    asWritten(contents.inner, contents.encoding), contents.fibres, contents.certificate, judging);
+    asWritten(contents.inner, contents.encoding), contents.fibres, contents.certificate, judging, run.sharing);
   if (!contents.allowOpenSurfaces)
   {
     requireSound(substrate.certificate);
@@ -287,14 +288,21 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
   const double share =
     static_cast<double>(contents.outer.size()) / static_cast<double>(contents.outer.size() + contents.inner.size());
   const double between = judged + (1.0 - judged) * share;
-  if (contents.format == SubstrateFormat::Reference)
+  if (contents.format == SubstrateFormat::Reference && run.sharing.isFirst())
   {
     writer.makeFolder("meshes");
     writer.makeFolder("meshes/simulations");
   }
-  substrate.files = writeSurfaces(contents, "outer", substrate.certificate, writer, context, judged, between);
-  const auto more = writeSurfaces(contents, "inner", substrate.certificate, writer, context, between, 1.0);
+  substrate.files = writeSurfaces(contents, "outer", substrate.certificate, writer, run, judged, between);
+  const auto more = writeSurfaces(contents, "inner", substrate.certificate, writer, run, between, 1.0);
   substrate.files.insert(substrate.files.end(), more.begin(), more.end());
+  return substrate;
+}
+
+/// Writes the rest, and puts the folder in its place.
+void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate, FolderWriter& writer,
+  FolderReplacement& replacement, const Context& context)
+{
   if (contents.format == SubstrateFormat::Rms)
   {
     writeRms(contents, writer, context);
@@ -310,6 +318,32 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
   writeTexts(contents, substrate, writer);
   replacement.commit(context);
   substrate.leftovers = replacement.leftovers();
+}
+
+} // namespace
+
+WrittenSubstrate writeSubstrateFolder(
+  const SubstrateFolderContents& contents, const std::string& folder, const Context& context, const Sharing& sharing)
+{
+  WrittenSubstrate substrate;
+  std::optional<FolderReplacement> replacement; // the first process's, who removes what nobody writes into any more
+  sharing.together(
+    [&]
+    {
+      requireWritable(contents, folder);
+      if (sharing.isFirst())
+      {
+        replacement.emplace(folder, context);
+      }
+      const std::string container = sharing.fromFirst(replacement ? replacement->staging().container().string() : std::string());
+      const StagingFolder joined(folder, container);
+      FolderWriter writer(replacement ? replacement->staging() : joined);
+      substrate = judgeAndWrite(contents, writer, { context, sharing });
+      if (sharing.isFirst())
+      {
+        finish(contents, substrate, writer, *replacement, context);
+      }
+    });
   return substrate;
 }
 

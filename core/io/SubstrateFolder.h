@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Sharing.h"
 #include "io/SubstrateContents.h"
 
 #include <string>
@@ -24,7 +25,9 @@ namespace cactus
 /// simulations, an edited configuration, notes. Surfaces that meet or come too near are written, and their certificate says so.
 /// Throws InvalidInput (no surfaces, an encoding that the simulator cannot read, a surface that is not a closed outward
 /// 2-manifold, unless allowed; the message names the fibre), FileError, and Cancelled when stopped.
-WrittenSubstrate writeSubstrateFolder(
-  const SubstrateFolderContents& contents, const std::string& folder, const Context& context = {});
+/// Processes that share it judge and write the surfaces together, and all get the result; what else is in the folder the first
+/// one writes.
+WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, const std::string& folder,
+  const Context& context = {}, const Sharing& sharing = Sharing());
 
 } // namespace cactus

@@ -64,16 +64,17 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   sum.add(&fibres.grownFraction, sizeof(double));
   sum.add(fibres.domain.lower.data(), 3 * sizeof(double));
   sum.add(fibres.domain.upper.data(), 3 * sizeof(double));
-  const std::string values = "CACTUS " CACTUS_VERSION "\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 2\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   return sum.digest();
 }
 
-std::unique_ptr<SurfaceSpool> openSpool(const std::string& folder, const std::string& identity, std::size_t count)
+std::unique_ptr<SurfaceSpool> openSpool(
+  const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing)
 {
   try
   {
-    return std::make_unique<SurfaceSpool>(folder, identity, count);
+    return std::make_unique<SurfaceSpool>(folder, identity, count, sharing);
   }
   catch (const InvalidInput&)
   {
@@ -97,16 +98,26 @@ Context partOf(const Context& context, double from, double to, Pace& pace)
   return part;
 }
 
-ProducedSubstrate produceFrom(
-  SurfaceSpool& spool, const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context)
+/// Else they would make different things into one folder.
+void requireAlike(const std::string& identity, const std::string& folder, const Sharing& sharing)
+{
+  for (const std::string& other : sharing.exchange(identity + folder))
+  {
+    require(other == identity + folder,
+      "the ranks were given different fibres, properties or folders, and cannot share the work: give all of them the same");
+  }
+}
+
+ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const ProductionOrder& order, const std::string& folder,
+  const Context& context, const Sharing& sharing)
 {
   ProducedSubstrate result;
   result.found = spool.found();
 
   Pace pace;
   const Context solving = partOf(context, 0.0, growthSolved, pace);
-  const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving);
-  const double growth = growthFor(aimed, order.growth, solving);
+  const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving, sharing);
+  const double growth = growthFor(aimed, order.growth, solving, sharing);
   const auto tiles =
     std::make_shared<GrownTiles>(aimed, order.growth, growth, tilesPerThread * std::size_t(context.threadCount()));
   const double spacing = tiles->grid().spacing;
@@ -114,7 +125,7 @@ ProducedSubstrate produceFrom(
   const Context making = partOf(context, growthSolved, surfacesMade, pace);
   SubstrateFolderContents contents;
   {
-    SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool);
+    SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
     maker.makeOuter(spool.outer());
     maker.makeInner(spool.outer(), spool.inner());
     result.fibres = maker.fibres();
@@ -129,8 +140,11 @@ ProducedSubstrate produceFrom(
   contents.voxelSize = spacing;
   contents.allowOpenSurfaces = order.allowOpenSurfaces;
   contents.certificate.minimumGap = order.growth.minimumGap;
-  result.written = writeSubstrateFolder(contents, folder, partOf(context, surfacesMade, 1.0, pace));
-  spool.remove();
+  result.written = writeSubstrateFolder(contents, folder, partOf(context, surfacesMade, 1.0, pace), sharing);
+  if (sharing.isFirst())
+  {
+    spool.remove();
+  }
   return result;
 }
 
@@ -143,36 +157,55 @@ std::string workFolderOf(const std::string& folder)
 }
 
 ProducedSubstrate produceSubstrate(
-  const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context)
+  const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context, Team* team)
 {
-  validate(fibres);
-  require(!folder.empty(), "FolderName is empty: name the folder to write");
+  const std::string work = workFolderOf(folder);
+  const Sharing sharing(team, work + "/stop");
+  ProducedSubstrate result;
+  std::unique_ptr<SurfaceSpool> spool;
+  const auto produce = [&]
   {
-    const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
-  }
-  const std::unique_ptr<SurfaceSpool> spool = openSpool(workFolderOf(folder), identityOf(fibres, order), fibres.size());
+    validate(fibres);
+    require(!folder.empty(), "FolderName is empty: name the folder to write");
+    const std::string identity = identityOf(fibres, order);
+    requireAlike(identity, folder, sharing);
+    if (sharing.isFirst())
+    {
+      const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
+    }
+    spool = openSpool(work, identity, fibres.size(), sharing);
+    result = produceFrom(*spool, fibres, order, folder, sharing.watching(context), sharing);
+  };
+  const auto removeWork = [&]
+  {
+    if (spool != nullptr && sharing.isFirst())
+    {
+      spool->remove();
+    }
+  };
   try
   {
-    return produceFrom(*spool, fibres, order, folder, context);
+    sharing.together(produce);
   }
   catch (const InvalidInput&)
   {
-    spool->remove(); // nobody will go on with what cannot be made
+    removeWork(); // nobody will go on with what cannot be made
     throw;
   }
   catch (const Infeasible&)
   {
-    spool->remove();
+    removeWork();
     throw;
   }
   catch (...)
   {
-    if (spool->isEmpty())
+    if (spool != nullptr && sharing.isFirst() && spool->isEmpty())
     {
-      spool->remove();
+      removeWork();
     }
     throw;
   }
+  return result;
 }
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Team.h"
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowthOptions.h"
 #include "io/SubstrateContents.h"
@@ -46,8 +47,11 @@ std::string workFolderOf(const std::string& folder);
 /// memory. A run that was stopped or killed goes on from there, if fibres, options and version are the same; at its end the work
 /// folder is removed. Outer surfaces are held while they are judged, see certify().
 ///
+/// The processes of a team, which are all given the same, share the work, and all get the result; any number of them goes on with
+/// what any other has left. An error in one ends it in all (see Sharing::together()).
+///
 /// Throws what these do, InvalidInput for a work folder of something else, and FileError.
-ProducedSubstrate produceSubstrate(
-  const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context = {});
+ProducedSubstrate produceSubstrate(const Fibres& fibres, const ProductionOrder& order, const std::string& folder,
+  const Context& context = {}, Team* team = nullptr);
 
 } // namespace cactus

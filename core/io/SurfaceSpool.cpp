@@ -4,7 +4,8 @@
 #include "base/Checkpoint.h"
 #include "base/Error.h"
 #include "base/Sha256.h"
-#include "io/SurfaceNumbers.h"
+#include "io/NumberedName.h"
+#include "surface/SurfaceNumbers.h"
 
 #include <algorithm>
 #include <array>
@@ -24,19 +25,12 @@ constexpr char spaced = 's';
 constexpr char spacingDone = 'S';
 constexpr char innerMade = 'i';
 
-constexpr std::size_t filesInAFolder = 1000;
 constexpr char journalName[] = "journal";
 constexpr const char* kinds[] = { "outer", "spaced", "inner" };
 
 std::uint64_t fingerprintOf(const std::string& identity)
 {
   return std::stoull(sha256(identity).substr(0, 16), nullptr, 16);
-}
-
-std::string fiveDigits(std::size_t number)
-{
-  const std::string digits = std::to_string(number);
-  return std::string(5 - std::min<std::size_t>(5, digits.size()), '0') + digits;
 }
 
 void makeFolders(const std::filesystem::path& folder)
@@ -47,12 +41,6 @@ void makeFolders(const std::filesystem::path& folder)
   {
     throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
   }
-}
-
-std::filesystem::path made(const std::filesystem::path& folder)
-{
-  makeFolders(folder);
-  return folder;
 }
 
 } // namespace
@@ -102,22 +90,76 @@ void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
   file.commit();
 }
 
-SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count)
-  : Folder(made(folder))
+SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing)
+  : Folder(folder)
+  , Identity(identity)
   , Count(count)
+  , IsFirst(sharing.isFirst())
   , Outer(folder, "outer", fingerprintOf(identity), count)
   , Inner(folder, "inner", fingerprintOf(identity), count)
   , OuterNotes(count)
   , SpacedNotes(count)
   , InnerNotes(count)
 {
-  this->Log.emplace((this->Folder / journalName).string(), identity);
-  this->readJournal();
+  // The first one's journal is locked before any other process looks into the folder, and nobody adds before all have read.
+  if (this->IsFirst)
+  {
+    makeFolders(this->Folder);
+    this->Log.emplace((this->Folder / journalName).string(), identity);
+  }
+  sharing.exchange();
+  const std::filesystem::path own =
+    this->Folder / (journalName + (this->IsFirst ? "" : '-' + fiveDigits(std::size_t(sharing.place()))));
+  if (!this->IsFirst)
+  {
+    this->Log.emplace(own.string(), identity);
+  }
+  sharing.exchange();
+  for (const std::filesystem::path& journal : this->journals())
+  {
+    this->read(journal == own ? this->Log->records() : RecordLog::recordsOf(journal.string(), identity));
+  }
+  sharing.exchange();
+  if (!this->IsSpacingDone)
+  {
+    // What was moved is moved again, from what was contoured.
+    std::fill(this->Outer.isSpaced.begin(), this->Outer.isSpaced.end(), 0);
+  }
+  const auto& notes = this->IsSpacingDone ? this->InnerNotes : this->OuterNotes;
+  this->Found = std::size_t(std::count_if(notes.begin(), notes.end(), [](const auto& of) { return !of.empty(); }));
 }
 
-void SurfaceSpool::readJournal()
+/// Those of all processes that have ever worked here, sorted.
+std::vector<std::filesystem::path> SurfaceSpool::journals() const
 {
-  for (const std::string& record : this->Log->records())
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(this->Folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    const std::string name = entry->path().filename().string();
+    if (name == journalName || name.compare(0, sizeof(journalName), std::string(journalName) + '-') == 0)
+    {
+      found.push_back(entry->path());
+    }
+  }
+  if (error)
+  {
+    throw FileError("cannot read the folder " + this->Folder.string() + ": " + error.message());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool SurfaceSpool::isEmpty() const
+{
+  const std::vector<std::filesystem::path> all = this->journals();
+  return std::all_of(all.begin(), all.end(),
+    [this](const std::filesystem::path& journal) { return RecordLog::recordsOf(journal.string(), this->Identity).empty(); });
+}
+
+void SurfaceSpool::read(const std::vector<std::string>& records)
+{
+  for (const std::string& record : records)
   {
     std::uint64_t index = 0;
     constexpr std::size_t head = 2 + sizeof(index);
@@ -126,7 +168,6 @@ void SurfaceSpool::readJournal()
       throw FileError("the journal in " + this->Folder.string() + " is damaged: remove this folder");
     }
     std::memcpy(&index, record.data() + 2, sizeof(index));
-    this->IsEmpty = false;
     this->IsSpacingDone = this->IsSpacingDone || record[0] == spacingDone;
     if (record[0] == spacingDone || index >= this->Count)
     {
@@ -139,13 +180,6 @@ void SurfaceSpool::readJournal()
       this->Outer.isSpaced[index] = record[1];
     }
   }
-  if (!this->IsSpacingDone)
-  {
-    // What was moved is moved again, from what was contoured.
-    std::fill(this->Outer.isSpaced.begin(), this->Outer.isSpaced.end(), 0);
-  }
-  const auto& notes = this->IsSpacingDone ? this->InnerNotes : this->OuterNotes;
-  this->Found = std::size_t(std::count_if(notes.begin(), notes.end(), [](const auto& of) { return !of.empty(); }));
 }
 
 void SurfaceSpool::note(char step, std::size_t index, const FibreSurfacePair& pair, bool isMoved)
@@ -154,7 +188,6 @@ void SurfaceSpool::note(char step, std::size_t index, const FibreSurfacePair& pa
   std::string record{ step, static_cast<char>(isMoved ? 1 : 0) };
   record.append(reinterpret_cast<const char*>(&number), sizeof(number));
   this->Log->add(record + bytesOf(pair));
-  this->IsEmpty = false;
 }
 
 bool SurfaceSpool::recallOuter(std::size_t index, FibreSurfacePair& pair) const
@@ -183,6 +216,10 @@ bool SurfaceSpool::recallSpaced(std::vector<FibreSurfacePair>& pairs) const
 
 void SurfaceSpool::noteSpaced(const std::vector<FibreSurfacePair>& pairs)
 {
+  if (!this->IsFirst)
+  {
+    return; // each process knows all of them
+  }
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
     this->note(spaced, i, pairs[i], this->Outer.isSpaced[i] != 0);
@@ -228,7 +265,11 @@ void SurfaceSpool::remove()
     }
     std::filesystem::remove(this->Folder / kind, ignored);
   }
-  std::filesystem::remove(this->Folder / journalName, ignored);
+  std::filesystem::remove(this->Folder / "stop", ignored);
+  for (const std::filesystem::path& journal : this->journals())
+  {
+    std::filesystem::remove(journal, ignored);
+  }
   std::filesystem::remove(this->Folder, ignored);
 }
 

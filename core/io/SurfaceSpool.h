@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Sharing.h"
 #include "io/RecordLog.h"
 #include "mesh/SurfaceStore.h"
 #include "surface/SurfaceJournal.h"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -18,25 +18,26 @@ namespace cactus
 
 /// Surfaces on the disk while they are made, and the journal of how far they have come:
 ///
-///   FOLDER/journal            what is known of each fibre (see RecordLog)
+///   FOLDER/journal            what is known of each fibre (see RecordLog); what processes of a team beside the first have made
+///                             is in FOLDER/journal-00001 and so on
 ///   FOLDER/outer/00000/…      outer surfaces as they were contoured, a file each, at most 1,000 in a folder
 ///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
 ///
-/// Files appear whole or not at all, and what is in the journal is in its file. One that was never put
-/// is an error. Memory is one surface for each that is asked for.
+/// Files appear whole or not at all, and what is in a journal is in its file. One that was never put
+/// is an error. Memory is one surface for each that is asked for. Any number of processes goes on with what any other has left.
 class SurfaceSpool : public SurfaceJournal
 {
 public:
   /// For so many fibres, in a folder that is made, or goes on where one of the same `identity` ended. Throws InvalidInput for a
-  /// folder of another identity, and FileError.
-  SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count);
+  /// folder of another identity, and FileError. Processes that share it make theirs together.
+  SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing = Sharing());
 
   SurfaceStore& outer() { return this->Outer; }
   SurfaceStore& inner() { return this->Inner; }
   /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
   std::size_t found() const { return this->Found; }
-  /// Whether nothing of any fibre is in the journal.
-  bool isEmpty() const { return this->IsEmpty; }
+  /// Whether nothing of any fibre is in any journal. Only while no other process is at work.
+  bool isEmpty() const;
 
   bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
   void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;
@@ -59,6 +60,7 @@ private:
     std::size_t size() const override { return this->isSpaced.size(); }
     std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
     void put(std::size_t index, TriangleMesh surface) override;
+    void putElsewhere(std::size_t index) override { this->isSpaced[index] = this->isSpacing ? 1 : 0; }
 
     bool isSpacing = false;
     std::vector<char> isSpaced; ///< whether it was put while isSpacing
@@ -71,16 +73,18 @@ private:
     std::uint64_t Fingerprint;
   };
 
-  void readJournal();
+  std::vector<std::filesystem::path> journals() const;
+  void read(const std::vector<std::string>& records);
   void note(char step, std::size_t index, const FibreSurfacePair& pair, bool isMoved);
 
   std::filesystem::path Folder;
+  std::string Identity;
   std::size_t Count;
   std::size_t Found = 0;
+  bool IsFirst;
   std::optional<RecordLog> Log;
   Files Outer;
   Files Inner;
-  std::atomic<bool> IsEmpty{ true };
   bool IsSpacingDone = false;
   // Of each fibre, in the order of the journal.
   std::vector<std::vector<std::string>> OuterNotes;

@@ -38,11 +38,11 @@ class GapSearch
 public:
   GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certificate);
 
-  void run(const Context& context, double from)
+  void run(const Context& context, double from, const Sharing& sharing)
   {
     const double middle = from + neighboursShare * (1.0 - from);
     std::vector<std::vector<std::size_t>> near(this->Present.size());
-    parallelFor(
+    sharing.loop(
       near.size(), context,
       [&](std::size_t rank)
       {
@@ -50,10 +50,37 @@ public:
         near[rank] = this->thoseWithin(rank, this->Bound[rank]);
         this->addThoseAround(rank, near[rank]);
       },
+      [&](std::size_t rank)
+      {
+        ByteWriter put;
+        put(this->Bound[rank]);
+        put(near[rank]);
+        return put.bytes();
+      },
+      [&](std::size_t rank, const std::string& bytes)
+      {
+        ByteReader get(bytes);
+        get(this->Bound[rank]);
+        get(near[rank]);
+      },
       "Measuring gaps", from, middle);
     std::vector<FibrePair> pairs = this->pairsOf(near);
-    parallelFor(
-      pairs.size(), context, [&](std::size_t i) { this->measure(pairs[i]); }, "Measuring gaps", middle, 1.0);
+    sharing.loop(
+      pairs.size(), context, [&](std::size_t i) { this->measure(pairs[i]); },
+      [&](std::size_t i)
+      {
+        ByteWriter put;
+        put(pairs[i].gap);
+        put(pairs[i].nested);
+        return put.bytes();
+      },
+      [&](std::size_t i, const std::string& bytes)
+      {
+        ByteReader get(bytes);
+        get(pairs[i].gap);
+        get(pairs[i].nested);
+      },
+      "Measuring gaps", middle, 1.0);
     this->enter(std::move(pairs));
   }
 
@@ -303,9 +330,10 @@ void GapSearch::enter(std::vector<FibrePair> pairs)
 
 } // namespace
 
-void findGaps(const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context, double from)
+void findGaps(
+  const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context, double from, const Sharing& sharing)
 {
-  GapSearch(outer, certificate).run(context, from);
+  GapSearch(outer, certificate).run(context, from, sharing);
 }
 
 } // namespace cactus

@@ -41,6 +41,8 @@ public:
 
   /// Gets to know a surface; null for a fibre without one. Once for each place.
   void enter(std::size_t place, std::shared_ptr<const TreedSurface> surface);
+  /// The same for one that another process has got to know, from what branches() is there.
+  void enter(std::size_t place, std::vector<FloatBox> branches) { this->Branches[place] = std::move(branches); }
 
   std::size_t size() const { return this->Branches.size(); }
   /// The boxes that hold the parts of a surface, neighbours one after the other; none where there is no surface, or an empty one.

@@ -7,6 +7,7 @@
 #include "judge/CertificateSummary.h"
 #include "judge/FibreExamination.h"
 #include "judge/FibreGaps.h"
+#include "judge/FindingsNumbers.h"
 
 #include <algorithm>
 #include <limits>
@@ -24,8 +25,9 @@ namespace
 constexpr int unknownBundle = std::numeric_limits<int>::max();
 /// Share of the work that looking at each fibre by itself takes.
 constexpr double surfacesDone = 0.6;
-/// What is kept of outer surfaces: 1 GiB.
+/// What is kept of outer surfaces in all processes, and at least in each.
 constexpr std::size_t bytesOfSurfaces = std::size_t(1) << 30;
+constexpr std::size_t leastBytesOfSurfaces = std::size_t(1) << 28;
 
 /// Those with a surface, those that were to have one, and those whose centre lines run through the domain, by increasing id.
 std::vector<FibreCertificate> fibresToExamine(const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* lines)
@@ -84,7 +86,7 @@ void SubstrateCertificateOptions::validate() const
 }
 
 SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres,
-  const SubstrateCertificateOptions& options, const Context& context)
+  const SubstrateCertificateOptions& options, const Context& context, const Sharing& sharing)
 {
   options.validate();
   if (fibres != nullptr)
@@ -99,13 +101,20 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
   certificate.fibres = fibresToExamine(outer, inner, fibres);
   const std::size_t count = certificate.fibres.size();
   const FibreExamination examination(domain, outer, inner, fibres, options.cutSpacing);
-  OuterSurfaces surfaces(
-    count, bytesOfSurfaces, [&](std::size_t f) { return examination.outerOf(certificate.fibres[f].fibreId); });
+  OuterSurfaces surfaces(count, std::max(leastBytesOfSurfaces, bytesOfSurfaces / std::size_t(sharing.size())),
+    [&](std::size_t f) { return examination.outerOf(certificate.fibres[f].fibreId); });
   std::vector<double> reach(count, 0.0);
-  parallelFor(
+  sharing.loop(
     count, context, [&](std::size_t f) { surfaces.enter(f, examination.examine(certificate.fibres[f], reach[f])); },
+    [&](std::size_t f) { return bytesOf(certificate.fibres[f], reach[f], surfaces.branches(f)); },
+    [&](std::size_t f, const std::string& bytes)
+    {
+      std::vector<FloatBox> branches;
+      getFindings(bytes, certificate.fibres[f], reach[f], branches);
+      surfaces.enter(f, std::move(branches));
+    },
     "Looking at surfaces", 0.0, surfacesDone);
-  findGaps(surfaces, certificate, context, surfacesDone);
+  findGaps(surfaces, certificate, context, surfacesDone, sharing);
   const double requiredGap = options.minimumGap < 0.0 ? outer.promisedGap : options.minimumGap;
   summarise(domain, outer, inner, requiredGap, count > 0 ? *std::max_element(reach.begin(), reach.end()) : 0.0, certificate);
   listFaults(certificate);

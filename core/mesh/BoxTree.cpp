@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/BoxTree.h"
 
+#include "base/Error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -96,6 +98,7 @@ BoxTree::BoxTree(std::vector<Item> items)
   {
     return;
   }
+  require(items.size() < std::size_t(1) << 31, "there are more boxes than a tree of boxes can number");
   this->Nodes.reserve(items.size());
   this->Nodes.emplace_back();
   std::vector<ItemRange> ranges{ { 0, 0, static_cast<std::uint32_t>(items.size()), 0 } };

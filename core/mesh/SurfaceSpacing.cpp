@@ -256,20 +256,90 @@ void measureGap(Pair& pair, const TriangleTree& one, const TriangleTree& other, 
   }
 }
 
+std::string bytesOf(const SlabBoxes& slabs)
+{
+  ByteWriter put;
+  put(slabs.first);
+  for (const Eigen::AlignedBox3d& box : slabs.boxes)
+  {
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      put(box.min()[axis]);
+      put(box.max()[axis]);
+    }
+  }
+  return put.bytes();
+}
+
+SlabBoxes boxesFrom(const std::string& bytes)
+{
+  ByteReader get(bytes);
+  SlabBoxes slabs;
+  get(slabs.first);
+  while (!get.isAtEnd())
+  {
+    Eigen::AlignedBox3d& box = slabs.boxes.emplace_back();
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      get(box.min()[axis]);
+      get(box.max()[axis]);
+    }
+  }
+  return slabs;
+}
+
+std::string bytesOf(const std::map<std::size_t, Moves>& moves)
+{
+  ByteWriter put;
+  for (const auto& [surface, ofSurface] : moves)
+  {
+    put(static_cast<std::uint64_t>(surface));
+    put(static_cast<std::uint64_t>(ofSurface.size()));
+    for (const auto& [point, distance] : ofSurface)
+    {
+      put(point);
+      put(distance);
+    }
+  }
+  return put.bytes();
+}
+
+/// What all processes have found: of several distances for a point the largest, as in one process.
+std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
+{
+  std::map<std::size_t, Moves> moves;
+  for (const std::string& bytes : all)
+  {
+    for (ByteReader get(bytes); !get.isAtEnd();)
+    {
+      Moves& ofSurface = moves[std::size_t(get.get<std::uint64_t>())];
+      for (auto count = get.get<std::uint64_t>(); count > 0; --count)
+      {
+        double& move = ofSurface.emplace(get.get<std::int32_t>(), 0.0).first->second;
+        move = std::max(move, get.get<double>());
+      }
+    }
+  }
+  return moves;
+}
+
 /// Looks slab by slab for what is too near, and moves it.
 class Spacing
 {
 public:
-  Spacing(SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context)
+  Spacing(SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context, const Sharing& sharing)
     : Surfaces(surfaces)
     , Gap(gap)
     , Box(box)
     , Caller(context)
+    , Shared(sharing)
     , InSlabs(box, gap)
     , Boxes(surfaces.size())
   {
-    parallelFor(
-      surfaces.size(), context, [this](std::size_t s) { this->Boxes[s] = boxesBySlab(*this->Surfaces.get(s), this->InSlabs); });
+    this->Shared.loop(
+      surfaces.size(), context, [this](std::size_t s) { this->Boxes[s] = boxesBySlab(*this->Surfaces.get(s), this->InSlabs); },
+      [this](std::size_t s) { return bytesOf(this->Boxes[s]); },
+      [this](std::size_t s, const std::string& bytes) { this->Boxes[s] = boxesFrom(bytes); });
   }
 
   /// How far points of surfaces have to move. `report(part)` gets how much of the work is done.
@@ -282,12 +352,13 @@ public:
       this->measureSlab(slab, selection, moves);
       report(double(slab + 1) / this->InSlabs.count);
     }
-    return moves;
+    return this->Shared.size() > 1 ? joined(this->Shared.exchange(bytesOf(moves))) : moves;
   }
 
   void move(const std::vector<std::size_t>& moving, const std::map<std::size_t, Moves>& moves)
   {
-    parallelFor(moving.size(), this->Caller,
+    this->Shared.loop(
+      moving.size(), this->Caller,
       [&](std::size_t m)
       {
         const std::size_t s = moving[m];
@@ -295,6 +366,12 @@ public:
         moveInwards(mesh, moves.at(s), this->Box, this->Gap);
         this->Boxes[s] = boxesBySlab(mesh, this->InSlabs);
         this->Surfaces.put(s, std::move(mesh));
+      },
+      [&](std::size_t m) { return bytesOf(this->Boxes[moving[m]]); },
+      [&](std::size_t m, const std::string& bytes)
+      {
+        this->Boxes[moving[m]] = boxesFrom(bytes);
+        this->Surfaces.putElsewhere(moving[m]);
       });
   }
 
@@ -306,6 +383,7 @@ private:
   double Gap;
   Eigen::AlignedBox3d Box;
   const Context& Caller;
+  const Sharing& Shared;
   Slabs InSlabs;
   std::vector<SlabBoxes> Boxes;
 };
@@ -350,10 +428,15 @@ std::vector<Pair> Spacing::neighbours(int slab, const PairSelection& selection) 
   return pairs;
 }
 
-/// Adds, per surface, how far points have to move for what is in a slab.
+/// Adds, per surface, how far points have to move for those pairs in a slab that are this process's: a run of them, since pairs
+/// that follow each other have surfaces in common.
 void Spacing::measureSlab(int slab, const PairSelection& selection, std::map<std::size_t, Moves>& moves) const
 {
   std::vector<Pair> pairs = this->neighbours(slab, selection);
+  const auto startOf = [&](int place)
+  { return std::ptrdiff_t(pairs.size() * std::size_t(place) / std::size_t(this->Shared.size())); };
+  const int place = this->Shared.place();
+  pairs = std::vector<Pair>(pairs.begin() + startOf(place), pairs.begin() + startOf(place + 1));
   std::map<std::size_t, Part> parts;
   for (const Pair& pair : pairs)
   {
@@ -388,7 +471,7 @@ void Spacing::measureSlab(int slab, const PairSelection& selection, std::map<std
 } // namespace
 
 SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& changed, double smallest,
-  const Eigen::AlignedBox3d& box, const Context& context, double from, double to)
+  const Eigen::AlignedBox3d& box, const Context& context, double from, double to, const Sharing& sharing)
 {
   SpacingReport report;
   if (!(smallest > 0.0))
@@ -402,7 +485,7 @@ SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& 
     selection.isGiven[s] = 1;
   }
   selection.isChanged = selection.isGiven;
-  Spacing spacing(surfaces, smallest + rounding, box, context);
+  Spacing spacing(surfaces, smallest + rounding, box, context, sharing);
   std::set<std::size_t> moved;
   // Most of the work is the first look at all surfaces.
   const double half = 0.5 * (from + to);

@@ -29,6 +29,8 @@ class SurfaceStore : public SurfaceSource
 public:
   /// Several threads may put different ones.
   virtual void put(std::size_t index, TriangleMesh surface) = 0;
+  /// Another process has put a surface, into a store that several have in common.
+  virtual void putElsewhere(std::size_t /*index*/) {}
 };
 
 /// All of them in memory.

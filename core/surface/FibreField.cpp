@@ -322,14 +322,27 @@ std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
   return ids;
 }
 
-std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(int reach, const Context& context) const
+std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(
+  int reach, const Context& context, const Sharing& sharing) const
 {
+  constexpr std::size_t blocksAtOnce = std::size_t(1) << 20; // so that exchanges stay small
+
   const NodeLattice all = this->lattice();
+  require(all.blockCount() <= std::numeric_limits<std::uint32_t>::max(),
+    "the label image has more blocks of 16³ voxels than 32 bits count: choose a larger VoxelSize");
   const std::vector<std::uint32_t> order = inBricks(all);
   std::vector<std::vector<std::int32_t>> idsOf(all.blockCount());
-  parallelFor(
-    order.size(), context, [&](std::size_t i) { idsOf[order[i]] = this->idsWithin(nodesOfBlock(all, order[i]).widened(reach)); },
-    "looking for fibres", 0.0, 0.05);
+  for (std::size_t first = 0; first < order.size(); first += blocksAtOnce)
+  {
+    const std::size_t count = std::min(blocksAtOnce, order.size() - first);
+    const auto part = [&](std::size_t end) { return 0.05 * static_cast<double>(end) / static_cast<double>(order.size()); };
+    const auto idsOfBlock = [&](std::size_t i) -> std::vector<std::int32_t>& { return idsOf[order[first + i]]; };
+    sharing.loop(
+      count, context, [&](std::size_t i) { idsOfBlock(i) = this->idsWithin(nodesOfBlock(all, order[first + i]).widened(reach)); },
+      [&](std::size_t i) { return bytesOf(idsOfBlock(i)); },
+      [&](std::size_t i, const std::string& bytes) { getAll(bytes, idsOfBlock(i)); }, "looking for fibres", part(first),
+      part(first + count));
+  }
   std::map<std::int32_t, std::vector<std::uint32_t>> blocksOf;
   for (std::size_t block = 0; block < idsOf.size(); ++block)
   {

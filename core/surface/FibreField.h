@@ -3,6 +3,7 @@
 
 #include "base/Context.h"
 #include "base/Domain.h"
+#include "base/Sharing.h"
 #include "growth/LabelImage.h"
 #include "growth/LabelSource.h"
 #include "mesh/NodeLattice.h"
@@ -52,8 +53,9 @@ public:
 
   /// Of each fibre, in increasing order of fibres, the blocks of the lattice with a node that belongs to it or has one at most
   /// `reach` nodes away. Throws InvalidInput for a negative FibreId, a Depth that is not finite, beyond limits::coordinate or
-  /// does not fit its FibreId, and Cancelled.
-  std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(int reach, const Context& context = {}) const;
+  /// does not fit its FibreId, and Cancelled. Processes share it, and get all of it.
+  std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(
+    int reach, const Context& context = {}, const Sharing& sharing = Sharing()) const;
 
   /// The image at the samples that a range of nodes takes its values from, and at those up to `more` beyond.
   LabelImageView samplesAt(const NodeRange& range, int more, LabelBuffer& buffer) const;

@@ -48,7 +48,7 @@ TriangleMesh packed(TriangleMesh&& mesh)
 } // namespace
 
 FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts,
-  const MyelinSurfaceOptions& options, const SurfaceFilters* filters, const Context& context)
+  const MyelinSurfaceOptions& options, const SurfaceFilters* filters, const Context& context, const Sharing& sharing)
   : Facts(facts)
   , Options(options)
   , Filters(filters)
@@ -63,7 +63,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
 {
   if (options.smoothingIterations > 0)
   {
-    this->Thin.emplace(this->Field, context);
+    this->Thin.emplace(this->Field, context, sharing);
   }
 }
 

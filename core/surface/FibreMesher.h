@@ -24,10 +24,10 @@ namespace cactus
 class FibreMesher
 {
 public:
-  /// What is given has to outlive the mesher, except the context. With `filters` these contour the fields and coarsen what comes
-  /// out. Throws InvalidInput where the image is not a proper one, and Cancelled.
+  /// What is given has to outlive the mesher, except the context and the sharing. With `filters` these contour the fields and
+  /// coarsen what comes out. Throws InvalidInput where the image is not a proper one, and Cancelled.
   FibreMesher(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
-    const SurfaceFilters* filters = nullptr, const Context& context = {});
+    const SurfaceFilters* filters = nullptr, const Context& context = {}, const Sharing& sharing = Sharing());
 
   FibreMesher(const FibreMesher&) = delete;
   FibreMesher& operator=(const FibreMesher&) = delete;

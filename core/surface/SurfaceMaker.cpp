@@ -5,6 +5,7 @@
 #include "base/Limits.h"
 #include "base/Parallel.h"
 #include "mesh/SurfaceSpacing.h"
+#include "surface/SurfaceNumbers.h"
 
 #include <algorithm>
 #include <array>
@@ -126,6 +127,36 @@ std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs
   return order;
 }
 
+/// A pair, and points on its surface.
+std::string bytesOfBoth(const FibreSurfacePair& pair, const std::vector<Eigen::Vector3d>& points)
+{
+  ByteWriter put;
+  put(bytesOf(pair));
+  for (const Eigen::Vector3d& point : points)
+  {
+    for (const double coordinate : point)
+    {
+      put(coordinate);
+    }
+  }
+  return put.bytes();
+}
+
+FibreSurfacePair bothFrom(const std::string& bytes, std::vector<Eigen::Vector3d>& points)
+{
+  ByteReader get(bytes);
+  const FibreSurfacePair pair = pairFrom(get.get<std::string>());
+  for (points.clear(); !get.isAtEnd();)
+  {
+    Eigen::Vector3d& point = points.emplace_back();
+    for (double& coordinate : point)
+    {
+      get(coordinate);
+    }
+  }
+  return pair;
+}
+
 /// What myelinSurfaces() throws for options that do not suit the image.
 const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
 {
@@ -143,25 +174,29 @@ const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurface
 } // namespace
 
 SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts,
-  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters, SurfaceJournal* journal)
+  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters, SurfaceJournal* journal,
+  const Sharing& sharing)
   : Facts(checked(facts, options))
   , Options(options)
   , Filters(filters)
   , Caller(context)
+  , Shared(sharing)
   , Journal(journal != nullptr ? *journal : NoJournal)
-  , Mesher(image, facts, options, filters, context)
-  , BlocksOf(Mesher.field().findFibres(options.smoothingIterations, context))
+  , Mesher(image, facts, options, filters, context, sharing)
+  , BlocksOf(Mesher.field().findFibres(options.smoothingIterations, context, sharing))
   , Pairs(fibresOf(facts, BlocksOf))
   , Order(orderByPlace(Pairs, BlocksOf, Mesher.field().lattice()))
 {
 }
 
-/// In parallel.
+/// In parallel. What becomes of a fibre has to be in its pair, without meshes.
 template <typename Body>
-void SurfaceMaker::forEachFibre(Body&& body, const char* message, double from, double to) const
+void SurfaceMaker::forEachFibre(Body&& body, const char* message, double from, double to)
 {
-  parallelFor(
-    this->Order.size(), this->Caller, [&](std::size_t i) { body(this->Order[i]); }, message, from, to);
+  this->Shared.loop(
+    this->Order.size(), this->Caller, [&](std::size_t i) { body(this->Order[i]); },
+    [&](std::size_t i) { return bytesOf(this->Pairs[this->Order[i]]); },
+    [&](std::size_t i, const std::string& bytes) { this->Pairs[this->Order[i]] = pairFrom(bytes); }, message, from, to);
 }
 
 void SurfaceMaker::makeOuter(SurfaceStore& outer)
@@ -244,8 +279,8 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer)
     // What was too near is looked at again, since the other one of the pair may be new.
     std::vector<std::size_t> changed;
     std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
-    const SpacingReport spacing =
-      keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller, attempt == 0 ? 0.45 : 0.54, 0.55);
+    const SpacingReport spacing = keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller,
+      attempt == 0 ? 0.45 : 0.54, 0.55, this->Shared);
     tooNear = spacing.tooNear;
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);
     this->makeAgain(made, isCoarsened ? 0.0 : deeperEachTime * (attempt + 1), bounds, outer);
@@ -261,14 +296,17 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
   const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds)
 {
   std::vector<std::vector<Eigen::Vector3d>> faults(moved.size());
-  parallelFor(faults.size(), this->Caller,
+  this->Shared.loop(
+    faults.size(), this->Caller,
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[moved[i]];
       pair.outer = *outer.get(moved[i]);
       faults[i] = this->Mesher.checkOuter(pair);
       outer.put(moved[i], std::exchange(pair.outer, TriangleMesh()));
-    });
+    },
+    [&](std::size_t i) { return bytesOfBoth(this->Pairs[moved[i]], faults[i]); },
+    [&](std::size_t i, const std::string& bytes) { this->Pairs[moved[i]] = bothFrom(bytes, faults[i]); });
   std::vector<std::size_t> again;
   for (std::size_t i = 0; i < faults.size(); ++i)
   {
@@ -287,7 +325,8 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
 void SurfaceMaker::makeAgain(
   const std::vector<std::size_t>& which, double deeper, const BoundsOfFibres& bounds, SurfaceStore& outer)
 {
-  parallelFor(which.size(), this->Caller,
+  this->Shared.loop(
+    which.size(), this->Caller,
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[which[i]];
@@ -295,7 +334,9 @@ void SurfaceMaker::makeAgain(
       pair.outer = *outer.get(which[i]);
       this->Mesher.makeOuter(this->fieldOf(pair), pair, bounds.at(which[i]), deeper);
       outer.put(which[i], std::exchange(pair.outer, TriangleMesh()));
-    });
+    },
+    [&](std::size_t i) { return bytesOf(this->Pairs[which[i]]); },
+    [&](std::size_t i, const std::string& bytes) { this->Pairs[which[i]] = pairFrom(bytes); });
 }
 
 void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)

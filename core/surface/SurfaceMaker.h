@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Sharing.h"
 #include "mesh/SurfaceStore.h"
 #include "surface/FibreMesher.h"
 #include "surface/FibreSurfacePair.h"
@@ -23,10 +24,11 @@ namespace cactus
 class SurfaceMaker
 {
 public:
-  /// What is given by reference has to outlive the object. With a journal, what it recalls is not made again. Throws as
-  /// myelinSurfaces() does.
+  /// What is given by reference has to outlive the object. With a journal, what it recalls is not made again. Processes that
+  /// share the work have stores and journal in common, and fibres() is the same in all. Throws as myelinSurfaces() does.
   SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
-    const Context& context, const SurfaceFilters* filters = nullptr, SurfaceJournal* journal = nullptr);
+    const Context& context, const SurfaceFilters* filters = nullptr, SurfaceJournal* journal = nullptr,
+    const Sharing& sharing = Sharing());
 
   /// All fibres, by increasing id, and what is known of them; their meshes are in the stores.
   const std::vector<FibreSurfacePair>& fibres() const { return this->Pairs; }
@@ -45,7 +47,7 @@ private:
   using BoundsOfFibres = std::map<std::size_t, std::vector<LocalErrorBound>>;
 
   template <typename Body>
-  void forEachFibre(Body&& body, const char* message, double from, double to) const;
+  void forEachFibre(Body&& body, const char* message, double from, double to);
   SmoothedField fieldOf(const FibreSurfacePair& pair) const;
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
   void contourOuter(SurfaceStore& outer);
@@ -60,6 +62,7 @@ private:
   const MyelinSurfaceOptions& Options;
   const SurfaceFilters* Filters;
   const Context Caller;
+  const Sharing Shared;
   SurfaceJournal NoJournal;
   SurfaceJournal& Journal;
   FibreMesher Mesher;

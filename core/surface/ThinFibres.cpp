@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/ThinFibres.h"
 
-#include "base/Parallel.h"
+#include "base/Bytes.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -76,22 +76,67 @@ std::vector<DepthsOfFibres> depthsInSlices(const FibreField& field, int first, i
   return depths;
 }
 
+std::string bytesOfSlices(const std::vector<DepthsOfFibres>& slices)
+{
+  ByteWriter put;
+  for (const DepthsOfFibres& slice : slices)
+  {
+    put(static_cast<std::uint64_t>(slice.size()));
+    for (const auto& [id, part] : slice)
+    {
+      put(id);
+      put(part.sum);
+      put(part.count);
+    }
+  }
+  return put.bytes();
+}
+
+std::vector<DepthsOfFibres> slicesFrom(const std::string& bytes)
+{
+  std::vector<DepthsOfFibres> slices;
+  for (ByteReader get(bytes); !get.isAtEnd();)
+  {
+    DepthsOfFibres& slice = slices.emplace_back();
+    for (auto count = get.get<std::uint64_t>(); count > 0; --count)
+    {
+      Depths& part = slice[get.get<std::int32_t>()];
+      get(part.sum);
+      get(part.count);
+    }
+  }
+  return slices;
+}
+
+/// How many layers to look at before their slices are added up: some for each thread of all processes, but not so many that what
+/// is known of them grows with the processes.
+int layersTogether(const Context& context, const Sharing& sharing)
+{
+  std::vector<std::uint64_t> threads{ static_cast<std::uint64_t>(context.threadCount()) };
+  sharing.addUp(threads);
+  const int all = static_cast<int>(threads.front());
+  return std::max(all, std::min(4 * all, 32));
+}
+
 /// Of all slices, added up one after the other.
-std::map<std::int32_t, Depths> depthsOfAll(const FibreField& field, const Context& context)
+std::map<std::int32_t, Depths> depthsOfAll(const FibreField& field, const Context& context, const Sharing& sharing)
 {
   const int count = field.samples().count[2];
   const int layers = (count + sliceCount - 1) / sliceCount;
-  const int together = 4 * context.threadCount();
+  const int together = layersTogether(context, sharing);
   std::map<std::int32_t, Depths> all;
   for (int layer = 0; layer < layers; layer += together)
   {
     std::vector<std::vector<DepthsOfFibres>> ofLayer(static_cast<std::size_t>(std::min(together, layers - layer)));
-    parallelFor(ofLayer.size(), context,
+    sharing.loop(
+      ofLayer.size(), context,
       [&](std::size_t i)
       {
         const int first = sliceCount * (layer + static_cast<int>(i));
         ofLayer[i] = depthsInSlices(field, first, std::min(sliceCount, count - first));
-      });
+      },
+      [&](std::size_t i) { return bytesOfSlices(ofLayer[i]); },
+      [&](std::size_t i, const std::string& bytes) { ofLayer[i] = slicesFrom(bytes); });
     for (const auto& slices : ofLayer)
     {
       for (const DepthsOfFibres& slice : slices)
@@ -109,10 +154,10 @@ std::map<std::int32_t, Depths> depthsOfAll(const FibreField& field, const Contex
 
 } // namespace
 
-ThinFibres::ThinFibres(const FibreField& field, const Context& context)
+ThinFibres::ThinFibres(const FibreField& field, const Context& context, const Sharing& sharing)
   : Field(field)
 {
-  for (const auto& [id, all] : depthsOfAll(field, context))
+  for (const auto& [id, all] : depthsOfAll(field, context, sharing))
   {
     const double radius = 3.0 * all.sum / (all.count * field.grid().spacing);
     const double part = (radius - sparedRadius) / (smoothedRadius - sparedRadius);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Sharing.h"
 #include "surface/FibreField.h"
 
 #include <cstdint>
@@ -16,8 +17,8 @@ namespace cactus
 class ThinFibres
 {
 public:
-  /// `field` has to outlive the object. Throws Cancelled.
-  explicit ThinFibres(const FibreField& field, const Context& context = {});
+  /// `field` has to outlive the object. Throws Cancelled. Processes share the look at the image, and all know the fibres.
+  explicit ThinFibres(const FibreField& field, const Context& context = {}, const Sharing& sharing = Sharing());
 
   /// How much of each pass of smoothing the nodes get that have a node before and behind in the range, from 0 to 1, which is the
   /// same for the fields of all fibres. False if that is 1 everywhere; then `out` is not written.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# ctest-timeout: 400
+# ctest-timeout: 900
 # ctest-ranks: 2
 """Substrates made without holding label image and surfaces: the same files as from the filters one after the other, in less memory, and
 a run that is killed goes on."""
@@ -21,7 +21,9 @@ SURFACES = {"GRatioModel": "Distributed", "GRatio": 0.65, "Seed": 3}
 
 # Makes a substrate, and says each stage of the work as it begins.
 SCRIPT = """
+import os
 from paraview.simple import *
+print("process", os.getpid(), flush=True)
 side, folder, margin = float(sys.argv[1]), sys.argv[2], float(sys.argv[3])
 fibres = CapsuleOptimizer(Input=BundleInitializer(Side=side, GrownFibreVolumeFraction=0.85))
 made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1, Margin=margin)
@@ -41,6 +43,12 @@ def rank():
 def ranks():
     controller = vtkMultiProcessController.GetGlobalController()
     return controller.GetNumberOfProcesses() if controller else 1
+
+
+def first_environment():
+    """What this process was started with: MPI has added to it since, and what runs with that is no run of its own."""
+    with open("/proc/self/environ", "rb") as file:
+        return dict(entry.split(b"=", 1) for entry in file.read().split(b"\0") if b"=" in entry)
 
 
 class SubstrateProductionTest(CactusTestCase):
@@ -109,6 +117,71 @@ class SubstrateProductionTest(CactusTestCase):
         with open(path, "w") as file:
             file.write(SCRIPT)
         return subprocess.Popen(["pvpython", path, "6", folder, str(margin)], stdout=subprocess.PIPE, text=True)
+
+    def test_keeps_the_folder_where_only_the_input_changes(self):
+        bundle = BundleInitializer(Side=4, GrownFibreVolumeFraction=0.85)
+        folder = os.path.join(self.folder, "kept")
+        produced = SubstrateProduction(Input=OutputPort(CapsuleOptimizer(Input=bundle), 0), FolderName=folder, **GROWTH)
+        produced.UpdatePipeline()
+        before = files(folder)
+        bundle.Seed = 2
+        with self.assertError("what comes in has changed since .* was written, which stays as it is: press Write"):
+            produced.UpdatePipeline()
+        self.assertEqual(files(folder), before)
+        produced.InvokeCommand("Write")
+        after = files(folder)
+        self.assertNotEqual(after["fibres.strands"], before["fibres.strands"])
+        self.assertEqual(fetch(produced, 0).GetNumberOfRows(), sum(name.endswith(".ply") for name in after))
+
+    def on_ranks(self, count, folder, script=SCRIPT, arguments=("6", "0")):
+        """A script in pvbatch on so many ranks."""
+        path = os.path.join(self.folder, f"ranks-{count}.py")
+        with open(path, "w") as file:
+            file.write(script)
+        return subprocess.Popen(["mpiexec", "-n", str(count), "pvbatch", path, arguments[0], folder, *arguments[1:]],
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=first_environment())
+
+    @unittest.skipIf(ranks() > 1, "starts processes of its own")
+    def test_the_same_files_from_any_number_of_ranks(self):
+        """One that is killed goes on with another number, too; its journals show that all ranks work."""
+        wanted = os.path.join(self.folder, "one")
+        with self.script(wanted, 0) as process:
+            process.communicate()
+        for count, next_count in ((2, 3), (4, 2)):
+            folder = os.path.join(self.folder, f"on-{count}")
+            with self.on_ranks(count, folder) as process:
+                for line in process.stdout:
+                    if line.startswith("process"):
+                        number = int(line.split()[1])
+                    if "making inner surfaces" in line:
+                        os.kill(number, signal.SIGKILL)
+                        break
+                process.stdout.read()
+            self.assertNotEqual(process.returncode, 0)
+            self.assertFalse(os.path.exists(folder))
+            journals = sorted(name for name in os.listdir(folder + ".work") if name.startswith("journal"))
+            self.assertEqual(journals, ["journal"] + [f"journal-{rank:05}" for rank in range(1, count)])
+            for name in journals:
+                self.assertGreater(os.path.getsize(os.path.join(folder + ".work", name)), 1000, name)
+            with self.on_ranks(next_count, folder) as process:
+                said = process.stdout.read()
+            self.assertEqual(process.returncode, 0, said)
+            self.assertNotIn("keeping fibres apart", said)
+            self.assertEqual(files(folder), files(wanted))
+            self.assertFalse(os.path.exists(folder + ".work"))
+            whole = os.path.join(self.folder, f"whole-{count}")
+            with self.on_ranks(count, whole) as process:
+                said = process.stdout.read()
+            self.assertEqual(process.returncode, 0, said)
+            self.assertEqual(files(whole), files(wanted))
+
+    @unittest.skipIf(ranks() > 1, "starts processes of its own")
+    def test_ranks_end_together_with_one_message(self):
+        folder = os.path.join(self.folder, "refused")
+        with self.on_ranks(3, folder, SCRIPT.replace("made.TargetFibre", "made.DecimationError = 0.02; made.TargetFibre")) as process:
+            said = process.stdout.read()
+        self.assertEqual(said.count("is more than the room"), 1, said)
+        self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("refused")], [])
 
     @unittest.skipIf(ranks() > 1, "starts processes of its own")
     def test_goes_on_after_it_was_killed(self):

@@ -5,6 +5,7 @@
 #include "RandomBundle.h"
 #include "ScratchPath.h"
 #include "base/Error.h"
+#include "io/CombinedSurfaces.h"
 #include "io/FolderInspection.h"
 #include "io/PlyFile.h"
 
@@ -162,6 +163,18 @@ TEST_F(SubstrateFolder, HasBytesWhereNoSimulatorReadsThem)
   EXPECT_NE(contentOf(this->Scratch / "s/README.txt").find("one binary PLY file per fibre"), std::string::npos);
   EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"simulator\": \"Surfaces alone\""), std::string::npos);
   EXPECT_EQ(this->write(this->Scratch / "s"), "") << "is replaced";
+}
+
+// A PLY file for Camino numbers points with 32 bits and a sign; NumPy's arrays have 64.
+TEST(CombinedSurfaces, SaysWhereAFileCannotNumberItsPoints)
+{
+  cactus::SurfaceBox box;
+  box.points = 2147483647;
+  box.triangles = 4294967290;
+  EXPECT_NE(cactus::caminoHead(box).find("vertex 2147483647\n"), std::string::npos);
+  EXPECT_NE(cactus::caminoHead(box).find("face 4294967290\n"), std::string::npos);
+  ++box.points;
+  EXPECT_THROW(cactus::caminoHead(box), cactus::InvalidInput);
 }
 
 // Of more than a thousand fibres each folder holds a thousand files at most; the lists of MC/DC follow, and the folder is known

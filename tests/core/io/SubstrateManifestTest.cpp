@@ -41,6 +41,18 @@ TEST(SubstrateManifest, SaysWhatWasWritten)
   EXPECT_NE(text.find("\"volume_um3\": null, \"area_um2\": 0.1,"), std::string::npos) << "JSON has no NaN";
 }
 
+TEST(SubstrateManifest, CountsBeyond32Bits)
+{
+  cactus::WrittenSubstrate substrate;
+  for (int id = 1; id <= 3; ++id)
+  {
+    substrate.files.push_back({ "outer/fibre.ply", "outer", id, 1, std::size_t(3000000000), 1.0, 1.0, true });
+  }
+  const std::string text = cactus::manifestText({}, substrate, {});
+  EXPECT_NE(text.find("\"triangles\": 9000000000,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"triangles\": 3000000000,"), std::string::npos);
+}
+
 TEST(SubstrateManifest, ShowsEveryChangeToIt)
 {
   const std::string text = exampleText();

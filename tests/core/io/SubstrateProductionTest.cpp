@@ -5,6 +5,7 @@
 #include "io/SubstrateProduction.h"
 
 #include "../ChildProcess.h"
+#include "../ThreadTeam.h"
 #include "../surface/MeetingFibres.h"
 #include "base/Error.h"
 #include "growth/GrowthTarget.h"
@@ -14,10 +15,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <string>
@@ -83,6 +86,21 @@ protected:
     return produceSubstrate(this->Fibres_, this->Order, this->folder(name), context);
   }
 
+  /// In so many processes, of which each says what it has found of an earlier run, or why it has ended.
+  std::vector<std::string> produceInTeam(
+    int size, const std::string& name, const std::function<Context(int place)>& contextOf = [](int) { return Context(); }) const
+  {
+    return cactus_testing::inTeam(size,
+      [&](Team& team)
+      {
+        Context context = contextOf(team.place());
+        context.threads = 1 + team.place() % 2;
+        const auto made = produceSubstrate(this->Fibres_, this->Order, this->folder(name), context, &team);
+        return std::to_string(made.found) + " found, " + std::to_string(made.written.files.size()) + " files, " +
+               made.written.certificate.verdict();
+      });
+  }
+
   /// What the stages one after the other write, with the label image in memory.
   std::map<std::string, std::string> filesOfStages() const
   {
@@ -103,8 +121,8 @@ protected:
     return filesIn(this->folder("stages"));
   }
 
-  /// Runs it in a process that is killed once so much is done.
-  void killAt(const std::string& name, double part) const
+  /// Runs it in a process, with so many members, that is killed once so much is done.
+  void killAt(const std::string& name, double part, int members = 1) const
   {
     const std::string told = cactus_testing::inChild(
       [&]
@@ -118,7 +136,8 @@ protected:
             ::raise(SIGKILL);
           }
         };
-        this->produce(name, context);
+        members > 1 ? static_cast<void>(this->produceInTeam(members, name, [&](int) { return context; }))
+                    : static_cast<void>(this->produce(name, context));
         return std::string("was not killed");
       });
     ASSERT_EQ(told, " (the child ended with status 9)");
@@ -178,6 +197,91 @@ TEST_F(Production, GoesOnWhereItWasKilled)
     }
     EXPECT_GT(found, 0u);
   }
+}
+
+TEST_F(Production, WritesTheSameFilesOnSeveralProcessesAndThreads)
+{
+  for (const auto model : { GRatioModel::Constant, GRatioModel::TargetAxonVolumeFraction })
+  {
+    this->Order.surfaces.model = model;
+    this->Order.surfaces.targetAxonVolumeFraction = 0.2;
+    const auto wanted = this->filesOfStages();
+    for (const int size : { 2, 3, 4 })
+    {
+      const auto told = this->produceInTeam(size, "shared");
+      const std::string all = "0 found, " + std::to_string(2 * this->Fibres_.size()) + " files, certified";
+      EXPECT_EQ(told, std::vector<std::string>(std::size_t(size), all));
+      EXPECT_EQ(filesIn(this->folder("shared")), wanted) << size;
+      EXPECT_FALSE(fs::exists(this->folder("shared.work")));
+      fs::remove_all(this->folder("shared"));
+    }
+  }
+}
+
+TEST_F(Production, GoesOnWithAnotherNumberOfProcesses)
+{
+  const auto wanted = this->filesOfStages();
+  for (const double part : { 0.2, 0.5, 0.75, 0.9 })
+  {
+    this->killAt("killed", part, 3);
+    EXPECT_TRUE(fs::exists(this->folder("killed.work/journal-00002")));
+    this->killAt("killed", part + 0.01, 2);
+    EXPECT_FALSE(fs::exists(this->folder("killed")));
+    if (part < 0.6)
+    {
+      const auto told = this->produceInTeam(4, "killed");
+      EXPECT_EQ(std::count(told.begin(), told.end(), told.front()), 4);
+      EXPECT_NE(told.front().substr(0, 2), "0 ") << part;
+    }
+    else
+    {
+      EXPECT_GT(this->produce("killed").found, 0u) << part;
+    }
+    EXPECT_EQ(filesIn(this->folder("killed")), wanted) << part;
+    EXPECT_FALSE(fs::exists(this->folder("killed.work"))) << part;
+    fs::remove_all(this->folder("killed"));
+  }
+}
+
+TEST_F(Production, EndsInAllProcessesWhereOneFails)
+{
+  for (const double part : { 0.05, 0.3, 0.6, 0.88 })
+  {
+    const auto fails = [part](int place)
+    {
+      Context context;
+      context.progress = [place, part](double fraction, const std::string&)
+      {
+        if (place == 1 && fraction >= part)
+        {
+          throw FileError("no space left");
+        }
+      };
+      return context;
+    };
+    const auto told = this->produceInTeam(3, "failed", fails);
+    EXPECT_EQ(told, std::vector<std::string>(3, "on rank 1: no space left")) << part;
+    for (const auto& entry : fs::directory_iterator(this->Scratch))
+    {
+      EXPECT_EQ(entry.path().filename(), "failed.work") << "nothing half-written stays";
+    }
+  }
+  EXPECT_EQ(this->produceInTeam(2, "failed").front().substr(0, 2), "3 ");
+  EXPECT_EQ(filesIn(this->folder("failed")), this->filesOfStages());
+  // What all of them refuse is said once, by the first.
+  this->Order.surfaces.decimationError = 1.0;
+  const auto refused = this->produceInTeam(2, "refused");
+  EXPECT_NE(refused.front().find("DecimationError"), std::string::npos);
+  EXPECT_FALSE(fs::exists(this->folder("refused.work")));
+  const auto apart = cactus_testing::inTeam(2,
+    [&](Team& team)
+    {
+      Fibres fibres = example::fibresThatMeet();
+      fibres.radii[0] += 0.001 * team.place();
+      produceSubstrate(fibres, ProductionOrder(), this->folder("apart"), {}, &team);
+      return std::string();
+    });
+  EXPECT_NE(apart.front().find("the ranks were given different fibres"), std::string::npos) << apart.front();
 }
 
 TEST_F(Production, LeavesNothingWhereItMadeNothing)

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <random>
 #include <vector>
@@ -50,6 +51,66 @@ std::size_t differences(const GrownTiles& tiles, const LabelImage& image, unsign
     }
   }
   return different;
+}
+
+// 8·10¹² samples, of which growFibres() gives any part.
+TEST(GrownTiles, ReachTheFarCornerOfAVeryLargeImage)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(1000.0);
+  for (const int id : { 1, 2 })
+  {
+    fibres.addFibre(id, 1, 0.5);
+    fibres.addPoint({ 498.7 + 0.3 * id, 499.0, 480.0 }, 0.4);
+    fibres.addPoint({ 498.0 + 0.7 * id, 499.3, 499.9 }, 0.5);
+  }
+  FibreRadialGrowthOptions options;
+  options.voxelSize = 0.05;
+  VoxelGrid part = growthGrid(fibres.domain, options);
+  ASSERT_EQ(part.count, (std::array<int, 3>{ { 20000, 20000, 20000 } }));
+  const GrownTiles tiles(fibres, options, 0.1, 100);
+  SampleRange range;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    range.first[axis] = part.lower[axis] = 19950;
+    range.count[axis] = part.count[axis] = 50;
+  }
+  const LabelImage image = growFibres(fibres, options, 0.1, part);
+  LabelBuffer buffer;
+  const LabelImageView view = tiles.samples(range, buffer);
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < image.grid.size(); ++i)
+  {
+    ASSERT_EQ(view.fibreId[i], image.fibreId[i]);
+    ASSERT_EQ(view.depth[i], image.depth[i]);
+    inside += image.fibreId[i] != 0 ? 1 : 0;
+  }
+  EXPECT_GT(inside, 1000u);
+}
+
+// Their places in lists have 32 bits.
+TEST(GrownTiles, SayWhereAnImageHasMoreBlocksThanAreCounted)
+{
+  class Image : public LabelSource
+  {
+  public:
+    Image()
+    {
+      this->Grid.count = { { 30000, 30000, 30000 } };
+      this->Grid.origin.setConstant(-1499.95);
+    }
+    const VoxelGrid& grid() const override { return this->Grid; }
+    double gap() const override { return 0.02; }
+    LabelImageView samples(const SampleRange&, LabelBuffer&) const override { throw Cancelled("nobody should ask"); }
+
+  private:
+    VoxelGrid Grid;
+  };
+  LabelImageFacts facts;
+  facts.domain = Domain::cube(3000.0);
+  MyelinSurfaceOptions options;
+  options.smoothingIterations = 0; // for which thin fibres would be looked for first
+  EXPECT_THROW(SurfaceMaker(std::make_shared<Image>(), facts, options, {}), InvalidInput);
 }
 
 TEST(GrownTiles, HaveTheBitsOfTheImageOnSeveralThreads)

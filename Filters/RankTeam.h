@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Team.h"
+
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// The ranks of a parallel run as core knows them. Every rank has to run what is shared.
+class RankTeam : public Team
+{
+public:
+  int size() const override;
+  int place() const override;
+  std::vector<std::string> exchange(const std::string& bytes) override;
+};
+
+} // namespace cactus

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers as bytes, for the kind of machine that wrote them.
+#pragma once
+
+#include "base/Error.h"
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace cactus
+{
+
+/// Puts numbers one after the other.
+class ByteWriter
+{
+public:
+  template <typename Value>
+  void operator()(const Value& value)
+  {
+    static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
+    this->Bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+  template <typename Value>
+  void operator()(const std::vector<Value>& values)
+  {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    for (const Value& value : values)
+    {
+      (*this)(value);
+    }
+  }
+  void operator()(const std::string& text)
+  {
+    (*this)(static_cast<std::uint64_t>(text.size()));
+    this->Bytes += text;
+  }
+
+  std::string& bytes() { return this->Bytes; }
+
+private:
+  std::string Bytes;
+};
+
+/// Gets them in the same order. Throws FileError where they are not there.
+class ByteReader
+{
+public:
+  /// `bytes` have to outlive the object.
+  explicit ByteReader(const std::string& bytes)
+    : Bytes(bytes)
+  {
+  }
+
+  template <typename Value>
+  void operator()(Value& value)
+  {
+    static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
+    this->requireLeft(sizeof(value));
+    std::memcpy(&value, this->Bytes.data() + this->At, sizeof(value));
+    this->At += sizeof(value);
+  }
+  template <typename Value>
+  void operator()(std::vector<Value>& values)
+  {
+    values.resize(this->count(sizeof(Value)));
+    for (Value& value : values)
+    {
+      (*this)(value);
+    }
+  }
+  void operator()(std::string& text)
+  {
+    const std::uint64_t size = this->count(1);
+    text.assign(this->Bytes, this->At, size);
+    this->At += size;
+  }
+  template <typename Value>
+  Value get()
+  {
+    Value value{};
+    (*this)(value);
+    return value;
+  }
+  bool isAtEnd() const { return this->At == this->Bytes.size(); }
+
+private:
+  std::uint64_t count(std::size_t bytesOfEach)
+  {
+    const auto count = this->get<std::uint64_t>();
+    this->requireLeft(count, bytesOfEach);
+    return count;
+  }
+  void requireLeft(std::uint64_t count, std::size_t bytesOfEach = 1) const
+  {
+    if (count > (this->Bytes.size() - this->At) / bytesOfEach)
+    {
+      throw FileError("what is known of the surfaces is damaged");
+    }
+  }
+
+  const std::string& Bytes;
+  std::size_t At = 0;
+};
+
+template <typename Value>
+std::string bytesOf(const std::vector<Value>& values)
+{
+  ByteWriter put;
+  put(values);
+  return put.bytes();
+}
+
+template <typename Value>
+void getAll(const std::string& bytes, std::vector<Value>& values)
+{
+  ByteReader get(bytes);
+  get(values);
+}
+
+} // namespace cactus

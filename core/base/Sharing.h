@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Bytes.h"
+#include "base/Context.h"
+#include "base/Error.h"
+#include "base/Parallel.h"
+#include "base/Team.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// What ends the work of a process because of another one: the first process throws what happened, and where; nobody else need
+/// say it again.
+class ReportedElsewhere : public Error
+{
+public:
+  using Error::Error;
+};
+
+/// How the processes of a team share work. All of them run the same code on the same input and come to the same exchanges, in
+/// the same order; between these, each does a part of what is shared, and all of what is not. So every process ends with the same
+/// result, which does not depend on their number.
+class Sharing
+{
+public:
+  /// Without a team there is one process, and nothing is exchanged. Processes tell each other by the file `stopFile`, which
+  /// nobody else uses, that one has failed, so that the others need not go on to the next exchange.
+  explicit Sharing(Team* team = nullptr, std::string stopFile = "");
+
+  int size() const { return this->Members != nullptr ? this->Members->size() : 1; }
+  int place() const { return this->Members != nullptr ? this->Members->place() : 0; }
+  /// The process that does what only one may do.
+  bool isFirst() const { return this->place() == 0; }
+
+  /// Runs what is shared, and ends it alike on all: where it throws on one of them, the first throws that, with the number of the
+  /// process, and the others ReportedElsewhere. Of several errors, that of the first process; being stopped comes last.
+  void together(const std::function<void()>& work) const;
+
+  // The rest is for such work.
+
+  /// What each process has given. Ends the work where one has failed.
+  std::vector<std::string> exchange(const std::string& bytes = "") const;
+  /// What the first process has given.
+  std::string fromFirst(const std::string& bytes) const;
+  /// Adds up what all processes have counted.
+  void addUp(std::vector<std::uint64_t>& counts) const;
+  /// Stops, too, once another process has failed.
+  Context watching(const Context& context) const;
+
+  /// Runs body(i) for each i in [0, count) in one of the processes, there as parallelFor() does; then take(i, bytes) in the
+  /// others, one i after the other, with what bytesOf(i) gave.
+  template <typename Body, typename BytesOf, typename Take>
+  void loop(std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
+    const std::string& message = "", double from = 0.0, double to = 1.0) const;
+
+private:
+  struct Ended;
+
+  std::vector<std::size_t> partOf(int process, std::size_t count) const;
+  void tell(const std::string& failure) const;
+  [[noreturn]] void rethrow(const Ended& ended) const;
+
+  Team* Members;
+  std::string StopFile;
+};
+
+template <typename Body, typename BytesOf, typename Take>
+void Sharing::loop(std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
+  const std::string& message, double from, double to) const
+{
+  if (this->size() == 1)
+  {
+    parallelFor(count, context, body, message, from, to);
+    return;
+  }
+  const std::vector<std::size_t> own = this->partOf(this->place(), count);
+  parallelFor(
+    own.size(), context, [&](std::size_t i) { body(own[i]); }, message, from, to);
+  ByteWriter made;
+  for (const std::size_t i : own)
+  {
+    made(std::string(bytesOf(i)));
+  }
+  const std::vector<std::string> all = this->exchange(made.bytes());
+  for (int process = 0; process < this->size(); ++process)
+  {
+    ByteReader found(all[std::size_t(process)]);
+    for (const std::size_t i : process == this->place() ? std::vector<std::size_t>() : this->partOf(process, count))
+    {
+      take(i, found.get<std::string>());
+    }
+  }
+}
+
+} // namespace cactus

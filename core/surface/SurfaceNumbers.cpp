@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/SurfaceNumbers.h"
+
+#include "base/Bytes.h"
+#include "mesh/SurfaceReportNumbers.h"
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Calls visit(number) for every number of a pair, which may be const.
+template <typename Pair, typename Visit>
+void visitPair(Pair& pair, Visit&& visit)
+{
+  visit(pair.fibreId);
+  visit(pair.bundleId);
+  visit(pair.targetRadius);
+  visitNumbers(pair.outerReport, visit);
+  visitNumbers(pair.innerReport, visit);
+  visit(pair.state);
+  visit(pair.volumeAsMade);
+  visit(pair.outerLevel);
+  visit(pair.thickness);
+  visit(pair.targetGRatio);
+  visit(pair.gRatio);
+  visit(pair.droppedVolume);
+  visit(pair.isWanted);
+  visit(pair.isFlawed);
+  visit(pair.largestMove);
+}
+
+} // namespace
+
+std::string bytesOf(const FibreSurfacePair& pair)
+{
+  ByteWriter put;
+  visitPair(pair, put);
+  return put.bytes();
+}
+
+FibreSurfacePair pairFrom(const std::string& bytes)
+{
+  FibreSurfacePair pair;
+  ByteReader get(bytes);
+  visitPair(pair, get);
+  return pair;
+}
+
+} // namespace cactus

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: what processes share is done once, and all of them have all of it, whatever their number; an error in one ends the
+// work in all of them, soon, and the first one says it.
+#include "base/Sharing.h"
+
+#include "../ThreadTeam.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <thread>
+#include <unistd.h>
+
+namespace
+{
+
+using namespace cactus;
+using cactus_testing::inTeam;
+
+TEST(Bytes, ComeBackAsTheyWere)
+{
+  ByteWriter put;
+  put(std::int8_t(-3));
+  put(std::numeric_limits<double>::denorm_min());
+  put(std::string("a\0b", 3));
+  put(std::vector<float>{ 1.5F, -0.0F });
+  const std::string bytes = put.bytes();
+  ByteReader get(bytes);
+  EXPECT_EQ(get.get<std::int8_t>(), -3);
+  EXPECT_EQ(get.get<double>(), std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(get.get<std::string>(), std::string("a\0b", 3));
+  std::vector<float> numbers;
+  get(numbers);
+  EXPECT_EQ(numbers, (std::vector<float>{ 1.5F, -0.0F }));
+  EXPECT_TRUE(get.isAtEnd());
+  // What is cut off is known, wherever: also a count that is more than memory holds.
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+  {
+    const std::string cut = bytes.substr(0, size);
+    ByteReader from(cut);
+    const auto all = [&]
+    {
+      from.get<std::int8_t>();
+      from.get<double>();
+      from.get<std::string>();
+      from(numbers);
+    };
+    EXPECT_THROW(all(), FileError) << size;
+  }
+}
+
+TEST(Sharing, DoesEachThingOnceOnAnyNumberOfProcessesAndThreads)
+{
+  for (const int size : { 1, 2, 3, 4 })
+  {
+    for (const std::size_t count : { 0, 1, 2, 7, 1000, 20000 })
+    {
+      std::vector<std::atomic<int>> times(count);
+      const auto told = inTeam(size,
+        [&](Team& team)
+        {
+          const Sharing sharing(&team);
+          Context context;
+          context.threads = 2;
+          std::vector<std::string> results(count);
+          sharing.together(
+            [&]
+            {
+              sharing.loop(
+                count, context,
+                [&](std::size_t i)
+                {
+                  ++times[i];
+                  results[i] = std::to_string(i * i);
+                },
+                [&](std::size_t i) { return results[i]; }, [&](std::size_t i, const std::string& bytes) { results[i] = bytes; });
+            });
+          for (std::size_t i = 0; i < count; ++i)
+          {
+            if (results[i] != std::to_string(i * i))
+            {
+              return "wrong at " + std::to_string(i);
+            }
+          }
+          return std::string("right");
+        });
+      EXPECT_EQ(told, std::vector<std::string>(std::size_t(size), "right"));
+      for (const auto& number : times)
+      {
+        ASSERT_EQ(number, 1);
+      }
+    }
+  }
+}
+
+TEST(Sharing, AddsUp)
+{
+  const auto told = inTeam(3,
+    [](Team& team)
+    {
+      const Sharing sharing(&team);
+      std::vector<std::uint64_t> counts{ std::uint64_t(team.place()), std::uint64_t(1) << 40 };
+      sharing.together([&] { sharing.addUp(counts); });
+      return std::to_string(counts[0]) + ' ' + std::to_string(counts[1]);
+    });
+  EXPECT_EQ(told, std::vector<std::string>(3, "3 3298534883328"));
+}
+
+/// What each of three members says where work(place) is done between two exchanges.
+std::vector<std::string> endOf(const std::function<void(int)>& work)
+{
+  return inTeam(3,
+    [&](Team& team)
+    {
+      const Sharing sharing(&team);
+      try
+      {
+        // In two layers, as it is where a folder is written within a production.
+        sharing.together(
+          [&]
+          {
+            sharing.together(
+              [&]
+              {
+                sharing.exchange();
+                work(team.place());
+                sharing.exchange();
+              });
+          });
+      }
+      catch (const ReportedElsewhere&)
+      {
+        return std::string("reported elsewhere");
+      }
+      catch (const FileError& error)
+      {
+        return std::string("file error ") + error.what();
+      }
+      catch (const InvalidInput& error)
+      {
+        return std::string("invalid input ") + error.what();
+      }
+      catch (const Cancelled& error)
+      {
+        return std::string("stopped ") + error.what();
+      }
+      return std::string("well");
+    });
+}
+
+TEST(Sharing, EndsAllAlikeAndTheFirstSaysWhy)
+{
+  const std::string other = "reported elsewhere";
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(endOf([](int) {}), (Texts{ "well", "well", "well" }));
+  const auto fullDisk = [](int place)
+  {
+    if (place == 2)
+    {
+      throw FileError("no space");
+    }
+  };
+  EXPECT_EQ(endOf(fullDisk), (Texts{ "file error on rank 2: no space", other, other }));
+  EXPECT_EQ(endOf([](int) { throw InvalidInput("bad"); }), (Texts{ "invalid input bad", other, other }));
+  // A reason says more than that somebody was stopped.
+  const auto stoppedToo = [](int place) { place == 1 ? throw FileError("no space") : throw Cancelled("stopped"); };
+  EXPECT_EQ(endOf(stoppedToo), (Texts{ "file error on rank 1: no space", other, other }));
+  EXPECT_EQ(endOf([](int) { throw Cancelled("by the user"); }), (Texts{ "stopped by the user", other, other }));
+}
+
+TEST(Sharing, TellsOthersAmidTheirWork)
+{
+  const std::string file = ::testing::TempDir() + "cactus-stop-" + std::to_string(::getpid());
+  std::atomic<int> done{ 0 };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto told = inTeam(2,
+    [&](Team& team)
+    {
+      const Sharing sharing(&team, file);
+      sharing.together(
+        [&]
+        {
+          sharing.loop(
+            100000, sharing.watching({}),
+            [&](std::size_t)
+            {
+              if (team.place() == 1)
+              {
+                throw FileError("no space");
+              }
+              ++done;
+              std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            },
+            [](std::size_t) { return std::string(); }, [](std::size_t, const std::string&) {});
+        });
+      return std::string("well");
+    });
+  EXPECT_EQ(told[0], "on rank 1: no space");
+  EXPECT_LT(done, 49999) << "the other one's half of the work";
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+} // namespace
