@@ -47,7 +47,8 @@ FaceBits facesAt(const Domain& box, const Vector3d& point)
   return static_cast<FaceBits>(bits);
 }
 
-std::uint64_t edgeKey(std::int32_t from, std::int32_t to)
+/// An edge in one of its two senses.
+std::uint64_t senseKey(std::int32_t from, std::int32_t to)
 {
   return std::uint64_t(std::uint32_t(from)) << 32 | std::uint32_t(to);
 }
@@ -141,7 +142,7 @@ void BoxJoint::noteOutlines(const std::vector<std::array<std::int32_t, 3>>& wall
   {
     for (std::size_t i = 0; i < 3; ++i)
     {
-      ++uses[edgeKey(t[i], t[(i + 1) % 3])];
+      ++uses[senseKey(t[i], t[(i + 1) % 3])];
     }
   }
   for (const auto& t : wall)
@@ -151,7 +152,7 @@ void BoxJoint::noteOutlines(const std::vector<std::array<std::int32_t, 3>>& wall
       const std::int32_t from = t[i];
       const std::int32_t to = t[(i + 1) % 3];
       const auto shared = unsigned(this->Faces[std::size_t(from)] & this->Faces[std::size_t(to)]);
-      const bool isRim = uses.find(edgeKey(to, from)) == uses.end();
+      const bool isRim = uses.find(senseKey(to, from)) == uses.end();
       if (isRim && shared == 0)
       {
         throw InvalidInput("a surface is not closed, and bounds no compartment");
@@ -166,8 +167,8 @@ void BoxJoint::noteOutlines(const std::vector<std::array<std::int32_t, 3>>& wall
       if (isRim)
       {
         // The cap ran against the wall.
-        this->Compartment[edgeKey(to, from)] = surface.inside;
-        this->Compartment[edgeKey(from, to)] = surface.outside;
+        this->Compartment[senseKey(to, from)] = surface.inside;
+        this->Compartment[senseKey(from, to)] = surface.outside;
       }
     }
   }
@@ -259,14 +260,14 @@ void BoxJoint::assignCompartments()
   {
     for (std::size_t i = 0; i < 3; ++i)
     {
-      triangleOf[edgeKey(triangles[t][i], triangles[t][(i + 1) % 3])] = t;
+      triangleOf[senseKey(triangles[t][i], triangles[t][(i + 1) % 3])] = t;
     }
   }
   for (std::size_t t = this->FirstFaceTriangle; t < triangles.size(); ++t)
   {
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const auto found = this->Compartment.find(edgeKey(triangles[t][i], triangles[t][(i + 1) % 3]));
+      const auto found = this->Compartment.find(senseKey(triangles[t][i], triangles[t][(i + 1) % 3]));
       if (found != this->Compartment.end())
       {
         assign(t, found->second);
@@ -283,7 +284,7 @@ void BoxJoint::assignCompartments()
     reached.pop_back();
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const std::uint64_t back = edgeKey(triangles[t][(i + 1) % 3], triangles[t][i]);
+      const std::uint64_t back = senseKey(triangles[t][(i + 1) % 3], triangles[t][i]);
       if (this->Compartment.find(back) == this->Compartment.end())
       {
         assign(triangleOf.at(back), this->Joined.sides[t][0]);
@@ -326,7 +327,7 @@ std::vector<std::vector<TriangleSide>> connectedParts(const BoxedSurfaces& surfa
     for (std::size_t i = 0; i < 3; ++i)
     {
       const auto [least, most] = std::minmax(corners[i], corners[(i + 1) % 3]);
-      atEdges.push_back({ edgeKey(least, most), compartmentOf(side), side });
+      atEdges.push_back({ senseKey(least, most), compartmentOf(side), side });
     }
   }
   std::sort(atEdges.begin(), atEdges.end(),
