@@ -194,6 +194,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       {
         options.smoothingIterations = 0;
         options.decimationError = 0.0;
+        options.minimumAngle = 0.0;
       }
       cactus::validate(options);
       auto* image = cactus::requireImage(vtkDataObject::GetData(inputs[0]));

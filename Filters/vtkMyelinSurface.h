@@ -61,6 +61,7 @@ public:
   CACTUS_NUMBER_PROPERTY(TargetAxonVolumeFraction)
   CACTUS_WHOLE_PROPERTY(SmoothingIterations)
   CACTUS_NUMBER_PROPERTY(DecimationError)
+  CACTUS_NUMBER_PROPERTY(MinimumAngle)
   CACTUS_SWITCH_PROPERTY(ClipToDomain)
   CACTUS_WHOLE_PROPERTY(Seed)
 

@@ -161,6 +161,34 @@ void EditableSurface::flip(std::size_t one, std::size_t other, std::int32_t a, s
   this->link(other);
 }
 
+std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place)
+{
+  const std::size_t halved[2] = { this->triangleAlong(a, b), this->triangleAlong(b, a) };
+  const auto middle = static_cast<std::int32_t>(this->pointCount());
+  this->Surface.mesh.points.push_back(place);
+  this->Surface.faces.push_back(this->facesOf(a) & this->facesOf(b));
+  this->First.push_back(-1);
+  this->Mark.push_back(0);
+  for (const std::size_t triangle : halved)
+  {
+    // The half at b stays in its place, that at a is new.
+    auto half = this->cornersOf(triangle);
+    this->unlink(triangle);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      auto& corner = this->Surface.mesh.triangles[triangle][i];
+      corner = corner == a ? middle : corner;
+      half[i] = half[i] == b ? middle : half[i];
+    }
+    this->Surface.mesh.triangles.push_back(half);
+    this->Next.resize(3 * this->triangleCount());
+    this->link(triangle);
+    this->link(this->triangleCount() - 1);
+  }
+  this->Alive += 2;
+  return middle;
+}
+
 void EditableSurface::compact()
 {
   auto& triangles = this->Surface.mesh.triangles;

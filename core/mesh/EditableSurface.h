@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// A closed surface whose edges can be collapsed and flipped, so that it stays a closed 2-manifold of the same topology.
+/// A closed surface whose edges can be collapsed, flipped and split, so that it stays a closed 2-manifold of the same topology.
 ///
 /// A corner is number 3 · triangle + place of a point in a triangle. Those of a point are linked in a list:
 ///
@@ -70,6 +70,10 @@ public:
   /// Replaces the edge that two triangles have in common, a to b in `one` and b to a in `other`, by that of the two points beside
   /// it. Precondition: these are not linked.
   void flip(std::size_t one, std::size_t other, std::int32_t a, std::int32_t b);
+  /// Halves the edge of two points, and its triangles, by a new point at `place`, which lies on the faces of the box that both
+  /// lie on. Returns that point.
+  std::int32_t split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place);
+  void move(std::int32_t point, const Eigen::Vector3d& place) { this->Surface.mesh.points[std::size_t(point)] = place; }
   /// Removes what is dead. Points are numbered by their first use; the object is of no use after that.
   void compact();
 

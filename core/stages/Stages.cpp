@@ -106,6 +106,8 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
       .where("Meshing", { 0 })
       .at("DecimationError")
       .where("Meshing", { 0 })
+      .at("MinimumAngle")
+      .where("Meshing", { 0 })
       .at("Seed")
       .where("GRatioModel", { 2 })
       .add("Meshing", &Stage::meshing, { "CACTUS", "VTK filters" },

@@ -56,7 +56,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Spacing(image->grid().spacing)
   , Contours(Field, std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing),
       nudgeFor(Spacing, facts.surfaceTolerance), filters)
-  , Finishing(options.decimationError, Spacing, filters)
+  , Finishing(options.decimationError, options.minimumAngle, Spacing, filters)
   , Withdrawal(0.5 * std::max(0.0, leastRoom - image->gap()))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
   , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + rounding)

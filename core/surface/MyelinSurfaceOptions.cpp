@@ -9,6 +9,14 @@
 namespace cactus
 {
 
+namespace
+{
+
+/// Of triangles; 0 stands for any. Equilateral ones have 60°, and some have little above 25° wherever lengths change.
+constexpr Range smallestAngles{ 5.0, 25.0, "°", 0.0 };
+
+} // namespace
+
 const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
 {
   using Options = MyelinSurfaceOptions;
@@ -30,6 +38,9 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
       .advise("; more would blur fibres of few voxels away")
       .add("DecimationError", &Options::decimationError, limits::surfaceTolerance,
         "Distance by which coarsening may move a surface, an aim and no strict bound; 0 leaves all triangles")
+      .add("MinimumAngle", &Options::minimumAngle, smallestAngles,
+        "Smallest angle that nearly all triangles are to have, as finite elements want them; 0: any, and as few triangles as may "
+        "be")
       .add("ClipToDomain", &Options::clipToDomain,
         "Cut fibres off, and close them, at the faces of the domain; else where the image ends")
       .add("Seed", &Options::seed, limits::seed, "Seed of the fibres' g-ratios where GRatioModel is Distributed");
@@ -42,6 +53,10 @@ void validate(const MyelinSurfaceOptions& options)
   if (options.model == GRatioModel::Distributed)
   {
     distributedGRatio(options.gRatio, options.gRatioDeviation, 0, 1);
+  }
+  if (options.minimumAngle > 0.0 && options.decimationError == 0.0)
+  {
+    throw InvalidInput("MinimumAngle moves surfaces by up to DecimationError, which is 0: give it 0.005 µm, say");
   }
   if (options.model == GRatioModel::TargetAxonVolumeFraction && options.targetAxonVolumeFraction == 0.0)
   {

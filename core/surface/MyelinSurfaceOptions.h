@@ -33,6 +33,9 @@ struct MyelinSurfaceOptions
   /// Distance by which coarsening may move a surface, at most the tolerance that growth kept, as an aim and no strict bound (see
   /// myelinSurfaces()); 0: surfaces stay as contoured.
   double decimationError = 0.005;
+  /// Degrees that the angles of triangles are to have at least, for finite elements, 5 to 25 (see remesh()); 0: as coarsening
+  /// leaves them.
+  double minimumAngle = 0.0;
   /// Cut fibres off at the faces of the domain, else where the image ends.
   bool clipToDomain = true;
   std::uint64_t seed = 1;

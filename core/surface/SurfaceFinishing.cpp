@@ -4,6 +4,7 @@
 #include "mesh/NeedleSplitting.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfacePieces.h"
+#include "mesh/SurfaceRemeshing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,8 @@ namespace
 
 /// Distance of the points at which coarsening looks at the field on large triangles, in voxels.
 constexpr double samplingDistance = 6.0;
+/// Of even triangles, in voxels.
+constexpr double longestEdge = 6.0;
 /// MC/DC warns of triangles above 1000.
 constexpr double largestSquaredEdgeRatio = 800.0;
 /// How often a surface is made again with less coarsening where something was wrong with it.
@@ -66,8 +69,9 @@ std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& pl
   return bounds;
 }
 
-SurfaceFinishing::SurfaceFinishing(double decimationError, double spacing, const SurfaceFilters* filters)
+SurfaceFinishing::SurfaceFinishing(double decimationError, double minimumAngle, double spacing, const SurfaceFilters* filters)
   : DecimationError(decimationError)
+  , MinimumAngle(minimumAngle)
   , Spacing(spacing)
   , Filters(filters)
 {
@@ -110,7 +114,7 @@ bool SurfaceFinishing::coarsen(
   for (int attempt = 0; attempt <= repairs; ++attempt)
   {
     CappedSurface trial = surface;
-    decimate(trial, decimation);
+    this->reshape(trial, decimation);
     moveToVolume(trial, target.volume, this->DecimationError);
     splitNeedles(trial, largestSquaredEdgeRatio);
     report = checkSurface(trial.mesh);
@@ -128,6 +132,17 @@ bool SurfaceFinishing::coarsen(
     decimation.localBounds.insert(decimation.localBounds.end(), more.begin(), more.end());
   }
   return false;
+}
+
+/// Makes the triangles of a contour those that are wanted: as few as may be, or as even.
+void SurfaceFinishing::reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const
+{
+  if (this->MinimumAngle > 0.0)
+  {
+    remesh(surface, { decimation, longestEdge * this->Spacing, this->MinimumAngle });
+    return;
+  }
+  decimate(surface, decimation);
 }
 
 /// The largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps

@@ -32,9 +32,9 @@ struct SurfaceTarget
 class SurfaceFinishing
 {
 public:
-  /// `decimationError` as in MyelinSurfaceOptions; `spacing` is that of the voxels. With `filters` these coarsen. What is given
-  /// by reference has to outlive the object.
-  SurfaceFinishing(double decimationError, double spacing, const SurfaceFilters* filters);
+  /// `decimationError` and `minimumAngle` as in MyelinSurfaceOptions; `spacing` is that of the voxels. With `filters` these
+  /// coarsen. What is given by reference has to outlive the object.
+  SurfaceFinishing(double decimationError, double minimumAngle, double spacing, const SurfaceFilters* filters);
 
   /// Coarsens a contour, gives it its volume, and checks what comes out. If something is wrong with it, it is made again with
   /// less coarsening around there; what cannot be repaired like that stays as contoured, without pieces that enclose no volume,
@@ -47,7 +47,10 @@ private:
   bool coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
+  void reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const;
+
   double DecimationError;
+  double MinimumAngle; ///< degrees
   double Spacing;
   const SurfaceFilters* Filters; ///< null for decimate()
 };

@@ -9,8 +9,9 @@ import subprocess
 
 import numpy
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateStatistics,
-                             SubstrateWriter)
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate,
+                             SubstrateStatistics, SubstrateWriter)
+from paraview.vtk.util.numpy_support import vtk_to_numpy
 from surfaces import POLYGON, surfaces, tube, two_tubes
 
 
@@ -129,6 +130,32 @@ class FiniteElements(CactusTestCase):
         for kind, fraction in (("axon", axons), ("myelin", myelin), ("extra-axonal", 1 - all_fibres)):
             part = sum(volume for volume, row in zip(volumes, rows) if row["Kind"] == kind)
             self.assertAlmostEqual(part / 216, fraction, delta=0.002)
+
+    def test_even_triangles(self):
+        """With MinimumAngle a grown substrate is certified as ever, and 99 % of its triangles have no smaller angle."""
+        bundle = BundleInitializer(Side=5, FibreVolumeFraction=0.4, MinimumRadius=0.6, MeanDispersion=10, GrownFibreVolumeFraction=0.5)
+        fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
+        grown = FibreRadialGrowth(Input=fibres, MinimumGap=0.1)
+        fractions = []
+        for angle in (0, 20):
+            made = MyelinSurface(Input=grown, MinimumAngle=angle)
+            parts = {"Fibres": fibres, "Outer": OutputPort(made, 0), "Inner": OutputPort(made, 1)}
+            verdict = fetch(SubstrateCertificate(**parts))
+            self.assertEqual(verdict.GetValueByName(0, "Certified").ToInt(), 1)
+            table = fetch(SubstrateStatistics(**parts))
+            fractions.append([table.GetValueByName(0, name).ToDouble() for name in ("AVF", "FVF")])
+            below = [self.angles(fetch(made, port)) < math.radians(20) for port in (0, 1)]
+            below = numpy.concatenate(below).mean()
+            self.assertTrue(below < 0.01 if angle else below > 0.5, below)
+        numpy.testing.assert_allclose(fractions[1], fractions[0], rtol=0.003)
+
+    def angles(self, surface):
+        """The smallest angle of each triangle."""
+        points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+        corners = points[vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+        sides = corners - numpy.roll(corners, 1, axis=1)
+        unit = sides / numpy.linalg.norm(sides, axis=2, keepdims=True)
+        return numpy.arccos(-(unit * numpy.roll(unit, 1, axis=1)).sum(axis=2).clip(-1, 1)).min(axis=1)
 
     def test_what_spindoctor_would_refuse_is_said(self):
         """A fibre without an axon, and one that ends inside the domain: any other finite elements take it."""
