@@ -3,6 +3,7 @@
 
 #include "Columns.h"
 #include "InputBlocks.h"
+#include "PlacementData.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "fibres/JoinFibres.h"
@@ -133,27 +134,20 @@ Domain readDomain(vtkAbstractArray* array)
   return domain;
 }
 
-/// Adds the colours `Direction` (red, green and blue are the parts of the tangent along x, y and z, as diffusion imaging has
-/// them), which views show where no array is chosen.
-void addDirections(const Fibres& fibres, vtkPointData* data)
+/// From an image's space into the substrate's own.
+void takeBack(const Placement& placement, Fibres& fibres)
 {
-  auto colours = makeArray<vtkUnsignedCharArray>("Direction", fibres.points.size(), 3);
-  for (std::size_t f = 0; f < fibres.size(); ++f)
+  for (Eigen::Vector3d& point : fibres.points)
   {
-    const std::size_t first = fibres.offsets[f];
-    const std::size_t last = fibres.offsets[f + 1] - 1;
-    for (std::size_t i = first; i <= last; ++i)
+    point = placement.toSubstrate(point);
+  }
+  for (std::vector<double>* radii : { &fibres.radii, &fibres.targetRadii })
+  {
+    for (double& radius : *radii)
     {
-      const Eigen::Vector3d along = fibres.points[std::min(i + 1, last)] - fibres.points[std::max(i, first + 1) - 1];
-      const double length = along.norm();
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double part = length > 0.0 ? std::abs(along[axis]) / length : 0.0;
-        colours->SetTypedComponent(static_cast<vtkIdType>(i), axis, static_cast<unsigned char>(std::lround(255.0 * part)));
-      }
+      radius /= placement.scale;
     }
   }
-  data->AddArray(colours);
 }
 
 } // namespace
@@ -169,6 +163,10 @@ Fibres fibresFrom(vtkDataObject* input)
     try
     {
       addFibres(block.data, part);
+      if (const auto placement = placementOf(block.data))
+      {
+        takeBack(*placement, part);
+      }
     }
     catch (const InvalidInput& error)
     {
@@ -240,7 +238,7 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   fresh->SetPoints(points);
   fresh->SetLines(lines);
   addColumn<vtkDoubleArray>(fresh->GetPointData(), "Radius", pointCount, [&](std::size_t i) { return fibres.radii[i]; });
-  addDirections(fibres, fresh->GetPointData());
+  addDirectionColours(fresh);
   vtkCellData* cells = fresh->GetCellData();
   addColumn<vtkIntArray>(cells, "FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
   addColumn<vtkIntArray>(cells, "BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
@@ -253,6 +251,34 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   {
     addNumber(output->GetFieldData(), grownName, fibres.grownFraction);
   }
+}
+
+void addDirectionColours(vtkPolyData* fibres)
+{
+  auto colours = makeArray<vtkUnsignedCharArray>("Direction", static_cast<std::size_t>(fibres->GetNumberOfPoints()), 3);
+  colours->Fill(0.0);
+  auto cells = vtk::TakeSmartPointer(fibres->GetLines()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCurrentCell(count, ids);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      Eigen::Vector3d before;
+      Eigen::Vector3d after;
+      fibres->GetPoint(ids[std::max<vtkIdType>(i, 1) - 1], before.data());
+      fibres->GetPoint(ids[std::min(i + 1, count - 1)], after.data());
+      const Eigen::Vector3d along = after - before;
+      const double length = along.norm();
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double part = length > 0.0 ? std::abs(along[axis]) / length : 0.0;
+        colours->SetTypedComponent(ids[i], axis, static_cast<unsigned char>(std::lround(255.0 * part)));
+      }
+    }
+  }
+  fibres->GetPointData()->AddArray(colours);
 }
 
 bool hasDomain(vtkDataObject* data)

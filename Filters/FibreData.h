@@ -20,6 +20,8 @@ namespace cactus
 /// Polylines with point data `Radius`, cell data `FibreId`, `BundleId`, `TargetRadius` and field data `Domain`, as core fibres,
 /// validated. Several blocks (a composite data set) are one substrate, and joined as several inputs are.
 ///
+/// Fibres that are placed in an image's space (field data `Placement`) are taken back into the substrate's own.
+///
 /// Field data `GrownFibreVolumeFraction` is what they were made for; that of several blocks adds up, as far as all have it.
 ///
 /// Where the cell arrays are missing, ids count from 1 in cell order, the bundle is 1 and the target radius is the mean of
@@ -37,6 +39,10 @@ int idFrom(vtkDataArray* array, vtkIdType cell);
 /// The reverse; replaces everything in `output` but its field data, in which it sets `Domain` and, where it is known,
 /// `GrownFibreVolumeFraction`.
 void toPolyData(const Fibres& fibres, vtkPolyData* output);
+
+/// Adds the colours `Direction` to polylines (red, green and blue are the parts of the tangent along x, y and z, as diffusion
+/// imaging has them), which views show where no array is chosen.
+void addDirectionColours(vtkPolyData* fibres);
 
 /// Field data `Domain` (xmin xmax ymin ymax zmin zmax, µm) of a data set, or of the first block that has it. Reading throws
 /// InvalidInput where it is missing or has not six finite numbers, or where blocks differ in it.

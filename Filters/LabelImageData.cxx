@@ -2,6 +2,7 @@
 #include "LabelImageData.h"
 
 #include "FibreData.h"
+#include "PlacementData.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 
@@ -126,6 +127,7 @@ vtkImageData* requireImage(vtkDataObject* input)
   {
     throw InvalidInput(std::string("the label image is empty") + advice);
   }
+  requireNotPlaced(image);
   return image;
 }
 

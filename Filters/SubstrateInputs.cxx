@@ -6,6 +6,7 @@
 #include "base/Error.h"
 #include "vtkFibreRadialGrowth.h"
 #include "vtkMyelinSurface.h"
+#include "vtkPlacement.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
@@ -30,14 +31,15 @@ vtkDataObject* unlessReleased(vtkDataObject* data)
 }
 
 /// Which filter made the data at a port, as its output `wantedOutput`. ParaView puts filters of its own, which hand data on,
-/// behind every other. Null where that is no `Filter`.
+/// behind every other; what is placed is of the filter before. Null where that is no `Filter`.
 template <typename Filter>
 Filter* makerOf(vtkAlgorithm* consumer, int port, int wantedOutput)
 {
   int output = 0;
   vtkAlgorithm* maker = consumer->GetNumberOfInputConnections(port) == 1 ? consumer->GetInputAlgorithm(port, 0, output) : nullptr;
-  if (maker != nullptr && std::strcmp(maker->GetClassName(), "vtkPVPostFilter") == 0 &&
-      maker->GetNumberOfInputConnections(0) == 1)
+  while (maker != nullptr &&
+         (std::strcmp(maker->GetClassName(), "vtkPVPostFilter") == 0 || vtkPlacement::SafeDownCast(maker) != nullptr) &&
+         maker->GetNumberOfInputConnections(0) == 1)
   {
     maker = maker->GetInputAlgorithm(0, 0, output);
   }

@@ -4,6 +4,7 @@
 #include "Columns.h"
 #include "FibreData.h"
 #include "InputBlocks.h"
+#include "PlacementData.h"
 #include "SurfaceFacts.h"
 #include "base/Error.h"
 
@@ -23,6 +24,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace cactus
@@ -43,6 +45,7 @@ struct Part
 {
   vtkCellArray* triangles;
   vtkPoints* points;
+  std::optional<Placement> placement;
 };
 
 /// One fibre's triangles.
@@ -166,6 +169,10 @@ TriangleMesh meshOf(const Part& part, const Surface& surface)
   for (std::size_t i = 0; i < used.size(); ++i)
   {
     part.points->GetPoint(used[i], mesh.points[i].data());
+    if (part.placement)
+    {
+      mesh.points[i] = part.placement->toSubstrate(mesh.points[i]);
+    }
   }
   mesh.triangles.resize(ids.size() / 3);
   for (std::size_t i = 0; i < ids.size(); ++i)
@@ -195,7 +202,7 @@ FibreSurfaces surfacesFrom(vtkDataObject* input, const std::string& port, int su
     {
       throw InvalidInput(port + (block.name.empty() ? " " : ", " + block.name + " ") + error.what());
     }
-    parts.push_back({ block.data->GetPolys(), block.data->GetPoints() });
+    parts.push_back({ block.data->GetPolys(), block.data->GetPoints(), placementOf(block.data) });
   }
   auto surfaces = std::make_shared<std::vector<Surface>>();
   for (auto& entry : surfaceOf)

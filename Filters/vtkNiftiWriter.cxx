@@ -2,6 +2,7 @@
 #include "vtkNiftiWriter.h"
 
 #include "FilterSupport.h"
+#include "PlacementData.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/AtomicFile.h"
@@ -12,6 +13,7 @@
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkMatrix3x3.h>
 #include <vtkMatrix4x4.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNIFTIImageHeader.h>
@@ -85,16 +87,32 @@ vtkSmartPointer<vtkImageData> withArray(vtkImageData* image, const std::string& 
 }
 
 /// Writes by VTK's own writer, which knows the format by the name.
-void write(vtkImageData* image, const std::string& path)
+void write(vtkImageData* image, bool isPlaced, const std::string& path)
 {
-  vtkNew<vtkMatrix4x4> axes; // as they are; the writer adds the image's origin
+  // The writer knows nothing of an image's direction matrix.
+  vtkNew<vtkMatrix4x4> grid;
+  double first[3];
+  const int* extent = image->GetExtent();
+  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], first);
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      grid->SetElement(row, column, image->GetDirectionMatrix()->GetElement(row, column));
+    }
+    grid->SetElement(row, 3, first[row]);
+  }
+  vtkNew<vtkImageData> atOrigin;
+  atOrigin->ShallowCopy(image);
+  atOrigin->SetOrigin(0.0, 0.0, 0.0);
+  atOrigin->SetExtent(0, extent[1] - extent[0], 0, extent[3] - extent[2], 0, extent[5] - extent[4]);
   vtkNew<vtkNIFTIImageHeader> header;
-  header->SetXYZTUnits(vtkNIFTIImageHeader::UnitsMicron);
+  header->SetXYZTUnits(isPlaced ? vtkNIFTIImageHeader::UnitsMM : vtkNIFTIImageHeader::UnitsMicron);
   vtkNew<vtkNIFTIImageWriter> writer;
-  writer->SetInputData(image);
+  writer->SetInputData(atOrigin);
   writer->SetNIFTIHeader(header);
-  writer->SetQFormMatrix(axes);
-  writer->SetSFormMatrix(axes);
+  writer->SetQFormMatrix(grid);
+  writer->SetSFormMatrix(grid);
   writer->SetFileName(path.c_str());
   writer->Write();
   if (writer->GetErrorCode() != vtkErrorCode::NoError)
@@ -149,7 +167,8 @@ void vtkNiftiWriter::WriteData()
       }
       const ScratchFolder folder;
       const fs::path whole = folder.file(isPacked ? "image.nii.gz" : "image.nii");
-      write(withArray(imageOf(this->GetInput()), stage.array), whole.string());
+      const bool isPlaced = cactus::placementOf(this->GetInput()).has_value();
+      write(withArray(imageOf(this->GetInput()), stage.array), isPlaced, whole.string());
       place(whole, stage.fileName);
     });
   if (!isWritten)

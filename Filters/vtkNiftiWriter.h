@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkNiftiWriter
- * @brief Writes one array of an image (µm) as NIfTI-1, .nii or .nii.gz, with its place: q- and s-form, units micrometre.
+ * @brief Writes one array of an image as NIfTI-1, .nii or .nii.gz, with its place: q- and s-form; in µm, or in mm where it is
+ * placed in the space of another image (see vtkPlacement).
  *
  * Input: an image. `Array` names the point data to write; without a name they are the active scalars. Directions of three
  * numbers are written as a fifth dimension. The file appears whole or not at all.

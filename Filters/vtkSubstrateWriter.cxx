@@ -4,6 +4,7 @@
 #include "DataProvenance.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
+#include "PlacementData.h"
 #include "StageProperties.h"
 #include "SubstrateFileTable.h"
 #include "SubstrateInputs.h"
@@ -98,8 +99,10 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
 void vtkSubstrateWriter::WriteFolder(vtkTable* files)
 {
   const auto& stage = cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties);
-  cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
+  const cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, 2);
+  cactus::Substrate substrate = cactus::substrateFrom(data);
   cactus::SubstrateFolderContents contents;
+  contents.placement = cactus::placementOf(data.outer);
   contents.outer = std::move(substrate.outer);
   contents.inner = std::move(substrate.inner);
   contents.domain = substrate.domain;

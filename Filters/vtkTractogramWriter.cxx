@@ -3,6 +3,7 @@
 
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "PlacementData.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
@@ -43,7 +44,8 @@ void vtkTractogramWriter::WriteData()
       {
         throw cactus::InvalidInput("FileName is empty: name the tractogram to write");
       }
-      cactus::writeTractogram(cactus::fibresFrom(this->GetInput()), stage.fileName);
+      const cactus::Placement placement = cactus::placementOf(this->GetInput()).value_or(cactus::Placement());
+      cactus::writeTractogram(cactus::fibresFrom(this->GetInput()), placement, stage.fileName);
     });
   if (!isWritten)
   {

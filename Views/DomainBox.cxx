@@ -5,6 +5,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -49,6 +50,17 @@ void copyAll(vtkDataSetAttributes* from, vtkDataSetAttributes* to, vtkIdType beg
 
 } // namespace
 
+vtkSmartPointer<vtkMatrix4x4> placementIn(vtkFieldData* facts)
+{
+  auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
+  vtkDataArray* numbers = facts->GetArray("Placement");
+  for (int i = 0; numbers != nullptr && numbers->GetNumberOfValues() == 16 && i < 16; ++i)
+  {
+    matrix->SetElement(i / 4, i % 4, numbers->GetVariantValue(i).ToDouble());
+  }
+  return matrix;
+}
+
 vtkSmartPointer<vtkPolyData> withDomainBox(vtkPolyData* shape, vtkFieldData* facts)
 {
   vtkDataArray* domain = facts != nullptr ? facts->GetArray("Domain") : nullptr;
@@ -63,10 +75,12 @@ vtkSmartPointer<vtkPolyData> withDomainBox(vtkPolyData* shape, vtkFieldData* fac
   points->SetDataType(shape->GetPoints()->GetDataType());
   points->SetNumberOfPoints(pointCount + corners);
   points->InsertPoints(0, pointCount, 0, shape->GetPoints());
+  const vtkSmartPointer<vtkMatrix4x4> placement = placementIn(facts);
   const auto side = [&](int corner, int axis) { return domain->GetVariantValue(2 * axis + (corner >> axis & 1)).ToDouble(); };
   for (int corner = 0; corner < corners; ++corner)
   {
-    points->SetPoint(pointCount + corner, side(corner, 0), side(corner, 1), side(corner, 2));
+    const double place[4] = { side(corner, 0), side(corner, 1), side(corner, 2), 1.0 };
+    points->SetPoint(pointCount + corner, placement->MultiplyDoublePoint(place));
   }
   boxed->SetPoints(points);
 

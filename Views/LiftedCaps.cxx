@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiftedCaps.h"
 
+#include "DomainBox.h"
+
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -32,6 +35,22 @@ void move(vtkDataArray* coordinates, int axis, double from, double to)
   }
 }
 
+/// A copy of points, through an affine.
+vtkSmartPointer<vtkPoints> moved(vtkPoints* points, vtkMatrix4x4* affine)
+{
+  auto result = vtkSmartPointer<vtkPoints>::New();
+  result->SetDataType(points->GetDataType());
+  result->DeepCopy(points);
+  for (vtkIdType i = 0; affine->IsIdentity() == 0 && i < points->GetNumberOfPoints(); ++i)
+  {
+    double place[4] = { 0.0, 0.0, 0.0, 1.0 };
+    points->GetPoint(i, place);
+    result->SetPoint(i, affine->MultiplyDoublePoint(place));
+  }
+  result->Modified();
+  return result;
+}
+
 } // namespace
 
 vtkSmartPointer<vtkPolyData> withLiftedCaps(vtkPolyData* surface)
@@ -41,10 +60,12 @@ vtkSmartPointer<vtkPolyData> withLiftedCaps(vtkPolyData* surface)
   {
     return surface;
   }
-  vtkNew<vtkPoints> points;
-  points->DeepCopy(surface->GetPoints());
+  const vtkSmartPointer<vtkMatrix4x4> placement = placementIn(surface->GetFieldData());
+  vtkNew<vtkMatrix4x4> back;
+  vtkMatrix4x4::Invert(placement, back);
+  const vtkSmartPointer<vtkPoints> points = moved(surface->GetPoints(), back);
   double bounds[6];
-  surface->GetBounds(bounds);
+  points->GetBounds(bounds);
   for (int end = 0; end < 6; ++end)
   {
     const double face = domain->GetVariantValue(end).ToDouble();
@@ -56,7 +77,7 @@ vtkSmartPointer<vtkPolyData> withLiftedCaps(vtkPolyData* surface)
   }
   auto lifted = vtkSmartPointer<vtkPolyData>::New();
   lifted->ShallowCopy(surface);
-  lifted->SetPoints(points);
+  lifted->SetPoints(moved(points, placement));
   return lifted;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Domain.h"
+#include "base/Placement.h"
 #include "base/Provenance.h"
 #include "fibres/Fibres.h"
 #include "io/McdcConfiguration.h"
@@ -10,6 +11,7 @@
 #include "mesh/FibreSurfaces.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,9 +36,10 @@ struct SubstrateFolderContents
   Domain domain;
   FibreSurfaces outer;
   FibreSurfaces inner;
-  const Fibres* fibres = nullptr; ///< centre lines, if they are to be written too (`fibres.strands`)
-  Provenance provenance;          ///< of the surfaces, and what is to be written of them
-  bool allowOpenSurfaces = false; ///< write surfaces that leak, too
+  const Fibres* fibres = nullptr;     ///< centre lines, if they are to be written too (`fibres.strands`)
+  std::optional<Placement> placement; ///< in an image's space; files stay in the substrate's own, and the manifest says it
+  Provenance provenance;              ///< of the surfaces, and what is to be written of them
+  bool allowOpenSurfaces = false;     ///< write surfaces that leak, too
   SubstrateCertificateOptions certificate;
   SubstrateFormat format = SubstrateFormat::Mcdc;
   PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files that no simulator reads, see mayBeBinary()

@@ -4,6 +4,9 @@
 #include "base/JsonText.h"
 #include "base/Sha256.h"
 
+#include <array>
+#include <vector>
+
 namespace cactus
 {
 
@@ -73,6 +76,22 @@ std::string withoutOwnChecksum(std::string text, const std::string& checksum)
   return place == std::string::npos ? text : text.replace(place, checksum.size(), std::string(checksumDigits, '0'));
 }
 
+/// The rows of the affine, or null.
+Json placementRows(const std::optional<Placement>& placement)
+{
+  if (!placement)
+  {
+    return {};
+  }
+  const std::array<double, 16> matrix = placement->matrix();
+  Json rows = Json::array();
+  for (auto row = matrix.begin(); row != matrix.end(); row += 4)
+  {
+    rows.push_back(std::vector<double>(row, row + 4));
+  }
+  return rows;
+}
+
 Json judgedSurfaces(const SubstrateCertificate& certificate)
 {
   Json judged = Json::array();
@@ -115,6 +134,7 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   manifest["length_unit"] = "micrometre";
   manifest["simulator"] = simulatorNames[std::size_t(contents.format)];
   manifest["domain"] = domain;
+  manifest["placement_um_to_mm"] = placementRows(contents.placement);
   manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();
   manifest["outer_surfaces"] = contents.outer.size();
   manifest["inner_surfaces"] = contents.inner.size();

@@ -185,7 +185,7 @@ Tractogram readTck(std::istream& stream, const std::string& name, const Context&
   return tractogram;
 }
 
-void writeTck(const Fibres& fibres, const std::string& path)
+void writeTck(const Fibres& fibres, const Placement& placement, const std::string& path)
 {
   validate(fibres);
   const std::string count = std::to_string(fibres.size());
@@ -214,7 +214,7 @@ void writeTck(const Fibres& fibres, const std::string& path)
   {
     for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
     {
-      const Eigen::Vector3f point = (micrometre * fibres.points[i]).cast<float>();
+      const Eigen::Vector3f point = placement.toImage(fibres.points[i]).cast<float>();
       write(point[0], point[1], point[2]);
     }
     write(none, none, none);

@@ -83,16 +83,16 @@ Tractogram readTractogram(const std::string& path, const Context& context)
   return tractogram;
 }
 
-void writeTractogram(const Fibres& fibres, const std::string& path)
+void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path)
 {
   const std::string extension = extensionOf(path);
   if (extension == ".tck")
   {
-    writeTck(fibres, path);
+    writeTck(fibres, placement, path);
   }
   else if (extension == ".trx")
   {
-    writeTrx(fibres, path);
+    writeTrx(fibres, placement, path);
   }
   else
   {

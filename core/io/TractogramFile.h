@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Placement.h"
 #include "fibres/Fibres.h"
 #include "io/Tractogram.h"
 
@@ -14,8 +15,8 @@ namespace cactus
 /// left out. Throws FileError, which names the file, OutOfMemory and Cancelled.
 Tractogram readTractogram(const std::string& path, const Context& context = {});
 
-/// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); in mm. The file appears whole
-/// or not at all. Throws FileError, and InvalidInput for other extensions and as `validate` does.
-void writeTractogram(const Fibres& fibres, const std::string& path);
+/// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); in mm, where they are placed.
+/// The file appears whole or not at all. Throws FileError, and InvalidInput for other extensions and as `validate` does.
+void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path);
 
 } // namespace cactus

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/AtomicFile.h"
 #include "base/ByteOrder.h"
-#include "base/Constants.h"
 #include "base/JsonText.h"
 #include "io/TrxFile.h"
 
@@ -31,17 +30,17 @@ std::string bytesOf(std::size_t count, Value&& value)
 }
 
 /// The domain as an image, whose first voxel's centre is half a voxel from the corner.
-std::string headerText(const Fibres& fibres)
+std::string headerText(const Fibres& fibres, const Placement& placement)
 {
   constexpr double most = 65535.0;                                            // voxels along a side
   const double voxel = std::max(1.0, fibres.domain.size().maxCoeff() / most); // µm
   Json affine = Json::array();
   Json dimensions = Json::array();
+  const Eigen::Vector3d first = placement.toImage(fibres.domain.lower + Eigen::Vector3d::Constant(0.5 * voxel));
   for (Eigen::Index axis = 0; axis < 3; ++axis)
   {
-    Json row = Json::array({ 0.0, 0.0, 0.0, micrometre * (fibres.domain.lower[axis] + 0.5 * voxel) });
-    row[std::size_t(axis)] = micrometre * voxel;
-    affine.push_back(row);
+    const Eigen::RowVector3d row = placement.scale * voxel * placement.axes.row(axis);
+    affine.push_back({ row[0], row[1], row[2], first[axis] });
     dimensions.push_back(std::int64_t(std::clamp(std::ceil(fibres.domain.size()[axis] / voxel), 1.0, most)));
   }
   affine.push_back({ 0.0, 0.0, 0.0, 1.0 });
@@ -62,17 +61,25 @@ std::string groupName(int bundle)
 
 } // namespace
 
-void writeTrx(const Fibres& fibres, const std::string& path)
+void writeTrx(const Fibres& fibres, const Placement& placement, const std::string& path)
 {
   validate(fibres);
   std::vector<std::pair<std::string, std::string>> files;
-  files.emplace_back("header.json", headerText(fibres));
-  files.emplace_back("positions.3.float32", bytesOf<float>(3 * fibres.points.size(), [&](std::size_t i)
-                                              { return micrometre * fibres.points[i / 3][Eigen::Index(i % 3)]; }));
+  files.emplace_back("header.json", headerText(fibres, placement));
+  const std::size_t numbers = 3 * fibres.points.size();
+  const auto number = [&](std::size_t i) { return placement.toImage(fibres.points[i / 3])[Eigen::Index(i % 3)]; };
+  if (placement.position.isZero(0.0))
+  {
+    files.emplace_back("positions.3.float32", bytesOf<float>(numbers, number));
+  }
+  else
+  {
+    files.emplace_back("positions.3.float64", bytesOf<double>(numbers, number));
+  }
   files.emplace_back(
     "offsets.uint64", bytesOf<std::uint64_t>(fibres.offsets.size(), [&](std::size_t i) { return fibres.offsets[i]; }));
   files.emplace_back(
-    "dpv/Radius.float32", bytesOf<float>(fibres.radii.size(), [&](std::size_t i) { return micrometre * fibres.radii[i]; }));
+    "dpv/Radius.float32", bytesOf<float>(fibres.radii.size(), [&](std::size_t i) { return placement.scale * fibres.radii[i]; }));
   files.emplace_back(
     "dps/FibreId.int32", bytesOf<std::int32_t>(fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; }));
   files.emplace_back(

@@ -256,6 +256,12 @@ const PropertyList<TractogramWriterStage>& TractogramWriterStage::properties()
   return list;
 }
 
+const PropertyList<PlacementStage>& PlacementStage::properties()
+{
+  static const auto list = PropertyList<PlacementStage>().include(&PlacementStage::options, PlacementOptions::properties());
+  return list;
+}
+
 const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
 {
   using Stage = NiftiWriterStage;
@@ -274,8 +280,9 @@ std::vector<StageDescription> describeStages()
     description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
     description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
     description<SubstrateSamplerStage>("SubstrateSampler"), description<SubstrateWriterStage>("SubstrateWriter"),
-    description<SubstrateProductionStage>("SubstrateProduction"), description<StrandWriterStage>("StrandWriter"),
-    description<TractogramWriterStage>("TractogramWriter"), description<NiftiWriterStage>("NiftiWriter") };
+    description<SubstrateProductionStage>("SubstrateProduction"), description<PlacementStage>("Placement"),
+    description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
+    description<NiftiWriterStage>("NiftiWriter") };
 }
 
 } // namespace cactus

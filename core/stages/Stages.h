@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/LengthUnit.h"
+#include "base/Placement.h"
 #include "base/Properties.h"
 #include "bundle/BundleInitializerOptions.h"
 #include "bundle/TractFibresOptions.h"
@@ -179,6 +180,13 @@ struct TractogramWriterStage
   std::string fileName;
 
   static const PropertyList<TractogramWriterStage>& properties();
+};
+
+struct PlacementStage
+{
+  PlacementOptions options;
+
+  static const PropertyList<PlacementStage>& properties();
 };
 
 struct NiftiWriterStage

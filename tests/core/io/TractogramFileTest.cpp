@@ -341,7 +341,7 @@ TEST(Tractogram, OtherNamesAreErrors)
   fibres.addFibre(1, 1, 1.0);
   fibres.addPoint({ 0, 0, -1 }, 1.0);
   fibres.addPoint({ 0, 0, 1 }, 1.0);
-  EXPECT_THROW(cactus::writeTractogram(fibres, cactus_testing::scratchPath("fibres.trk")), cactus::InvalidInput);
+  EXPECT_THROW(cactus::writeTractogram(fibres, {}, cactus_testing::scratchPath("fibres.trk")), cactus::InvalidInput);
 }
 
 TEST(Tractogram, PointsFarFromAnyScannerAreErrors)

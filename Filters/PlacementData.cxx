@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PlacementData.h"
+
+#include "Columns.h"
+#include "FibreData.h"
+#include "InputBlocks.h"
+#include "base/Error.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr const char* placementName = "Placement";
+
+void placePoints(vtkPointSet* data, const Placement& placement)
+{
+  if (data->GetPoints() == nullptr)
+  {
+    return;
+  }
+  const vtkIdType count = data->GetNumberOfPoints();
+  auto coordinates = makeArray<vtkDoubleArray>("Points", std::size_t(count), 3);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    Eigen::Vector3d point;
+    data->GetPoint(i, point.data());
+    coordinates->SetTypedTuple(i, placement.toImage(point).data());
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  data->SetPoints(points);
+}
+
+void placeGrid(vtkImageData* image, const Placement& placement)
+{
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Rows direction = placement.axes * Eigen::Map<const Rows>(image->GetDirectionMatrix()->GetData());
+  const Eigen::Vector3d origin = placement.toImage(Eigen::Vector3d(image->GetOrigin()));
+  const Eigen::Vector3d spacing = placement.scale * Eigen::Vector3d(image->GetSpacing());
+  image->SetDirectionMatrix(direction.data());
+  image->SetOrigin(origin.data());
+  image->SetSpacing(spacing.data());
+}
+
+/// The array with `change` done to each of its tuples; of one or three components.
+template <typename Change>
+void changeArray(vtkDataSetAttributes* data, vtkDataArray* array, Change&& change)
+{
+  auto changed = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+  changed->DeepCopy(array);
+  std::array<double, 3> tuple{};
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    array->GetTuple(i, tuple.data());
+    change(tuple);
+    changed->SetTuple(i, tuple.data());
+  }
+  // In its place: as the active scalars or normals that it may be.
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    if (data->GetAbstractArray(i) == array)
+    {
+      const int attribute = data->IsArrayAnAttribute(i);
+      data->AddArray(changed);
+      if (attribute >= 0)
+      {
+        data->SetActiveAttribute(i, attribute);
+      }
+      return;
+    }
+  }
+}
+
+void turnDirections(vtkDataSetAttributes* data, const Placement& placement)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i);
+    if (array != nullptr && array->GetNumberOfComponents() == 3 && array->IsNumeric() != 0 &&
+        (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE) && array != data->GetTCoords())
+    {
+      changeArray(data, array,
+        [&](std::array<double, 3>& tuple)
+        {
+          Eigen::Map<Eigen::Vector3d> direction(tuple.data());
+          direction = (placement.axes * direction).eval();
+        });
+    }
+  }
+}
+
+void scaleLengths(vtkDataSetAttributes* data, const char* name, double scale)
+{
+  vtkDataArray* array = data->GetArray(name);
+  if (array != nullptr && array->GetNumberOfComponents() == 1)
+  {
+    changeArray(data, array, [&](std::array<double, 3>& tuple) { tuple[0] *= scale; });
+  }
+}
+
+} // namespace
+
+std::optional<Placement> placementOf(vtkDataObject* data)
+{
+  vtkAbstractArray* array = data != nullptr ? fieldArray(data, placementName) : nullptr;
+  if (array == nullptr)
+  {
+    return std::nullopt;
+  }
+  std::array<double, 16> matrix{};
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  for (std::size_t i = 0; numbers != nullptr && numbers->GetNumberOfValues() == 16 && i < matrix.size(); ++i)
+  {
+    matrix[i] = numbers->GetVariantValue(vtkIdType(i)).ToDouble();
+  }
+  return Placement::of(matrix);
+}
+
+void setPlacement(vtkDataObject* data, const Placement& placement)
+{
+  const std::array<double, 16> matrix = placement.matrix();
+  addColumn<vtkDoubleArray>(data->GetFieldData(), placementName, matrix.size(), [&](std::size_t i) { return matrix[i]; });
+}
+
+void requireNotPlaced(vtkDataObject* data)
+{
+  if (placementOf(data))
+  {
+    throw InvalidInput("the data are placed in an image's space: connect what Placement was given");
+  }
+}
+
+void place(vtkDataObject* output, const Placement& placement)
+{
+  if (output->GetDataObjectType() == VTK_TABLE)
+  {
+    return;
+  }
+  requireNotPlaced(output);
+  if (auto* image = vtkImageData::SafeDownCast(output))
+  {
+    placeGrid(image, placement);
+  }
+  else if (auto* points = vtkPointSet::SafeDownCast(output))
+  {
+    placePoints(points, placement);
+  }
+  else
+  {
+    throw InvalidInput(std::string("the input is a ") + output->GetClassName() +
+                       ": what has points, images and tables can be placed; apply Resample To Image or Clean To Grid first");
+  }
+  auto* data = vtkDataSet::SafeDownCast(output);
+  turnDirections(data->GetPointData(), placement);
+  turnDirections(data->GetCellData(), placement);
+  scaleLengths(data->GetPointData(), "Radius", placement.scale);
+  scaleLengths(data->GetCellData(), "TargetRadius", placement.scale);
+  if (auto* lines = vtkPolyData::SafeDownCast(output))
+  {
+    if (lines->GetNumberOfLines() > 0 &&
+        vtkUnsignedCharArray::SafeDownCast(lines->GetPointData()->GetArray("Direction")) != nullptr)
+    {
+      addDirectionColours(lines);
+    }
+  }
+  setPlacement(output, placement);
+}
+
+} // namespace cactus

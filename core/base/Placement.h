@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Constants.h"
+#include "base/Properties.h"
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace cactus
+{
+
+/// Where a substrate (µm) lies in the space of an image, as scanners count it (mm).
+struct Placement
+{
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< its columns: the substrate's axes in the image's space
+  double scale = micrometre;                          ///< mm there for a micrometre of the substrate
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< mm, of the substrate's origin
+
+  Eigen::Vector3d toImage(const Eigen::Vector3d& point) const { return this->scale * (this->axes * point) + this->position; }
+  /// The reverse, rounded to 2⁻²⁶ µm: what lay in a face of the domain, or in one plane, does so again.
+  Eigen::Vector3d toSubstrate(const Eigen::Vector3d& point) const;
+
+  /// The affine from µm to mm, row by row.
+  std::array<double, 16> matrix() const;
+  /// The reverse. Throws InvalidInput for what is no rotation with one scale and a position.
+  static Placement of(const std::array<double, 16>& matrix);
+};
+
+/// A placement as users give it: turned about y, then x, then z, as ParaView's Transform does, and moved.
+struct PlacementOptions
+{
+  double positionX = 0.0; ///< mm
+  double positionY = 0.0;
+  double positionZ = 0.0;
+  double rotationX = 0.0; ///< degrees
+  double rotationY = 0.0;
+  double rotationZ = 0.0;
+  double scaleFactor = 1.0; ///< a length in the image's space over that of the substrate
+
+  static const PropertyList<PlacementOptions>& properties();
+  /// Throws InvalidInput for options out of range.
+  Placement placement() const;
+};
+
+} // namespace cactus
