@@ -25,7 +25,7 @@ Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32
       // A triangle at both comes as one of u, too.
       const bool isCounted = point == v && (corners[0] == u || corners[1] == u || corners[2] == u);
       // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
-      if (!isCounted && !surface.isCap(corners))
+      if (!isCounted && (surface.facesOf(point) == 0 || !surface.isCap(corners)))
       {
         const Vector3d& a = surface.at(corners[0]);
         sum.addPlane((surface.at(corners[1]) - a).cross(surface.at(corners[2]) - a), a - origin);

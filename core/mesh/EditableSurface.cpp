@@ -8,6 +8,9 @@ namespace cactus
 
 EditableSurface::EditableSurface(CappedSurface& surface)
   : Surface(surface)
+  , Points(surface.mesh.points.data())
+  , Triangles(surface.mesh.triangles.data())
+  , Faces(surface.faces.data())
   , First(surface.mesh.points.size(), -1)
   , Next(3 * surface.mesh.triangles.size())
   , Mark(surface.mesh.points.size(), 0)
@@ -118,14 +121,14 @@ bool EditableSurface::isCollapsible(std::int32_t u, std::int32_t v)
 
 void EditableSurface::collapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place)
 {
-  this->Surface.mesh.points[std::size_t(u)] = place;
-  this->Surface.faces[std::size_t(u)] |= this->facesOf(v);
+  this->Points[u] = place;
+  this->Faces[u] |= this->facesOf(v);
   // The triangles on the edge die; v's others become u's.
   for (std::int32_t c = this->firstCorner(v); c >= 0;)
   {
     const std::int32_t next = this->nextCorner(c);
     const auto t = std::size_t(c) / 3;
-    auto& corners = this->Surface.mesh.triangles[t];
+    auto& corners = this->Triangles[t];
     if (corners[0] == u || corners[1] == u || corners[2] == u)
     {
       for (std::size_t i = 0; i < 3; ++i)
@@ -155,8 +158,8 @@ void EditableSurface::flip(std::size_t one, std::size_t other, std::int32_t a, s
   const std::int32_t d = this->thirdCorner(other, a, b);
   this->unlink(one);
   this->unlink(other);
-  this->Surface.mesh.triangles[one] = { { a, d, c } };
-  this->Surface.mesh.triangles[other] = { { d, b, c } };
+  this->Triangles[one] = { { a, d, c } };
+  this->Triangles[other] = { { d, b, c } };
   this->link(one);
   this->link(other);
 }

@@ -23,15 +23,18 @@ public:
   explicit EditableSurface(CappedSurface& surface);
 
   std::size_t pointCount() const { return this->First.size(); }
-  std::size_t triangleCount() const { return this->Surface.mesh.triangles.size(); }
+  std::size_t triangleCount() const { return this->Next.size() / 3; }
   std::size_t aliveCount() const { return this->Alive; }
 
-  const Eigen::Vector3d& at(std::int32_t point) const { return this->Surface.mesh.points[std::size_t(point)]; }
-  std::uint8_t facesOf(std::int32_t point) const { return this->Surface.faces[std::size_t(point)]; }
-  const std::array<std::int32_t, 3>& cornersOf(std::size_t triangle) const { return this->Surface.mesh.triangles[triangle]; }
+  const Eigen::Vector3d& at(std::int32_t point) const { return this->Points[point]; }
+  std::uint8_t facesOf(std::int32_t point) const { return this->Faces[point]; }
+  const std::array<std::int32_t, 3>& cornersOf(std::size_t triangle) const { return this->Triangles[triangle]; }
   bool isDead(std::size_t triangle) const { return this->cornersOf(triangle)[0] < 0; }
   bool isDeadPoint(std::int32_t point) const { return this->firstCorner(point) < 0; }
-  bool isCap(const std::array<std::int32_t, 3>& corners) const { return this->Surface.isCap(corners); }
+  bool isCap(const std::array<std::int32_t, 3>& corners) const
+  {
+    return (this->Faces[corners[0]] & this->Faces[corners[1]] & this->Faces[corners[2]]) != 0;
+  }
 
   /// The other two points of a corner's triangle, in its sense.
   std::array<std::int32_t, 2> oppositeEdge(std::int32_t corner) const
@@ -86,6 +89,10 @@ private:
   void unlink(std::int32_t point, std::int32_t corner);
 
   CappedSurface& Surface;
+  // Of the surface, as long as it is edited: where things lie without a look at its vectors.
+  Eigen::Vector3d* Points;
+  std::array<std::int32_t, 3>* Triangles;
+  std::uint8_t* Faces;
   std::vector<std::int32_t> First; ///< per point, a corner that it is, or -1
   std::vector<std::int32_t> Next;  ///< per corner, the next one that is the same point, or -1
   std::vector<int> Mark;           ///< per point, of isCollapsible()

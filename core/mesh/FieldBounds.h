@@ -49,6 +49,9 @@ public:
   template <typename IsEnough>
   FieldFit fitAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, IsEnough&& isEnough) const;
 
+  /// Whether the field is in its range at the points of a triangle that fits look at: corners, middles of edges and centroid.
+  bool holdAt(const std::array<std::int32_t, 3>& triangle) const;
+
   /// Whether the field is in its range all over a triangle, at points at most `sampling` apart besides those of the fits. A bit
   /// of `faces` says that a corner is on that face of the box.
   bool holdWithin(const std::array<Eigen::Vector3d, 3>& corners, const std::array<std::uint8_t, 3>& faces) const;
@@ -56,9 +59,9 @@ public:
   bool holdAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place) const;
 
   /// The largest distance of the field from its level in the middle of the edge a b and of the triangles that it makes with c and
-  /// d.
+  /// d, or the first one found that is above `limit`.
   double largestError(
-    const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d) const;
+    const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d, double limit) const;
 
 private:
   /// Adds a point that moves by `weight` where the corner moves by 1.

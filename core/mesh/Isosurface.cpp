@@ -38,6 +38,115 @@ std::array<std::array<int, 4>, 6> allFaces()
   return { { cornersOfFace(0), cornersOfFace(1), cornersOfFace(2), cornersOfFace(3), cornersOfFace(4), cornersOfFace(5) } };
 }
 
+/// An edge of a cell, by the corners at its ends.
+struct CellEdge
+{
+  int from;
+  int to;
+
+  std::size_t index() const { return std::size_t(3 * (from & to) + (from ^ to) / 2); }
+};
+constexpr std::size_t edgeCount = 3 * (cornerCount - 1); // some numbers stand for none
+
+const std::array<std::array<int, 4>, 6> facesOfCell = allFaces();
+
+/// The edges on which the contour crosses a face, around it, of a cell whose corners with a bit in `mask` are positive.
+struct FaceCrossings
+{
+  std::array<CellEdge, 4> edges;
+  std::array<bool, 4> enters; ///< from outside to inside, or the other way round
+  std::size_t count = 0;
+
+  FaceCrossings(const std::array<int, 4>& corners, int mask)
+  {
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const int from = corners[i];
+      const int to = corners[(i + 1) % 4];
+      if (((mask >> from) & 1) != ((mask >> to) & 1))
+      {
+        enters[count] = ((mask >> to) & 1) != 0;
+        edges[count++] = { from, to };
+      }
+    }
+  }
+};
+
+/// The faces whose positive corners are opposite each other, so that signs alone do not tell how the contour runs there; bits.
+int ambiguousFaces(int mask)
+{
+  int ambiguous = 0;
+  for (int face = 0; face < 6; ++face)
+  {
+    ambiguous |= FaceCrossings(facesOfCell[std::size_t(face)], mask).count == 4 ? 1 << face : 0;
+  }
+  return ambiguous;
+}
+
+/// The closed lines along which a contour cuts through the faces of a cell: the edges that they cross, one line after the other.
+struct CellLoops
+{
+  std::array<CellEdge, 12> edges;
+  std::array<std::uint8_t, 12> ends; ///< of each line, where the next one begins
+  std::size_t count = 0;             ///< of lines
+
+  /// A bit of `joined` says of an ambiguous face that its positive corners hang together.
+  CellLoops(int mask, int joined)
+  {
+    // By edge: a line goes on from there to this one. An edge on which it enters the positive part of one face is one on which it
+    // leaves that of another.
+    std::array<CellEdge, edgeCount> next;
+    std::array<CellEdge, 12> entries;
+    std::size_t entryCount = 0;
+    for (int face = 0; face < 6; ++face)
+    {
+      const FaceCrossings crossings(facesOfCell[std::size_t(face)], mask);
+      const std::size_t step = ((joined >> face) & 1) != 0 ? crossings.count - 1 : 1;
+      for (std::size_t i = 0; i < crossings.count; ++i)
+      {
+        if (crossings.enters[i])
+        {
+          // Around the positive corner that follows or, where positives meet, around the negative one before.
+          next[crossings.edges[i].index()] = crossings.edges[(i + step) % crossings.count];
+          entries[entryCount++] = crossings.edges[i];
+        }
+      }
+    }
+    std::uint32_t done = 0;
+    std::size_t edge = 0;
+    for (std::size_t e = 0; e < entryCount; ++e)
+    {
+      const std::size_t first = edge;
+      for (CellEdge at = entries[e]; (done & (1u << at.index())) == 0; at = next[at.index()])
+      {
+        done |= 1u << at.index();
+        edges[edge++] = at;
+      }
+      if (edge > first)
+      {
+        ends[count++] = static_cast<std::uint8_t>(edge);
+      }
+    }
+  }
+};
+
+/// Of every set of positive corners.
+struct CellCase
+{
+  int ambiguous;
+  CellLoops loops; ///< where no face is ambiguous
+};
+
+std::vector<CellCase> allCases()
+{
+  std::vector<CellCase> cases;
+  for (int mask = 0; mask < 1 << cornerCount; ++mask)
+  {
+    cases.push_back({ ambiguousFaces(mask), CellLoops(mask, 0) });
+  }
+  return cases;
+}
+
 class Contourer
 {
 public:
@@ -68,16 +177,6 @@ public:
   CappedSurface take() { return std::move(this->Surface); }
 
 private:
-  /// An edge of a cell, by the corners at its ends.
-  struct Edge
-  {
-    int from;
-    int to;
-
-    std::size_t index() const { return std::size_t(3 * (from & to) + (from ^ to) / 2); }
-  };
-  static constexpr std::size_t edgeCount = 3 * (cornerCount - 1); // some numbers stand for none
-
   /// Writes down which nodes of the block are positive, a bit each.
   void findSigns()
   {
@@ -135,59 +234,42 @@ private:
 
   void addCell(const LatticeNode& cell, int mask, int sides)
   {
-    // By edge: a loop of the surface goes on from there to this one. An edge on which it enters the positive part of one face is
-    // one on which it leaves that of another.
-    std::array<Edge, edgeCount> next;
-    std::array<Edge, 12> entries;
-    std::size_t entryCount = 0;
-    bool isPlain = true;
-    for (int face = 0; face < 6; ++face)
+    static const std::vector<CellCase> cases = allCases();
+    const CellCase& now = cases[std::size_t(mask)];
+    int joined = 0;
+    for (int face = 0; (now.ambiguous >> face) != 0; ++face)
     {
-      static const std::array<std::array<int, 4>, 6> faces = allFaces();
-      const std::array<int, 4>& corners = faces[std::size_t(face)];
-      // Crossings around the face, from outside to inside or the other way round.
-      std::array<Edge, 4> crossings;
-      std::array<bool, 4> enters;
-      std::size_t count = 0;
-      for (std::size_t i = 0; i < 4; ++i)
-      {
-        const int from = corners[i];
-        const int to = corners[(i + 1) % 4];
-        if (((mask >> from) & 1) != ((mask >> to) & 1))
-        {
-          enters[count] = ((mask >> to) & 1) != 0;
-          crossings[count++] = { from, to };
-        }
-      }
-      const bool isJoined = count == 4 && this->positivesMeet(cell, corners, mask);
-      isPlain = isPlain && count < 4;
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        if (enters[i])
-        {
-          // Around the positive corner that follows or, where positives meet, around the negative one before.
-          next[crossings[i].index()] = crossings[(i + (isJoined ? count - 1 : 1)) % count];
-          entries[entryCount++] = crossings[i];
-        }
-      }
+      const bool isJoined = ((now.ambiguous >> face) & 1) != 0 && this->positivesMeet(cell, facesOfCell[std::size_t(face)], mask);
+      joined |= isJoined ? 1 << face : 0;
+    }
+    for (int face = 0; (sides >> face) != 0; ++face)
+    {
       if (((sides >> face) & 1) != 0)
       {
-        this->addCaps(cell, corners, mask, isJoined);
+        this->addCaps(cell, facesOfCell[std::size_t(face)], mask, ((joined >> face) & 1) != 0);
       }
     }
-    std::uint32_t done = 0;
-    for (std::size_t e = 0; e < entryCount; ++e)
+    if (now.ambiguous == 0)
+    {
+      this->addLoops(cell, now.loops, true);
+    }
+    else
+    {
+      this->addLoops(cell, CellLoops(mask, joined), false);
+    }
+  }
+
+  void addLoops(const LatticeNode& cell, const CellLoops& loops, bool isPlain)
+  {
+    std::size_t edge = 0;
+    for (std::size_t loop = 0; loop < loops.count; ++loop)
     {
       this->Polygon.clear();
-      for (Edge at = entries[e]; (done & (1u << at.index())) == 0; at = next[at.index()])
+      for (; edge < loops.ends[loop]; ++edge)
       {
-        done |= 1u << at.index();
-        this->Polygon.push_back(this->Points.between(cell, at.from, at.to));
+        this->Polygon.push_back(this->Points.between(cell, loops.edges[edge].from, loops.edges[edge].to));
       }
-      if (!this->Polygon.empty())
-      {
-        isPlain ? cutByDiagonals(this->Polygon, this->Surface.mesh) : cutAroundMiddle(this->Polygon, this->Surface);
-      }
+      isPlain ? cutByDiagonals(this->Polygon, this->Surface.mesh) : cutAroundMiddle(this->Polygon, this->Surface);
     }
   }
 

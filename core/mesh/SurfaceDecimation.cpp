@@ -53,7 +53,7 @@ public:
     , Locked(Mesh.pointCount(), 0)
     , Changed(Mesh.pointCount(), 0)
     , Part(Mesh.pointCount(), 1.0f)
-    , Known(Mesh.triangleCount(), 0)
+    , Looks(Mesh.triangleCount(), unknown)
   {
     for (const LocalErrorBound& bound : options.localBounds)
     {
@@ -71,12 +71,12 @@ public:
   {
     for (const double part : sweepErrors)
     {
-      this->sweeps(part * this->Reach);
+      this->sweeps(part * this->Reach, true);
     }
     for (int round = 0; round < flipRounds; ++round)
     {
       this->flipEdges();
-      this->sweeps(this->Reach);
+      this->sweeps(this->Reach, round == 0);
     }
     this->repairShapes();
     this->Mesh.compact();
@@ -90,12 +90,19 @@ private:
     Kept     ///< the field is in its range
   };
 
-  /// Sweeps until one removes little.
-  void sweeps(double error)
+  /// What is known of a triangle from looks at the field; bits.
+  using Look = std::uint8_t;
+  static constexpr Look unknown = 0;
+  static constexpr Look kept = 1; ///< it was made by a collapse that keeps the field in its range
+  static constexpr Look fine = 2; ///< the field is in its range at the points of fits
+  static constexpr Look out = 4;  ///< it is not
+
+  /// Sweeps until one removes little. The error is a new one, or that of the sweeps before: what was too much then still is.
+  void sweeps(double error, bool isNew)
   {
     for (int sweep = 0; sweep < sweepsPerError; ++sweep)
     {
-      if (this->sweep(error * error, sweep == 0) * 10 < this->Mesh.aliveCount())
+      if (this->sweep(error * error, isNew && sweep == 0) * 10 < this->Mesh.aliveCount())
       {
         return;
       }
@@ -236,11 +243,11 @@ private:
 
   /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. With `mayMove`, `place` is
   /// moved outwards or inwards if that brings the field into its range.
-  Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove) const
+  Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove)
   {
-    const bool mustFit = this->isKnown(u, v);
-    const FieldFit after = this->Fits.fitAfterCollapse(
-      u, v, place, [&](const FieldFit& fit) { return mustFit && fit.isOut() && !(mayMove && fit.canBeMoved()); });
+    const bool mustFit = this->all(u, v, kept) || this->all(u, v, fine);
+    const FieldFit after = this->Fits.fitAfterCollapse(u, v, place,
+      [&](const FieldFit& fit) { return fit.isOut() && !(mayMove && fit.canBeMoved()) && (mustFit || this->areFine(u, v)); });
     if (!after.isOut())
     {
       return this->Fits.holdAfterCollapse(u, v, place) ? Verdict::Kept : Verdict::Worse;
@@ -258,7 +265,7 @@ private:
         return this->Fits.holdAfterCollapse(u, v, moved) ? Verdict::Kept : Verdict::Worse;
       }
     }
-    if (mustFit)
+    if (mustFit || this->areFine(u, v))
     {
       return Verdict::Worse;
     }
@@ -266,20 +273,36 @@ private:
     return after.excess <= before.excess ? Verdict::NoWorse : Verdict::Worse;
   }
 
-  /// Whether the triangles at u and v have been found to keep the field in its range.
-  bool isKnown(std::int32_t u, std::int32_t v) const
+  /// Whether the same is known of all triangles at u and v.
+  bool all(std::int32_t u, std::int32_t v, Look look) const
   {
-    return !this->Mesh.visitCornersAt(u, v, [&](std::int32_t c, std::int32_t) { return !this->Known[std::size_t(c) / 3]; });
+    return !this->Mesh.visitCornersAt(
+      u, v, [&](std::int32_t c, std::int32_t) { return (this->Looks[std::size_t(c) / 3] & look) == 0; });
   }
 
-  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, bool isKnown)
+  /// Whether the field is in its range at the triangles at u and v as they are. Each is looked at once.
+  bool areFine(std::int32_t u, std::int32_t v)
+  {
+    return !this->Mesh.visitCornersAt(u, v,
+      [&](std::int32_t c, std::int32_t)
+      {
+        Look& look = this->Looks[std::size_t(c) / 3];
+        if ((look & (fine | out)) == 0)
+        {
+          look |= this->Fits.holdAt(this->Mesh.cornersOf(std::size_t(c) / 3)) ? fine : out;
+        }
+        return (look & out) != 0;
+      });
+  }
+
+  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, bool isKept)
   {
     this->Mesh.collapse(u, v, place);
     this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
     this->Locked[std::size_t(u)] = this->Sweep;
     for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0; c = this->Mesh.nextCorner(c))
     {
-      this->Known[std::size_t(c) / 3] = isKnown;
+      this->Looks[std::size_t(c) / 3] = isKept ? kept : unknown;
       this->markChanged(std::size_t(c) / 3);
     }
   }
@@ -308,6 +331,18 @@ private:
         }
       }
     }
+    this->LastFlips = this->Sweep;
+  }
+
+  /// The last sweep in which a triangle at one of some points changed.
+  int lastChange(const std::array<std::int32_t, 4>& points) const
+  {
+    int last = 0;
+    for (const std::int32_t p : points)
+    {
+      last = std::max(last, this->Changed[std::size_t(p)]);
+    }
+    return last;
   }
 
   enum class Flip
@@ -323,6 +358,10 @@ private:
     const std::int32_t d = this->Mesh.thirdCorner(other, a, b);
     const float part = std::min(
       { this->Part[std::size_t(a)], this->Part[std::size_t(b)], this->Part[std::size_t(c)], this->Part[std::size_t(d)] });
+    if (kind == Flip::ToFit && this->lastChange({ { a, b, c, d } }) < this->LastFlips)
+    {
+      return false; // as it was when this was tried last
+    }
     const bool isAtFace =
       (this->Mesh.facesOf(a) & this->Mesh.facesOf(b)) != 0 || (this->Mesh.facesOf(c) & this->Mesh.facesOf(d)) != 0;
     if (part < 1.0f || isAtFace)
@@ -333,7 +372,7 @@ private:
     const Vector3d& pb = this->Mesh.at(b);
     const Vector3d& pc = this->Mesh.at(c);
     const Vector3d& pd = this->Mesh.at(d);
-    const double before = this->Fits.largestError(pa, pb, pc, pd);
+    const double before = this->Fits.largestError(pa, pb, pc, pd, std::numeric_limits<double>::infinity());
     if (before < flipNeed * this->Options.maximumError && kind == Flip::ToFit)
     {
       return false;
@@ -347,13 +386,13 @@ private:
     }
     const double furthest = kind == Flip::ToFit ? flipGain * before : std::max(before, this->Options.maximumError);
     constexpr std::array<std::uint8_t, 3> inside{ { 0, 0, 0 } };
-    if (this->Fits.largestError(pc, pd, pa, pb) > furthest || this->Mesh.areLinked(c, d) ||
+    if (this->Mesh.areLinked(c, d) || this->Fits.largestError(pc, pd, pa, pb, furthest) > furthest ||
         !this->Fits.holdWithin({ { pa, pd, pc } }, inside) || !this->Fits.holdWithin({ { pd, pb, pc } }, inside))
     {
       return false;
     }
     this->Mesh.flip(one, other, a, b);
-    this->Known[one] = this->Known[other] = this->Known[one] && this->Known[other];
+    this->Looks[one] = this->Looks[other] = this->Looks[one] & this->Looks[other] & kept;
     this->markChanged(one);
     this->markChanged(other);
     return true;
@@ -382,8 +421,9 @@ private:
   std::vector<int> Locked;  ///< per point, the sweep in which it was moved
   std::vector<int> Changed; ///< per point, the sweep in which a triangle at it changed
   std::vector<float> Part;  ///< per point, of the largest error
-  std::vector<char> Known;  ///< per triangle, that it keeps the field in its range
+  std::vector<Look> Looks;  ///< per triangle
   int Sweep = 0;
+  int LastFlips = 0; ///< the sweep after which edges were flipped last
 };
 
 } // namespace

@@ -359,6 +359,7 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out)
   thread_local LabelBuffer buffer;
   const LabelImageView held = this->samplesAt(range, farthestNeighbour, buffer);
   const std::vector<int> columns = this->Samples.columnsOf(range);
+  const auto gap = static_cast<float>(held.gap);
   for (int k = 0; k < range.count[2]; ++k)
   {
     const int z = this->Samples.sampleOf(2, range.first[2] + k);
@@ -368,7 +369,14 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out)
       const std::size_t row = held.grid.index(this->Samples.first[0] + columns.front(), y, z);
       for (const int column : columns)
       {
-        *out++ = this->field(held, fibre, row + std::size_t(column - columns.front()), this->Samples.first[0] + column, y, z);
+        const std::size_t index = row + std::size_t(column - columns.front());
+        const std::int32_t id = held.fibreId[index];
+        const float depth = held.depth[index];
+        // Most samples are plainly in a fibre or outside all.
+        const bool isPlain = id != 0 || depth <= -0.5f * gap;
+        *out++ = !isPlain                 ? this->field(held, fibre, index, this->Samples.first[0] + column, y, z)
+                 : id == fibre || id == 0 ? depth
+                                          : -(depth + gap);
       }
     }
   }

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
+
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 namespace cactus
 {
@@ -18,15 +23,65 @@ namespace
 constexpr int fewPasses = 8;
 constexpr int blocksTogether = 4;
 
-typedef float Four __attribute__((vector_size(16)));
+/// Four floats as they lie in memory.
+inline FourFloats fourAt(const float* from)
+{
+  FourFloats four;
+  std::memcpy(&four, from, sizeof(four));
+  return four;
+}
+
+/// Two floats from each of two places.
+inline FourFloats twoAndTwo(const float* first, const float* second)
+{
+  // As doubles, of which compilers make two loads and nothing else.
+  typedef double Pair __attribute__((vector_size(16)));
+  double pairs[2];
+  std::memcpy(&pairs[0], first, sizeof(double));
+  std::memcpy(&pairs[1], second, sizeof(double));
+  return reinterpret_cast<FourFloats>(Pair{ pairs[0], pairs[1] });
+}
+
+/// By place along an axis whose nodes are `step` apart: two and two nodes next to each other, `other` apart.
+inline std::array<FourFloats, 4> rowsAt(const float* corner, std::ptrdiff_t step, std::ptrdiff_t other)
+{
+  const auto row = [&](std::ptrdiff_t at) { return twoAndTwo(corner + at * step, corner + at * step + other); };
+  return { { row(-1), row(0), row(1), row(2) } };
+}
+
+inline std::array<FourFloats, 4> transposed(const std::array<FourFloats, 4>& rows)
+{
+  const FourFloats low01 = { rows[0][0], rows[1][0], rows[0][1], rows[1][1] };
+  const FourFloats low23 = { rows[2][0], rows[3][0], rows[2][1], rows[3][1] };
+  const FourFloats high01 = { rows[0][2], rows[1][2], rows[0][3], rows[1][3] };
+  const FourFloats high23 = { rows[2][2], rows[3][2], rows[2][3], rows[3][3] };
+  return { { FourFloats{ low01[0], low01[1], low23[0], low23[1] }, FourFloats{ low01[2], low01[3], low23[2], low23[3] },
+    FourFloats{ high01[0], high01[1], high23[0], high23[1] }, FourFloats{ high01[2], high01[3], high23[2], high23[3] } } };
+}
+
+inline FourFloats lesser(const FourFloats& x, const FourFloats& y)
+{
+#ifdef __SSE__
+  return _mm_min_ps(x, y); // which compilers do not make of the line below
+#else
+  return x < y ? x : y;
+#endif
+}
+
+inline FourFloats larger(const FourFloats& x, const FourFloats& y)
+{
+#ifdef __SSE__
+  return _mm_max_ps(x, y);
+#else
+  return x > y ? x : y;
+#endif
+}
 
 /// agreedBend() (see mesh/ContourPoints.h) of four pairs of second differences.
-inline Four agreedBends(const Four& first, const Four& second)
+inline FourFloats agreedBends(const FourFloats& first, const FourFloats& second)
 {
-  const Four zero{};
-  const Four lower = first < second ? first : second;
-  const Four upper = first < second ? second : first;
-  return lower > zero ? lower : upper < zero ? upper : zero;
+  const FourFloats zero{};
+  return larger(lesser(first, second), zero) + lesser(larger(first, second), zero);
 }
 
 /// One pass along one axis, whose nodes are `step` apart in memory. Values at the rim become wrong, and are not used.
@@ -129,12 +184,12 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   const bool isUniform = part.empty() || !thin->smoothingAt(range, part.data());
   // Each pass leaves one node less on every side. Strides stay.
   const std::size_t rowLength(range.count[0]);
-  std::vector<float> before;
+  std::vector<float> before(range.size());
   for (int pass = 0; pass < passes; ++pass)
   {
     for (const std::size_t step : { std::size_t(1), rowLength, rowLength * std::size_t(range.count[1]) })
     {
-      before = buffer;
+      before.swap(buffer);
       smoothAlong(step, buffer, before);
       if (!isUniform)
       {
@@ -246,43 +301,42 @@ double SmoothedField::value(const Eigen::Vector3d& at) const
   {
     return -std::numeric_limits<double>::infinity();
   }
+  const float* corner = place.corner;
+  const std::ptrdiff_t y = place.stride[1];
+  const std::ptrdiff_t z = place.stride[2];
   const auto& t = place.t;
-  const float weights[3][2] = { { float(1.0 - t[0]), float(t[0]) }, { float(1.0 - t[1]), float(t[1]) },
-    { float(1.0 - t[2]), float(t[2]) } };
-  Four sum{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    // The four edges of the cell along this axis, with a node before and behind, and their weights.
-    const std::size_t one = (axis + 1) % 3;
-    const std::size_t other = (axis + 2) % 3;
-    const float* line = place.corner;
-    const std::ptrdiff_t along = place.stride[axis];
-    const std::ptrdiff_t lines[4] = { 0, place.stride[one], place.stride[other], place.stride[one] + place.stride[other] };
-    const auto nodes4 = [&](std::ptrdiff_t at)
-    {
-      const Four v = { line[at + lines[0]], line[at + lines[1]], line[at + lines[2]], line[at + lines[3]] };
-      return v;
-    };
-    const float* a = weights[one];
-    const float* b = weights[other];
-    const Four weight = { a[0] * b[0], a[1] * b[0], a[0] * b[1], a[1] * b[1] };
-    const Four v1 = nodes4(0);
-    const Four v2 = nodes4(along);
-    if (axis == 0)
-    {
-      sum += weight * (weights[0][0] * v1 + weights[0][1] * v2);
-    }
-    const bool before = place.cell[axis] > 1;
-    const bool behind = place.cell[axis] + 3 <= this->Cells[axis];
-    if (!before && !behind)
-    {
-      continue;
-    }
-    const Four first = before ? nodes4(-along) - 2.0f * v1 + v2 : v1 - 2.0f * v2 + nodes4(2 * along);
-    const Four second = behind && before ? v1 - 2.0f * v2 + nodes4(2 * along) : first;
-    sum -= (0.5f * weights[axis][0] * weights[axis][1]) * (weight * agreedBends(first, second));
-  }
+  const float a[2] = { float(1.0 - t[0]), float(t[0]) };
+  const float b[2] = { float(1.0 - t[1]), float(t[1]) };
+  const float c[2] = { float(1.0 - t[2]), float(t[2]) };
+  // Of the cell's four edges along an axis, the nodes before them, at their ends, and behind them. Memory holds what is beyond
+  // the samples, too.
+  std::array<FourFloats, 4> along =
+    transposed({ { fourAt(corner - 1), fourAt(corner - 1 + y), fourAt(corner - 1 + z), fourAt(corner - 1 + y + z) } });
+  const FourFloats weightX = FourFloats{ b[0], b[1], b[0], b[1] } * FourFloats{ c[0], c[0], c[1], c[1] };
+  FourFloats sum = weightX * (a[0] * along[1] + a[1] * along[2]);
+  sum -= (0.5f * a[0] * a[1]) * (weightX * this->bends(along, place.cell[0], 0));
+  const FourFloats weightY = FourFloats{ a[0], a[1], a[0], a[1] } * FourFloats{ c[0], c[0], c[1], c[1] };
+  along = rowsAt(corner, y, z);
+  const FourFloats part = (0.5f * b[0] * b[1]) * (weightY * this->bends(along, place.cell[1], 1));
+  sum -= FourFloats{ part[0], part[2], part[1], part[3] };
+  const FourFloats weightZ = FourFloats{ a[0], a[1], a[0], a[1] } * FourFloats{ b[0], b[0], b[1], b[1] };
+  along = rowsAt(corner, z, y);
+  sum -= (0.5f * c[0] * c[1]) * (weightZ * this->bends(along, place.cell[2], 2));
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/// The bends along the edges of a cell, of which one side alone tells where samples end, and 0 where they end on both.
+inline FourFloats SmoothedField::bends(const std::array<FourFloats, 4>& along, int cell, std::size_t axis) const
+{
+  const FourFloats before = along[0] - 2.0f * along[1] + along[2];
+  const FourFloats behind = along[1] - 2.0f * along[2] + along[3];
+  const bool isFirst = cell <= 1;
+  const bool isLast = cell + 3 > this->Cells[axis];
+  if (isFirst || isLast)
+  {
+    return isFirst && isLast ? FourFloats{} : isFirst ? behind : before;
+  }
+  return agreedBends(before, behind);
 }
 
 } // namespace cactus

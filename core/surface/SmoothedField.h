@@ -15,6 +15,8 @@
 namespace cactus
 {
 
+typedef float FourFloats __attribute__((vector_size(16)));
+
 /// The field of one fibre, smoothed, held for all blocks near the fibre.
 ///
 /// Smoothing averages each node with its neighbours, (1 2 1)/4 along each axis in turn, or does so in part (see ThinFibres). That
@@ -71,6 +73,7 @@ private:
     const float* corner;                  ///< value at the cell's lower corner; null far from the fibre
   };
   Place placeAt(const Eigen::Vector3d& at) const;
+  FourFloats bends(const std::array<FourFloats, 4>& along, int cell, std::size_t axis) const;
 
   /// Number of a block in Places; none where it lies outside the box of the blocks held.
   std::ptrdiff_t placeOf(const Index& block) const;
