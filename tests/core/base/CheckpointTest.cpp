@@ -58,6 +58,7 @@ protected:
     this->options.checkpointInterval = 0.0;
     ASSERT_EQ(this->message(), "");
     this->whole = contentOf(this->path);
+    this->reached = this->result;
     this->options.maximumIterations = 6;
     this->options.resume = true;
   }
@@ -104,6 +105,7 @@ protected:
   CapsuleOptimizerOptions options;
   Fibres start;
   Fibres result;
+  Fibres reached; ///< where the run was cut short
   std::string whole;
 };
 
@@ -221,6 +223,29 @@ TEST_P(CheckpointFiles, ChecksumsAreNotTheOnlyCheck)
     }
   }
   EXPECT_GT(refused, samples / 6);
+}
+
+// Guarantee: where the points of a checkpoint are no two the same, and yet so near each other that no run comes from them to
+// numbers, the run ends with an error that names the file, which is kept.
+TEST_P(CheckpointFiles, LeadToNumbersOrAnError)
+{
+  const Eigen::Vector3d places[2] = { Eigen::Vector3d::Zero(), Eigen::Vector3d(1e-155, 0.0, 0.0) };
+  std::string damaged = this->whole;
+  int replaced = 0;
+  for (int i = 0; i < 2; ++i)
+  {
+    const std::string point(reinterpret_cast<const char*>(&this->reached.points[static_cast<std::size_t>(i)]), sizeof(places[i]));
+    for (std::size_t at = damaged.find(point); at != std::string::npos; at = damaged.find(point, at))
+    {
+      damaged.replace(at, point.size(), reinterpret_cast<const char*>(&places[i]), sizeof(places[i]));
+      ++replaced;
+    }
+  }
+  ASSERT_GE(replaced, 2);
+  replaceContent(this->path, sealed(damaged));
+  EXPECT_EQ(this->message().find("CheckpointFile " + this->path + " holds a state from which fibres leave all bounds"), 0u)
+    << this->message();
+  EXPECT_EQ(contentOf(this->path), sealed(damaged));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, CheckpointFiles, testing::Values(DescentMethod::Momentum, DescentMethod::Adagrad),
