@@ -26,20 +26,18 @@ def properties(name, side, seed=1, fraction=0.955, tolerance=0.0065):
     """The properties of BundleInitializer, FibreRadialGrowth and MyelinSurface for the substrate of that name, or None. `fraction` is the
     fibre volume fraction of those that are as dense as can be, `tolerance` their SurfaceTolerance (µm), which leaves room for it."""
     kind, _, number = name.partition("-")
-    bundle = {"Side": side, "Seed": seed, "GrownFibreVolumeFraction": 0}
+    bundle = {"Side": side, "Seed": seed}
     growth = {"TargetFibreVolumeFraction": fraction, "SurfaceTolerance": tolerance}
     myelin = {"GRatio": 0.7}
     if kind == "dispersion":
-        bundle.update(MeanDispersion=float(number), DispersionModel="Watson")
+        bundle.update(MeanDispersion=float(number), DispersionModel="Watson", GrownFibreVolumeFraction=0)
     elif kind == "coherent":
-        bundle.update(MeanDispersion=float(number))
+        bundle.update(MeanDispersion=float(number), GrownFibreVolumeFraction=0)
     elif kind == "crossing":
-        bundle.update(MeanDispersion=5, NumberOfBundles=2, CrossingAngle=float(number))
+        bundle.update(Preset="Crossing at 90 degrees", CrossingAngle=float(number))
     elif kind == "histology":
-        axons, _, fibres, _ = HISTOLOGY[int(number) - 1][0]
-        bundle.update(MeanDispersion=5, FibreVolumeFraction=min(0.7, 0.9 * fibres), GrownFibreVolumeFraction=fibres)
-        growth = {}
-        myelin = {"GRatioModel": "TargetAxonVolumeFraction", "TargetAxonVolumeFraction": axons}
+        bundle.update(Preset=f"Histological target {'abcd'[int(number) - 1]}")
+        growth, myelin = {}, {}  # theirs follow from the bundle's
     elif kind == "radii":
         bundle.update(MeanDispersion=10, GrownFibreVolumeFraction=float(number))
         growth = {}

@@ -6,6 +6,7 @@
 #include "base/Numbers.h"
 #include "recipe/PropertyText.h"
 #include "recipe/RecipeRecords.h"
+#include "stages/Presets.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -80,6 +81,7 @@ public:
 
   Recipe read()
   {
+    this->takePreset();
     this->requireKnownNames();
     this->addSources();
     const bool isParted = !this->has("CapsuleOptimizer") || this->Text["CapsuleOptimizer"] != Json(false);
@@ -104,11 +106,24 @@ private:
 
   Json values(const char* name) const { return this->has(name) ? this->Text[name] : Json::object(); }
 
+  void takePreset()
+  {
+    if (this->has(presetName))
+    {
+      const Json& name = this->Text[presetName];
+      if (!name.is_string())
+      {
+        throw InvalidInput(std::string(presetName) + " is " + excerpt(singleLine(name)) + ": give the name of a preset");
+      }
+      this->Start = &presetNamed(name.get<std::string>());
+    }
+  }
+
   void requireKnownNames() const
   {
     for (const auto& entry : this->Text.items())
     {
-      if (!recipeOptions(entry.key()))
+      if (entry.key() != presetName && !recipeOptions(entry.key()))
       {
         throw InvalidInput("there is no stage " + excerpt(entry.key()) + " in a recipe: use " + recipeStageNames());
       }
@@ -129,6 +144,13 @@ private:
       throw InvalidInput(name + " is " + excerpt(singleLine(values)) + ": give its properties in braces, {\"NAME\": value}");
     }
     RecipeStage stage{ name, *recipeOptions(name), std::move(inputs) };
+    if (this->Start != nullptr)
+    {
+      for (const auto& [property, value] : presetValues(*this->Start, name))
+      {
+        setProperty(stage.options, property, std::visit([](const auto& one) { return Json(one); }, value), false);
+      }
+    }
     for (const auto& [property, value] : values.items())
     {
       try
@@ -186,8 +208,10 @@ private:
       { { "Outer", { { surfaces, 0, {} } } }, { "Inner", { { surfaces, 1, {} } } }, { "Fibres", this->Fibres } });
   }
 
+  static constexpr const char* presetName = "Preset";
   const Json& Text;
   const std::string& Folder;
+  const Preset* Start = nullptr; ///< the preset whose values stages have where the recipe says nothing
   Recipe Made;
   std::vector<RecipeSource> Fibres; ///< where those come from that the next stage takes
 };

@@ -13,7 +13,8 @@ namespace cactus
 ///
 ///   { "BundleInitializer": { "Side": 20 }, "FibreRadialGrowth": { "VoxelSize": 0.1 }, "MyelinSurface": { "GRatio": 0.7 } }
 ///
-/// A stage that is not named has its defaults; BundleInitializer may be a list of several, or StrandReader stand in its place;
+/// A stage that is not named has its defaults, or the values of a preset, which "Preset" names (see stages/Presets.h);
+/// BundleInitializer may be a list of several, or StrandReader stand in its place;
 /// CapsuleOptimizer is left out where it is `false`; SubstrateProduction stands for growth, surfaces and writer. Or with
 /// `provenance`, the list of records that a substrate's manifest.json has: those stages with those inputs, and no property that
 /// records do not keep, as a manifest may come from anybody. An optimisation that the clock or the user ended is one of as many

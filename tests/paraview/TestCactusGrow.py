@@ -73,6 +73,12 @@ class CactusGrow(CactusTestCase):
         self.grow(self.path("filters"), "grown")
         self.assertSame("filters", "grown")
 
+    def test_a_preset(self):
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Preset="Histological target c", Side=4, MinimumRadius=0.4)), 0)
+        self.write(fibres, {"VoxelSize": 0.2}, {})
+        self.grow({"Preset": "Histological target c", "BundleInitializer": {"Side": 4, "MinimumRadius": 0.4}, "FibreRadialGrowth": {"VoxelSize": 0.2}}, "grown")
+        self.assertSame("filters", "grown")
+
     def test_a_production(self):
         fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(**BUNDLE)), 0)
         SubstrateProduction(Input=fibres, FolderName=self.path("filters"), **GROWTH).UpdatePipeline()

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints what the stages' descriptions say of their properties: docs/properties.md or, with --json, the same for programs.
 #include "base/Numbers.h"
+#include "stages/Presets.h"
 #include "stages/Stages.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstring>
 #include <iostream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -90,6 +93,41 @@ std::string conditionText(const cactus::PropertyCondition& condition, const cact
   return condition.property + (text.empty() ? " is given" : " is " + text);
 }
 
+const PropertyFacts& factsOf(const cactus::PresetValue& value)
+{
+  static const std::vector<cactus::StageDescription> stages = cactus::describeStages();
+  for (const cactus::StageDescription& stage : stages)
+  {
+    for (const PropertyState& state : stage.properties)
+    {
+      if (stage.name == value.stage && state.facts->name == value.property)
+      {
+        return *state.facts;
+      }
+    }
+  }
+  throw std::logic_error("no property " + value.stage + "." + value.property);
+}
+
+void printPresets()
+{
+  std::cout << "\n## Presets\n\n"
+               "Values that belong together ([presets](presets.md)); what is not named has its default.\n\n"
+               "| preset | what it is | values | source |\n|---|---|---|---|\n";
+  for (const cactus::Preset& preset : cactus::presets())
+  {
+    std::cout << "| " << preset.name << " | " << preset.meaning << ". |";
+    std::string stage;
+    for (const cactus::PresetValue& value : preset.values)
+    {
+      std::cout << (value.stage == stage ? ", " : (stage.empty() ? " " : "; ") + value.stage + ": ") << value.property << ' '
+                << cactus::valueText(factsOf(value), value.value);
+      stage = value.stage;
+    }
+    std::cout << " | " << preset.source << ". |\n";
+  }
+}
+
 void printTables()
 {
   std::cout
@@ -111,6 +149,7 @@ void printTables()
                 << " | " << state.facts->meaning << "." << where << (where.empty() ? "" : ".*") << " |\n";
     }
   }
+  printPresets();
 }
 
 } // namespace

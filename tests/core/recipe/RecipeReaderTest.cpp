@@ -130,3 +130,23 @@ TEST(RecipeReader, RecordsInARingOrWithoutEndAreRefused)
   }
   EXPECT_EQ(refusal(R"({"provenance": [)" + many + "]}"), "the provenance is damaged: it has 2001 stages");
 }
+
+TEST(RecipeReader, PresetsGiveWhatTheRecipeDoesNotSay)
+{
+  const std::string preset = R"("Preset": "Histological target b")";
+  const Recipe recipe = readRecipe("{" + preset + R"(, "BundleInitializer": {"Side": 12, "MeanDispersion": 8}})", "");
+  const auto& bundle = stageIn<BundleInitializerStage>(recipe, 0).options;
+  EXPECT_EQ(bundle.side, 12.0);
+  EXPECT_EQ(bundle.meanDispersion, 8.0);
+  EXPECT_EQ(bundle.grownFibreVolumeFraction, 0.68);
+  const auto& myelin = stageIn<MyelinSurfaceStage>(recipe, 3).options;
+  EXPECT_EQ(myelin.model, GRatioModel::TargetAxonVolumeFraction);
+  EXPECT_EQ(myelin.targetAxonVolumeFraction, 0.25);
+
+  const Recipe large = readRecipe("{" + preset + R"(, "SubstrateProduction": {}, "BundleInitializer": [{}, {"Seed": 2}]})", "");
+  EXPECT_EQ(stageIn<BundleInitializerStage>(large, 1).options.grownFibreVolumeFraction, 0.68);
+  EXPECT_EQ(stageIn<SubstrateProductionStage>(large, 3).surfaces.targetAxonVolumeFraction, 0.25);
+
+  EXPECT_NE(refusal(R"({"Preset": "Spinal cord"})").find("there is no preset"), std::string::npos);
+  EXPECT_NE(refusal(R"({"Preset": 3})").find("Preset is 3: give the name of a preset"), std::string::npos);
+}

@@ -20,9 +20,18 @@ def xml_stages(folder):
             if proxy.get("class") != "vtk" + proxy.get("name"):
                 continue
             stages[proxy.get("name")] = {
-                one.get("name"): one for one in proxy if one.tag in KINDS and one.get("information_only") != "1"
+                one.get("name"): one for one in proxy if one.tag in KINDS and one.get("information_only") != "1" and not is_preset(proxy, one)
             }
     return stages
+
+
+def is_preset(proxy, one):
+    """Whether a property, which no stage has, gives others their values."""
+    domain = one.find("PresetDomain")
+    if domain is not None:
+        assert domain.get("stage") == proxy.get("name"), "a preset of another stage"
+        assert one.get("name") == "Preset" and one.get("command") is None
+    return domain is not None
 
 
 def default(one):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by the ParaView window when it starts: writes down, for every update of a stage, its name and how many points it has then."""
+"""Run by the ParaView window when it starts: writes down, for every update of a stage, its name and how many points it has then, and the
+preset that it shows in its panel."""
 
 import os
 
@@ -21,6 +22,9 @@ def watch(*_):
             if algorithm:
                 with open(os.environ["CACTUS_WINDOW_NOTES"], "a") as file:
                     file.write(f"{proxy.GetXMLName()} {algorithm.GetOutputDataObject(0).GetNumberOfPoints()}\n")
+                    preset = proxy.GetProperty("Preset")
+                    if preset is not None:
+                        file.write(f"{proxy.GetXMLName()} has {preset.FindDomain('vtkSMEnumerationDomain').GetEntryTextForValue(preset.GetElement(0))}\n")
 
         proxy.AddObserver("UpdateDataEvent", note)
 

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSMPresetDomain.h"
+
+#include "stages/Presets.h"
+
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMIntVectorProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMUncheckedPropertyHelper.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+vtkStandardNewMacro(vtkSMPresetDomain);
+
+namespace
+{
+
+const cactus::Preset* presetOf(int number)
+{
+  const std::vector<cactus::Preset>& all = cactus::presets();
+  return number > 0 && static_cast<std::size_t>(number) <= all.size() ? &all[static_cast<std::size_t>(number) - 1] : nullptr;
+}
+
+/// A number or a choice, which are all that presets set.
+double numberOf(const cactus::PropertyValue& value)
+{
+  const auto* choice = std::get_if<std::int64_t>(&value);
+  return choice != nullptr ? static_cast<double>(*choice) : std::get<double>(value);
+}
+
+double checkedOf(vtkSMProperty* property)
+{
+  return vtkSMPropertyHelper(property).GetAsDouble();
+}
+
+double uncheckedOf(vtkSMProperty* property)
+{
+  return vtkSMUncheckedPropertyHelper(property).GetAsDouble();
+}
+
+/// Where both are known, as a panel shows what is unchecked.
+void setChecked(vtkSMProperty* property, double value)
+{
+  if (checkedOf(property) != value)
+  {
+    vtkSMPropertyHelper(property).Set(value);
+  }
+  if (uncheckedOf(property) != value)
+  {
+    vtkSMUncheckedPropertyHelper(property).Set(value);
+  }
+}
+
+/// All properties of a proxy's XML that hold values, as those that a domain requires, each by its name.
+vtkSmartPointer<vtkPVXMLElement> requiredProperties(vtkPVXMLElement* proxy)
+{
+  auto required = vtkSmartPointer<vtkPVXMLElement>::New();
+  required->SetName("RequiredProperties");
+  for (unsigned int i = 0; i < proxy->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* property = proxy->GetNestedElement(i);
+    const std::string name = property->GetAttributeOrEmpty("name");
+    if (name != "Preset" && std::string(property->GetName()).find("VectorProperty") != std::string::npos)
+    {
+      vtkNew<vtkPVXMLElement> one;
+      one->SetName("Property");
+      one->AddAttribute("name", name.c_str());
+      one->AddAttribute("function", name.c_str());
+      required->AddNestedElement(one);
+    }
+  }
+  return required;
+}
+
+} // namespace
+
+vtkSMPresetDomain::vtkSMPresetDomain() = default;
+vtkSMPresetDomain::~vtkSMPresetDomain() = default;
+
+vtkSMPresetDomain* vtkSMPresetDomain::Of(vtkSMProxy* proxy)
+{
+  vtkSMProperty* choice = proxy != nullptr ? proxy->GetProperty("Preset") : nullptr;
+  return choice != nullptr ? choice->FindDomain<vtkSMPresetDomain>() : nullptr;
+}
+
+vtkSMIntVectorProperty* vtkSMPresetDomain::Choice()
+{
+  return vtkSMIntVectorProperty::SafeDownCast(this->GetProperty());
+}
+
+int vtkSMPresetDomain::Applied()
+{
+  return this->Choice()->GetElement(0);
+}
+
+std::vector<vtkSMPresetDomain::Value> vtkSMPresetDomain::ValuesOf(int preset)
+{
+  std::vector<Value> values;
+  if (const cactus::Preset* found = presetOf(preset))
+  {
+    for (const auto& [name, value] : cactus::presetValues(*found, this->Stage))
+    {
+      values.push_back({ this->GetRequiredProperty(name.c_str()), numberOf(value) });
+    }
+  }
+  return values;
+}
+
+int vtkSMPresetDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElement* element)
+{
+  this->Stage = element->GetAttributeOrEmpty("stage");
+  const auto values = cactus::presetValues(cactus::presets().front(), this->Stage);
+  // What XML would say of required properties is said by the presets. These are made here, before their turn, so all others are
+  // as well: a panel shows properties in the order in which they were made.
+  vtkNew<vtkPVXMLElement> described;
+  element->CopyTo(described);
+  described->AddNestedElement(requiredProperties(element->GetParent()->GetParent()));
+  if (values.empty() || !this->Superclass::ReadXMLAttributes(property, described))
+  {
+    vtkErrorMacro("there are no presets for a stage '" << this->Stage << "'");
+    return 0;
+  }
+  this->AddRequiredProperty(property, "Preset");
+  this->AddEntry("None", 0);
+  int number = 0;
+  for (const cactus::Preset& preset : cactus::presets())
+  {
+    this->AddEntry(preset.name.c_str(), ++number);
+  }
+  return 1;
+}
+
+void vtkSMPresetDomain::Update(vtkSMProperty* changed)
+{
+  if (this->IsBusy)
+  {
+    return;
+  }
+  this->IsBusy = true;
+  if (changed == this->GetProperty())
+  {
+    this->ApplyChoice();
+  }
+  else
+  {
+    this->DropChoice(changed);
+  }
+  this->IsBusy = false;
+}
+
+void vtkSMPresetDomain::ApplyChoice()
+{
+  const int preset = this->Choice()->GetUncheckedElement(0);
+  const bool isApplied = this->Applied() == preset;
+  for (const Value& value : this->ValuesOf(preset))
+  {
+    if (isApplied)
+    {
+      setChecked(value.Property, value.Number);
+    }
+    else if (uncheckedOf(value.Property) != value.Number)
+    {
+      vtkSMUncheckedPropertyHelper(value.Property).Set(value.Number);
+    }
+  }
+  if (isApplied && presetOf(preset) != nullptr && preset != this->Former)
+  {
+    const int former = this->Former;
+    this->Former = preset;
+    this->LeadOthers(former, preset);
+  }
+}
+
+void vtkSMPresetDomain::DropChoice(vtkSMProperty* changed)
+{
+  const std::vector<Value> values = this->ValuesOf(this->Choice()->GetUncheckedElement(0));
+  if (std::all_of(values.begin(), values.end(), [](const Value& value) { return uncheckedOf(value.Property) == value.Number; }))
+  {
+    return;
+  }
+  if (checkedOf(changed) == uncheckedOf(changed))
+  {
+    this->Choice()->SetElement(0, 0);
+  }
+  this->Choice()->SetUncheckedElement(0, 0);
+}
+
+void vtkSMPresetDomain::Take(int preset, vtkMTimeType since)
+{
+  this->IsBusy = true;
+  bool isWhole = true;
+  for (const Value& value : this->ValuesOf(preset))
+  {
+    if (value.Property->GetMTime() <= since)
+    {
+      setChecked(value.Property, value.Number);
+    }
+    isWhole = isWhole && checkedOf(value.Property) == value.Number;
+  }
+  this->Choice()->SetElement(0, isWhole ? preset : 0);
+  this->Former = preset;
+  this->IsBusy = false;
+}
+
+bool vtkSMPresetDomain::IsUntouched()
+{
+  const std::vector<Value> values = this->ValuesOf(1);
+  return std::all_of(values.begin(), values.end(), [](const Value& value) { return value.Property->IsValueDefault(); });
+}
+
+void vtkSMPresetDomain::LeadOthers(int former, int preset)
+{
+  std::vector<vtkSMProxy*> sources{ this->Choice()->GetParent() };
+  while (!sources.empty())
+  {
+    vtkSMProxy* source = sources.back();
+    sources.pop_back();
+    for (unsigned int i = 0; i < source->GetNumberOfConsumers(); ++i)
+    {
+      vtkSMProxy* other = vtkSMSourceProxy::SafeDownCast(source->GetConsumerProxy(i));
+      if (other == nullptr)
+      {
+        continue;
+      }
+      sources.push_back(other);
+      vtkSMPresetDomain* domain = vtkSMPresetDomain::Of(other);
+      if (domain != nullptr && (domain->Applied() == 0 ? domain->IsUntouched() : domain->Applied() == former))
+      {
+        domain->Choice()->SetElement(0, preset);
+        other->UpdateVTKObjects();
+      }
+    }
+  }
+}
+
+void vtkSMPresetDomain::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Stage: " << this->Stage << '\n';
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/Presets.h"
+
+#include "base/Error.h"
+#include "base/Numbers.h"
+#include "stages/Stages.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr char bundle[] = "BundleInitializer";
+constexpr char growth[] = "FibreRadialGrowth";
+constexpr char myelin[] = "MyelinSurface";
+
+const std::string paper = "Villarreal-Haro et al. 2023, ";
+/// Γ(2.64, 0.184) µm are the inner radii of the genu; divided by the g-ratio of 0.7 they are outer ones.
+constexpr double genuShape = 2.64;
+constexpr double genuScale = 0.263;
+const std::string genuSource = "radii of the genu: Aboitiz et al. 1992 (Brain Res 598:143), inner Γ(2.64, 0.184) µm over g; ";
+
+/// What the densest substrates are grown to, and the tolerance that leaves room for it (docs/surfaces.md).
+constexpr double densest = 0.955;
+constexpr double densestTolerance = 0.0065;
+
+/// With all values of one bundle: where any of them is another one, it is no longer a preset's.
+Preset tutorial()
+{
+  return { "Tutorial bundle", "One bundle of 10°, grown to 90 %, with a g-ratio of 0.7", paper + "the tutorial of its program",
+    { { bundle, "RadiusDistribution", std::int64_t(0) }, { bundle, "GammaShape", 2.4 }, { bundle, "GammaScale", 0.25 },
+      { bundle, "MinimumRadius", 0.2 }, { bundle, "MaximumRadius", 2.0 }, { bundle, "FibreVolumeFraction", 0.7 },
+      { bundle, "GrownFibreVolumeFraction", 0.9 }, { bundle, "MeanDispersion", 10.0 },
+      { bundle, "DispersionModel", static_cast<std::int64_t>(DispersionModel::Coherent) },
+      { bundle, "NumberOfBundles", std::int64_t(1) }, { growth, "TargetFibreVolumeFraction", -1.0 },
+      { growth, "MinimumGap", 0.02 }, { myelin, "GRatioModel", static_cast<std::int64_t>(GRatioModel::Constant) },
+      { myelin, "GRatio", 0.7 } } };
+}
+
+Preset callosum(const std::string& state, const std::string& meaning, const std::string& source, std::vector<PresetValue> values)
+{
+  for (const PresetValue& value : { PresetValue{ bundle, "MeanDispersion", 10.0 }, PresetValue{ bundle, "GammaShape", genuShape },
+         PresetValue{ bundle, "GammaScale", genuScale } })
+  {
+    values.insert(values.begin(), value);
+  }
+  return { "Corpus callosum, " + state, "One bundle of 10° with radii of the genu, " + meaning, genuSource + source,
+    std::move(values) };
+}
+
+Preset crossing(double angle, const std::string& reached)
+{
+  const std::string degrees = text(angle);
+  return { "Crossing at " + degrees + " degrees",
+    "Two bundles of 5° each, interwoven, that cross at " + degrees + "°, as dense as can be",
+    paper + "Table 1, where " + reached + " % are reached",
+    { { bundle, "NumberOfBundles", std::int64_t(2) }, { bundle, "CrossingAngle", angle },
+      { bundle, "CrossingStyle", static_cast<std::int64_t>(CrossingStyle::Interwoven) },
+      { bundle, "GrownFibreVolumeFraction", 0.0 }, { growth, "TargetFibreVolumeFraction", densest },
+      { growth, "SurfaceTolerance", densestTolerance } } };
+}
+
+/// A row of the paper's table of histological targets, by the volume fractions of axons and of fibres in it; `packed` is what the
+/// fibres fill before they grow.
+Preset histology(const std::string& row, double axons, double fibres, double packed)
+{
+  return { "Histological target " + row,
+    text("One bundle with ", 100.0 * axons, " % of axons and ", 100.0 * (fibres - axons), " % of myelin"),
+    paper + "Table 2 " + row + ", after Stikov et al. 2015 (NeuroImage 118:397)",
+    { { bundle, "FibreVolumeFraction", packed }, { bundle, "GrownFibreVolumeFraction", fibres },
+      { myelin, "GRatioModel", static_cast<std::int64_t>(GRatioModel::TargetAxonVolumeFraction) },
+      { myelin, "TargetAxonVolumeFraction", axons } } };
+}
+
+/// The stages of the chain that a stage stands for.
+std::vector<std::string> partsOf(const std::string& stage)
+{
+  return stage == "SubstrateProduction" ? std::vector<std::string>{ growth, myelin } : std::vector<std::string>{ stage };
+}
+
+PropertyValue defaultOf(const std::string& stage, const std::string& property)
+{
+  for (const StageDescription& described : describeStages())
+  {
+    for (const PropertyState& state : described.properties)
+    {
+      if (described.name == stage && state.facts->name == property)
+      {
+        return state.value;
+      }
+    }
+  }
+  throw std::logic_error("a preset sets " + stage + "." + property + ", which there is not");
+}
+
+} // namespace
+
+const std::vector<Preset>& presets()
+{
+  static const std::vector<Preset> all = { tutorial(),
+    callosum("EM-like", "which fills 95 %, with gaps of 20 nm, as in tissue that was fixed for electron microscopy",
+      "5 % between cells, 15 to 20 nm wide, in electron micrographs: Arch Neurol 15:633 (1966)",
+      { { bundle, "GrownFibreVolumeFraction", densest }, { growth, "SurfaceTolerance", densestTolerance } }),
+    callosum("in-vivo-like", "which fills 80 %, with gaps of 40 nm at least, as in living tissue",
+      "20 % between cells: Cragg 1980 (Tissue Cell 12:63), 38 to 64 nm wide: Thorne and Nicholson 2006 (PNAS 103:5567)",
+      { { bundle, "GrownFibreVolumeFraction", 0.8 }, { growth, "MinimumGap", 0.04 } }),
+    crossing(60.0, "93.5"), crossing(90.0, "92.2"), histology("a", 0.25, 0.60, 0.54), histology("b", 0.25, 0.68, 0.61),
+    histology("c", 0.31, 0.75, 0.67), histology("d", 0.39, 0.76, 0.68) };
+  return all;
+}
+
+const Preset& presetNamed(const std::string& name)
+{
+  std::string names;
+  for (const Preset& preset : presets())
+  {
+    if (preset.name == name)
+    {
+      return preset;
+    }
+    names += (names.empty() ? "\"" : ", \"") + preset.name + '"';
+  }
+  throw InvalidInput("there is no preset " + excerpt('"' + name + '"') + ": use " + names);
+}
+
+std::vector<std::pair<std::string, PropertyValue>> presetValues(const Preset& preset, const std::string& stage)
+{
+  std::vector<std::pair<std::string, PropertyValue>> values;
+  for (const std::string& part : partsOf(stage))
+  {
+    for (const Preset& other : presets())
+    {
+      for (const PresetValue& one : other.values)
+      {
+        const bool isKnown =
+          std::any_of(values.begin(), values.end(), [&](const auto& known) { return known.first == one.property; });
+        if (one.stage == part && !isKnown)
+        {
+          values.emplace_back(one.property, defaultOf(stage, one.property));
+        }
+      }
+    }
+    for (const PresetValue& own : preset.values)
+    {
+      const auto place =
+        std::find_if(values.begin(), values.end(), [&](const auto& known) { return known.first == own.property; });
+      if (own.stage == part && place != values.end())
+      {
+        place->second = own.value;
+      }
+    }
+  }
+  return values;
+}
+
+} // namespace cactus
