@@ -26,11 +26,6 @@ vtkMultiProcessController* controller()
   return vtkMultiProcessController::GetGlobalController();
 }
 
-int processCount()
-{
-  return controller() != nullptr ? controller()->GetNumberOfProcesses() : 1;
-}
-
 /// What the first rank that still works says; Done where none does.
 int exchange(int state)
 {
@@ -41,6 +36,11 @@ int exchange(int state)
 }
 
 } // namespace
+
+int processCount()
+{
+  return controller() != nullptr ? controller()->GetNumberOfProcesses() : 1;
+}
 
 RankAgreement::RankAgreement(bool isNeeded)
   : IsNeeded(isNeeded && processCount() > 1)

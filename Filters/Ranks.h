@@ -26,6 +26,9 @@ private:
   bool IsNeeded;
 };
 
+/// How many processes this run has.
+int processCount();
+
 /// How many processes of this run share this machine's memory: as the launcher of the run tells in the environment (Open MPI,
 /// MPICH, Intel MPI, MVAPICH, Slurm, jsrun); all of them where it does not. Without an exchange, which would wait for ranks that
 /// do not ask.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCapsuleOptimizer.h"
 
+#include "BackgroundOptimisation.h"
 #include "Columns.h"
 #include "DataProvenance.h"
 #include "FibreData.h"
@@ -10,6 +11,7 @@
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Context.h"
+#include "base/Error.h"
 #include "fibres/FibreShape.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "optimiser/OverlapReport.h"
@@ -94,6 +96,7 @@ struct vtkCapsuleOptimizer::Run
   cactus::FibreShape Before;
   double RadiusDistance = 0.0;
   bool WasReported = false; ///< whether the user has been told of what went wrong
+  bool IsOver = true;       ///< else Fibres are a state on the way
 
   /// A state on the way, in single precision.
   struct State
@@ -117,6 +120,24 @@ struct vtkCapsuleOptimizer::Run
     times.push_back(this->lastIteration());
     return times;
   }
+};
+
+/// A run in the background, and what has been seen of it.
+struct vtkCapsuleOptimizer::LiveRun
+{
+  LiveRun(const cactus::Fibres& fibres, const cactus::CapsuleOptimizerStage& stage)
+    : Start(fibres)
+    , Optimisation(fibres, stage.options, stage.threads, stage.showEvery)
+  {
+    this->Seen.Before = cactus::measureShape(fibres);
+    this->Seen.IsOver = false;
+  }
+
+  cactus::Fibres Start;
+  vtkMTimeType ParameterTime = 0;
+  vtkMTimeType InputTime = 0;
+  Run Seen;
+  cactus::BackgroundOptimisation Optimisation;
 };
 
 vtkCapsuleOptimizer::vtkCapsuleOptimizer()
@@ -223,14 +244,14 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgr
   run.Fibres = cactus::joinedFibres(dataOf(inputs));
   run.Before = cactus::measureShape(run.Fibres);
   const cactus::Fibres before = run.Fibres;
-  const auto keep = [&](int iteration, const cactus::Fibres& fibres)
+  const auto keep = [&](const cactus::ConvergenceRow& row, const cactus::Fibres& fibres)
   {
-    if (iteration % stage.historyInterval != 0)
+    if (row.iteration % stage.historyInterval != 0)
     {
       return;
     }
     Run::State state;
-    state.Iteration = iteration;
+    state.Iteration = row.iteration;
     state.Points.reserve(fibres.points.size());
     for (const Eigen::Vector3d& point : fibres.points)
     {
@@ -242,7 +263,7 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgr
     }
     run.States.push_back(std::move(state));
   };
-  std::function<void(int, const cactus::Fibres&)> observe;
+  std::function<void(const cactus::ConvergenceRow&, const cactus::Fibres&)> observe;
   if (stage.keepHistory)
   {
     observe = keep;
@@ -256,14 +277,89 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgr
   }
 }
 
+vtkCapsuleOptimizer::Run& vtkCapsuleOptimizer::LookAtRun(vtkInformationVector* inputs)
+{
+  const cactus::CapsuleOptimizerStage& stage = this->Stage();
+  if (!this->Live || this->Live->ParameterTime != this->GetMTime() || this->Live->InputTime != inputTime(inputs))
+  {
+    this->LastRun.reset();
+    this->Live.reset();
+    cactus::validateProperties(stage);
+    cactus::validate(stage.options);
+    if (cactus::processCount() > 1)
+    {
+      throw cactus::InvalidInput(cactus::text("ShowEvery is ", stage.showEvery,
+        ", but states are shown in one process only, and this run has ", cactus::processCount(), ": set it to 0"));
+    }
+    this->Live = std::make_unique<LiveRun>(cactus::joinedFibres(dataOf(inputs)), stage);
+    this->Live->ParameterTime = this->GetMTime();
+    this->Live->InputTime = inputTime(inputs);
+  }
+  Run& seen = this->Live->Seen;
+  cactus::BackgroundOptimisation& optimisation = this->Live->Optimisation;
+  if (seen.IsOver)
+  {
+    return seen;
+  }
+  if (optimisation.isOver())
+  {
+    seen.Optimisation = optimisation.result(seen.Fibres);
+    seen.IsOver = true;
+  }
+  else
+  {
+    cactus::BackgroundOptimisation::State state = optimisation.take();
+    const cactus::OverlapReport report =
+      cactus::measureOverlap(state.fibres, stage.options.overlapTolerance, cactus::contextFor(this, stage.threads).threadCount());
+    seen.Fibres = std::move(state.fibres);
+    seen.Optimisation.reason = cactus::StopReason::Stopped;
+    seen.Optimisation.convergence = std::move(state.rows);
+    seen.Optimisation.overlap = report.perPoint;
+    seen.Optimisation.maximumPenetration = std::max(0.0, report.largestPenetration);
+  }
+  seen.RadiusDistance = cactus::radiusDistance(this->Live->Start, seen.Fibres);
+  return seen;
+}
+
+bool vtkCapsuleOptimizer::GetNeedsUpdate()
+{
+  if (!this->Live || this->Live->ParameterTime != this->GetMTime() || !this->Live->Optimisation.hasNews())
+  {
+    return false;
+  }
+  this->Modified();
+  this->Live->ParameterTime = this->GetMTime();
+  return true;
+}
+
+void vtkCapsuleOptimizer::StopNow()
+{
+  if (this->Live)
+  {
+    this->Live->Optimisation.stop();
+  }
+}
+
+void vtkCapsuleOptimizer::Report(Run& run)
+{
+  if (run.IsOver && !run.WasReported)
+  {
+    for (const std::string& remark : cactus::remarksOnOptimisation(run.Optimisation, this->Stage().options.overlapTolerance))
+    {
+      vtkWarningMacro(<< remark);
+    }
+    run.WasReported = true;
+  }
+}
+
 void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformationVector* outputs)
 {
   const cactus::CapsuleOptimizerStage& stage = this->Stage();
-  const bool isResult = state >= run.States.size();
+  const bool isResult = run.IsOver && state >= run.States.size();
   cactus::Fibres fibres = run.Fibres;
   std::vector<double> overlaps = run.Optimisation.overlap;
   double penetration = run.Optimisation.maximumPenetration;
-  if (!isResult)
+  if (state < run.States.size())
   {
     const Run::State& then = run.States[state];
     for (std::size_t i = 0; i < fibres.points.size(); ++i)
@@ -302,7 +398,7 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   cactus::addNumber(data, "LengthIncrease", after.totalLength / run.Before.totalLength - 1.0);
   cactus::addNumber(data, "RadiusDistance", run.RadiusDistance);
 
-  const int iterations = isResult ? run.lastIteration() : run.States[state].Iteration;
+  const int iterations = state < run.States.size() ? run.States[state].Iteration : run.lastIteration();
   cactus::setProvenance(output,
     cactus::recordOf(this, "CapsuleOptimizer", stage, { "Input" },
       cactus::optimiserReached(iterations, penetration, run.Optimisation.reason, isResult)),
@@ -321,6 +417,14 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
       {
         return;
       }
+      if (this->Stage().showEvery > 0 && !this->Stage().keepHistory)
+      {
+        Run& seen = this->LookAtRun(inputs[0]);
+        this->Show(seen, 0, outputs);
+        this->Report(seen);
+        return;
+      }
+      this->Live.reset();
       this->EnsureRun(inputs[0], agreement);
       Run& run = *this->LastRun;
       std::size_t state = run.States.size();
@@ -346,14 +450,7 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
           vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
         }
       }
-      if (!run.WasReported)
-      {
-        for (const std::string& remark : cactus::remarksOnOptimisation(run.Optimisation, this->Stage().options.overlapTolerance))
-        {
-          vtkWarningMacro(<< remark);
-        }
-      }
-      run.WasReported = true;
+      this->Report(run);
       if (!this->Stage().keepHistory)
       {
         this->LastRun.reset();

@@ -17,6 +17,10 @@
  * gets the last state that is not after it, the last one being the result. The run then takes place as soon as the times are
  * asked for.
  *
+ * With ShowEvery on, the run takes place in the background: a request gets the newest of every so many states, and
+ * GetNeedsUpdate() tells, as ParaView asks of live sources, when there is another one, the result at last. Its bits are those of
+ * a run in the foreground. StopNow() ends it with the best state so far. In one process only.
+ *
  * Where overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how
  * many and how large, and the output is the best state that was seen.
  */
@@ -70,6 +74,15 @@ public:
   CACTUS_SWITCH_PROPERTY(Resume)
   CACTUS_SWITCH_PROPERTY(KeepHistory)
   CACTUS_WHOLE_PROPERTY(HistoryInterval)
+  CACTUS_WHOLE_PROPERTY(ShowEvery)
+
+  /** Whether a run in the background has something new to show; the filter is then modified. */
+  bool GetNeedsUpdate();
+  /** The same as a number, which scripts can ask for. */
+  int GetHasNews() { return this->GetNeedsUpdate() ? 1 : 0; }
+
+  /** Ends a run in the background: what it shows next is its best state, which is its result. */
+  void StopNow();
 
 protected:
   vtkCapsuleOptimizer();
@@ -82,6 +95,7 @@ protected:
 
 private:
   struct Run;
+  struct LiveRun;
 
   vtkCapsuleOptimizer(const vtkCapsuleOptimizer&) = delete;
   void operator=(const vtkCapsuleOptimizer&) = delete;
@@ -94,12 +108,18 @@ private:
   void EnsureRun(vtkInformationVector* inputs, cactus::RankAgreement& agreement);
   /** Runs the optimisation. */
   void Optimise(vtkInformationVector* inputs, cactus::RankAgreement& agreement, Run& run);
+  /** Runs the optimisation in the background, unless it does already, and gives what there is of it. */
+  Run& LookAtRun(vtkInformationVector* inputs);
   /** Fills the outputs with a state of the run. */
   void Show(const Run& run, std::size_t state, vtkInformationVector* outputs);
   /** Says which times there are. */
   void OfferTimes(vtkInformationVector* outputs) const;
 
-  std::unique_ptr<Run> LastRun; ///< kept where KeepHistory is on
+  /** Warns of what the run has not reached, once. */
+  void Report(Run& run);
+
+  std::unique_ptr<Run> LastRun;  ///< kept where KeepHistory is on
+  std::unique_ptr<LiveRun> Live; ///< the run in the background
 };
 
 #endif

@@ -64,7 +64,7 @@ void requireSegmentsToSearch(const Fibres& fibres)
 }
 
 /// Called with each state that a run measures.
-using Observe = std::function<void(int iteration)>;
+using Observe = std::function<void(const ConvergenceRow&)>;
 
 /// Runs the descent to its end, and leaves in `result` why it ended and what it did.
 void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const Context& context, Clock::time_point start,
@@ -83,7 +83,7 @@ void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const
     run.note(row, options.overlapTolerance);
     if (observe)
     {
-      observe(run.iteration);
+      observe(row);
     }
     if (run.iteration % 10 == 0)
     {
@@ -116,7 +116,7 @@ void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const
 } // namespace
 
 OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
-  const std::function<void(int iteration, const Fibres&)>& observe)
+  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe)
 {
   validate(options);
   validate(fibres);
@@ -150,10 +150,10 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
     Observe handOver;
     if (observe)
     {
-      handOver = [&](int iteration)
+      handOver = [&](const ConvergenceRow& row)
       {
         handBack();
-        observe(iteration, fibres);
+        observe(row, fibres);
       };
     }
     descend(run, options, context, start, checkpoints, handOver, result);

@@ -34,9 +34,9 @@ struct OptimisationResult
 /// Moves control points (and, where allowed, radii) until no two capsules of different fibres penetrate by more than the
 /// tolerance, or until iterations or time run out or they make no progress any more; then `fibres` holds the state with the
 /// smallest largest penetration. End points slide in the plane across their bundle's axis. Same bits on any number of threads.
-/// `observe`, where given, is called with each iteration's state, the first included. Throws InvalidInput (fibres, options, a
-/// checkpoint of something else) and FileError (the checkpoint), OutOfMemory.
+/// `observe`, where given, is called with each iteration's row and state, the first included. Throws InvalidInput (fibres,
+/// options, a checkpoint of something else) and FileError (the checkpoint), OutOfMemory.
 OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
-  const std::function<void(int iteration, const Fibres&)>& observe = {});
+  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe = {});
 
 } // namespace cactus

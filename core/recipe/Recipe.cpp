@@ -164,6 +164,7 @@ void checkOptions(const CapsuleOptimizerStage& stage)
 {
   validate(stage.options);
   requireUnset(stage.keepHistory, "KeepHistory");
+  requireUnset(stage.showEvery > 0, "ShowEvery");
 }
 
 void checkOptions(const FibreRadialGrowthStage& stage)

@@ -19,6 +19,7 @@ const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
 constexpr char encodingMeaning[] = "Of PLY files that no simulator reads: text, or bytes, which take half the room";
 constexpr Range partOfHits{ 0.0, 1.0 };
 constexpr Range startCount{ 0.0, 1e7 };
+constexpr Range shownInterval{ 0.0, 1e7 };
 
 /// The options of a stage that draws radii, with their table as text or as a file.
 template <typename Stage, typename Options>
@@ -78,6 +79,11 @@ const PropertyList<CapsuleOptimizerStage>& CapsuleOptimizerStage::properties()
       .add(
         "HistoryInterval", &Stage::historyInterval, limits::historyInterval, "Iterations from one state that is kept to the next")
       .where("KeepHistory", { 1.0 })
+      .use(PropertyUse::Run)
+      .add("ShowEvery", &Stage::showEvery, shownInterval,
+        "Iterations from one state that the window shows to the next while the optimiser works on; 0: the window waits for the "
+        "result")
+      .where("KeepHistory", { 0.0 })
       .use(PropertyUse::Run)
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);

@@ -48,6 +48,7 @@ struct CapsuleOptimizerStage
   int threads = 0;
   bool keepHistory = false;
   int historyInterval = 10;
+  int showEvery = 0; ///< iterations; 0: the result alone
 
   static const PropertyList<CapsuleOptimizerStage>& properties();
 };

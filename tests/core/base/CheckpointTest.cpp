@@ -271,7 +271,7 @@ TEST(Checkpoint, OfARunIsNotLostToAnother)
     iterations = 0;
     try
     {
-      return optimise(fibres, now, {}, [&](int, const Fibres&) { ++iterations; }).checkpointFailure;
+      return optimise(fibres, now, {}, [&](const ConvergenceRow&, const Fibres&) { ++iterations; }).checkpointFailure;
     }
     catch (const Error& error)
     {
@@ -301,9 +301,9 @@ TEST(Checkpoint, OfARunIsNotLostToAnother)
   Fibres fibres = start;
   options.maximumIterations = 5;
   const std::string failure = optimise(fibres, options, {},
-    [&](int iteration, const Fibres&)
+    [&](const ConvergenceRow& row, const Fibres&)
     {
-      if (iteration == 2)
+      if (row.iteration == 2)
       {
         replaceContent(path, "my thesis, until now safe here\n");
       }

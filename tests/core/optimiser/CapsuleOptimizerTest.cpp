@@ -341,9 +341,9 @@ TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
         if (killed && until < 60)
         {
           EXPECT_THROW(cactus::optimise(part, options, context,
-                         [&](int iteration, const Fibres&)
+                         [&](const cactus::ConvergenceRow& row, const Fibres&)
                          {
-                           if (iteration == until)
+                           if (row.iteration == until)
                            {
                              throw std::runtime_error("killed");
                            }
@@ -351,7 +351,8 @@ TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
             std::runtime_error);
           continue;
         }
-        const auto result = cactus::optimise(part, options, context, [&](int, const Fibres&) { ++calls; });
+        const auto result =
+          cactus::optimise(part, options, context, [&](const cactus::ConvergenceRow&, const Fibres&) { ++calls; });
         if (until == 60)
         {
           EXPECT_LT(calls, killed ? 60 : 64);
@@ -416,9 +417,9 @@ TEST(CapsuleOptimizer, ShowsEveryStateToAnObserver)
   std::vector<Eigen::Vector3d> last;
   int next = 0;
   const auto result = cactus::optimise(fibres, {}, {},
-    [&](int iteration, const Fibres& state)
+    [&](const cactus::ConvergenceRow& row, const Fibres& state)
     {
-      EXPECT_EQ(iteration, next++);
+      EXPECT_EQ(row.iteration, next++);
       last = state.points;
     });
   EXPECT_EQ(result.reason, cactus::StopReason::Converged);
