@@ -169,11 +169,14 @@ void vtkSMPresetDomain::ApplyChoice()
       vtkSMUncheckedPropertyHelper(value.Property).Set(value.Number);
     }
   }
-  if (isApplied && presetOf(preset) != nullptr && preset != this->Former)
+  if (isApplied && preset != this->Former)
   {
     const int former = this->Former;
     this->Former = preset;
-    this->LeadOthers(former, preset);
+    if (presetOf(preset) != nullptr)
+    {
+      this->LeadOthers(former, preset);
+    }
   }
 }
 

@@ -36,6 +36,9 @@ public:
   /** The preset that is applied, by its number. */
   int Applied();
 
+  /** The preset that was chosen last, also where one of its values has been changed since: what follows starts with it. */
+  int Chosen() const { return this->Former; }
+
   /** Applies a preset to all properties that have not been changed since that time; it is named where none had been. */
   void Take(int preset, vtkMTimeType since);
 
@@ -66,7 +69,7 @@ private:
   void LeadOthers(int former, int preset);
 
   std::string Stage;
-  int Former = 0; ///< the preset that was applied last
+  int Former = 0; ///< the preset that was chosen last
   bool IsBusy = false;
 };
 

@@ -22,7 +22,7 @@ void collectPresets(vtkSMProxy* proxy, std::set<int>& presets)
     vtkSMProxy* source = proxy->GetProducerProxy(i);
     if (vtkSMPresetDomain* domain = vtkSMPresetDomain::Of(source))
     {
-      presets.insert(domain->Applied());
+      presets.insert(domain->Chosen());
     }
     else if (source != nullptr)
     {

@@ -74,9 +74,9 @@ class CactusGrow(CactusTestCase):
         self.assertSame("filters", "grown")
 
     def test_a_preset(self):
-        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Preset="Histological target c", Side=4, MinimumRadius=0.4)), 0)
-        self.write(fibres, {"VoxelSize": 0.2}, {})
-        self.grow({"Preset": "Histological target c", "BundleInitializer": {"Side": 4, "MinimumRadius": 0.4}, "FibreRadialGrowth": {"VoxelSize": 0.2}}, "grown")
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Preset="Histological target c", Side=6, MinimumRadius=0.4)), 0)
+        self.write(fibres, {"VoxelSize": 0.15}, {})
+        self.grow({"Preset": "Histological target c", "BundleInitializer": {"Side": 6, "MinimumRadius": 0.4}, "FibreRadialGrowth": {"VoxelSize": 0.15}}, "grown")
         self.assertSame("filters", "grown")
 
     def test_a_production(self):

@@ -54,6 +54,10 @@ class Presets(CactusTestCase):
     def test_what_a_script_says_is_its_own(self):
         initial, _, _ = self.chain(Preset=ALIVE, MeanDispersion=3)
         self.assertEqual((initial.MeanDispersion, initial.GrownFibreVolumeFraction, initial.Preset), (3, 0.8, "None"))
+        self.assertEqual(simple.FibreRadialGrowth(Input=initial).Preset, ALIVE)
+        initial.Preset = ALIVE
+        initial.Preset = "None"
+        self.assertEqual(simple.FibreRadialGrowth(Input=initial).Preset, "None")
         _, growth, _ = self.chain(Preset=ALIVE)
         other = simple.FibreRadialGrowth(Input=growth.Input, MinimumGap=0.03, VoxelSize=0.2)
         self.assertEqual((other.MinimumGap, other.VoxelSize, other.Preset), (0.03, 0.2, "None"))
