@@ -21,7 +21,7 @@ namespace
 
 vtkDataObject* connectedTo(vtkAlgorithm* consumer, int port)
 {
-  return consumer->GetNumberOfInputConnections(port) == 1 ? consumer->GetInputDataObject(port, 0) : nullptr;
+  return port >= 0 && consumer->GetNumberOfInputConnections(port) == 1 ? consumer->GetInputDataObject(port, 0) : nullptr;
 }
 
 /// Memory may have been given back.

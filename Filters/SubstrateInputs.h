@@ -25,7 +25,7 @@ struct SubstrateData
 
 /// What is connected to the ports `Outer`, `Inner` and `Fibres` of a filter. Where Outer comes straight from MyelinSurface, what
 /// is not connected is that filter's own: its inner surfaces, and the fibres that FibreRadialGrowth was given before it. So who
-/// connects the outer surfaces alone has the whole substrate judged, not a half of it.
+/// connects the outer surfaces alone has the whole substrate judged, not a half of it. A port of -1 is none.
 SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort);
 
 /// The same for a filter whose first port is `Fibres`: where that is given the outer surfaces of MyelinSurface, and nothing is

@@ -53,6 +53,8 @@ public:
   CACTUS_NUMBER_PROPERTY(LognormalDeviation)
   CACTUS_TEXT_PROPERTY(RadiusTable)
   CACTUS_FILE_PROPERTY(RadiusTableFile)
+  CACTUS_TEXT_PROPERTY(RadiusTableColumn)
+  CACTUS_NUMBER_PROPERTY(RadiusTableFactor)
   CACTUS_NUMBER_PROPERTY(MinimumRadius)
   CACTUS_NUMBER_PROPERTY(MaximumRadius)
   CACTUS_NUMBER_PROPERTY(MeanDispersion)

@@ -2,6 +2,7 @@
 #include "stages/StageWork.h"
 
 #include "base/Error.h"
+#include "bundle/RadiusColumn.h"
 #include "fibres/TrimToDomain.h"
 #include "io/StrandFile.h"
 #include "optimiser/OverlapReport.h"
@@ -70,12 +71,37 @@ void keepRadiusTable(const RadiusDistributionOptions& radius, const std::string&
   }
 }
 
+/// The distribution with the table that a stage was given.
+template <typename Stage>
+RadiusDistributionOptions withTableOf(const Stage& stage)
+{
+  const bool isTable = stage.options.radius.model == RadiusModel::Table && !stage.radiusTableFile.empty();
+  if (isTable)
+  {
+    validateProperties(stage);
+  }
+  RadiusDistributionOptions radius = stage.options.radius;
+  if (isTable && stage.radiusTable.empty() && !stage.radiusTableColumn.empty())
+  {
+    radius.table = readRadiusColumn(stage.radiusTableFile, stage.radiusTableColumn);
+  }
+  else
+  {
+    radius = withTable(radius, stage.radiusTable, stage.radiusTableFile);
+  }
+  for (double& value : radius.table)
+  {
+    value *= isTable ? stage.radiusTableFactor : 1.0;
+  }
+  return radius;
+}
+
 } // namespace
 
 BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage)
 {
   BundleInitializerOptions options = stage.options;
-  options.radius = withTable(options.radius, stage.radiusTable, stage.radiusTableFile);
+  options.radius = withTableOf(stage);
   return options;
 }
 
@@ -94,7 +120,7 @@ StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitia
 TractFibresOptions tractOptions(const TractFibresStage& stage)
 {
   TractFibresOptions options = stage.options;
-  options.radius = withTable(options.radius, stage.radiusTable, stage.radiusTableFile);
+  options.radius = withTableOf(stage);
   return options;
 }
 

@@ -17,6 +17,8 @@ const std::vector<std::string> formatNames{ "MC/DC", "Reference program", "Camin
 constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
 constexpr char encodingMeaning[] = "Of PLY files that no simulator reads: text, or bytes, which take half the room";
+constexpr Range leastRadius{ 0.0, 1e3, " µm" };
+constexpr Range tableFactor{ 1e-6, 1e6 };
 constexpr Range partOfHits{ 0.0, 1.0 };
 constexpr Range startCount{ 0.0, 1e7 };
 constexpr Range shownInterval{ 0.0, 1e7 };
@@ -31,7 +33,15 @@ PropertyList<Stage> withRadiusTable()
       "RadiusTable", &Stage::radiusTable, "Radii in µm to draw from, each as likely as the others, separated by blanks or commas")
     .where("RadiusDistribution", { 2 })
     .add("RadiusTableFile", &Stage::radiusTableFile, "Text file of such radii, instead of RadiusTable")
-    .where("RadiusDistribution", { 2 });
+    .where("RadiusDistribution", { 2 })
+    .add("RadiusTableColumn", &Stage::radiusTableColumn,
+      "Column of RadiusTableFile that has the radii, where its first line names columns (.csv); none: a mere list")
+    .where("RadiusDistribution", { 2 })
+    .whereGiven("RadiusTableFile")
+    .add("RadiusTableFactor", &Stage::radiusTableFactor, tableFactor,
+      "What the numbers of RadiusTableFile are multiplied by to be outer radii in µm: 0.5 for diameters, 1/g for inner radii")
+    .where("RadiusDistribution", { 2 })
+    .whereGiven("RadiusTableFile");
 }
 
 template <typename Stage>
@@ -180,6 +190,27 @@ const PropertyList<SubstrateSamplerStage>& SubstrateSamplerStage::properties()
   return list;
 }
 
+const PropertyList<HistologyMaskStage>& HistologyMaskStage::properties()
+{
+  using Stage = HistologyMaskStage;
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::options, HistologyMaskOptions::properties())
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
+  return list;
+}
+
+const PropertyList<HistologyRadiiStage>& HistologyRadiiStage::properties()
+{
+  using Stage = HistologyRadiiStage;
+  static const auto list = PropertyList<Stage>()
+                             .add("PixelSize", &Stage::pixelSize, maskPixel, "Edge of a pixel")
+                             .add("SmallestRadius", &Stage::smallestRadius, leastRadius, "Axons below it are left out")
+                             .add("LeaveOutBorder", &Stage::leaveOutBorder,
+                               "Leave out fibres that reach the border of the image, where they are cut off");
+  return list;
+}
+
 const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
 {
   using Stage = SubstrateWriterStage;
@@ -285,7 +316,8 @@ std::vector<StageDescription> describeStages()
     description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
     description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
     description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
-    description<SubstrateSamplerStage>("SubstrateSampler"), description<SubstrateWriterStage>("SubstrateWriter"),
+    description<SubstrateSamplerStage>("SubstrateSampler"), description<HistologyMaskStage>("HistologyMask"),
+    description<HistologyRadiiStage>("HistologyRadii"), description<SubstrateWriterStage>("SubstrateWriter"),
     description<SubstrateProductionStage>("SubstrateProduction"), description<PlacementStage>("Placement"),
     description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
     description<NiftiWriterStage>("NiftiWriter") };

@@ -9,6 +9,7 @@
 #include "bundle/TractFibresOptions.h"
 #include "growth/FibreRadialGrowthOptions.h"
 #include "io/SubstrateContents.h"
+#include "judge/HistologyMask.h"
 #include "judge/SubstrateCertificate.h"
 #include "judge/SubstrateSampler.h"
 #include "judge/SubstrateStatistics.h"
@@ -26,8 +27,10 @@ namespace cactus
 struct BundleInitializerStage
 {
   BundleInitializerOptions options;
-  std::string radiusTable;     ///< radii (µm) as text, see parseRadiusTable(); they become those of `options`
-  std::string radiusTableFile; ///< the same as a file
+  std::string radiusTable;        ///< radii (µm) as text, see parseRadiusTable(); they become those of `options`
+  std::string radiusTableFile;    ///< the same as a file
+  std::string radiusTableColumn;  ///< of a file that is a table with a name for each column; empty for a mere list
+  double radiusTableFactor = 1.0; ///< what the file's numbers are multiplied by
 
   static const PropertyList<BundleInitializerStage>& properties();
 };
@@ -35,8 +38,10 @@ struct BundleInitializerStage
 struct TractFibresStage
 {
   TractFibresOptions options;
-  std::string radiusTable;     ///< as BundleInitializerStage has it
-  std::string radiusTableFile; ///< the same as a file
+  std::string radiusTable;        ///< as BundleInitializerStage has it
+  std::string radiusTableFile;    ///< the same as a file
+  std::string radiusTableColumn;  ///< as BundleInitializerStage has it
+  double radiusTableFactor = 1.0; ///< the same
 
   static const PropertyList<TractFibresStage>& properties();
 };
@@ -122,6 +127,23 @@ struct SubstrateSamplerStage
   int threads = 0;
 
   static const PropertyList<SubstrateSamplerStage>& properties();
+};
+
+struct HistologyMaskStage
+{
+  HistologyMaskOptions options;
+  int threads = 0;
+
+  static const PropertyList<HistologyMaskStage>& properties();
+};
+
+struct HistologyRadiiStage
+{
+  double pixelSize = 0.1;      ///< µm
+  double smallestRadius = 0.0; ///< µm, of axons that count
+  bool leaveOutBorder = true;  ///< of fibres that are cut off there
+
+  static const PropertyList<HistologyRadiiStage>& properties();
 };
 
 struct SubstrateWriterStage

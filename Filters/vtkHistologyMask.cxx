@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHistologyMask.h"
+
+#include "Columns.h"
+#include "DataProvenance.h"
+#include "FibreData.h"
+#include "FilterSupport.h"
+#include "StageProperties.h"
+#include "SubstrateInputs.h"
+#include "WholeData.h"
+#include "judge/HistologyMask.h"
+#include "stages/Stages.h"
+
+#include <vtkDataObject.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkIntArray.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <array>
+
+vtkStandardNewMacro(vtkHistologyMask);
+
+namespace
+{
+
+std::array<int, 6> extentOf(const cactus::HistologyMask& mask)
+{
+  return { { 0, mask.count[0] - 1, 0, mask.count[1] - 1, 0, 0 } };
+}
+
+} // namespace
+
+vtkHistologyMask::vtkHistologyMask()
+  : Properties(cactus::makeProperties<cactus::HistologyMaskStage>())
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+int vtkHistologyMask::FillInputPortInformation(int port, vtkInformation* info)
+{
+  cactus::acceptAnyData(info);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
+  return 1;
+}
+
+int vtkHistologyMask::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkInformation* info = outputs->GetInformationObject(0);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_UNSIGNED_CHAR, 1);
+  // A place holder: the pipeline wants to see an extent even where there cannot be an image.
+  std::array<int, 6> extent{};
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
+
+  // Only the surfaces themselves say how large the domain is.
+  cactus::quietly(
+    [&]
+    {
+      cactus::updateWholeInputs(this, inputs);
+      extent = extentOf(cactus::maskGrid(cactus::domainFrom(vtkDataObject::GetData(inputs[0])),
+        cactus::stageOf<cactus::HistologyMaskStage>(this->Properties).options));
+      info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
+    });
+  return 1;
+}
+
+int vtkHistologyMask::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  cactus::requestWholeInputs(inputs, 2);
+  return 1;
+}
+
+int vtkHistologyMask::ComputePipelineMTime(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
+int vtkHistologyMask::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  return cactus::guarded(this,
+    [&]
+    {
+      const auto& stage = cactus::stageOf<cactus::HistologyMaskStage>(this->Properties);
+      cactus::validateProperties(stage);
+      cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, -1);
+      data.fibres = nullptr; // centre lines have no part in a cut
+      const cactus::Substrate substrate = cactus::substrateFrom(data);
+      const cactus::HistologyMask mask = cactus::cutMask(
+        substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));
+      auto* output = vtkImageData::GetData(outputs);
+      output->SetExtent(extentOf(mask).data());
+      output->SetOrigin(mask.origin[mask.axes[0]], mask.origin[mask.axes[1]], 0.0);
+      output->SetSpacing(mask.pixelSize, mask.pixelSize, mask.pixelSize);
+      vtkPointData* pixels = output->GetPointData();
+      cactus::addColumn<vtkUnsignedCharArray>(
+        pixels, "Mask", mask.size(), [&](std::size_t i) { return cactus::greyOfTissue[std::size_t(mask.pixels[i])]; });
+      cactus::addColumn<vtkIntArray>(pixels, "FibreId", mask.size(), [&](std::size_t i) { return mask.fibreIds[i]; });
+      pixels->SetActiveScalars("Mask");
+      cactus::addNumber(output->GetFieldData(), "PixelSize_um", mask.pixelSize);
+      cactus::setProvenance(output, cactus::recordOf(this, "HistologyMask", stage, { "Outer", "Inner" }), 0);
+    });
+}
+
+void vtkHistologyMask::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->Properties->print(os, indent);
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkHistologyMask
+ * @brief Cuts a substrate into a mask as histology has it, in AxonDeepSeg's grey values.
+ *
+ * Input 0 `Outer`, input 1 `Inner` (optional): closed triangle surfaces with cell data `FibreId`, as vtkSubstrateSampler takes
+ * them.
+ *
+ * Output: an image of one layer, whose points are the middles of pixels. Point data `Mask` (0 background, 127 myelin, 255 axon),
+ * so that ParaView's own writers save it as an 8-bit grey PNG or TIFF, and `FibreId`. Field data `PixelSize_um`. The image lies
+ * along x and y, as formats of flat images need it; its columns and rows count along the two axes that the cut has, in their
+ * order, from the domain's lower corner.
+ */
+#ifndef vtkHistologyMask_h
+#define vtkHistologyMask_h
+
+#include "CactusFiltersModule.h"
+#include "FilterProperties.h"
+
+#include <vtkImageAlgorithm.h>
+
+class CACTUSFILTERS_EXPORT vtkHistologyMask : public vtkImageAlgorithm
+{
+public:
+  static vtkHistologyMask* New();
+  vtkTypeMacro(vtkHistologyMask, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  CACTUS_WHOLE_PROPERTY(Normal)
+  CACTUS_NUMBER_PROPERTY(Position)
+  CACTUS_NUMBER_PROPERTY(PixelSize)
+  CACTUS_WHOLE_PROPERTY(NumberOfThreads)
+
+  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+
+protected:
+  vtkHistologyMask();
+  ~vtkHistologyMask() override = default;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkHistologyMask(const vtkHistologyMask&) = delete;
+  void operator=(const vtkHistologyMask&) = delete;
+
+  std::unique_ptr<cactus::FilterProperties> Properties;
+};
+
+#endif

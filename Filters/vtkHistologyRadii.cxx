@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkHistologyRadii.h"
+
+#include "Columns.h"
+#include "DataProvenance.h"
+#include "FilterSupport.h"
+#include "StageProperties.h"
+#include "WholeData.h"
+#include "base/Error.h"
+#include "judge/HistologyRadii.h"
+#include "stages/Stages.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkTable.h>
+
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkHistologyRadii);
+
+namespace
+{
+
+/// Grey values half way between those of AxonDeepSeg.
+constexpr double leastMyelin = 64.0;
+constexpr double leastAxon = 191.0;
+
+cactus::Tissue tissueOf(double grey)
+{
+  return grey >= leastAxon ? cactus::Tissue::Axon : grey >= leastMyelin ? cactus::Tissue::Myelin : cactus::Tissue::Background;
+}
+
+/// The active numbers, those of points first; else the first that there are.
+vtkDataArray* greysOf(vtkImageData* image)
+{
+  for (vtkDataSetAttributes* data :
+    { static_cast<vtkDataSetAttributes*>(image->GetPointData()), static_cast<vtkDataSetAttributes*>(image->GetCellData()) })
+  {
+    vtkDataArray* array = data->GetScalars() != nullptr ? data->GetScalars() : data->GetArray(0);
+    if (array != nullptr)
+    {
+      return array;
+    }
+  }
+  throw cactus::InvalidInput("the input has no grey values: give a mask as AxonDeepSeg or HistologyMask makes it");
+}
+
+cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
+{
+  auto* image = vtkImageData::SafeDownCast(input);
+  if (image == nullptr || image->GetNumberOfPoints() == 0)
+  {
+    throw cactus::InvalidInput("the input is no image, or an empty one: give a mask, 0 background, 127 myelin, 255 axon");
+  }
+  vtkDataArray* greys = greysOf(image);
+  const int* size = image->GetDimensions();
+  const int less = greys->GetNumberOfTuples() == image->GetNumberOfPoints() ? 0 : 1; // cells lie between points
+  cactus::HistologyMask mask;
+  mask.count = { { size[0] - less, size[1] - less } };
+  mask.pixelSize = pixelSize;
+  if (size[2] != 1 || mask.count[0] < 1 || mask.count[1] < 1 || greys->GetNumberOfTuples() != vtkIdType(mask.size()))
+  {
+    throw cactus::InvalidInput(cactus::text("the input has ", size[0], " × ", size[1], " × ", size[2],
+      " points: give a flat image, along x and y, with a grey value for each pixel"));
+  }
+  for (vtkIdType i = 0; i < vtkIdType(mask.size()); ++i)
+  {
+    mask.pixels.push_back(tissueOf(greys->GetComponent(i, 0)));
+  }
+  return mask;
+}
+
+void fillTable(const std::vector<cactus::MaskAxon>& axons, double pixelSize, vtkTable* table)
+{
+  const auto column = [&](const char* name, auto&& value)
+  { cactus::addColumn<vtkDoubleArray>(table, name, axons.size(), [&](std::size_t i) { return value(axons[i]); }); };
+  using Axon = cactus::MaskAxon;
+  column("X_um", [&](const Axon& axon) { return pixelSize * (axon.column + 0.5); });
+  column("Y_um", [&](const Axon& axon) { return pixelSize * (axon.row + 0.5); });
+  column("AxonRadius_um", [](const Axon& axon) { return axon.axonRadius(); });
+  column("FibreRadius_um", [](const Axon& axon) { return axon.fibreRadius(); });
+  column("GRatio", [](const Axon& axon) { return axon.axonRadius() / axon.fibreRadius(); });
+  column("AxonArea_um2", [](const Axon& axon) { return axon.axonArea; });
+  column("MyelinArea_um2", [](const Axon& axon) { return axon.myelinArea; });
+  cactus::addColumn<vtkIntArray>(table, "AtBorder", axons.size(), [&](std::size_t i) { return axons[i].touchesBorder ? 1 : 0; });
+}
+
+} // namespace
+
+vtkHistologyRadii::vtkHistologyRadii()
+  : Properties(cactus::makeProperties<cactus::HistologyRadiiStage>())
+{
+}
+
+int vtkHistologyRadii::FillInputPortInformation(int, vtkInformation* info)
+{
+  cactus::acceptAnyData(info);
+  return 1;
+}
+
+int vtkHistologyRadii::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  cactus::requestWholeInputs(inputs, 1);
+  return 1;
+}
+
+int vtkHistologyRadii::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  return cactus::guarded(this,
+    [&]
+    {
+      const auto& stage = cactus::stageOf<cactus::HistologyRadiiStage>(this->Properties);
+      cactus::validateProperties(stage);
+      if (!cactus::ownsWholeOutput(request, outputs))
+      {
+        return;
+      }
+      const cactus::HistologyMask mask = maskFrom(vtkDataObject::GetData(inputs[0]), stage.pixelSize);
+      const cactus::MaskAxons found = cactus::measureMask(mask, cactus::contextFor(this));
+      std::vector<cactus::MaskAxon> axons;
+      for (const cactus::MaskAxon& axon : found.axons)
+      {
+        if (axon.axonRadius() >= stage.smallestRadius && !(stage.leaveOutBorder && axon.touchesBorder))
+        {
+          axons.push_back(axon);
+        }
+      }
+      if (axons.empty())
+      {
+        throw cactus::InvalidInput(cactus::text(
+          "none of the ", found.axons.size(), " axons is left: choose a smaller SmallestRadius, or do not LeaveOutBorder"));
+      }
+      auto* table = vtkTable::GetData(outputs);
+      fillTable(axons, stage.pixelSize, table);
+      cactus::addNumber(table->GetFieldData(), "LooseMyelin_um2", found.looseMyelin);
+      cactus::setProvenance(table, cactus::recordOf(this, "HistologyRadii", stage, { "Input" }), 0);
+    });
+}
+
+void vtkHistologyRadii::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->Properties->print(os, indent);
+}

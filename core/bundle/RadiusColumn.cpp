@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/RadiusColumn.h"
+
+#include "base/Error.h"
+#include "base/Numbers.h"
+#include "base/PosixFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <string_view>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr std::size_t longestLine = 1 << 20;
+constexpr std::size_t mostRadii = 1 << 24;
+
+/// A line without its end, as long as lines of tables are.
+bool takeLine(std::istream& stream, const std::string& name, std::string& line)
+{
+  line.clear();
+  for (int c = stream.get(); c != std::istream::traits_type::eof(); c = stream.get())
+  {
+    if (c == '\n')
+    {
+      return true;
+    }
+    if (c != '\r')
+    {
+      line.push_back(static_cast<char>(c));
+    }
+    if (line.size() > longestLine)
+    {
+      throw FileError("RadiusTableFile " + name + " has a line of more than 1 MB: this is no table");
+    }
+  }
+  return !line.empty();
+}
+
+std::string trimmed(std::string_view cell)
+{
+  constexpr std::string_view blanks = " \t";
+  cell.remove_prefix(std::min(cell.find_first_not_of(blanks), cell.size()));
+  cell = cell.substr(0, cell.find_last_not_of(blanks) + 1);
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+  {
+    cell = cell.substr(1, cell.size() - 2);
+  }
+  return std::string(cell);
+}
+
+/// The cells of a line; separators in quotation marks are none.
+std::vector<std::string> cellsOf(const std::string& line, char separator)
+{
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  bool isQuoted = false;
+  for (std::size_t i = 0; i <= line.size(); ++i)
+  {
+    if (i == line.size() || (line[i] == separator && !isQuoted))
+    {
+      cells.push_back(trimmed(std::string_view(line).substr(begin, i - begin)));
+      begin = i + 1;
+    }
+    else if (line[i] == '"')
+    {
+      isQuoted = !isQuoted;
+    }
+  }
+  return cells;
+}
+
+char separatorOf(const std::string& header)
+{
+  const std::size_t place = header.find_first_of(",;\t");
+  return place == std::string::npos ? ',' : header[place];
+}
+
+} // namespace
+
+std::vector<double> readRadiusColumn(std::istream& stream, const std::string& name, const std::string& column)
+{
+  std::string line;
+  takeLine(stream, name, line);
+  if (line.rfind("\xef\xbb\xbf", 0) == 0)
+  {
+    line.erase(0, 3); // the mark that some programs put before UTF-8
+  }
+  const char separator = separatorOf(line);
+  const std::vector<std::string> names = cellsOf(line, separator);
+  const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
+  if (place == names.size())
+  {
+    throw FileError("RadiusTableFile " + name + " has no column \"" + column + "\" (RadiusTableColumn); its first line is \"" +
+                    excerpt(line) + "\"");
+  }
+  std::vector<double> radii;
+  for (std::size_t number = 2; takeLine(stream, name, line) || stream.good(); ++number)
+  {
+    if (line.find_first_not_of(" \t") == std::string::npos)
+    {
+      continue;
+    }
+    const std::vector<std::string> cells = cellsOf(line, separator);
+    std::string_view cell = place < cells.size() ? std::string_view(cells[place]) : std::string_view();
+    double value = 0.0;
+    if (!takeNumber(cell, value) || !cell.empty() || !std::isfinite(value))
+    {
+      throw FileError("RadiusTableFile " + name + ", line " + std::to_string(number) + ", has no number in column \"" + column +
+                      "\": leave such lines out");
+    }
+    radii.push_back(value);
+    if (radii.size() > mostRadii)
+    {
+      throw FileError("RadiusTableFile " + name + " has more than " + std::to_string(mostRadii) + " lines: take a part of it");
+    }
+  }
+  if (radii.empty())
+  {
+    throw FileError("RadiusTableFile " + name + " has no numbers below its column \"" + column + "\"");
+  }
+  return radii;
+}
+
+std::vector<double> readRadiusColumn(const std::string& path, const std::string& column)
+{
+  requireNoPipe("RadiusTableFile " + path, path);
+  std::ifstream file(path);
+  if (!file)
+  {
+    throw FileError("RadiusTableFile " + path + " cannot be read: name a table with a column of radii");
+  }
+  return readRadiusColumn(file, path, column);
+}
+
+} // namespace cactus
