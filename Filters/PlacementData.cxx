@@ -5,12 +5,14 @@
 #include "FibreData.h"
 #include "InputBlocks.h"
 #include "base/Error.h"
+#include "judge/SphericalHarmonics.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
@@ -23,6 +25,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <vector>
 
 namespace cactus
 {
@@ -62,13 +65,13 @@ void placeGrid(vtkImageData* image, const Placement& placement)
   image->SetSpacing(spacing.data());
 }
 
-/// The array with `change` done to each of its tuples; of one or three components.
+/// The array with `change` done to each of its tuples.
 template <typename Change>
 void changeArray(vtkDataSetAttributes* data, vtkDataArray* array, Change&& change)
 {
   auto changed = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
   changed->DeepCopy(array);
-  std::array<double, 3> tuple{};
+  std::vector<double> tuple(std::size_t(array->GetNumberOfComponents()));
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     array->GetTuple(i, tuple.data());
@@ -100,7 +103,7 @@ void turnDirections(vtkDataSetAttributes* data, const Placement& placement)
         (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE) && array != data->GetTCoords())
     {
       changeArray(data, array,
-        [&](std::array<double, 3>& tuple)
+        [&](std::vector<double>& tuple)
         {
           Eigen::Map<Eigen::Vector3d> direction(tuple.data());
           direction = (placement.axes * direction).eval();
@@ -109,12 +112,38 @@ void turnDirections(vtkDataSetAttributes* data, const Placement& placement)
   }
 }
 
+/// Coefficients of spherical harmonics and axes of bundles, as SubstrateSampler has them.
+void turnOrientations(vtkDataSetAttributes* data, const Placement& placement)
+{
+  auto* fod = vtkFloatArray::SafeDownCast(data->GetArray("FOD"));
+  int order = 0;
+  while (fod != nullptr && int(harmonicCount(order)) < fod->GetNumberOfComponents())
+  {
+    order += 2;
+  }
+  if (fod != nullptr && int(harmonicCount(order)) == fod->GetNumberOfComponents())
+  {
+    const HarmonicRotation rotation(placement.axes, order);
+    changeArray(data, fod, [&](std::vector<double>& tuple) { rotation.turn(tuple); });
+  }
+  auto* peaks = vtkFloatArray::SafeDownCast(data->GetArray("Peaks"));
+  if (peaks != nullptr && peaks->GetNumberOfComponents() % 3 == 0)
+  {
+    changeArray(data, peaks,
+      [&](std::vector<double>& tuple)
+      {
+        Eigen::Map<Eigen::Matrix3Xd> axes(tuple.data(), 3, Eigen::Index(tuple.size() / 3));
+        axes = (placement.axes * axes).eval();
+      });
+  }
+}
+
 void scaleLengths(vtkDataSetAttributes* data, const char* name, double scale)
 {
   vtkDataArray* array = data->GetArray(name);
   if (array != nullptr && array->GetNumberOfComponents() == 1)
   {
-    changeArray(data, array, [&](std::array<double, 3>& tuple) { tuple[0] *= scale; });
+    changeArray(data, array, [&](std::vector<double>& tuple) { tuple[0] *= scale; });
   }
 }
 
@@ -173,6 +202,7 @@ void place(vtkDataObject* output, const Placement& placement)
   auto* data = vtkDataSet::SafeDownCast(output);
   turnDirections(data->GetPointData(), placement);
   turnDirections(data->GetCellData(), placement);
+  turnOrientations(data->GetPointData(), placement);
   scaleLengths(data->GetPointData(), "Radius", placement.scale);
   scaleLengths(data->GetCellData(), "TargetRadius", placement.scale);
   if (auto* lines = vtkPolyData::SafeDownCast(output))

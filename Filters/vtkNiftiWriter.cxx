@@ -113,6 +113,9 @@ void write(vtkImageData* image, bool isPlaced, const std::string& path)
   writer->SetNIFTIHeader(header);
   writer->SetQFormMatrix(grid);
   writer->SetSFormMatrix(grid);
+  // A direction is a vector, along the fifth dimension; more numbers are volumes, along the fourth, as MRtrix wants them.
+  const int components = image->GetPointData()->GetScalars()->GetNumberOfComponents();
+  writer->SetTimeDimension(components > 3 ? components : 0);
   writer->SetFileName(path.c_str());
   writer->Write();
   if (writer->GetErrorCode() != vtkErrorCode::NoError)

@@ -5,7 +5,7 @@
  * placed in the space of another image (see vtkPlacement).
  *
  * Input: an image. `Array` names the point data to write; without a name they are the active scalars. Directions of three
- * numbers are written as a fifth dimension. The file appears whole or not at all.
+ * numbers are written as a fifth dimension, arrays of more numbers as volumes, the fourth. The file appears whole or not at all.
  */
 #ifndef vtkNiftiWriter_h
 #define vtkNiftiWriter_h

@@ -9,6 +9,7 @@
 #include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Error.h"
+#include "judge/SphericalHarmonics.h"
 #include "judge/SubstrateSampler.h"
 #include "stages/Stages.h"
 
@@ -80,6 +81,34 @@ void fillLabels(vtkPointData* data, const cactus::SampledSubstrate& sampled)
   addColumn<vtkFloatArray>(data, "Dispersion", size, [&](std::size_t i) { return sampled.dispersion[i]; });
 }
 
+/// Fibre orientation distributions.
+void fillOrientations(vtkPointData* data, const cactus::SampledSubstrate& sampled)
+{
+  const std::size_t size = sampled.voxels.size();
+  if (sampled.harmonicsOrder > 0)
+  {
+    auto fod = cactus::makeArray<vtkFloatArray>("FOD", size, int(cactus::harmonicCount(sampled.harmonicsOrder)));
+    for (std::size_t i = 0; i < sampled.harmonics.size(); ++i)
+    {
+      fod->SetValue(vtkIdType(i), float(sampled.harmonics[i]));
+    }
+    data->AddArray(fod);
+  }
+  if (!sampled.peaks.empty())
+  {
+    constexpr int numbers = 3 * int(cactus::SampledSubstrate::peakCount);
+    auto peaks = cactus::makeArray<vtkFloatArray>("Peaks", size, numbers);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      for (int number = 0; number < numbers; ++number)
+      {
+        peaks->SetTypedComponent(vtkIdType(i), number, float(sampled.peaks[i][std::size_t(number / 3)][number % 3]));
+      }
+    }
+    data->AddArray(peaks);
+  }
+}
+
 } // namespace
 
 vtkSubstrateSampler::vtkSubstrateSampler()
@@ -149,6 +178,7 @@ int vtkSubstrateSampler::RequestData(vtkInformation*, vtkInformationVector**, vt
       output->SetSpacing(spacing, spacing, spacing);
       fillFractions(output->GetPointData(), sampled);
       fillLabels(output->GetPointData(), sampled);
+      fillOrientations(output->GetPointData(), sampled);
       output->GetPointData()->SetActiveScalars("AVF");
       cactus::setDomain(output, substrate.domain);
       const auto provenance = cactus::recordOf(this, "SubstrateSampler", stage, { "Outer", "Inner", "Fibres" });

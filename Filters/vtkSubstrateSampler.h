@@ -12,7 +12,9 @@
  * in the domain, in single precision); `Compartment` (0 extra-axonal, 1 axon, 2 myelin: that with the largest fraction);
  * `FibreId` (with the largest volume; 0 where Compartment is); `FibreCount`; and with centre lines `MeanDirection` (unit vector,
  * z not negative) and `Dispersion` (degrees; the angle whose squared cosine is the mean of the squared cosines to it; NaN where
- * there is no fibre).
+ * there is no fibre). Where asked for, `FOD` (the fibre orientation distribution as coefficients of spherical harmonics, in
+ * MRtrix's basis and order; its integral is the fibre volume fraction) and `Peaks` (nine numbers: the axes of the three bundles
+ * that fill most of the voxel, as long as their fractions; NaN where there are fewer).
  */
 #ifndef vtkSubstrateSampler_h
 #define vtkSubstrateSampler_h
@@ -30,6 +32,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   CACTUS_NUMBER_PROPERTY(VoxelSize)
+  CACTUS_WHOLE_PROPERTY(HarmonicsOrder)
+  CACTUS_SWITCH_PROPERTY(Peaks)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */

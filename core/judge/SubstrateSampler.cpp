@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Parallel.h"
+#include "judge/SphericalHarmonics.h"
 #include "judge/VoxelDirections.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,6 +14,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace cactus
 {
@@ -55,11 +58,16 @@ void visitVoxels(const VoxelVolumes& block, const VoxelBoxes& voxels, Visit&& vi
 class Collector
 {
 public:
-  Collector(SampledSubstrate& sampled, bool withDirections)
+  Collector(SampledSubstrate& sampled, bool withDirections, bool withPeaks)
     : Sampled(sampled)
+    , WithPeaks(withPeaks)
     , Largest(sampled.voxels.size(), 0.0)
     , Tensors(withDirections ? sampled.voxels.size() : 0, Eigen::Matrix3d::Zero())
   {
+    if (sampled.harmonicsOrder > 0)
+    {
+      sampled.harmonics.assign(sampled.voxels.size() * harmonicCount(sampled.harmonicsOrder), 0.0);
+    }
     const std::size_t size = sampled.voxels.size();
     sampled.axonFraction.assign(size, 0.0);
     sampled.myelinFraction.assign(size, 0.0);
@@ -92,7 +100,8 @@ public:
         }
         if (!this->Tensors.empty())
         {
-          this->Tensors[voxel] += volume * fibre.directions[place];
+          this->Tensors[voxel] += volume * fibre.directions.tensors[place];
+          this->addDirections(fibre, place, voxel, volume);
         }
       });
     visitVoxels(fibre.inner, voxels,
@@ -124,9 +133,63 @@ public:
       this->Sampled.fibreId[voxel] = most == Compartment::ExtraAxonal ? 0 : this->Sampled.fibreId[voxel];
     }
     this->finishDirections();
+    const std::size_t count = volume.empty() ? 0 : this->Sampled.harmonics.size() / volume.size();
+    for (std::size_t i = 0; i < this->Sampled.harmonics.size(); ++i)
+    {
+      this->Sampled.harmonics[i] /= volume[i / count];
+    }
+    if (this->WithPeaks)
+    {
+      this->finishPeaks();
+    }
   }
 
 private:
+  void addDirections(const SampledFibre& fibre, std::size_t place, std::size_t voxel, double volume)
+  {
+    if (this->Sampled.harmonicsOrder > 0)
+    {
+      const std::vector<double>& harmonics = fibre.directions.harmonics[place];
+      for (std::size_t i = 0; i < harmonics.size(); ++i)
+      {
+        this->Sampled.harmonics[voxel * harmonicCount(this->Sampled.harmonicsOrder) + i] += volume * harmonics[i];
+      }
+    }
+    if (this->WithPeaks)
+    {
+      std::vector<Eigen::Matrix3d>& tensors = this->BundleTensors[fibre.bundleId];
+      tensors.resize(this->Tensors.size(), Eigen::Matrix3d::Zero());
+      tensors[voxel] += volume * fibre.directions.tensors[place];
+    }
+  }
+
+  void finishPeaks()
+  {
+    std::array<Eigen::Vector3d, SampledSubstrate::peakCount> none;
+    none.fill(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    this->Sampled.peaks.assign(this->Tensors.size(), none);
+    for (std::size_t voxel = 0; voxel < this->Tensors.size(); ++voxel)
+    {
+      std::vector<std::pair<double, int>> bundles;
+      for (const auto& [id, tensors] : this->BundleTensors)
+      {
+        if (tensors[voxel].trace() > 0.0)
+        {
+          bundles.emplace_back(-this->Sampled.bundleFraction[id][voxel], id);
+        }
+      }
+      std::sort(bundles.begin(), bundles.end());
+      for (std::size_t i = 0; i < std::min(bundles.size(), none.size()); ++i)
+      {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(this->BundleTensors[bundles[i].second][voxel]);
+        this->Sampled.peaks[voxel][i] = -bundles[i].first * upward(parts.eigenvectors().col(2));
+      }
+    }
+  }
+
+  /// An axis in the sense in which z is not negative.
+  static Eigen::Vector3d upward(const Eigen::Vector3d& axis) { return axis[2] < 0.0 ? Eigen::Vector3d(-axis) : axis; }
+
   static void divide(std::vector<double>& volumes, const std::vector<double>& by)
   {
     for (std::size_t i = 0; i < volumes.size(); ++i)
@@ -145,8 +208,7 @@ private:
       if (weight > 0.0)
       {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(this->Tensors[voxel]);
-        const Eigen::Vector3d axis = parts.eigenvectors().col(2);
-        this->Sampled.direction[voxel] = axis[2] < 0.0 ? Eigen::Vector3d(-axis) : axis;
+        this->Sampled.direction[voxel] = upward(parts.eigenvectors().col(2));
         const double squaredCosine = std::clamp(parts.eigenvalues()[2] / weight, 0.0, 1.0);
         this->Sampled.dispersion[voxel] = radian * std::acos(std::sqrt(squaredCosine));
       }
@@ -154,8 +216,10 @@ private:
   }
 
   SampledSubstrate& Sampled;
+  bool WithPeaks;
   std::vector<double> Largest; ///< volume of one fibre
   std::vector<Eigen::Matrix3d> Tensors;
+  std::map<int, std::vector<Eigen::Matrix3d>> BundleTensors;
 };
 
 std::optional<std::size_t> placeOf(const std::vector<int>& ids, int id)
@@ -196,11 +260,12 @@ std::vector<double> volumesInDomain(const Domain& domain, const VoxelBoxes& voxe
 class FibreSampler
 {
 public:
-  FibreSampler(const VoxelBoxes& voxels, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres)
+  FibreSampler(const VoxelBoxes& voxels, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres, int order)
     : Voxels(voxels)
     , Outer(outer)
     , Inner(inner)
     , Lines(fibres)
+    , Order(order)
   {
     this->Ids = outer.fibreIds;
     this->Ids.insert(this->Ids.end(), inner.fibreIds.begin(), inner.fibreIds.end());
@@ -237,8 +302,11 @@ public:
     const auto line = this->LineOf.find(fibre.fibreId);
     if (this->Lines != nullptr)
     {
-      fibre.directions = line != this->LineOf.end() ? voxelDirections(*this->Lines, line->second, this->Voxels, fibre.outer)
-                                                    : VoxelDirections(fibre.outer.volumes.size(), Eigen::Matrix3d::Zero());
+      const std::size_t size = fibre.outer.volumes.size();
+      fibre.directions = line != this->LineOf.end()
+                           ? voxelDirections(*this->Lines, line->second, this->Voxels, fibre.outer, this->Order)
+                           : VoxelDirections{ std::vector<Eigen::Matrix3d>(size, Eigen::Matrix3d::Zero()),
+                               std::vector<std::vector<double>>(size) };
     }
     return fibre;
   }
@@ -248,6 +316,7 @@ private:
   const FibreSurfaces& Outer;
   const FibreSurfaces& Inner;
   const Fibres* Lines;
+  int Order; ///< of spherical harmonics; below 0 for none
   std::vector<int> Ids;
   std::map<int, std::size_t> LineOf;
 };
@@ -256,8 +325,13 @@ private:
 
 const PropertyList<SubstrateSamplerOptions>& SubstrateSamplerOptions::properties()
 {
-  static const auto list = PropertyList<SubstrateSamplerOptions>().add(
-    "VoxelSize", &SubstrateSamplerOptions::voxelSize, sampledVoxel, "Edge of a voxel, which is a cube");
+  static const auto list =
+    PropertyList<SubstrateSamplerOptions>()
+      .add("VoxelSize", &SubstrateSamplerOptions::voxelSize, sampledVoxel, "Edge of a voxel, which is a cube")
+      .add("HarmonicsOrder", &SubstrateSamplerOptions::harmonics, { "None", "2", "4", "6", "8", "10", "12" },
+        "Order up to which spherical harmonics of the fibre orientation distribution are given (FOD)")
+      .add("Peaks", &SubstrateSamplerOptions::peaks,
+        "Give the axes of the three bundles that fill most of a voxel, as long as the fraction that each fills");
   return list;
 }
 
@@ -288,11 +362,22 @@ SampledSubstrate sampleSubstrate(const Domain& domain, const FibreSurfaces& oute
 {
   SampledSubstrate sampled;
   sampled.voxels = samplerGrid(domain, options);
-  const FibreSampler sampler(sampled.voxels, outer, inner, fibres);
+  sampled.harmonicsOrder = 2 * int(options.harmonics);
+  const int order = sampled.harmonicsOrder > 0 ? sampled.harmonicsOrder : -1;
+  if (fibres == nullptr && (order > 0 || options.peaks))
+  {
+    throw InvalidInput(
+      text(order > 0 ? "HarmonicsOrder" : "Peaks", " asks for directions, which only centre lines have: connect Fibres"));
+  }
+  const FibreSampler sampler(sampled.voxels, outer, inner, fibres, order);
   require(sampler.size() > 0, "there are no surfaces to sample: connect MyelinSurface's Outer and Inner");
-  const double bytes = (fibres != nullptr ? 160.0 : 56.0) * double(sampled.voxels.size());
+  const std::set<int> bundles(fibres != nullptr ? fibres->bundleIds.begin() : outer.bundleIds.end(),
+    fibres != nullptr ? fibres->bundleIds.end() : outer.bundleIds.end());
+  const double each = (fibres != nullptr ? 160.0 : 56.0) + (order > 0 ? 12.0 * double(harmonicCount(order)) : 0.0) +
+                      (options.peaks ? 108.0 + 72.0 * double(bundles.size()) : 0.0);
+  const double bytes = each * double(sampled.voxels.size());
   requireMemory(bytes, text("VoxelSize ", options.voxelSize), "choose a larger VoxelSize");
-  Collector collector(sampled, fibres != nullptr);
+  Collector collector(sampled, fibres != nullptr, options.peaks);
   for (std::size_t begin = 0; begin < sampler.size(); begin += batch)
   {
     std::vector<SampledFibre> some(std::min(batch, sampler.size() - begin));

@@ -8,6 +8,7 @@
 #include "mesh/FibreSurfaces.h"
 #include "mesh/VoxelVolumes.h"
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -17,9 +18,23 @@ namespace cactus
 /// Edges of voxels: from a hundredth of usual ones of growth to those of images.
 constexpr Range sampledVoxel{ 1e-3, 1e5, " µm" };
 
+/// Of the spherical harmonics of orientation distributions, in twos.
+enum class HarmonicsOrder
+{
+  None,
+  Two,
+  Four,
+  Six,
+  Eight,
+  Ten,
+  Twelve
+};
+
 struct SubstrateSamplerOptions
 {
   double voxelSize = 1.0; ///< µm, edge of a voxel
+  HarmonicsOrder harmonics = HarmonicsOrder::None;
+  bool peaks = false; ///< of the bundles' directions
 
   static const PropertyList<SubstrateSamplerOptions>& properties();
 };
@@ -47,6 +62,12 @@ struct SampledSubstrate
   /// centre lines; zero and NaN where there is no fibre.
   std::vector<Eigen::Vector3d> direction;
   std::vector<double> dispersion;
+  int harmonicsOrder = 0;        ///< 0 for none
+  std::vector<double> harmonics; ///< harmonicCount(harmonicsOrder) for each voxel; see sampleSubstrate()
+  /// The axes of the peakCount bundles that fill most of the voxel, largest first, each as long as the part of the voxel that
+  /// the bundle fills; NaN where there are fewer. Empty unless asked for.
+  static constexpr std::size_t peakCount = 3;
+  std::vector<std::array<Eigen::Vector3d, peakCount>> peaks;
 };
 
 /// The grid: voxels from the domain's lower corner on, as many as cover it.
@@ -56,8 +77,11 @@ VoxelBoxes samplerGrid(const Domain& domain, const SubstrateSamplerOptions& opti
 /// so that their means over the domain are those of the whole. Fibres are taken one after the other: no more of their meshes than
 /// a few for each thread are held at once. The same bits on any number of threads. `fibres` may be null.
 ///
-/// Throws InvalidInput for options out of range, for a grid of more voxels than can be counted and for no surfaces, OutOfMemory,
-/// and Cancelled.
+/// The fibre orientation distribution has for every fibre its directions in the voxel, with its fraction as their weight. Its
+/// integral over the sphere is the fraction of all fibres; what comes out are its coefficients up to an order (harmonicsAt).
+///
+/// Throws InvalidInput for options out of range, for a grid of more voxels than can be counted, for no surfaces, and where
+/// directions are asked for without fibres; OutOfMemory, and Cancelled.
 SampledSubstrate sampleSubstrate(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner,
   const Fibres* fibres, const SubstrateSamplerOptions& options, const Context& context = {});
 

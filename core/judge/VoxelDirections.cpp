@@ -2,6 +2,7 @@
 #include "judge/VoxelDirections.h"
 
 #include "base/Domain.h"
+#include "judge/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,17 +19,19 @@ namespace
 class BlockDirections
 {
 public:
-  BlockDirections(const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block)
+  BlockDirections(const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block, int order)
     : Lines(fibres)
     , First(fibres.offsets[fibre])
     , Last(fibres.offsets[fibre + 1] - 1)
     , Voxels(voxels)
     , Block(block)
-    , Tensors(block.volumes.size(), Eigen::Matrix3d::Zero())
+    , Order(order)
   {
+    this->Result.tensors.assign(block.volumes.size(), Eigen::Matrix3d::Zero());
+    this->Result.harmonics.resize(order >= 0 ? block.volumes.size() : 0);
   }
 
-  std::vector<Eigen::Matrix3d> run()
+  VoxelDirections run()
   {
     for (std::size_t segment = this->First; segment < this->Last; ++segment)
     {
@@ -41,11 +44,11 @@ public:
       {
         for (int i = 0; i < this->Block.count[0]; ++i, ++place)
         {
-          this->finish(this->Tensors[place], this->Block.volumes[place], this->box(i, j, k));
+          this->finish(place, this->box(i, j, k));
         }
       }
     }
-    return std::move(this->Tensors);
+    return std::move(this->Result);
   }
 
 private:
@@ -76,6 +79,7 @@ private:
       high[a] = int(std::min(last - this->Block.lower[a], this->Block.count[a] - 1.0));
     }
     const Eigen::Vector3d direction = this->along(segment);
+    const std::vector<double> harmonics = this->harmonicsOf(direction);
     for (int k = low[2]; k <= high[2]; ++k)
     {
       for (int j = low[1]; j <= high[1]; ++j)
@@ -89,16 +93,37 @@ private:
               (std::size_t(k) * std::size_t(this->Block.count[1]) + std::size_t(j)) * std::size_t(this->Block.count[0]) +
               std::size_t(i);
             // Weighted with the length in the voxel.
-            this->Tensors[place] += (to - from) / direction.norm() * direction * direction.transpose();
+            this->Result.tensors[place] += (to - from) / direction.norm() * direction * direction.transpose();
+            this->addHarmonics(place, (to - from) * direction.norm(), harmonics);
           }
         }
       }
     }
   }
 
-  void finish(Eigen::Matrix3d& tensor, double volume, const Domain& box) const
+  std::vector<double> harmonicsOf(const Eigen::Vector3d& direction) const
   {
-    if (volume <= 0.0)
+    return this->Order >= 0 ? harmonicsAt(direction.normalized(), this->Order) : std::vector<double>();
+  }
+
+  void addHarmonics(std::size_t place, double weight, const std::vector<double>& harmonics)
+  {
+    if (harmonics.empty())
+    {
+      return;
+    }
+    std::vector<double>& sums = this->Result.harmonics[place];
+    sums.resize(harmonics.size(), 0.0);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+    {
+      sums[i] += weight * harmonics[i];
+    }
+  }
+
+  void finish(std::size_t place, const Domain& box)
+  {
+    Eigen::Matrix3d& tensor = this->Result.tensors[place];
+    if (this->Block.volumes[place] <= 0.0)
     {
       tensor.setZero();
       return;
@@ -107,6 +132,11 @@ private:
     {
       const Eigen::Vector3d direction = this->along(this->closest(0.5 * (box.lower + box.upper)));
       tensor = direction * direction.transpose();
+      this->addHarmonics(place, tensor.trace(), this->harmonicsOf(direction));
+    }
+    for (std::size_t i = 0; this->Order >= 0 && i < this->Result.harmonics[place].size(); ++i)
+    {
+      this->Result.harmonics[place][i] /= tensor.trace();
     }
     tensor /= tensor.trace();
   }
@@ -135,14 +165,16 @@ private:
   std::size_t Last;
   const VoxelBoxes& Voxels;
   const VoxelVolumes& Block;
-  std::vector<Eigen::Matrix3d> Tensors;
+  int Order;
+  VoxelDirections Result;
 };
 
 } // namespace
 
-VoxelDirections voxelDirections(const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block)
+VoxelDirections voxelDirections(
+  const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block, int order)
 {
-  return BlockDirections(fibres, fibre, voxels, block).run();
+  return BlockDirections(fibres, fibre, voxels, block, order).run();
 }
 
 } // namespace cactus

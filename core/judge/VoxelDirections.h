@@ -12,11 +12,16 @@
 namespace cactus
 {
 
-/// Where a fibre leads in each voxel of a block: the mean of d·dᵀ (trace 1) over the directions d of its centre line.
-using VoxelDirections = std::vector<Eigen::Matrix3d>;
+/// Where a fibre leads in each voxel of a block: means over the directions d of its centre line.
+struct VoxelDirections
+{
+  std::vector<Eigen::Matrix3d> tensors;       ///< of d·dᵀ (trace 1)
+  std::vector<std::vector<double>> harmonics; ///< of harmonicsAt(d); empty without an order, and where there is no fibre
+};
 
 /// Over the part of the centre line in the voxel; where it does not pass through the voxel, of the segment closest to the voxel's
-/// middle. Only voxels in which `block` has a volume above 0 are looked at.
-VoxelDirections voxelDirections(const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block);
+/// middle. Only voxels in which `block` has a volume above 0 are looked at. `order` of spherical harmonics; below 0 for none.
+VoxelDirections voxelDirections(
+  const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block, int order = -1);
 
 } // namespace cactus

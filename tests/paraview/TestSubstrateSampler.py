@@ -4,12 +4,16 @@ are known; and what NIfTI files hold is what nibabel reads."""
 
 import math
 import os
+import shutil
+import subprocess
 
 import nibabel
 import numpy
 from cactus_testing import UNPARTED, CactusTestCase, fetch, main, produce
-from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SaveData,
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, Placement, SaveData,
                              SubstrateSampler, SubstrateStatistics)
+from scipy.spatial.transform import Rotation
+from scipy.special import sph_harm
 from surfaces import POLYGON, two_tubes
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -18,6 +22,17 @@ def array(image, name):
     """With indices x, y, z."""
     numbers = vtk_to_numpy(image.GetPointData().GetArray(name))
     return numbers.reshape(image.GetDimensions()[::-1] + numbers.shape[1:]).swapaxes(0, 2)
+
+
+def real_harmonics(directions, order):
+    """MRtrix's basis by scipy's complex one, a row for each direction."""
+    polar, azimuth = numpy.arccos(directions[:, 2]), numpy.arctan2(directions[:, 1], directions[:, 0])
+    columns = []
+    for degree in range(0, order + 1, 2):
+        for m in range(-degree, degree + 1):
+            value = sph_harm(abs(m), degree, azimuth, polar)
+            columns.append(value.real if m == 0 else math.sqrt(2) * (value.imag if m < 0 else value.real))
+    return numpy.array(columns).T
 
 
 class Sampler(CactusTestCase):
@@ -90,6 +105,62 @@ class Sampler(CactusTestCase):
             spread = numpy.linalg.eigvalsh(alone.T @ alone / len(alone))
             self.assertGreater(spread[2], 0.9)
 
+    def slanted(self, **properties):
+        """Tubes along z whose centre lines lead along (0.6, 0, 0.8) (fibre 3, bundle 2) and along z (fibre 5, bundle 2)."""
+        lines, outer, inner = two_tubes()
+        for i in range(13):
+            x, y, z = lines.GetPoint(i)
+            lines.GetPoints().SetPoint(i, -2 + 0.75 * z, y, z)
+        bundle = lines.GetCellData().GetArray("BundleId")
+        for data in (outer, inner):
+            ids, bundles = (data.GetCellData().GetArray(name) for name in ("FibreId", "BundleId"))
+            for cell in range(data.GetNumberOfCells()):
+                bundles.SetValue(cell, 7 if ids.GetValue(cell) == 3 else 4)
+        bundle.SetValue(0, 7)
+        bundle.SetValue(1, 4)
+        return SubstrateSampler(Outer=produce(outer), Inner=produce(inner), Fibres=produce(lines), **properties)
+
+    def test_orientation_distributions(self):
+        """By scipy's harmonics, with the fibres' fractions as weights."""
+        image = fetch(self.slanted(VoxelSize=10, HarmonicsOrder="8", Peaks=1))
+        fractions = numpy.array([1, 1.5**2]) * POLYGON / 100
+        directions = numpy.array([[0.6, 0, 0.8], [0, 0, 1]])
+        wanted = fractions @ real_harmonics(directions, 8)
+        fod = array(image, "FOD")[0, 0, 0]
+        numpy.testing.assert_allclose(fod, wanted, atol=1e-5)
+        self.assertAlmostEqual(fod[0] * math.sqrt(4 * math.pi), fractions.sum(), 6)  # the integral over the sphere
+        peaks = array(image, "Peaks")[0, 0, 0]
+        numpy.testing.assert_allclose(peaks[:6], (fractions[:, None] * directions)[::-1].ravel(), atol=1e-6)
+        self.assertTrue(numpy.isnan(peaks[6:]).all())
+        small = fetch(self.slanted(VoxelSize=2.5, HarmonicsOrder="4", Peaks=1))
+        fractions = 1 - array(small, "ExtraAxonalFraction")
+        numpy.testing.assert_allclose(array(small, "FOD")[..., 0] * math.sqrt(4 * math.pi), fractions, atol=1e-6)
+        self.assertEqual(array(small, "FOD").shape[-1], 15)
+        numpy.testing.assert_array_equal(numpy.isnan(array(small, "Peaks")[..., 0]), fractions == 0)
+
+    def test_placed_distributions_turn(self):
+        place = {"RotationX": 20, "RotationY": -35, "RotationZ": 110}
+        image = fetch(Placement(Input=self.slanted(VoxelSize=10, HarmonicsOrder="8", Peaks=1), **place))
+        turn = Rotation.from_euler("ZXY", [110, 20, -35], degrees=True).as_matrix()
+        fractions = numpy.array([1, 1.5**2]) * POLYGON / 100
+        directions = numpy.array([[0.6, 0, 0.8], [0, 0, 1]]) @ turn.T
+        numpy.testing.assert_allclose(array(image, "FOD")[0, 0, 0], fractions @ real_harmonics(directions, 8), atol=1e-5)
+        numpy.testing.assert_allclose(array(image, "Peaks")[0, 0, 0][:6], (fractions[:, None] * directions)[::-1].ravel(), atol=1e-6)
+
+    def test_orientation_files_are_mrtrixs(self):
+        """Volumes of a fourth dimension; MRtrix itself, where it is installed, finds the fibres' direction in them."""
+        path = os.path.join(self.folder, "fod.nii")
+        SaveData(path, proxy=self.slanted(VoxelSize=5, HarmonicsOrder="8", Peaks=1), Array="FOD")
+        self.assertEqual(nibabel.load(path).shape, (2, 2, 2, 45))
+        if shutil.which("sh2peaks"):
+            found = os.path.join(self.folder, "peaks.nii")
+            subprocess.run(["sh2peaks", path, found, "-num", "1", "-quiet"], check=True)
+            peak = numpy.asarray(nibabel.load(found).dataobj)[0, 0, 0]
+            axis = numpy.abs(peak) / numpy.linalg.norm(peak)
+            numpy.testing.assert_allclose(axis, [0.6, 0, 0.8], atol=0.02)
+        SaveData(path, proxy=self.slanted(VoxelSize=5, Peaks=1), Array="Peaks")
+        self.assertEqual(nibabel.load(path).shape, (2, 2, 2, 9))
+
     def test_threads_make_no_difference(self):
         _, surfaces = self.chain()
         one, two = (fetch(SubstrateSampler(Outer=surfaces, NumberOfThreads=n)) for n in (1, 2))
@@ -121,6 +192,10 @@ class Sampler(CactusTestCase):
             SaveData(os.path.join(self.folder, "image.nii"), proxy=sampler, Array="None")
         with self.assertError(r"cannot write .*nowhere"):
             SaveData(os.path.join(self.folder, "nowhere", "image.nii"), proxy=sampler)
+        _, outer, _ = two_tubes()
+        for properties in ({"HarmonicsOrder": "2"}, {"Peaks": 1}):
+            with self.assertError(f"{list(properties)[0]} asks for directions.*connect Fibres"):
+                SubstrateSampler(Outer=produce(outer), **properties).UpdatePipeline()
         sampler.VoxelSize = 0.001
         with self.assertError(r"VoxelSize"):
             sampler.UpdatePipeline()

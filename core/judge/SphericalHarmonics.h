@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// Real spherical harmonics of even degrees l up to an order, in MRtrix's basis and order: the coefficient of (l, m) has the
+/// place l(l + 1)/2 + m; √2 N P_l^|m|(cos θ) sin |m|φ for m < 0, N P_l(cos θ) for m = 0 and √2 N P_l^m(cos θ) cos mφ for m > 0,
+/// where N² = (2l + 1)(l − |m|)!/(4π(l + |m|)!) and P_l^m has the sign (−1)^m of Condon and Shortley. They are orthonormal over
+/// the sphere.
+
+/// How many there are: (order + 1)(order + 2)/2. `order` is even and not negative, here and below.
+std::size_t harmonicCount(int order);
+
+/// All of them at a direction (unit), by their places.
+std::vector<double> harmonicsAt(const Eigen::Vector3d& direction, int order);
+
+/// Turns functions on the sphere that are given by coefficients.
+class HarmonicRotation
+{
+public:
+  /// `axes`: where the axes of x, y and z turn to, as columns.
+  HarmonicRotation(const Eigen::Matrix3d& axes, int order);
+
+  /// Coefficients of the turned function, whose value at axes·d is that of the given one at d. The list is as long as
+  /// harmonicCount().
+  void turn(std::vector<double>& coefficients) const;
+
+private:
+  std::vector<Eigen::MatrixXd> Blocks; ///< of each degree, which turn by themselves
+};
+
+} // namespace cactus
