@@ -55,9 +55,10 @@ vtkDataArray* greysOf(vtkImageData* image)
 cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
 {
   auto* image = vtkImageData::SafeDownCast(input);
-  if (image == nullptr || image->GetNumberOfPoints() == 0)
+  if (image == nullptr)
   {
-    throw cactus::InvalidInput("the input is no image, or an empty one: give a mask, 0 background, 127 myelin, 255 axon");
+    throw cactus::InvalidInput(
+      std::string("the input is a ") + input->GetClassName() + ", and one mask is expected: 0 background, 127 myelin, 255 axon");
   }
   vtkDataArray* greys = greysOf(image);
   const int* size = image->GetDimensions();

@@ -146,7 +146,7 @@ class Blocks(CactusTestCase):
                     proxy = make(element, {"vtkPolyData": data, "vtkImageData": data})
                     if element.get("name") == "SubstrateWriter":
                         proxy.FolderName = os.path.join(self.folder, "none")
-                    with self.assertError(f"is a {what}|one label image is expected" if what else "holds no|no surfaces|is empty|has no field data Domain|one label image"):
+                    with self.assertError(f"is a {what}|one (label image|mask) is expected" if what else "one mask is expected|holds no|no surfaces|is empty|has no field data Domain|one label image"):
                         proxy.UpdatePipeline()
 
 

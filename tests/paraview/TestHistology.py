@@ -175,7 +175,7 @@ class Histology(CactusTestCase):
                 HistologyMask(Outer=produce(outer), **properties).UpdatePipeline()
         with self.assertError("no axons"):
             HistologyRadii(Input=image_of(numpy.full((4, 5), 127, "u1"))).UpdatePipeline()
-        with self.assertError("no image"):
+        with self.assertError("is a vtkPolyData, and one mask is expected"):
             HistologyRadii(Input=produce(vtkPolyData())).UpdatePipeline()
         solid = vtkImageData()
         solid.SetDimensions(3, 3, 3)

@@ -13,7 +13,7 @@ namespace
 TEST(Stages, DescribeTheirProperties)
 {
   const auto stages = cactus::describeStages();
-  EXPECT_EQ(stages.size(), 17u);
+  EXPECT_EQ(stages.size(), 19u);
   for (const cactus::StageDescription& stage : stages)
   {
     EXPECT_NO_THROW(cactus::validate(stage.properties)) << stage.name;
