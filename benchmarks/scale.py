@@ -123,7 +123,7 @@ def model(rows):
 
 
 def predicted(constants, side, fibres, cores):
-    """Hours on so many cores, GB of a rank, GB of the folder and of the work folder meanwhile."""
+    """Hours on so many cores, if all are busy all the time; triangles; GB of the folder, and of the work folder meanwhile."""
     length = 1.01 * side * fibres
     hours = (constants["seconds"] + constants["seconds_per_um"] * length) / cores / 3600
     triangles = constants["triangles_per_um"] * length
