@@ -78,7 +78,7 @@ void aimAtNineTenths(benchmark::State& state, Work&& work)
   context.threads = 1;
   for (auto _ : state)
   {
-    benchmark::DoNotOptimize(work(fibres, options, context));
+    benchmark::DoNotOptimize(work(fibres, options, context, Sharing()));
   }
 }
 

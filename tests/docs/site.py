@@ -30,23 +30,26 @@ class Page(html.parser.HTMLParser):
 
 def faults(folder):
     pages = {path: Page(path) for path in glob.glob(os.path.join(folder, "**", "*.html"), recursive=True)}
+    targets = []  # of each page, the files that its links lead to
     for path, page in pages.items():
         if os.path.basename(path) in ("404.html", "search.html"):  # whose links are those of a server
             continue
+        targets.append(set())
         for link in page.links:
             parts = urllib.parse.urlsplit(link)
             if parts.scheme or parts.netloc:
                 continue
             target = os.path.normpath(os.path.join(os.path.dirname(path), urllib.parse.unquote(parts.path))) if parts.path else path
+            targets[-1].add(target)
             place = urllib.parse.unquote(parts.fragment)
             if not os.path.exists(target):
                 yield f"{os.path.relpath(path, folder)}: {link} leads nowhere"
             elif place and target in pages and place not in pages[target].places:
                 yield f"{os.path.relpath(path, folder)}: there is no {link}"
-    menu = pages[os.path.join(folder, "index.html")].links
+    menu = set.intersection(*targets)  # the rest of a page has links of its own
     for path in glob.glob(os.path.join(ROOT, "docs", "*.md")):
         page = "docs/" + os.path.basename(path)[:-3] + ".html"
-        if page not in menu:
+        if os.path.join(folder, page) not in menu:
             yield f"{page} is not in the menu: docs/mkdocs.yml"
 
 
