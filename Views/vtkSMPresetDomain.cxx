@@ -89,17 +89,17 @@ vtkSMPresetDomain* vtkSMPresetDomain::Of(vtkSMProxy* proxy)
   return choice != nullptr ? choice->FindDomain<vtkSMPresetDomain>() : nullptr;
 }
 
-vtkSMIntVectorProperty* vtkSMPresetDomain::Choice()
+vtkSMIntVectorProperty* vtkSMPresetDomain::choice()
 {
   return vtkSMIntVectorProperty::SafeDownCast(this->GetProperty());
 }
 
 int vtkSMPresetDomain::Applied()
 {
-  return this->Choice()->GetElement(0);
+  return this->choice()->GetElement(0);
 }
 
-std::vector<vtkSMPresetDomain::Value> vtkSMPresetDomain::ValuesOf(int preset)
+std::vector<vtkSMPresetDomain::Value> vtkSMPresetDomain::valuesOf(int preset)
 {
   std::vector<Value> values;
   if (const cactus::Preset* found = presetOf(preset))
@@ -145,28 +145,28 @@ void vtkSMPresetDomain::Update(vtkSMProperty* changed)
   this->IsBusy = true;
   if (changed == this->GetProperty())
   {
-    this->ApplyChoice();
+    this->applyChoice();
   }
   else
   {
-    this->DropChoice(changed);
+    this->dropChoice(changed);
   }
   this->IsBusy = false;
 }
 
-void vtkSMPresetDomain::ApplyChoice()
+void vtkSMPresetDomain::applyChoice()
 {
-  const int preset = this->Choice()->GetUncheckedElement(0);
+  const int preset = this->choice()->GetUncheckedElement(0);
   const bool isApplied = this->Applied() == preset;
-  for (const Value& value : this->ValuesOf(preset))
+  for (const Value& value : this->valuesOf(preset))
   {
     if (isApplied)
     {
-      setChecked(value.Property, value.Number);
+      setChecked(value.property, value.number);
     }
-    else if (uncheckedOf(value.Property) != value.Number)
+    else if (uncheckedOf(value.property) != value.number)
     {
-      vtkSMUncheckedPropertyHelper(value.Property).Set(value.Number);
+      vtkSMUncheckedPropertyHelper(value.property).Set(value.number);
     }
   }
   if (isApplied && preset != this->Former)
@@ -175,51 +175,51 @@ void vtkSMPresetDomain::ApplyChoice()
     this->Former = preset;
     if (presetOf(preset) != nullptr)
     {
-      this->LeadOthers(former, preset);
+      this->leadOthers(former, preset);
     }
   }
 }
 
-void vtkSMPresetDomain::DropChoice(vtkSMProperty* changed)
+void vtkSMPresetDomain::dropChoice(vtkSMProperty* changed)
 {
-  const std::vector<Value> values = this->ValuesOf(this->Choice()->GetUncheckedElement(0));
-  if (std::all_of(values.begin(), values.end(), [](const Value& value) { return uncheckedOf(value.Property) == value.Number; }))
+  const std::vector<Value> values = this->valuesOf(this->choice()->GetUncheckedElement(0));
+  if (std::all_of(values.begin(), values.end(), [](const Value& value) { return uncheckedOf(value.property) == value.number; }))
   {
     return;
   }
   if (checkedOf(changed) == uncheckedOf(changed))
   {
-    this->Choice()->SetElement(0, 0);
+    this->choice()->SetElement(0, 0);
   }
-  this->Choice()->SetUncheckedElement(0, 0);
+  this->choice()->SetUncheckedElement(0, 0);
 }
 
 void vtkSMPresetDomain::Take(int preset, vtkMTimeType since)
 {
   this->IsBusy = true;
   bool isWhole = true;
-  for (const Value& value : this->ValuesOf(preset))
+  for (const Value& value : this->valuesOf(preset))
   {
-    if (value.Property->GetMTime() <= since)
+    if (value.property->GetMTime() <= since)
     {
-      setChecked(value.Property, value.Number);
+      setChecked(value.property, value.number);
     }
-    isWhole = isWhole && checkedOf(value.Property) == value.Number;
+    isWhole = isWhole && checkedOf(value.property) == value.number;
   }
-  this->Choice()->SetElement(0, isWhole ? preset : 0);
+  this->choice()->SetElement(0, isWhole ? preset : 0);
   this->Former = preset;
   this->IsBusy = false;
 }
 
-bool vtkSMPresetDomain::IsUntouched()
+bool vtkSMPresetDomain::isUntouched()
 {
-  const std::vector<Value> values = this->ValuesOf(1);
-  return std::all_of(values.begin(), values.end(), [](const Value& value) { return value.Property->IsValueDefault(); });
+  const std::vector<Value> values = this->valuesOf(1);
+  return std::all_of(values.begin(), values.end(), [](const Value& value) { return value.property->IsValueDefault(); });
 }
 
-void vtkSMPresetDomain::LeadOthers(int former, int preset)
+void vtkSMPresetDomain::leadOthers(int former, int preset)
 {
-  std::vector<vtkSMProxy*> sources{ this->Choice()->GetParent() };
+  std::vector<vtkSMProxy*> sources{ this->choice()->GetParent() };
   while (!sources.empty())
   {
     vtkSMProxy* source = sources.back();
@@ -233,9 +233,9 @@ void vtkSMPresetDomain::LeadOthers(int former, int preset)
       }
       sources.push_back(other);
       vtkSMPresetDomain* domain = vtkSMPresetDomain::Of(other);
-      if (domain != nullptr && (domain->Applied() == 0 ? domain->IsUntouched() : domain->Applied() == former))
+      if (domain != nullptr && (domain->Applied() == 0 ? domain->isUntouched() : domain->Applied() == former))
       {
-        domain->Choice()->SetElement(0, preset);
+        domain->choice()->SetElement(0, preset);
         other->UpdateVTKObjects();
       }
     }

@@ -57,16 +57,16 @@ private:
 
   struct Value
   {
-    vtkSMProperty* Property;
-    double Number;
+    vtkSMProperty* property;
+    double number;
   };
 
-  vtkSMIntVectorProperty* Choice();
-  std::vector<Value> ValuesOf(int preset);
-  void ApplyChoice();
-  void DropChoice(vtkSMProperty* changed);
-  bool IsUntouched();
-  void LeadOthers(int former, int preset);
+  vtkSMIntVectorProperty* choice();
+  std::vector<Value> valuesOf(int preset);
+  void applyChoice();
+  void dropChoice(vtkSMProperty* changed);
+  bool isUntouched();
+  void leadOthers(int former, int preset);
 
   std::string Stage;
   int Former = 0; ///< the preset that was chosen last

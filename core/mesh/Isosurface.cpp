@@ -140,6 +140,7 @@ struct CellCase
 std::vector<CellCase> allCases()
 {
   std::vector<CellCase> cases;
+  cases.reserve(std::size_t(1) << cornerCount);
   for (int mask = 0; mask < 1 << cornerCount; ++mask)
   {
     cases.push_back({ ambiguousFaces(mask), CellLoops(mask, 0) });

@@ -434,7 +434,7 @@ void Remeshing::relax()
 
 Vector3d Remeshing::relaxedPlace(std::int32_t point) const
 {
-  const Vector3d here = this->at(point);
+  Vector3d here = this->at(point);
   const std::uint8_t faces = this->Mesh.facesOf(point);
   const std::vector<std::int32_t> outlines = this->outlinesAt(point);
   const double reach = 0.3 * this->Length[std::size_t(point)];
@@ -465,7 +465,7 @@ Vector3d Remeshing::relaxedPlace(std::int32_t point) const
   }
   normal.normalize();
   const Vector3d move = sum / weights - here;
-  const Vector3d place = here + move - normal.dot(move) * normal;
+  Vector3d place = here + move - normal.dot(move) * normal;
   if (faces != 0)
   {
     return place;

@@ -145,7 +145,7 @@ std::string bytesOfBoth(const FibreSurfacePair& pair, const std::vector<Eigen::V
 FibreSurfacePair bothFrom(const std::string& bytes, std::vector<Eigen::Vector3d>& points)
 {
   ByteReader get(bytes);
-  const FibreSurfacePair pair = pairFrom(get.get<std::string>());
+  FibreSurfacePair pair = pairFrom(get.get<std::string>());
   for (points.clear(); !get.isAtEnd();)
   {
     Eigen::Vector3d& point = points.emplace_back();
