@@ -8,18 +8,23 @@ namespace cactus
 
 EditableSurface::EditableSurface(CappedSurface& surface)
   : Surface(surface)
-  , Points(surface.mesh.points.data())
-  , Triangles(surface.mesh.triangles.data())
-  , Faces(surface.faces.data())
   , First(surface.mesh.points.size(), -1)
   , Next(3 * surface.mesh.triangles.size())
   , Mark(surface.mesh.points.size(), 0)
   , Alive(surface.mesh.triangles.size())
 {
+  this->locate();
   for (std::size_t t = surface.mesh.triangles.size(); t-- > 0;)
   {
     this->link(t);
   }
+}
+
+void EditableSurface::locate()
+{
+  this->Points = this->Surface.mesh.points.data();
+  this->Triangles = this->Surface.mesh.triangles.data();
+  this->Faces = this->Surface.faces.data();
 }
 
 void EditableSurface::link(std::size_t triangle)
@@ -170,6 +175,7 @@ std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen:
   const auto middle = static_cast<std::int32_t>(this->pointCount());
   this->Surface.mesh.points.push_back(place);
   this->Surface.faces.push_back(this->facesOf(a) & this->facesOf(b));
+  this->locate();
   this->First.push_back(-1);
   this->Mark.push_back(0);
   for (const std::size_t triangle : halved)
@@ -179,12 +185,13 @@ std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen:
     this->unlink(triangle);
     for (std::size_t i = 0; i < 3; ++i)
     {
-      auto& corner = this->Surface.mesh.triangles[triangle][i];
+      auto& corner = this->Triangles[triangle][i];
       corner = corner == a ? middle : corner;
       half[i] = half[i] == b ? middle : half[i];
     }
     this->Surface.mesh.triangles.push_back(half);
-    this->Next.resize(3 * this->triangleCount());
+    this->locate();
+    this->Next.resize(this->Next.size() + 3);
     this->link(triangle);
     this->link(this->triangleCount() - 1);
   }

@@ -76,7 +76,7 @@ public:
   /// Halves the edge of two points, and its triangles, by a new point at `place`, which lies on the faces of the box that both
   /// lie on. Returns that point.
   std::int32_t split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place);
-  void move(std::int32_t point, const Eigen::Vector3d& place) { this->Surface.mesh.points[std::size_t(point)] = place; }
+  void move(std::int32_t point, const Eigen::Vector3d& place) { this->Points[point] = place; }
   /// Removes what is dead. Points are numbered by their first use; the object is of no use after that.
   void compact();
 
@@ -84,15 +84,17 @@ public:
   std::int32_t thirdCorner(std::size_t triangle, std::int32_t a, std::int32_t b) const;
 
 private:
+  /// Where things lie now. To be called whenever one of the surface's vectors has grown.
+  void locate();
   void link(std::size_t triangle);
   void unlink(std::size_t triangle);
   void unlink(std::int32_t point, std::int32_t corner);
 
   CappedSurface& Surface;
-  // Of the surface, as long as it is edited: where things lie without a look at its vectors.
-  Eigen::Vector3d* Points;
-  std::array<std::int32_t, 3>* Triangles;
-  std::uint8_t* Faces;
+  // Where the surface's vectors lie, for loops that look at nothing else; see locate().
+  Eigen::Vector3d* Points = nullptr;
+  std::array<std::int32_t, 3>* Triangles = nullptr;
+  std::uint8_t* Faces = nullptr;
   std::vector<std::int32_t> First; ///< per point, a corner that it is, or -1
   std::vector<std::int32_t> Next;  ///< per corner, the next one that is the same point, or -1
   std::vector<int> Mark;           ///< per point, of isCollapsible()
