@@ -7,11 +7,14 @@
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
+#include "base/Limits.h"
+#include "base/Numbers.h"
 #include "stages/Stages.h"
 
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObjectTree.h>
+#include <vtkDataSet.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -20,13 +23,39 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
+#include <vtkTable.h>
 
+#include <cmath>
 #include <string>
 
 vtkStandardNewMacro(vtkPlacement);
 
 namespace
 {
+
+/// What cannot be placed is refused by name: data without points, and grids that are nowhere.
+void requirePlaceable(vtkDataObject* data)
+{
+  auto* set = vtkDataSet::SafeDownCast(data);
+  if (set == nullptr && vtkTable::SafeDownCast(data) == nullptr)
+  {
+    throw cactus::InvalidInput(std::string("the input is a ") + data->GetClassName() + ", which cannot be placed");
+  }
+  auto* image = vtkImageData::SafeDownCast(data);
+  if (image == nullptr)
+  {
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(std::abs(image->GetOrigin()[axis]) <= cactus::limits::coordinate.highest) ||
+        !(std::abs(image->GetSpacing()[axis]) <= cactus::limits::coordinate.highest))
+    {
+      throw cactus::InvalidInput(
+        cactus::text("the input's origin and spacing have to be finite, and within ", cactus::limits::coordinate.highest, " µm"));
+    }
+  }
+}
 
 /// Makes `output`, which is of the same type, a shallow copy of `input`, and calls `visit` with each data set of the copy.
 template <typename Visit>
@@ -35,6 +64,7 @@ void copyEach(vtkDataObject* input, vtkDataObject* output, Visit&& visit)
   auto* composite = vtkCompositeDataSet::SafeDownCast(input);
   if (composite == nullptr)
   {
+    requirePlaceable(input);
     output->ShallowCopy(input);
     visit(output);
     return;
@@ -51,6 +81,7 @@ void copyEach(vtkDataObject* input, vtkDataObject* output, Visit&& visit)
   for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
   {
     vtkDataObject* block = blocks->GetCurrentDataObject();
+    requirePlaceable(block);
     auto copy = vtk::TakeSmartPointer(block->NewInstance());
     copy->ShallowCopy(block);
     visit(copy.GetPointer());

@@ -180,12 +180,14 @@ class Bench:
         for name in ("CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface"):
             chain.append(getattr(simple, name)(Input=simple.OutputPort(chain[-1], 0), **settings[name]))
         chain[-1].UpdatePipeline()
+        chain.append(simple.HistologyMask(Outer=simple.OutputPort(chain[-1], 0), Inner=simple.OutputPort(chain[-1], 1)))
+        chain[-1].UpdatePipeline()
         if large:
             chain.append(simple.BundleInitializer(Side=40, FibreVolumeFraction=0.6))
             chain[-1].UpdatePipeline()
-        wanted = {"fibres": (1, 0), "image": (2, 0), "outer": (3, 0), "inner": (3, 1)}
+        wanted = {"fibres": (1, 0), "image": (2, 0), "outer": (3, 0), "inner": (3, 1), "mask": (4, 0)}
         if large:
-            wanted["many fibres"] = (4, 0)
+            wanted["many fibres"] = (5, 0)
         result = {kind: inputs.copy(chain[one].GetClientSideObject().GetOutputDataObject(port)) for kind, (one, port) in wanted.items()}
         for proxy in reversed(chain):
             simple.Delete(proxy)
@@ -364,7 +366,7 @@ class Bench:
         standing = self.stand(name)
         good = self.small[target.ports[port]]
         spoilt = inputs.spoilers(good)[what](inputs.copy(good))
-        joined = what in inputs.JOINED and target.ports[port] != "image"
+        joined = what in inputs.JOINED and target.ports[port] not in ("image", "mask")
         where, *name, _ = what.split(".") if "." in what else (what, "")
         passed_on = "field." + ".".join(name) if where == "field" and name != ["Domain"] else None
         return self._with_input(standing, port, produce(spoilt), must_equal=joined, passed_on=passed_on)

@@ -14,7 +14,8 @@ class Target:
         self.ports = {port.get("name"): self._kind(element, port) for port in element.findall("InputProperty")}
         self.optional = {port.get("name") for port in element.findall("InputProperty") if port.find("Hints/Optional") is not None}
         settable = [one for one in element if one.tag.endswith("VectorProperty") and one.get("information_only") != "1"]
-        self.numbers = [one for one in settable if one.tag in ("DoubleVectorProperty", "IntVectorProperty")]
+        # Presets, which set other properties, have tests of their own.
+        self.numbers = [one for one in settable if one.tag in ("DoubleVectorProperty", "IntVectorProperty") and one.find("PresetDomain") is None]
         self.texts = [one for one in settable if one.tag == "StringVectorProperty"]
         self.reads = self._extension("ReaderFactory")
         self.writes = [one.get("name") for one in self.texts if "Folder" in one.get("name") or group == "writers" and "File" in one.get("name")]
@@ -33,6 +34,8 @@ class Target:
         types = [kind.get("value") for kind in port.findall("DataTypeDomain/DataType")]
         if element.get("name") == "SubstrateFolder":
             return "outer"
+        if element.get("name") == "HistologyRadii":
+            return "mask"
         return "image" if "vtkImageData" in types else {"Outer": "outer", "Inner": "inner"}.get(port.get("name"), "fibres")
 
     def number(self, name):
