@@ -137,19 +137,15 @@ int vtkPlacement::RequestData(vtkInformation*, vtkInformationVector** inputs, vt
       const auto& stage = cactus::stageOf<cactus::PlacementStage>(this->Properties);
       const cactus::Placement placement = stage.options.placement();
       const auto record = cactus::recordOf(this, "Placement", stage, { "Input" });
-      bool isEmpty = true;
       copyEach(vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(outputs),
         [&](vtkDataObject* copy)
         {
-          isEmpty =
-            isEmpty && copy->GetNumberOfElements(vtkDataObject::POINT) == 0 && copy->GetNumberOfElements(vtkDataObject::ROW) == 0;
           cactus::place(copy, placement);
           if (cactus::placementOf(copy))
           {
             cactus::setProvenance(copy, record, 0);
           }
         });
-      cactus::require(!isEmpty, "the input is empty: there is nothing to place");
     });
 }
 
