@@ -20,6 +20,7 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <Eigen/Core>
@@ -179,27 +180,38 @@ void requireNotPlaced(vtkDataObject* data)
   }
 }
 
+bool isPlaceable(vtkDataObject* data)
+{
+  return vtkPointSet::SafeDownCast(data) != nullptr || vtkImageData::SafeDownCast(data) != nullptr ||
+         vtkTable::SafeDownCast(data) != nullptr;
+}
+
+void requirePlaceable(vtkDataObject* data)
+{
+  if (!isPlaceable(data))
+  {
+    throw InvalidInput(std::string("the input is a ") + data->GetClassName() +
+                       ": what has points, images and tables can be placed; apply Resample To Image or Clean To Grid first");
+  }
+}
+
 void place(vtkDataObject* output, const Placement& placement)
 {
-  if (output->GetDataObjectType() == VTK_TABLE)
+  requirePlaceable(output);
+  auto* data = vtkDataSet::SafeDownCast(output);
+  if (data == nullptr)
   {
-    return;
+    return; // a table
   }
   requireNotPlaced(output);
   if (auto* image = vtkImageData::SafeDownCast(output))
   {
     placeGrid(image, placement);
   }
-  else if (auto* points = vtkPointSet::SafeDownCast(output))
-  {
-    placePoints(points, placement);
-  }
   else
   {
-    throw InvalidInput(std::string("the input is a ") + output->GetClassName() +
-                       ": what has points, images and tables can be placed; apply Resample To Image or Clean To Grid first");
+    placePoints(vtkPointSet::SafeDownCast(output), placement);
   }
-  auto* data = vtkDataSet::SafeDownCast(output);
   turnDirections(data->GetPointData(), placement);
   turnDirections(data->GetCellData(), placement);
   turnOrientations(data->GetPointData(), placement);

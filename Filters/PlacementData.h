@@ -19,6 +19,11 @@ void setPlacement(vtkDataObject* data, const Placement& placement);
 /// Throws InvalidInput for data that are placed, where a stage works in the substrate's own space on data as large as images.
 void requireNotPlaced(vtkDataObject* data);
 
+/// Whether place() takes data of this type: what has points, images and tables.
+bool isPlaceable(vtkDataObject* data);
+/// Throws InvalidInput where it does not.
+void requirePlaceable(vtkDataObject* data);
+
 /// Turns `output`, a shallow copy of data in the substrate's own space, into that of the image: points or, of an image, its grid;
 /// arrays of three floating-point numbers, which are directions, are turned; Radius and TargetRadius become mm; colours of
 /// fibres by their direction go by the image's axes. All other numbers stay as they are, and tables altogether. Throws

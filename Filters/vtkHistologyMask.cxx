@@ -5,6 +5,7 @@
 #include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "ImageGrid.h"
 #include "StageProperties.h"
 #include "SubstrateInputs.h"
 #include "WholeData.h"
@@ -19,7 +20,6 @@
 #include <vtkIntArray.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <array>
@@ -29,9 +29,10 @@ vtkStandardNewMacro(vtkHistologyMask);
 namespace
 {
 
-std::array<int, 6> extentOf(const cactus::HistologyMask& mask)
+cactus::ImageGrid gridOf(const cactus::HistologyMask& mask)
 {
-  return { { 0, mask.count[0] - 1, 0, mask.count[1] - 1, 0, 0 } };
+  return { { { mask.count[0], mask.count[1], 1 } }, { { mask.origin[mask.axes[0]], mask.origin[mask.axes[1]], 0.0 } },
+    mask.pixelSize };
 }
 
 } // namespace
@@ -51,20 +52,11 @@ int vtkHistologyMask::FillInputPortInformation(int port, vtkInformation* info)
 
 int vtkHistologyMask::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_UNSIGNED_CHAR, 1);
-  // A place holder: the pipeline wants to see an extent even where there cannot be an image.
-  std::array<int, 6> extent{};
-  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
-
-  // Only the surfaces themselves say how large the domain is.
-  cactus::quietly(
-    [&]
+  cactus::announceGrid(this, inputs, outputs, VTK_UNSIGNED_CHAR,
+    [this](vtkDataObject* surfaces)
     {
-      cactus::updateWholeInputs(this, inputs);
-      extent = extentOf(cactus::maskGrid(cactus::domainFrom(vtkDataObject::GetData(inputs[0])),
-        cactus::stageOf<cactus::HistologyMaskStage>(this->Properties).options));
-      info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
+      return gridOf(
+        cactus::maskGrid(cactus::domainFrom(surfaces), cactus::stageOf<cactus::HistologyMaskStage>(this->Properties).options));
     });
   return 1;
 }
@@ -94,9 +86,7 @@ int vtkHistologyMask::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
       const cactus::HistologyMask mask = cactus::cutMask(
         substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));
       auto* output = vtkImageData::GetData(outputs);
-      output->SetExtent(extentOf(mask).data());
-      output->SetOrigin(mask.origin[mask.axes[0]], mask.origin[mask.axes[1]], 0.0);
-      output->SetSpacing(mask.pixelSize, mask.pixelSize, mask.pixelSize);
+      cactus::setGrid(output, gridOf(mask));
       vtkPointData* pixels = output->GetPointData();
       cactus::addColumn<vtkUnsignedCharArray>(
         pixels, "Mask", mask.size(), [&](std::size_t i) { return cactus::greyOfTissue[std::size_t(mask.pixels[i])]; });

@@ -140,6 +140,7 @@ int vtkHistologyRadii::RequestData(vtkInformation* request, vtkInformationVector
       }
       auto* table = vtkTable::GetData(outputs);
       fillTable(axons, stage.pixelSize, table);
+      table->GetFieldData()->RemoveArray("Domain"); // that of the substrate which was cut
       cactus::addNumber(table->GetFieldData(), "LooseMyelin_um2", found.looseMyelin);
       cactus::setProvenance(table, cactus::recordOf(this, "HistologyRadii", stage, { "Input" }), 0);
     });

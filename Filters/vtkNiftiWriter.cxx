@@ -40,7 +40,7 @@ class ScratchFolder
 public:
   ScratchFolder()
   {
-    std::string name = (fs::temp_directory_path() / "cactus-nifti-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "cactus-nifti-").string() + std::string(6, 'X'); // mkdtemp's places
     if (::mkdtemp(name.data()) == nullptr)
     {
       throw cactus::FileError("cannot make a folder in " + fs::temp_directory_path().string());

@@ -3,6 +3,7 @@
 
 #include "DataProvenance.h"
 #include "FilterSupport.h"
+#include "InputBlocks.h"
 #include "PlacementData.h"
 #include "StageProperties.h"
 #include "WholeData.h"
@@ -14,7 +15,6 @@
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObjectTree.h>
-#include <vtkDataSet.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -22,30 +22,36 @@
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkTable.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkPlacement);
 
 namespace
 {
 
-/// What cannot be placed is refused by name: data without points, and grids that are nowhere.
-void requirePlaceable(vtkDataObject* data)
+/// Whether data of this type can be placed, or their blocks.
+bool canBePlaced(vtkDataObject* data)
 {
-  auto* set = vtkDataSet::SafeDownCast(data);
-  if (set == nullptr && vtkTable::SafeDownCast(data) == nullptr)
-  {
-    throw cactus::InvalidInput(std::string("the input is a ") + data->GetClassName() + ", which cannot be placed");
-  }
-  auto* image = vtkImageData::SafeDownCast(data);
-  if (image == nullptr)
-  {
-    return;
-  }
+  return vtkDataObjectTree::SafeDownCast(data) != nullptr || cactus::isPlaceable(data);
+}
+
+/// Whether there is anything to place, in the data set or in one of its blocks.
+bool isEmpty(vtkDataObject* data)
+{
+  const std::vector<vtkDataObject*> leaves = cactus::leavesOf(data);
+  return std::all_of(leaves.begin(), leaves.end(),
+    [](vtkDataObject* leaf)
+    { return leaf->GetNumberOfElements(vtkDataObject::POINT) == 0 && leaf->GetNumberOfElements(vtkDataObject::ROW) == 0; });
+}
+
+void requireFinite(vtkImageData* image)
+{
   for (int axis = 0; axis < 3; ++axis)
   {
     if (!(std::abs(image->GetOrigin()[axis]) <= cactus::limits::coordinate.highest) ||
@@ -57,31 +63,41 @@ void requirePlaceable(vtkDataObject* data)
   }
 }
 
+/// Throws InvalidInput for types that cannot be placed, blocks among them that are refined, and grids that are nowhere.
+void requireValid(vtkDataObject* data)
+{
+  if (vtkCompositeDataSet::SafeDownCast(data) != nullptr)
+  {
+    throw cactus::InvalidInput(std::string("the input is a ") + data->GetClassName() +
+                               ", whose blocks have to lie along the axes: apply Merge Blocks first");
+  }
+  cactus::requirePlaceable(data);
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    requireFinite(image);
+  }
+}
+
 /// Makes `output`, which is of the same type, a shallow copy of `input`, and calls `visit` with each data set of the copy.
 template <typename Visit>
 void copyEach(vtkDataObject* input, vtkDataObject* output, Visit&& visit)
 {
-  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
-  if (composite == nullptr)
+  auto* tree = vtkDataObjectTree::SafeDownCast(output);
+  if (tree == nullptr)
   {
-    requirePlaceable(input);
+    requireValid(input);
     output->ShallowCopy(input);
     visit(output);
     return;
   }
-  auto* tree = vtkDataObjectTree::SafeDownCast(output);
-  if (tree == nullptr)
-  {
-    throw cactus::InvalidInput(std::string("the input is a ") + input->GetClassName() +
-                               ", whose blocks have to lie along the axes: apply Merge Blocks first");
-  }
+  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
   tree->CopyStructure(composite);
   tree->GetFieldData()->ShallowCopy(input->GetFieldData());
   auto blocks = vtk::TakeSmartPointer(composite->NewIterator());
   for (blocks->InitTraversal(); !blocks->IsDoneWithTraversal(); blocks->GoToNextItem())
   {
     vtkDataObject* block = blocks->GetCurrentDataObject();
-    requirePlaceable(block);
+    requireValid(block);
     auto copy = vtk::TakeSmartPointer(block->NewInstance());
     copy->ShallowCopy(block);
     visit(copy.GetPointer());
@@ -99,6 +115,23 @@ vtkPlacement::vtkPlacement()
 int vtkPlacement::FillInputPortInformation(int, vtkInformation* info)
 {
   cactus::acceptAnyData(info);
+  return 1;
+}
+
+int vtkPlacement::RequestDataObject(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  if (input == nullptr || canBePlaced(input))
+  {
+    return this->Superclass::RequestDataObject(request, inputs, outputs);
+  }
+  // An output for the error: not all types of data can be empty where ParaView looks at them.
+  vtkInformation* info = outputs->GetInformationObject(0);
+  if (vtkPolyData::GetData(info) == nullptr)
+  {
+    vtkNew<vtkPolyData> nothing;
+    info->Set(vtkDataObject::DATA_OBJECT(), nothing);
+  }
   return 1;
 }
 
@@ -137,7 +170,12 @@ int vtkPlacement::RequestData(vtkInformation*, vtkInformationVector** inputs, vt
       const auto& stage = cactus::stageOf<cactus::PlacementStage>(this->Properties);
       const cactus::Placement placement = stage.options.placement();
       const auto record = cactus::recordOf(this, "Placement", stage, { "Input" });
-      copyEach(vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(outputs),
+      vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+      if (canBePlaced(input) && isEmpty(input))
+      {
+        throw cactus::InvalidInput("the input is empty: there is nothing to place");
+      }
+      copyEach(input, vtkDataObject::GetData(outputs),
         [&](vtkDataObject* copy)
         {
           cactus::place(copy, placement);

@@ -6,6 +6,7 @@
  * Input: anything with points (fibres, surfaces), images, tables, and blocks of these in any mixture. Output: the same. Points
  * and the grids of images are moved, whose direction matrix turns; arrays of three floating-point numbers are directions, and
  * turned; `Radius` and `TargetRadius` become mm. All other arrays stay as they are, `Domain` too; tables stay altogether.
+ * Data of another type end in an error, with an empty vtkPolyData as output; so do data that hold nothing at all.
  *
  * Field data `Placement` holds the affine from µm to mm, row by row. Writers of images and tractograms put it into their files,
  * SubstrateWriter into the manifest; filters that work on fibres and surfaces take these back into the substrate's own space.
@@ -37,6 +38,7 @@ protected:
   vtkPlacement();
   ~vtkPlacement() override = default;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

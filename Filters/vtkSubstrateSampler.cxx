@@ -5,6 +5,7 @@
 #include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "ImageGrid.h"
 #include "StageProperties.h"
 #include "SubstrateInputs.h"
 #include "WholeData.h"
@@ -21,7 +22,6 @@
 #include <vtkIntArray.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -34,15 +34,11 @@ namespace
 
 using cactus::addColumn;
 
-std::array<int, 6> extentOf(const cactus::VoxelBoxes& voxels)
+/// The points are the middles of the voxels.
+cactus::ImageGrid gridOf(const cactus::VoxelBoxes& voxels)
 {
-  return { { 0, voxels.count[0] - 1, 0, voxels.count[1] - 1, 0, voxels.count[2] - 1 } };
-}
-
-/// The middle of the first voxel.
-Eigen::Vector3d originOf(const cactus::VoxelBoxes& voxels)
-{
-  return voxels.origin + Eigen::Vector3d::Constant(0.5 * voxels.spacing);
+  const Eigen::Vector3d origin = voxels.origin + Eigen::Vector3d::Constant(0.5 * voxels.spacing);
+  return { voxels.count, { { origin[0], origin[1], origin[2] } }, voxels.spacing };
 }
 
 void fillFractions(vtkPointData* data, const cactus::SampledSubstrate& sampled)
@@ -126,25 +122,11 @@ int vtkSubstrateSampler::FillInputPortInformation(int port, vtkInformation* info
 
 int vtkSubstrateSampler::RequestInformation(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
-  // A place holder: the pipeline wants to see an extent even where there cannot be an image.
-  std::array<int, 6> extent{};
-  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
-
-  // Only the surfaces themselves say how large the domain is.
-  cactus::quietly(
-    [&]
+  cactus::announceGrid(this, inputs, outputs, VTK_FLOAT,
+    [this](vtkDataObject* surfaces)
     {
-      cactus::updateWholeInputs(this, inputs);
-      const cactus::VoxelBoxes voxels = cactus::samplerGrid(cactus::domainFrom(vtkDataObject::GetData(inputs[0])),
-        cactus::stageOf<cactus::SubstrateSamplerStage>(this->Properties).options);
-      const std::array<double, 3> spacing{ { voxels.spacing, voxels.spacing, voxels.spacing } };
-      extent = extentOf(voxels);
-      const Eigen::Vector3d origin = originOf(voxels);
-      info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data(), 6);
-      info->Set(vtkDataObject::ORIGIN(), origin.data(), 3);
-      info->Set(vtkDataObject::SPACING(), spacing.data(), 3);
+      return gridOf(
+        cactus::samplerGrid(cactus::domainFrom(surfaces), cactus::stageOf<cactus::SubstrateSamplerStage>(this->Properties).options));
     });
   return 1;
 }
@@ -172,10 +154,7 @@ int vtkSubstrateSampler::RequestData(vtkInformation*, vtkInformationVector**, vt
       const cactus::SampledSubstrate sampled = cactus::sampleSubstrate(substrate.domain, substrate.outer, substrate.inner,
         substrate.fibresOrNull(), stage.options, cactus::contextFor(this, stage.threads));
       auto* output = vtkImageData::GetData(outputs);
-      const double spacing = sampled.voxels.spacing;
-      output->SetExtent(extentOf(sampled.voxels).data());
-      output->SetOrigin(originOf(sampled.voxels).data());
-      output->SetSpacing(spacing, spacing, spacing);
+      cactus::setGrid(output, gridOf(sampled.voxels));
       fillFractions(output->GetPointData(), sampled);
       fillLabels(output->GetPointData(), sampled);
       fillOrientations(output->GetPointData(), sampled);

@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window.cmake: plays SCRIPT in the ParaView window, which has to save fibres in FOLDER.
-file(REMOVE_RECURSE "${FOLDER}")
-file(MAKE_DIRECTORY "${FOLDER}")
-execute_process(COMMAND ${RUN} --dr "--test-directory=${FOLDER}" "--test-script=${SCRIPT}" --exit RESULT_VARIABLE result)
-if (NOT result EQUAL 0)
-  message(FATAL_ERROR "the window reported a failure (${result})")
-endif ()
+include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
+play(100)
 if (NOT EXISTS "${FOLDER}/optimised.strands")
   message(FATAL_ERROR "no fibres were saved")
 endif ()

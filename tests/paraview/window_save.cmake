@@ -1,15 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window_save.cmake: plays SCRIPT in the ParaView window, which has to save the substrate of
 # Seed 1 in two ways, and then makes that of Seed 2, which nobody has saved.
-file(REMOVE_RECURSE "${FOLDER}")
-file(MAKE_DIRECTORY "${FOLDER}")
-execute_process(
-  COMMAND ${RUN} --dr "--test-directory=${FOLDER}" "--test-script=${SCRIPT}" --exit
-  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
-string(REPLACE "ERR|" "error:" output "${output}") # which is how a test is known to have failed
-if (NOT result EQUAL 0)
-  message(FATAL_ERROR "the window reported a failure (${result}):\n${output}")
-endif ()
+include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
+play(100)
 foreach (name IN ITEMS saved.substrate written)
   if (NOT EXISTS "${FOLDER}/${name}/manifest.json")
     message(FATAL_ERROR "${name} was not saved:\n${output}")

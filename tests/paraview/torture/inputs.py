@@ -447,14 +447,17 @@ IMAGE_SPOILERS = {
     "origin-inf": setting("SetOrigin", 0, INF, 0),
     "origin-1e300": setting("SetOrigin", 1e300, 0, 0),
     "origin-elsewhere": setting("SetOrigin", 50, 50, 50),
+    "on-cells": cells_instead,
+    "bare": bare,
+}
+# Of label images.
+DEPTH_SPOILERS = {
     "random": random_image,
     "random-depth": random_depth,
     "depth-one-nan": one_voxel_in_depth(NAN),
     "depth-one-inf": one_voxel_in_depth(INF),
     "depth-one-1e30": one_voxel_in_depth(1e30),
     "depth-one--1e30": one_voxel_in_depth(-1e30),
-    "on-cells": cells_instead,
-    "bare": bare,
 }
 
 
@@ -650,4 +653,6 @@ def spoilers(data):
 
             result[f"{where}.{name}.{spoiler}"] = spoil
     own = POLYDATA_SPOILERS if data.IsA("vtkPolyData") else IMAGE_SPOILERS if data.IsA("vtkImageData") else {}
+    if data.IsA("vtkImageData") and data.GetPointData().GetArray("Depth"):
+        own = {**own, **DEPTH_SPOILERS}
     return {**result, **own, **OTHER_CLASSES, **dict(_classes()), **COMPOSITES}

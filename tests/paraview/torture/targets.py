@@ -53,7 +53,7 @@ class Target:
         return found
 
 
-# A value of each kind where any but 0, or some text, makes another property count.
+# A value of each kind where any but 0, or some text, makes another property count. The text is the name of a file of radii.
 GIVEN = {"IntVectorProperty": 1.0, "DoubleVectorProperty": 0.5, "StringVectorProperty": "given"}
 
 
