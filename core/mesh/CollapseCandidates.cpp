@@ -21,14 +21,14 @@ Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32
   surface.visitCornersAt(u, v,
     [&](std::int32_t c, std::int32_t point)
     {
-      const auto& corners = surface.cornersOf(std::size_t(c) / 3);
+      const std::size_t triangle = std::size_t(c) / 3;
+      const auto& corners = surface.cornersOf(triangle);
       // A triangle at both comes as one of u, too.
       const bool isCounted = point == v && (corners[0] == u || corners[1] == u || corners[2] == u);
       // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
       if (!isCounted && (surface.facesOf(point) == 0 || !surface.isCap(corners)))
       {
-        const Vector3d& a = surface.at(corners[0]);
-        sum.addPlane((surface.at(corners[1]) - a).cross(surface.at(corners[2]) - a), a - origin);
+        sum.addPlane(surface.normalOf(triangle), surface.at(corners[0]) - origin);
       }
       return false;
     });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/EditableSurface.h"
 
+#include <Eigen/Geometry>
+
 #include <utility>
 
 namespace cactus
@@ -8,6 +10,7 @@ namespace cactus
 
 EditableSurface::EditableSurface(CappedSurface& surface)
   : Surface(surface)
+  , Normals(surface.mesh.triangles.size())
   , First(surface.mesh.points.size(), -1)
   , Next(3 * surface.mesh.triangles.size())
   , Mark(surface.mesh.points.size(), 0)
@@ -17,7 +20,29 @@ EditableSurface::EditableSurface(CappedSurface& surface)
   for (std::size_t t = surface.mesh.triangles.size(); t-- > 0;)
   {
     this->link(t);
+    this->findNormal(t);
   }
+}
+
+void EditableSurface::findNormal(std::size_t triangle)
+{
+  const auto& corners = this->cornersOf(triangle);
+  const Eigen::Vector3d& a = this->at(corners[0]);
+  this->Normals[triangle] = (this->at(corners[1]) - a).cross(this->at(corners[2]) - a);
+}
+
+void EditableSurface::findNormalsAt(std::int32_t point)
+{
+  for (std::int32_t c = this->firstCorner(point); c >= 0; c = this->nextCorner(c))
+  {
+    this->findNormal(std::size_t(c) / 3);
+  }
+}
+
+void EditableSurface::move(std::int32_t point, const Eigen::Vector3d& place)
+{
+  this->Points[point] = place;
+  this->findNormalsAt(point);
 }
 
 void EditableSurface::locate()
@@ -155,6 +180,7 @@ void EditableSurface::collapse(std::int32_t u, std::int32_t v, const Eigen::Vect
     c = next;
   }
   this->First[std::size_t(v)] = -1;
+  this->findNormalsAt(u);
 }
 
 void EditableSurface::flip(std::size_t one, std::size_t other, std::int32_t a, std::int32_t b)
@@ -165,8 +191,11 @@ void EditableSurface::flip(std::size_t one, std::size_t other, std::int32_t a, s
   this->unlink(other);
   this->Triangles[one] = { { a, d, c } };
   this->Triangles[other] = { { d, b, c } };
-  this->link(one);
-  this->link(other);
+  for (const std::size_t triangle : { one, other })
+  {
+    this->link(triangle);
+    this->findNormal(triangle);
+  }
 }
 
 std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place)
@@ -192,8 +221,12 @@ std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen:
     this->Surface.mesh.triangles.push_back(half);
     this->locate();
     this->Next.resize(this->Next.size() + 3);
-    this->link(triangle);
-    this->link(this->triangleCount() - 1);
+    this->Normals.emplace_back();
+    for (const std::size_t t : { triangle, this->triangleCount() - 1 })
+    {
+      this->link(t);
+      this->findNormal(t);
+    }
   }
   this->Alive += 2;
   return middle;

@@ -29,6 +29,8 @@ public:
   const Eigen::Vector3d& at(std::int32_t point) const { return this->Points[point]; }
   std::uint8_t facesOf(std::int32_t point) const { return this->Faces[point]; }
   const std::array<std::int32_t, 3>& cornersOf(std::size_t triangle) const { return this->Triangles[triangle]; }
+  /// At right angles to a triangle and as long as twice its area, outwards: of the edges at its first corner.
+  const Eigen::Vector3d& normalOf(std::size_t triangle) const { return this->Normals[triangle]; }
   bool isDead(std::size_t triangle) const { return this->cornersOf(triangle)[0] < 0; }
   bool isDeadPoint(std::int32_t point) const { return this->firstCorner(point) < 0; }
   bool isCap(const std::array<std::int32_t, 3>& corners) const
@@ -76,7 +78,7 @@ public:
   /// Halves the edge of two points, and its triangles, by a new point at `place`, which lies on the faces of the box that both
   /// lie on. Returns that point.
   std::int32_t split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place);
-  void move(std::int32_t point, const Eigen::Vector3d& place) { this->Points[point] = place; }
+  void move(std::int32_t point, const Eigen::Vector3d& place);
   /// Removes what is dead. Points are numbered by their first use; the object is of no use after that.
   void compact();
 
@@ -86,6 +88,8 @@ public:
 private:
   /// Where things lie now. To be called whenever one of the surface's vectors has grown.
   void locate();
+  void findNormal(std::size_t triangle);
+  void findNormalsAt(std::int32_t point);
   void link(std::size_t triangle);
   void unlink(std::size_t triangle);
   void unlink(std::int32_t point, std::int32_t corner);
@@ -95,9 +99,10 @@ private:
   Eigen::Vector3d* Points = nullptr;
   std::array<std::int32_t, 3>* Triangles = nullptr;
   std::uint8_t* Faces = nullptr;
-  std::vector<std::int32_t> First; ///< per point, a corner that it is, or -1
-  std::vector<std::int32_t> Next;  ///< per corner, the next one that is the same point, or -1
-  std::vector<int> Mark;           ///< per point, of isCollapsible()
+  std::vector<Eigen::Vector3d> Normals; ///< per triangle
+  std::vector<std::int32_t> First;      ///< per point, a corner that it is, or -1
+  std::vector<std::int32_t> Next;       ///< per corner, the next one that is the same point, or -1
+  std::vector<int> Mark;                ///< per point, of isCollapsible()
   int MarkValue = 0;
   std::size_t Alive;
 };

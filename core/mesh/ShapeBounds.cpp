@@ -23,11 +23,10 @@ Vector3d ShapeBounds::normalAround(std::int32_t u, std::int32_t v) const
   this->Surface.visitCornersAt(u, v,
     [&](std::int32_t c, std::int32_t)
     {
-      const auto& corners = this->Surface.cornersOf(std::size_t(c) / 3);
-      if (!this->Surface.isCap(corners))
+      const std::size_t triangle = std::size_t(c) / 3;
+      if (!this->Surface.isCap(this->Surface.cornersOf(triangle)))
       {
-        const Vector3d& a = this->Surface.at(corners[0]);
-        sum += (this->Surface.at(corners[1]) - a).cross(this->Surface.at(corners[2]) - a);
+        sum += this->Surface.normalOf(triangle);
       }
       return false;
     });

@@ -54,6 +54,7 @@ public:
     , Changed(Mesh.pointCount(), 0)
     , Part(Mesh.pointCount(), 1.0f)
     , Looks(Mesh.triangleCount(), unknown)
+    , Refusals(3 * Mesh.triangleCount())
   {
     for (const LocalErrorBound& bound : options.localBounds)
     {
@@ -97,6 +98,13 @@ private:
   static constexpr Look fine = 2; ///< the field is in its range at the points of fits
   static constexpr Look out = 4;  ///< it is not
 
+  /// What is known of an edge that was not collapsed.
+  struct Refusal
+  {
+    double limit = 0.0; ///< up to which it was not collapsed
+    int sweep = -1;     ///< when that was
+  };
+
   /// Sweeps until one removes little. The error is a new one, or that of the sweeps before: what was too much then still is.
   void sweeps(double error, bool isNew)
   {
@@ -126,7 +134,12 @@ private:
         if (u < v && isNew && this->Locked[std::size_t(u)] != this->Sweep && this->Locked[std::size_t(v)] != this->Sweep)
         {
           const double part = this->partOf(u, v);
-          this->tryCollapse(u, v, part * part * limit);
+          Refusal& refusal = this->Refusals[3 * t + i];
+          const bool isAsBefore = std::max(this->Changed[std::size_t(u)], this->Changed[std::size_t(v)]) < refusal.sweep;
+          if (!isAsBefore || refusal.limit <= part * part * limit)
+          {
+            refusal = { this->tryCollapse(u, v, part * part * limit), this->Sweep };
+          }
         }
       }
     }
@@ -208,9 +221,11 @@ private:
   }
 
   /// Collapses an edge if the surface keeps its topology, the shape of its triangles and its distance from the level of the
-  /// field. `thorough` tries all places that come into question, and allows flat triangles.
-  void tryCollapse(std::int32_t u, std::int32_t v, double limit, bool thorough = false)
+  /// field. `thorough` tries all places that come into question, and allows flat triangles. Returns up to which limit the edge
+  /// stays as it is while no triangle at its ends changes.
+  double tryCollapse(std::int32_t u, std::int32_t v, double limit, bool thorough = false)
   {
+    constexpr double any = std::numeric_limits<double>::infinity();
     CollapseCandidates candidates = collapseCandidates(this->Mesh, u, v, this->Box, this->Reach);
     const bool isInside = this->Mesh.facesOf(u) == 0 && this->Mesh.facesOf(v) == 0;
     for (std::size_t tried = 0; tried < candidates.count; ++tried)
@@ -218,9 +233,13 @@ private:
       const std::size_t p = candidates.cheapest();
       const double error = candidates.errors[p];
       Vector3d& place = candidates.places[p];
-      if (error > limit || (tried == 0 && !this->Mesh.isCollapsible(u, v)))
+      if (error > limit)
       {
-        return;
+        return error;
+      }
+      if (tried == 0 && !this->Mesh.isCollapsible(u, v))
+      {
+        return any;
       }
       if (this->Shapes.allowCollapse(u, v, place, thorough))
       {
@@ -230,15 +249,16 @@ private:
         if (verdict != Verdict::Worse)
         {
           this->collapse(u, v, place, verdict == Verdict::Kept);
-          return;
+          return 0.0;
         }
       }
       if (isInside && !thorough)
       {
-        return; // the other places are little better
+        return any; // the other places are little better
       }
-      candidates.errors[p] = std::numeric_limits<double>::infinity();
+      candidates.errors[p] = any;
     }
+    return any;
   }
 
   /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. With `mayMove`, `place` is
@@ -418,10 +438,11 @@ private:
   double Reach; ///< µm, largest error of a quadric
   ShapeBounds Shapes;
   FieldBounds Fits;
-  std::vector<int> Locked;  ///< per point, the sweep in which it was moved
-  std::vector<int> Changed; ///< per point, the sweep in which a triangle at it changed
-  std::vector<float> Part;  ///< per point, of the largest error
-  std::vector<Look> Looks;  ///< per triangle
+  std::vector<int> Locked;       ///< per point, the sweep in which it was moved
+  std::vector<int> Changed;      ///< per point, the sweep in which a triangle at it changed
+  std::vector<float> Part;       ///< per point, of the largest error
+  std::vector<Look> Looks;       ///< per triangle
+  std::vector<Refusal> Refusals; ///< per corner, of the edge from it
   int Sweep = 0;
   int LastFlips = 0; ///< the sweep after which edges were flipped last
 };
