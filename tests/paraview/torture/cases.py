@@ -34,7 +34,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 from torture import inputs
 from torture.answers import CLASS_MISMATCH, CPLUSPLUS, PIPELINE, THINGS, Reports, fingerprint, is_empty, leaves, marks, not_finite
 from torture.files import kept, playground, spoilt_files
-from torture.targets import GIVEN, is_legal, limits, targets, values
+from torture.targets import RADII, is_legal, limits, targets, values
 
 # Small enough that every stage takes a fraction of a second.
 SMALL = {
@@ -157,7 +157,7 @@ class Bench:
         self.script = script
         self.folder = tempfile.mkdtemp(prefix="cactus-torture-")
         os.chdir(self.folder)
-        with open(GIVEN["StringVectorProperty"], "w") as file:
+        with open(RADII, "w") as file:
             file.write(SMALL["BundleInitializer"]["RadiusTable"])
         self.reports = Reports()
         self.targets = targets()

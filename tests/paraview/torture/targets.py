@@ -48,12 +48,14 @@ class Target:
             for hint in pending.pop().findall("Hints//PropertyWidgetDecorator[@value]"):
                 if hint.get("property") not in found:
                     needed = self.element.find(f"*[@name='{hint.get('property')}']")
-                    found[hint.get("property")] = GIVEN[needed.tag] if hint.get("inverse") == "1" else float(hint.get("value"))
+                    given = RADII if hint.get("property") == "RadiusTableFile" else GIVEN[needed.tag]
+                    found[hint.get("property")] = given if hint.get("inverse") == "1" else float(hint.get("value"))
                     pending.append(needed)
         return found
 
 
-# A value of each kind where any but 0, or some text, makes another property count. The text is the name of a file of radii.
+RADII = "radii.txt"  # a file that is there
+# A value of each kind where any but 0, or some text, makes another property count.
 GIVEN = {"IntVectorProperty": 1.0, "DoubleVectorProperty": 0.5, "StringVectorProperty": "given"}
 
 
