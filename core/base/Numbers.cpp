@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <clocale>
 #include <cmath>
-#include <cstdlib>
 #include <system_error>
 
 namespace cactus
@@ -22,17 +20,24 @@ bool isDigit(char c)
   return c >= '0' && c <= '9';
 }
 
-/// Whether a decimal number without a sign that is beyond the range of a double is too small for it.
-bool isTiny(std::string_view number)
+bool isHexadecimalDigit(char c)
 {
-  long power = 0; // of ten, of the first digit that is not zero
+  return isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+}
+
+/// Whether a number without sign and 0x that is beyond the range of a double is too small for it. A digit counts `perDigit` of
+/// what the exponent counts: 1 power of ten or, of a hexadecimal one, 4 of two.
+template <typename IsDigit>
+bool isTiny(std::string_view number, IsDigit&& isADigit, long perDigit)
+{
+  long power = 0; // of the base, of the first digit that is not zero
   bool decimals = false;
   bool found = false;
   std::size_t i = 0;
-  for (; i < number.size() && (isDigit(number[i]) || number[i] == '.'); ++i)
+  for (; i < number.size() && (isADigit(number[i]) || number[i] == '.'); ++i)
   {
     decimals = decimals || number[i] == '.';
-    found = found || (isDigit(number[i]) && number[i] != '0');
+    found = found || (isADigit(number[i]) && number[i] != '0');
     power += found && !decimals ? 1 : 0;
     power -= !found && decimals ? 1 : 0;
   }
@@ -46,23 +51,26 @@ bool isTiny(std::string_view number)
       return *begin == '-';
     }
   }
-  return exponent < -power;
+  return exponent < -perDigit * power;
 }
 
-/// takeNumber() of one that starts with 0x behind its sign. The standard library's from_chars (of g++ 12) rounds some subnormal
-/// ones to the wrong side.
-bool takeHexadecimal(std::string_view& text, double& value)
+/// Takes a number without a sign, of the standard library's `format`, from the front of `text`.
+template <typename IsDigit>
+bool takeUnsigned(std::string_view& text, double& value, std::chars_format format, IsDigit&& isADigit, long perDigit)
 {
-  const std::string number(text.substr(0, text.find_first_not_of("0123456789abcdefABCDEFxXpP.+-")));
-  const static locale_t c = ::newlocale(LC_ALL_MASK, "C", nullptr);
-  char* end = nullptr;
-  const double found = ::strtod_l(number.c_str(), &end, c);
-  if (!std::isfinite(found))
+  double found = 0.0;
+  const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), found, format);
+  const auto length = static_cast<std::size_t>(read.ptr - text.data());
+  if (read.ec == std::errc::result_out_of_range && isTiny(text.substr(0, length), isADigit, perDigit))
+  {
+    found = 0.0;
+  }
+  else if (read.ec != std::errc() || !std::isfinite(found))
   {
     return false;
   }
   value = found;
-  text.remove_prefix(static_cast<std::size_t>(end - number.c_str()));
+  text.remove_prefix(length);
   return true;
 }
 
@@ -99,23 +107,17 @@ bool takeNumber(std::string_view& text, double& value)
   {
     return false;
   }
-  if (rest.size() > 2 && rest[0] == '0' && (rest[1] == 'x' || rest[1] == 'X'))
-  {
-    return takeHexadecimal(text, value);
-  }
+  const bool isHexadecimal = rest.size() > 2 && rest[0] == '0' && (rest[1] == 'x' || rest[1] == 'X') &&
+                             (isHexadecimalDigit(rest[2]) || (rest.size() > 3 && rest[2] == '.' && isHexadecimalDigit(rest[3])));
+  rest.remove_prefix(isHexadecimal ? 2 : 0);
   double found = 0.0;
-  const std::from_chars_result read = std::from_chars(rest.data(), rest.data() + rest.size(), found);
-  const auto length = static_cast<std::size_t>(read.ptr - rest.data());
-  if (read.ec == std::errc::result_out_of_range && isTiny(rest.substr(0, length)))
-  {
-    found = 0.0;
-  }
-  else if (read.ec != std::errc() || !std::isfinite(found))
+  if (!(isHexadecimal ? takeUnsigned(rest, found, std::chars_format::hex, isHexadecimalDigit, 4)
+                      : takeUnsigned(rest, found, std::chars_format::general, isDigit, 1)))
   {
     return false;
   }
   value = negative ? -found : found;
-  text = rest.substr(length);
+  text = rest;
   return true;
 }
 

@@ -163,7 +163,7 @@ std::string everyText()
 
 } // namespace
 
-// Guarantee: what strtod read in the C locale is still read, to the same value; what is no finite number is refused.
+// Guarantee: what strtod reads in the C locale is read, to the nearest double; what is no finite number is refused.
 TEST(Numbers, AreReadAsInTheCLocale)
 {
   EXPECT_EQ(taken("1.5"), 1.5);
@@ -178,7 +178,19 @@ TEST(Numbers, AreReadAsInTheCLocale)
   EXPECT_EQ(taken("1,5", ",5"), 1.0);
   EXPECT_EQ(taken("0x1.8p1"), 3.0);
   EXPECT_EQ(taken("-0XA"), -10.0);
-  EXPECT_EQ(taken("0x.7efef6928463cap-1022"), 0x0.7efef6928463cp-1022) << "halfway between two";
+  // strtod of Debian 12 rounds these to the wrong side.
+  EXPECT_EQ(taken("0x.7efef6928463cap-1022"), 0x0.7efef6928463dp-1022);
+  EXPECT_EQ(taken("0x2de7b14b5f.d683p-1060"), 0x0.b79ec52d7f5a1p-1022);
+  EXPECT_EQ(taken("0x.000000000000080p-1022"), 0.0) << "halfway between two";
+  EXPECT_EQ(taken("0x.00000000000018p-1022"), 0x0.0000000000002p-1022) << "halfway between two";
+  EXPECT_EQ(taken("0x.p1", "x.p1"), 0.0);
+  EXPECT_EQ(taken("0xinf", "xinf"), 0.0);
+  EXPECT_EQ(taken("0x-1", "x-1"), 0.0);
+  EXPECT_EQ(taken("0x1P+4"), 16.0);
+  EXPECT_EQ(taken("0x1p", "p"), 1.0);
+  EXPECT_EQ(taken("0x" + std::string(400, 'f') + "p-1650"), 0x1p-50);
+  EXPECT_EQ(taken("0x." + std::string(400, '0') + "1p1000"), 0x1p-604);
+  EXPECT_EQ(taken("0x" + std::string(400, 'f') + "p-999999999999999999999"), 0.0);
   EXPECT_EQ(taken("0x1p-5000"), 0.0);
   EXPECT_EQ(taken("0xy", "xy"), 0.0);
   EXPECT_EQ(taken("4.9e-324"), 4.9e-324);
@@ -190,7 +202,7 @@ TEST(Numbers, AreReadAsInTheCLocale)
   EXPECT_TRUE(std::signbit(taken("-1e-400")));
   EXPECT_EQ(taken("0e999999"), 0.0);
   for (const char* none : { "", "+", "-", "++1", "+-1", "-+1", "--1", "e5", ".", "x", "nan", "inf", "-infinity", "1e400",
-         "-1e400", "1e999999999999999999999", "0x1p5000" })
+         "-1e400", "1e999999999999999999999", "0x1p5000", "0x1p999999999999999999999" })
   {
     EXPECT_TRUE(std::isnan(taken(none))) << none;
   }
