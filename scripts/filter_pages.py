@@ -275,9 +275,15 @@ def faults():
         yield f"{os.path.relpath(path, ROOT)} is of nothing in xml/"
 
 
+def width_of(picture):
+    """Pixels, as the header of a PNG file has them."""
+    with open(picture, "rb") as file:
+        return int.from_bytes(file.read(20)[16:], "big")
+
+
 def window_part(proxy, picture):
-    """What ParaView's own page lacks: a picture and the outputs, which it does not read from the XML."""
-    text = f'<p><img src="{picture}"/></p>\n' if picture else ""
+    """What ParaView's own page lacks: a picture, no wider than its window, and the outputs, which it does not read from the XML."""
+    text = f'<p><img src="{os.path.basename(picture)}" width="{min(600, width_of(picture))}"/></p>\n' if picture else ""
     for number, output in enumerate(proxy.outputs):
         name = f"Output {number}, {output.name}" if output.name else "Output"
         text += f"<h4>{html.escape(name)}: {html.escape(output.data)}</h4>\n"
@@ -293,9 +299,9 @@ def add_to_window(folder):
     begin, end = "<!-- outputs -->\n", "<!-- properties -->\n"
     for file, of_file in proxies().items():
         picture = os.path.join(PICTURES, file + ".png")
-        shown = os.path.basename(picture) if os.path.exists(picture) else None
+        shown = picture if os.path.exists(picture) else None
         if shown:
-            shutil.copy(picture, folder)
+            shutil.copy(shown, folder)
         for proxy in of_file:
             path = os.path.join(folder, f"{proxy.group}.{proxy.name}.html")
             with open(path, encoding="utf-8") as page_file:

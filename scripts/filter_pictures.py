@@ -56,11 +56,10 @@ def scratch(name):
     return os.path.join(SCRATCH.name, name)
 
 
-def look(view, zoom=1.15):
+def look(view):
     """From above, at an angle."""
     view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [2.2, -1.7, 1.6], [0, 0, 0], [0, 0, 1]
     simple.ResetCamera(view)
-    view.GetActiveCamera().Zoom(zoom)
     return image(view, PIXELS, PIXELS)
 
 
