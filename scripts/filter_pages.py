@@ -124,7 +124,7 @@ class Proxy:
             else:
                 default, allowed, where = described.get(name) or (*xml_values(one), "")
             found.append(Property(name, default, allowed, f"{plain(meaning)}{f' *{where}*' if where else ''}", groups.get(name, ""), one.get("panel_visibility") == "advanced"))
-        order = list(dict.fromkeys(["", *groups.values()]))
+        order = list(dict.fromkeys(["", *(one.group for one in found)]))  # as the panel has them: by their first property
         return sorted(found, key=lambda one: order.index(one.group))
 
     def call(self):
