@@ -145,6 +145,7 @@ void fillHistograms(vtkTable* table, const std::vector<cactus::FibreStatistics>&
   // Up to a round number of tenths of a µm, so that bins have readable edges.
   const double upper = std::ceil(largest * 10.0) / 10.0;
   const auto edge = [bins](double last, std::size_t i) { return last * static_cast<double>(i) / static_cast<double>(bins); };
+  const auto middle = [&](double last, std::size_t i) { return 0.5 * (edge(last, i) + edge(last, i + 1)); };
   const auto counts = [&](const char* name, const std::vector<double>& values, double last)
   {
     const auto count = cactus::histogram(values, 0.0, last, bins);
@@ -152,11 +153,13 @@ void fillHistograms(vtkTable* table, const std::vector<cactus::FibreStatistics>&
   };
   addColumn<vtkDoubleArray>(table, "RadiusFrom_um", bins, [&](std::size_t row) { return edge(upper, row); });
   addColumn<vtkDoubleArray>(table, "RadiusTo_um", bins, [&](std::size_t row) { return edge(upper, row + 1); });
+  addColumn<vtkDoubleArray>(table, "RadiusMiddle_um", bins, [&](std::size_t row) { return middle(upper, row); });
   counts("TargetRadiusFibres", target, upper);
   counts("OuterRadiusFibres", outer, upper);
   counts("InnerRadiusFibres", inner, upper);
   addColumn<vtkDoubleArray>(table, "GRatioFrom", bins, [&](std::size_t row) { return edge(1.0, row); });
   addColumn<vtkDoubleArray>(table, "GRatioTo", bins, [&](std::size_t row) { return edge(1.0, row + 1); });
+  addColumn<vtkDoubleArray>(table, "GRatioMiddle", bins, [&](std::size_t row) { return middle(1.0, row); });
   counts("GRatioFibres", gRatio, 1.0);
 }
 

@@ -20,10 +20,11 @@ constexpr char growth[] = "FibreRadialGrowth";
 constexpr char myelin[] = "MyelinSurface";
 
 const std::string paper = "Villarreal-Haro et al. 2023, ";
-/// Γ(2.64, 0.184) µm are the inner radii of the genu; divided by the g-ratio of 0.7 they are outer ones.
+/// Γ(2.64, 0.184) µm, taken for inner radii of the genu; divided by the g-ratio of 0.7 they are outer ones (docs/presets.md).
 constexpr double genuShape = 2.64;
 constexpr double genuScale = 0.263;
-const std::string genuSource = "radii of the genu: Aboitiz et al. 1992 (Brain Res 598:143), inner Γ(2.64, 0.184) µm over g; ";
+const std::string genuSource = "radii: Γ(2.64, 0.184) µm over g, with the mean of the diameters in the human genu of Aboitiz et "
+                               "al. 1992 (Brain Res 598:143); ";
 
 /// What the densest substrates are grown to, and the tolerance that leaves room for it (docs/surfaces.md).
 constexpr double densest = 0.955;
@@ -32,7 +33,8 @@ constexpr double densestTolerance = 0.0065;
 /// With all values of one bundle: where any of them is another one, it is no longer a preset's.
 Preset tutorial()
 {
-  return { "Tutorial bundle", "One bundle of 10°, grown to 90 %, with a g-ratio of 0.7", paper + "the tutorial of its program",
+  return { "Tutorial bundle", "One bundle of 10°, grown to 90 %, with a g-ratio of 0.7",
+    "Γ(2.4, 0.25) µm and 10° of the tutorial of the paper's program; the rest are this plugin's defaults",
     { { bundle, "RadiusDistribution", std::int64_t(0) }, { bundle, "GammaShape", 2.4 }, { bundle, "GammaScale", 0.25 },
       { bundle, "MinimumRadius", 0.2 }, { bundle, "MaximumRadius", 2.0 }, { bundle, "FibreVolumeFraction", 0.7 },
       { bundle, "GrownFibreVolumeFraction", 0.9 }, { bundle, "MeanDispersion", 10.0 },
@@ -104,10 +106,12 @@ const std::vector<Preset>& presets()
 {
   static const std::vector<Preset> all = { tutorial(),
     callosum("EM-like", "which fills 95 %, with gaps of 20 nm, as in tissue that was fixed for electron microscopy",
-      "5 % between cells, 15 to 20 nm wide, in electron micrographs: Arch Neurol 15:633 (1966)",
+      "5 % at most between cells, 15 to 20 nm wide, in micrographs of cortex: Arch Neurol 15:633 (1966); more before "
+      "fixation: Korogod et al. 2015 (eLife 4:e05793)",
       { { bundle, "GrownFibreVolumeFraction", densest }, { growth, "SurfaceTolerance", densestTolerance } }),
     callosum("in-vivo-like", "which fills 80 %, with gaps of 40 nm at least, as in living tissue",
-      "20 % between cells: Cragg 1980 (Tissue Cell 12:63), 38 to 64 nm wide: Thorne and Nicholson 2006 (PNAS 103:5567)",
+      "20 % between cells: Syková and Nicholson 2008 (Physiol Rev 88:1277), 38 to 64 nm wide: Thorne and Nicholson 2006 (PNAS "
+      "103:5567)",
       { { bundle, "GrownFibreVolumeFraction", 0.8 }, { growth, "MinimumGap", 0.04 } }),
     crossing(60.0, "93.5"), crossing(90.0, "92.2"), histology("a", 0.25, 0.60, 0.54), histology("b", 0.25, 0.68, 0.61),
     histology("c", 0.31, 0.75, 0.67), histology("d", 0.39, 0.76, 0.68) };

@@ -47,8 +47,8 @@ def faults(folder):
             elif place and target in pages and place not in pages[target].places:
                 yield f"{os.path.relpath(path, folder)}: there is no {link}"
     menu = set.intersection(*targets)  # the rest of a page has links of its own
-    for path in glob.glob(os.path.join(ROOT, "docs", "*.md")):
-        page = "docs/" + os.path.basename(path)[:-3] + ".html"
+    for path in glob.glob(os.path.join(ROOT, "docs", "**", "*.md"), recursive=True):
+        page = os.path.relpath(path, ROOT)[:-3] + ".html"
         if os.path.join(folder, page) not in menu:
             yield f"{page} is not in the menu: docs/mkdocs.yml"
 

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window.cmake: plays SCRIPT in the ParaView window, which has to save fibres in FOLDER.
+# cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window.cmake: plays SCRIPT in the ParaView window, which has to save fibres in FOLDER, and its
+# state with a chart and a spreadsheet of the statistics; ParaView warns of nothing.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
 play(100)
+if (output MATCHES "error:|warning: ")
+  message(FATAL_ERROR "the window warned:\n${output}")
+endif ()
 if (NOT EXISTS "${FOLDER}/optimised.strands")
   message(FATAL_ERROR "no fibres were saved")
 endif ()
@@ -11,3 +15,9 @@ list(GET lines 1 fibres)
 if (NOT side EQUAL 8 OR NOT fibres GREATER 10)
   message(FATAL_ERROR "a cube of 8 µm with many fibres was expected; the file says ${side} and ${fibres}")
 endif ()
+file(READ "${FOLDER}/window.pvsm" state)
+foreach (wanted IN ITEMS RenderView SpreadSheetView HistogramChartView)
+  if (NOT state MATCHES "<Proxy group=\"views\" type=\"${wanted}\"")
+    message(FATAL_ERROR "no ${wanted} was opened")
+  endif ()
+endforeach ()

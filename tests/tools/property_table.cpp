@@ -77,20 +77,31 @@ std::string allowed(const PropertyState& state)
 std::string conditionText(const cactus::PropertyCondition& condition, const cactus::StageDescription& stage)
 {
   std::string text;
+  std::string any = " is given";
   for (const PropertyState& other : stage.properties)
   {
+    if (other.facts->name != condition.property)
+    {
+      continue;
+    }
+    any = std::holds_alternative<std::string>(other.value) ? " is given"
+          : std::holds_alternative<bool>(other.value)      ? " is on"
+                                                           : " is not 0";
     for (const double value : condition.values)
     {
-      if (other.facts->name == condition.property)
+      cactus::PropertyValue shown = static_cast<std::int64_t>(value);
+      if (std::holds_alternative<double>(other.value))
       {
-        const bool isNumber = std::holds_alternative<double>(other.value);
-        const cactus::PropertyValue shown =
-          isNumber ? cactus::PropertyValue(value) : cactus::PropertyValue(static_cast<std::int64_t>(value));
-        text += (text.empty() ? "" : " or ") + cactus::valueText(*other.facts, shown);
+        shown = value;
       }
+      else if (std::holds_alternative<bool>(other.value))
+      {
+        shown = value != 0.0;
+      }
+      text += (text.empty() ? "" : " or ") + cactus::valueText(*other.facts, shown);
     }
   }
-  return condition.property + (text.empty() ? " is given" : " is " + text);
+  return condition.property + (text.empty() ? any : " is " + text);
 }
 
 const PropertyFacts& factsOf(const cactus::PresetValue& value)
