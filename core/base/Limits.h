@@ -168,6 +168,10 @@ inline constexpr Range clipTolerance{ 0.0, 1e5, " µm" };
 /// Of one surface: 10 mm of the finest.
 inline constexpr double cuts = 1e6;
 inline constexpr Range bins{ 1.0, 1e4 };
+/// Of a random walk.
+inline constexpr Range walkers{ 1.0, 1e6, "", 0.0 };
+inline constexpr Range walkDistance{ 0.1, 1e3, " µm" };
+inline constexpr Range walkStep{ 1e-3, 10.0, " µm" };
 
 } // namespace limits
 
