@@ -9,10 +9,12 @@
 #include <vtkIntArray.h>
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
+#include <vtkTypeInt64Array.h>
 
 #include <cstddef>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace cactus
 {
@@ -37,6 +39,12 @@ vtkSmartPointer<Array> makeArray(const std::string& name, std::size_t count, int
   }
   return array;
 }
+
+/// An array of these values, which stay where they are in memory, so that there is no second copy of them.
+vtkSmartPointer<vtkDoubleArray> adoptedArray(const std::string& name, std::vector<double> values, int components = 1);
+
+/// The same for whole numbers of 64 bits, each below 2⁶³.
+vtkSmartPointer<vtkTypeInt64Array> adoptedArray(const std::string& name, std::vector<std::size_t> values);
 
 inline void store(vtkTable* table, vtkAbstractArray* column)
 {

@@ -27,6 +27,9 @@ void addStreamlines(vtkPolyData* input, Streamlines& streamlines)
   {
     throw InvalidInput("the input holds cells that are not polylines: one polyline per streamline is expected");
   }
+  const auto numbers = static_cast<std::size_t>(input->GetLines()->GetNumberOfConnectivityIds());
+  streamlines.points.reserve(streamlines.points.size() + numbers);
+  streamlines.offsets.reserve(streamlines.offsets.size() + static_cast<std::size_t>(input->GetNumberOfLines()));
   auto cells = vtk::TakeSmartPointer(input->GetLines()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {

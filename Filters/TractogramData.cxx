@@ -5,7 +5,6 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -25,35 +24,20 @@ namespace cactus
 namespace
 {
 
-constexpr double micrometres = 1e3; ///< of one mm
-
-/// An array of these values times `factor`; the vector is emptied.
-vtkSmartPointer<vtkDoubleArray> arrayOf(
-  const std::string& name, std::vector<double>& values, std::size_t components, double factor)
-{
-  auto array = makeArray<vtkDoubleArray>(name, values.size() / components, int(components));
-  std::transform(values.begin(), values.end(), array->GetPointer(0), [factor](double value) { return factor * value; });
-  std::vector<double>().swap(values);
-  return array;
-}
-
-void addValues(vtkFieldData* data, std::vector<TractogramValues>& all, double length)
+void addValues(vtkFieldData* data, std::vector<TractogramValues>& all)
 {
   for (TractogramValues& values : all)
   {
-    const double factor = values.name == "Radius" ? length : 1.0;
-    data->AddArray(arrayOf(values.name, values.values, values.components, factor));
+    data->AddArray(adoptedArray(values.name, std::move(values.values), int(values.components)));
   }
 }
 
-vtkSmartPointer<vtkCellArray> linesOf(const Tractogram& tractogram)
+vtkSmartPointer<vtkCellArray> linesOf(std::vector<std::size_t> offsets, std::size_t pointCount)
 {
-  auto offsets = makeArray<vtkTypeInt64Array>("", tractogram.offsets.size());
-  std::copy(tractogram.offsets.begin(), tractogram.offsets.end(), offsets->GetPointer(0));
-  auto corners = makeArray<vtkTypeInt64Array>("", tractogram.pointCount());
-  std::iota(corners->GetPointer(0), corners->GetPointer(0) + tractogram.pointCount(), vtkTypeInt64(0));
+  auto corners = makeArray<vtkTypeInt64Array>("", pointCount);
+  std::iota(corners->GetPointer(0), corners->GetPointer(0) + pointCount, vtkTypeInt64(0));
   auto lines = vtkSmartPointer<vtkCellArray>::New();
-  lines->SetData(offsets, corners);
+  lines->SetData(adoptedArray("", std::move(offsets)), corners);
   return lines;
 }
 
@@ -78,14 +62,7 @@ void addGroups(const Tractogram& tractogram, vtkPolyData* output)
   vtkCellData* cells = output->GetCellData();
   if (cells->GetArray("BundleId") == nullptr)
   {
-    std::vector<int> bundles(tractogram.size(), int(groups.size()) + 1);
-    for (std::size_t g = groups.size(); g-- > 0;)
-    {
-      for (const std::uint32_t streamline : groups[g].streamlines)
-      {
-        bundles[streamline] = int(g) + 1; // the first one last
-      }
-    }
+    const std::vector<int> bundles = bundlesByGroup(tractogram);
     addColumn<vtkIntArray>(cells, "BundleId", bundles.size(), [&](std::size_t s) { return bundles[s]; });
   }
   if (mostGroups(tractogram) < 2)
@@ -106,26 +83,21 @@ void addGroups(const Tractogram& tractogram, vtkPolyData* output)
 
 } // namespace
 
-void toPolyData(Tractogram tractogram, LengthUnit unit, double radius, vtkPolyData* output)
+void toPolyData(Tractogram tractogram, vtkPolyData* output)
 {
-  const double length = unit == LengthUnit::Micrometre ? micrometres : 1.0;
+  // Nothing is copied that there may be gigabytes of.
   const std::size_t pointCount = tractogram.pointCount();
   vtkNew<vtkPolyData> fresh;
-  fresh->SetLines(linesOf(tractogram));
   vtkNew<vtkPoints> points;
-  points->SetData(arrayOf("Points", tractogram.points, 3, length));
+  points->SetData(adoptedArray("Points", std::move(tractogram.points), 3));
   fresh->SetPoints(points);
-  addValues(fresh->GetPointData(), tractogram.pointValues, length);
-  addValues(fresh->GetCellData(), tractogram.streamlineValues, length);
-  if (radius > 0.0 && fresh->GetPointData()->GetArray("Radius") == nullptr)
-  {
-    addColumn<vtkDoubleArray>(
-      fresh->GetPointData(), "Radius", pointCount, [&](std::size_t) { return radius * length / micrometres; });
-  }
+  addValues(fresh->GetPointData(), tractogram.pointValues);
+  addValues(fresh->GetCellData(), tractogram.streamlineValues);
   if (!tractogram.groups.empty())
   {
     addGroups(tractogram, fresh);
   }
+  fresh->SetLines(linesOf(std::move(tractogram.offsets), pointCount));
   output->ShallowCopy(fresh);
 }
 

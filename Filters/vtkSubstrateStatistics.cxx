@@ -67,6 +67,12 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("MiddleEffectiveRadius_um", s.middleEffectiveRadius);
   number("IntraAxonalSurfaceToVolume_um-1", s.intraSurfaceToVolume);
   number("ExtraAxonalSurfaceToVolume_um-1", s.extraSurfaceToVolume);
+  number("ExtraAxonalDiffusivityRatioX", s.outside.ratio[0]);
+  number("ExtraAxonalDiffusivityRatioY", s.outside.ratio[1]);
+  number("ExtraAxonalDiffusivityRatioZ", s.outside.ratio[2]);
+  number("ExtraAxonalDiffusivityErrorX", s.outside.standardError[0]);
+  number("ExtraAxonalDiffusivityErrorY", s.outside.standardError[1]);
+  number("ExtraAxonalDiffusivityErrorZ", s.outside.standardError[2]);
 }
 
 void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fibres)

@@ -33,6 +33,10 @@ public:
 
   CACTUS_NUMBER_PROPERTY(CutSpacing)
   CACTUS_WHOLE_PROPERTY(NumberOfBins)
+  CACTUS_WHOLE_PROPERTY(ExtraAxonalWalkers)
+  CACTUS_NUMBER_PROPERTY(WalkDistance)
+  CACTUS_NUMBER_PROPERTY(WalkStep)
+  CACTUS_WHOLE_PROPERTY(WalkSeed)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Counts as changed after it was stopped, so that it is asked again and says so. */

@@ -14,8 +14,7 @@ import struct
 import sys
 
 from paraview import servermanager, simple
-from vtkmodules.vtkIOImage import vtkNIFTIImageReader
-
+from nifti import read_image
 from tract import SIDE, look, view_of, write_tract
 
 SCALE = 0.001  # 1 mm of the tract is 1 µm of the substrate
@@ -46,20 +45,6 @@ def write_image(path):
     header[344:348] = b"n+1\0"
     with gzip.open(path, "wb") as file:
         file.write(bytes(header) + bytes(values))
-
-
-def read_image(path):
-    """The image in the scanner's space: VTK's reader leaves the place, which the header has, to whoever asks."""
-    reader = vtkNIFTIImageReader()
-    reader.SetFileName(path)
-    reader.Update()
-    place = reader.GetSFormMatrix() or reader.GetQFormMatrix()
-    image = reader.GetOutput()
-    image.SetOrigin([place.GetElement(row, 3) for row in range(3)])
-    image.SetDirectionMatrix([place.GetElement(row, column) for row in range(3) for column in range(3)])
-    producer = simple.PVTrivialProducer()
-    producer.GetClientSideObject().SetOutput(image)
-    return producer
 
 
 def make_substrate(tract):

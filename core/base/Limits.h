@@ -92,6 +92,10 @@ inline constexpr Range gammaShape{ 1e-2, 1e4 };
 inline constexpr Range gammaScale{ 1e-5, 1e3, " µm" };
 inline constexpr Range lognormalMean{ 1e-3, 1e3, " µm" };
 inline constexpr Range lognormalDeviation{ 1e-6, 1e3, " µm" };
+/// Of a published histogram: what is known of shrinkage, and much more.
+inline constexpr Range histogramFactor{ 0.1, 10.0 };
+/// 1 takes inner diameters as outer ones, 0 asks for a relation in place of a ratio.
+inline constexpr Range histogramGRatio{ 0.1, 1.0, "", 0.0 };
 /// The displacement of a fibre from face to face has to be more than rounding, and to be met within 2 %.
 inline constexpr Range meanDispersion{ 1e-3, 45.0, "°", 0.0 };
 inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", 0.0 };
@@ -164,6 +168,10 @@ inline constexpr Range clipTolerance{ 0.0, 1e5, " µm" };
 /// Of one surface: 10 mm of the finest.
 inline constexpr double cuts = 1e6;
 inline constexpr Range bins{ 1.0, 1e4 };
+/// Of a random walk.
+inline constexpr Range walkers{ 1.0, 1e6, "", 0.0 };
+inline constexpr Range walkDistance{ 0.1, 1e3, " µm" };
+inline constexpr Range walkStep{ 1e-3, 10.0, " µm" };
 
 } // namespace limits
 

@@ -18,7 +18,8 @@ enum class RandomStage : std::uint32_t
   Seeds = 4,
   GRatio = 5,
   Optimiser = 6,
-  StartPositions = 7
+  StartPositions = 7,
+  ExtraAxonalWalk = 8
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere; what is made of them is

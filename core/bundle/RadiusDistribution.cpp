@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/MyelinThickness.h"
 #include "base/Numbers.h"
 #include "base/PosixFile.h"
 #include "base/RandomVariates.h"
@@ -20,8 +21,19 @@ namespace cactus
 namespace
 {
 
+double drawFromHistogram(const RadiusDistributionOptions& options, RandomEngine& engine)
+{
+  const double inner = options.histogramFactor * sampleDiameter(radiusHistogram(options.histogram), engine);
+  const double outer = options.histogramGRatio > 0.0 ? inner / options.histogramGRatio : logLinearOuterDiameter(inner);
+  return options.histogramScale * 0.5 * outer;
+}
+
 double draw(const RadiusDistributionOptions& options, RandomEngine& engine)
 {
+  if (options.model == RadiusModel::Histogram)
+  {
+    return drawFromHistogram(options, engine);
+  }
   if (options.model == RadiusModel::Gamma)
   {
     return gammaVariate(options.gammaShape, options.gammaScale, engine);
@@ -52,7 +64,8 @@ const PropertyList<RadiusDistributionOptions>& RadiusDistributionOptions::proper
   using Options = RadiusDistributionOptions;
   static const auto list =
     PropertyList<Options>()
-      .add("RadiusDistribution", &Options::model, { "Gamma", "Lognormal", "Table" }, "Distribution of the fibres' outer radius")
+      .add("RadiusDistribution", &Options::model, { "Gamma", "Lognormal", "Table", "Histogram" },
+        "Distribution of the fibres' outer radius")
       .add("GammaShape", &Options::gammaShape, limits::gammaShape, "Shape of the gamma distribution")
       .where("RadiusDistribution", { 0 })
       .add("GammaScale", &Options::gammaScale, limits::gammaScale, "Scale of the gamma distribution")
@@ -64,6 +77,16 @@ const PropertyList<RadiusDistributionOptions>& RadiusDistributionOptions::proper
       .where("RadiusDistribution", { 1 })
       .add("RadiusTable", &Options::table, "Radii in µm to draw from, each as likely as the others")
       .where("RadiusDistribution", { 2 })
+      .add("RadiusHistogram", &Options::histogram, radiusHistogramNames(),
+        "Tissue, and who has published how thick its axons are without their myelin")
+      .where("RadiusDistribution", { 3 })
+      .add("RadiusHistogramFactor", &Options::histogramFactor, limits::histogramFactor,
+        "What the histogram's diameters are multiplied by: 1 for those in the fixed tissue, more where it has shrunk")
+      .where("RadiusDistribution", { 3 })
+      .add("RadiusHistogramGRatio", &Options::histogramGRatio, limits::histogramGRatio,
+        "g-ratio by which the histogram's inner radii become outer ones; 0: myelin by the axon's diameter, as MyelinSurface's "
+        "LogLinear has it")
+      .where("RadiusDistribution", { 3 })
       .add("MinimumRadius", &Options::minimum, limits::radius, "Smallest outer radius: what is drawn below is drawn again")
       .add("MaximumRadius", &Options::maximum, limits::radius, "Largest outer radius: what is drawn above is drawn again");
   return list;
@@ -101,8 +124,8 @@ void RadiusDistributionOptions::validate() const
 RadiusDistributionOptions RadiusDistributionOptions::scaled(double factor) const
 {
   RadiusDistributionOptions result = *this;
-  for (double* length :
-    { &result.gammaScale, &result.lognormalMean, &result.lognormalDeviation, &result.minimum, &result.maximum })
+  for (double* length : { &result.gammaScale, &result.lognormalMean, &result.lognormalDeviation, &result.histogramScale,
+         &result.minimum, &result.maximum })
   {
     *length *= factor;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Properties.h"
+#include "bundle/RadiusHistogram.h"
 
 #include <cstdint>
 #include <istream>
@@ -16,11 +17,12 @@ enum class RadiusModel
 {
   Gamma,     ///< gamma with a shape and a scale
   Lognormal, ///< lognormal with a mean and a standard deviation of the radius itself
-  Table      ///< one of the given radii, each as likely as the others, with replacement
+  Table,     ///< one of the given radii, each as likely as the others, with replacement
+  Histogram  ///< as the axons of a tissue are, as it was published
 };
 
-/// Parameters of the outer radius (µm). Gamma and lognormal are cut to [minimum, maximum] by rejection; with minimum = maximum
-/// all radii are equal.
+/// Parameters of the outer radius (µm). All but a table are cut to [minimum, maximum] by rejection; with minimum = maximum all
+/// radii are equal.
 struct RadiusDistributionOptions
 {
   RadiusModel model = RadiusModel::Gamma;
@@ -31,6 +33,11 @@ struct RadiusDistributionOptions
   std::vector<double> table;        ///< µm, for RadiusModel::Table
   double minimum = 0.2;             ///< µm
   double maximum = 2.0;             ///< µm
+  /// Of RadiusModel::Histogram: axons without their myelin.
+  PublishedRadii histogram = PublishedRadii::HumanGenu;
+  double histogramFactor = 1.0; ///< what its diameters are multiplied by, such as to make the tissue's shrinkage good
+  double histogramGRatio = 0.7; ///< inner radius over the outer one that is made of it; 0: see base/MyelinThickness.h
+  double histogramScale = 1.0;  ///< what these outer radii are multiplied by; see scaled()
 
   static const PropertyList<RadiusDistributionOptions>& properties();
   /// Throws InvalidInput, naming the property, unless all that the model uses is within its range, minimum ≤

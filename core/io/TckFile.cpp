@@ -173,9 +173,11 @@ Tractogram readTck(std::istream& stream, const std::string& name, const Context&
   BinaryReader reader(stream, name);
   const TckHeader header = readHeader(reader);
   Tractogram tractogram;
-  const std::uint64_t numbers = reader.left() / (header.isDouble ? sizeof(double) : sizeof(float));
-  requireMemory(double(numbers) * sizeof(double), name, "choose streamlines from it first, e.g. with tckedit");
-  tractogram.points.reserve(numbers);
+  // Room for all triplets as points and as marks of an end: what is not used of it is never touched, and so costs nothing.
+  const std::uint64_t triplets = reader.left() / (3 * (header.isDouble ? sizeof(double) : sizeof(float)));
+  requireMemory(double(triplets) * bytesPerPoint, name, "choose streamlines from it first, e.g. with tckedit");
+  tractogram.points.reserve(3 * triplets);
+  tractogram.offsets.reserve(triplets + 1);
   header.isDouble ? readPoints<double>(reader, tractogram, context) : readPoints<float>(reader, tractogram, context);
   if (header.count != 0.0 && header.count != static_cast<double>(tractogram.size()))
   {

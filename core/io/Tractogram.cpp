@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/Tractogram.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace cactus
@@ -65,6 +66,60 @@ std::vector<std::uint32_t> compact(Tractogram& tractogram)
 }
 
 } // namespace
+
+const TractogramValues* valuesNamed(const std::vector<TractogramValues>& all, const std::string& name)
+{
+  const auto found = std::find_if(all.rbegin(), all.rend(), [&](const TractogramValues& values) { return values.name == name; });
+  return found != all.rend() ? &*found : nullptr;
+}
+
+void setLengths(Tractogram& tractogram, LengthUnit unit, double radius)
+{
+  constexpr char name[] = "Radius";
+  constexpr double micrometresInMillimetre = 1e3;
+  const double length = unit == LengthUnit::Micrometre ? micrometresInMillimetre : 1.0;
+  const auto scale = [length](std::vector<double>& values)
+  {
+    for (double& value : values)
+    {
+      value *= length;
+    }
+  };
+  scale(tractogram.points);
+  for (std::vector<TractogramValues>* all : { &tractogram.pointValues, &tractogram.streamlineValues })
+  {
+    for (TractogramValues& values : *all)
+    {
+      if (values.name == name)
+      {
+        scale(values.values);
+      }
+    }
+  }
+  if (radius > 0.0 && valuesNamed(tractogram.pointValues, name) == nullptr)
+  {
+    tractogram.pointValues.push_back(
+      { name, 1, std::vector<double>(tractogram.pointCount(), radius * length / micrometresInMillimetre) });
+  }
+}
+
+std::vector<int> bundlesByGroup(const Tractogram& tractogram)
+{
+  const std::vector<TractogramGroup>& groups = tractogram.groups;
+  if (groups.empty())
+  {
+    return {};
+  }
+  std::vector<int> bundles(tractogram.size(), static_cast<int>(groups.size()) + 1);
+  for (std::size_t g = groups.size(); g-- > 0;)
+  {
+    for (const std::uint32_t streamline : groups[g].streamlines)
+    {
+      bundles[streamline] = static_cast<int>(g) + 1; // the first one last
+    }
+  }
+  return bundles;
+}
 
 void dropShortStreamlines(Tractogram& tractogram)
 {

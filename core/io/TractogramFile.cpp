@@ -34,7 +34,8 @@ std::string extensionOf(std::string path)
   return extension;
 }
 
-Tractogram readAny(const std::string& path, const Context& context)
+/// The file, or folder, by a name that says what it is.
+std::ifstream opened(const std::string& path)
 {
   const std::string extension = extensionOf(path);
   if (extension != ".tck" && extension != ".trk" && extension != ".trx")
@@ -47,6 +48,13 @@ Tractogram readAny(const std::string& path, const Context& context)
   {
     throw FileError("cannot open tractogram " + path + ": " + std::strerror(errno));
   }
+  return file;
+}
+
+Tractogram readAny(const std::string& path, const Context& context)
+{
+  std::ifstream file = opened(path);
+  const std::string extension = extensionOf(path);
   if (extension == ".tck")
   {
     return readTck(file, path, context);
@@ -81,6 +89,11 @@ Tractogram readTractogram(const std::string& path, const Context& context)
   requireWithinScanner(tractogram, path);
   dropShortStreamlines(tractogram);
   return tractogram;
+}
+
+void requireTractogram(const std::string& path)
+{
+  opened(path);
 }
 
 void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path)

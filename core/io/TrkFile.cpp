@@ -6,6 +6,7 @@
 #include "io/BinaryReader.h"
 #include "io/TrkOrientation.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -155,6 +156,19 @@ public:
   {
   }
 
+  /// Makes room for all that can be in the file: what is not used of it is never touched, and so costs nothing.
+  void reserve(std::size_t count)
+  {
+    const std::size_t points = this->Reader.left() / (sizeof(float) * this->Columns);
+    this->Tracks.points.reserve(3 * points);
+    this->Tracks.offsets.reserve(
+      1 + (count > 0 ? std::min(count, std::size_t(this->Reader.left()) / sizeof(std::int32_t)) : points));
+    for (TractogramValues& values : this->Tracks.pointValues)
+    {
+      values.values.reserve(values.components * points);
+    }
+  }
+
   void next()
   {
     const std::string name = "streamline " + std::to_string(this->Tracks.size() + 1);
@@ -248,9 +262,11 @@ Tractogram readTrk(std::istream& stream, const std::string& name, const Context&
   {
     reader.fail(error.what());
   }
-  // All numbers of the file in double precision, and room to grow.
-  requireMemory(4.0 * static_cast<double>(reader.left()), name, "choose streamlines from it first");
+  // All numbers of the file in double precision, and what polylines take besides.
+  requireMemory(
+    bytesPerPoint / (3.0 * sizeof(float)) * static_cast<double>(reader.left()), name, "choose streamlines from it first");
   TrackReader tracks(reader, toScanner, tractogram);
+  tracks.reserve(static_cast<std::size_t>(count));
   readStreamlines(reader, count, tracks, context);
   if (reader.left() > 0)
   {

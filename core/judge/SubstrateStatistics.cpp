@@ -98,7 +98,8 @@ const PropertyList<SubstrateStatisticsOptions>& SubstrateStatisticsOptions::prop
     PropertyList<Options>()
       .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing, "Distance between two cross-sections along a fibre")
       .add("ClipTolerance", &Options::clipTolerance, limits::clipTolerance, "What a surface may reach out of the domain")
-      .use(PropertyUse::Code);
+      .use(PropertyUse::Code)
+      .include(&Options::walk, ExtraAxonalWalkOptions::properties());
   return list;
 }
 
@@ -265,6 +266,15 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
 
   sumUpSurfaces(fibres.domain, outer.given(), inner.given(), result);
   sumUpCuts(result);
+  if (options.walk.walkers > 0 && outer.size() > 0)
+  {
+    if (result.outerOpen > 0)
+    {
+      throw InvalidInput(text("ExtraAxonalWalkers: ", result.outerOpen,
+        " of the outer surfaces are not closed and outward, and walkers would leak: set it to 0, or mend them"));
+    }
+    result.outside = walkOutside(fibres.domain, outer, options.walk, context);
+  }
   result.capsuleVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
   result.largestPenetration = measureOverlap(fibres, 0.0, context.threadCount()).largestPenetration;
   result.meanDispersion = meanDispersion(fibres);

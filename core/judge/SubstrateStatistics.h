@@ -4,6 +4,7 @@
 #include "base/Context.h"
 #include "base/Properties.h"
 #include "fibres/Fibres.h"
+#include "judge/ExtraAxonalWalk.h"
 #include "judge/FibreProfile.h"
 #include "mesh/FibreSurfaces.h"
 #include "mesh/SurfaceCheck.h"
@@ -21,6 +22,7 @@ struct SubstrateStatisticsOptions
   double cutSpacing = 1.0;
   /// µm that a surface may reach out of the domain, as the rounding of a clip does; not negative.
   double clipTolerance = 0.1;
+  ExtraAxonalWalkOptions walk;
 
   static const PropertyList<SubstrateStatisticsOptions>& properties();
   /// Throws InvalidInput naming the property.
@@ -88,6 +90,7 @@ struct SubstrateStatistics
   double middleEffectiveRadius = 0.0;  ///< µm, over the middle cut of each axon, as a section through the bundle shows them
   double intraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the axons over their volume
   double extraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the outer surfaces over what they leave of the domain
+  ExtraAxonalDiffusion outside;        ///< where walkers were asked for and there are outer surfaces
   std::vector<FibreStatistics> fibres; ///< in the order of the fibres given
 };
 
@@ -95,8 +98,8 @@ struct SubstrateStatistics
 /// to fibres by id.
 ///
 /// Throws InvalidInput, naming the fibre, where a surface belongs to no fibre or reaches out of the domain by more than
-/// clipTolerance, and as `validate` does; OutOfMemory where CutSpacing makes more cuts than there is room for; Cancelled when
-/// stopped.
+/// clipTolerance, where walkers are asked for and a surface is open, and as `validate` does; OutOfMemory where CutSpacing makes
+/// more cuts than there is room for; Cancelled when stopped.
 SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& outer, const FibreSurfaces& inner,
   const SubstrateStatisticsOptions& options = {}, const Context& context = {});
 

@@ -40,6 +40,18 @@ void addArray(FastChecksum& checksum, ArrayType type, const std::vector<Value>& 
   addArray(checksum, type, values.data(), values.size() * sizeof(Value));
 }
 
+/// The values of this name, or none.
+void addNamed(FastChecksum& checksum, const std::vector<TractogramValues>& all, const char* name)
+{
+  const TractogramValues* found = valuesNamed(all, name);
+  if (found == nullptr)
+  {
+    addNone(checksum);
+    return;
+  }
+  addArray(checksum, ArrayType::Double, found->values);
+}
+
 /// One number for each triangle of each surface.
 template <typename NumberOf>
 void addForTriangles(FastChecksum& checksum, const std::vector<FibreSurfacePair>& fibres,
@@ -65,6 +77,26 @@ std::string dataChecksum(const Fibres& fibres)
   addArray(checksum, ArrayType::Int, fibres.bundleIds);
   addArray(checksum, ArrayType::Double, fibres.targetRadii);
   addNone(checksum); // they have no Surface
+  return checksum.digest();
+}
+
+std::string dataChecksum(const Tractogram& tractogram)
+{
+  FastChecksum checksum;
+  checksum.add(static_cast<std::uint64_t>(tractogram.size()));
+  addArray(checksum, ArrayType::Double, tractogram.points);
+  addNamed(checksum, tractogram.pointValues, "Radius");
+  addNamed(checksum, tractogram.streamlineValues, "FibreId");
+  if (!tractogram.groups.empty() && valuesNamed(tractogram.streamlineValues, "BundleId") == nullptr)
+  {
+    addArray(checksum, ArrayType::Int, bundlesByGroup(tractogram));
+  }
+  else
+  {
+    addNamed(checksum, tractogram.streamlineValues, "BundleId");
+  }
+  addNamed(checksum, tractogram.streamlineValues, "TargetRadius");
+  addNamed(checksum, tractogram.streamlineValues, "Surface");
   return checksum.digest();
 }
 

@@ -5,6 +5,7 @@
 
 #include "fibres/Fibres.h"
 #include "growth/LabelImage.h"
+#include "io/Tractogram.h"
 #include "mesh/SurfaceStore.h"
 #include "surface/FibreSurfacePair.h"
 
@@ -15,6 +16,9 @@ namespace cactus
 {
 
 std::string dataChecksum(const Fibres& fibres);
+
+/// Of streamlines as TractogramReader gives them, with their lengths in the unit that it was told.
+std::string dataChecksum(const Tractogram& tractogram);
 
 /// Of a whole image.
 std::string dataChecksum(const LabelImage& image);

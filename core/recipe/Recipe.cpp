@@ -2,6 +2,7 @@
 #include "recipe/Recipe.h"
 
 #include "base/Error.h"
+#include "io/TractogramFile.h"
 #include "stages/StageWork.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace
 const std::vector<std::pair<std::string, RecipeOptions>>& knownStages()
 {
   static const std::vector<std::pair<std::string, RecipeOptions>> stages = { { "BundleInitializer", BundleInitializerStage() },
-    { "StrandReader", StrandReaderStage() }, { "CapsuleOptimizer", CapsuleOptimizerStage() },
+    { "StrandReader", StrandReaderStage() }, { "TractogramReader", TractogramReaderStage() },
+    { "TractFibres", TractFibresStage() }, { "CapsuleOptimizer", CapsuleOptimizerStage() },
     { "FibreRadialGrowth", FibreRadialGrowthStage() }, { "MyelinSurface", MyelinSurfaceStage() },
     { "SubstrateWriter", SubstrateWriterStage() }, { "SubstrateProduction", SubstrateProductionStage() } };
   return stages;
@@ -29,7 +31,8 @@ bool isA(const RecipeStage& stage)
 
 bool givesFibres(const RecipeStage& stage)
 {
-  return isA<BundleInitializerStage>(stage) || isA<StrandReaderStage>(stage) || isA<CapsuleOptimizerStage>(stage);
+  return isA<BundleInitializerStage>(stage) || isA<StrandReaderStage>(stage) || isA<TractFibresStage>(stage) ||
+         isA<CapsuleOptimizerStage>(stage);
 }
 
 /// Looks at what comes in at each input of a stage.
@@ -71,6 +74,14 @@ public:
     }
   }
 
+  void streamlinesAt(const std::string& name) const
+  {
+    for (const RecipeSource& source : this->Stage.input(name))
+    {
+      this->requireStreamlines(name, source);
+    }
+  }
+
   /// An output of one stage of this kind.
   template <typename Wanted>
   void outputAt(const std::string& name, int port) const
@@ -87,6 +98,19 @@ public:
   [[noreturn]] void fail(const std::string& why) const { throw InvalidInput(this->Stage.name + ": it " + why); }
 
 private:
+  void requireStreamlines(const std::string& name, const RecipeSource& source) const
+  {
+    for (const RecipeSource& block : source.blocks)
+    {
+      this->requireStreamlines(name, block);
+    }
+    if (source.blocks.empty() && (source.port != 0 || !isA<TractogramReaderStage>(this->All.stages[source.stage])))
+    {
+      this->fail("takes streamlines of a TractogramReader at " + name + ", and not what " + this->All.stages[source.stage].name +
+                 " gives: rerun it by ./cactus rerun");
+    }
+  }
+
   void requireFibres(const std::string& name, const RecipeSource& source) const
   {
     for (const RecipeSource& block : source.blocks)
@@ -110,6 +134,11 @@ void checkInputs(const Recipe& recipe, const RecipeStage& stage)
   {
     check.names({ { "Input", isA<CapsuleOptimizerStage>(stage) } });
     check.fibresAt("Input");
+  }
+  else if (isA<TractFibresStage>(stage))
+  {
+    check.names({ { "Input", false } });
+    check.streamlinesAt("Input");
   }
   else if (isA<MyelinSurfaceStage>(stage))
   {
@@ -158,6 +187,20 @@ void checkOptions(const BundleInitializerStage& stage)
 void checkOptions(const StrandReaderStage& stage)
 {
   strandsOf(stage);
+}
+
+void checkOptions(const TractogramReaderStage& stage)
+{
+  if (stage.fileName.empty())
+  {
+    throw InvalidInput("FileName is empty: name the tractogram to read");
+  }
+  requireTractogram(stage.fileName);
+}
+
+void checkOptions(const TractFibresStage& stage)
+{
+  tractOptions(stage).validate();
 }
 
 void checkOptions(const CapsuleOptimizerStage& stage)

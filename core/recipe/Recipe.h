@@ -22,8 +22,8 @@ struct RecipeSource
 };
 
 /// What is told to a stage that can be run without ParaView.
-using RecipeOptions = std::variant<BundleInitializerStage, StrandReaderStage, CapsuleOptimizerStage, FibreRadialGrowthStage,
-  MyelinSurfaceStage, SubstrateWriterStage, SubstrateProductionStage>;
+using RecipeOptions = std::variant<BundleInitializerStage, StrandReaderStage, TractogramReaderStage, TractFibresStage,
+  CapsuleOptimizerStage, FibreRadialGrowthStage, MyelinSurfaceStage, SubstrateWriterStage, SubstrateProductionStage>;
 
 struct RecipeStage
 {

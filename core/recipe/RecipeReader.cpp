@@ -177,24 +177,51 @@ private:
     return (std::filesystem::path(this->Folder) / value.get<std::string>()).string();
   }
 
+  /// A stage for each of a list, or one alone; none where the recipe does not name it.
+  std::vector<RecipeSource> addAll(const std::string& name, const Inputs& inputs)
+  {
+    const Json values = this->has(name.c_str()) ? this->Text[name] : Json::array();
+    const Json several = values.is_array() ? values : Json::array({ values });
+    std::vector<RecipeSource> made;
+    for (const Json& one : several)
+    {
+      made.push_back({ this->add(name, one, inputs), 0, {} });
+    }
+    return made;
+  }
+
   void addSources()
   {
-    for (const auto& [name, values] : this->Text.items())
+    for (const auto& entry : this->Text.items())
     {
-      if (name != "BundleInitializer" && name != "StrandReader")
+      if (entry.key() == "BundleInitializer" || entry.key() == "StrandReader")
       {
-        continue;
-      }
-      const Json several = values.is_array() ? values : Json::array({ values });
-      for (const Json& one : several)
-      {
-        this->Fibres.push_back({ this->add(name, one, {}), 0, {} });
+        const std::vector<RecipeSource> made = this->addAll(entry.key(), {});
+        this->Fibres.insert(this->Fibres.end(), made.begin(), made.end());
       }
     }
+    this->addTracts();
     if (this->Fibres.empty())
     {
       this->Fibres.push_back({ this->add("BundleInitializer", Json::object(), {}), 0, {} });
     }
+  }
+
+  /// Streamlines, and fibres that follow them.
+  void addTracts()
+  {
+    if (this->has("TractogramReader") != this->has("TractFibres"))
+    {
+      throw InvalidInput(this->has("TractFibres") ? "TractFibres has no streamlines to follow: name a file in TractogramReader"
+                                                  : "TractogramReader gives streamlines, which nothing follows: add TractFibres");
+    }
+    std::vector<RecipeSource> streamlines = this->addAll("TractogramReader", {});
+    if (streamlines.size() > 1)
+    {
+      streamlines = { { 0, 0, streamlines } };
+    }
+    const std::vector<RecipeSource> made = this->addAll("TractFibres", { { "Input", streamlines } });
+    this->Fibres.insert(this->Fibres.end(), made.begin(), made.end());
   }
 
   void addProduction() { this->add("SubstrateProduction", this->values("SubstrateProduction"), { { "Input", this->Fibres } }); }

@@ -7,6 +7,7 @@
 #include "recipe/PropertyText.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -33,6 +34,12 @@ std::string textOf(const Json& object, const char* name)
 {
   const Json& member = memberOf(object, name);
   return member.is_string() ? member.get<std::string>() : "";
+}
+
+bool namesFolder(const Json& value)
+{
+  std::error_code error;
+  return value.is_string() && std::filesystem::is_directory(value.get<std::string>(), error);
 }
 
 [[noreturn]] void failDamaged(const std::string& where)
@@ -147,8 +154,8 @@ private:
     std::optional<RecipeOptions> options = recipeOptions(name);
     if (!options)
     {
-      throw InvalidInput(
-        "there is no stage " + excerpt(name) + " that could be run without ParaView: there are " + recipeStageNames());
+      throw InvalidInput("there is no stage " + excerpt(name) +
+                         " that could be run without ParaView (./cactus rerun may): there are " + recipeStageNames());
     }
     RecipeStage stage{ name, std::move(*options), {} };
     try
@@ -200,7 +207,11 @@ private:
         throw InvalidInput(path + ", which it has read, is another file than it was (its SHA-256 was " + textOf(file, "sha256") +
                            "): put the old one there");
       }
-      setProperty(options, textOf(file, "property"), Json(path), true);
+      const std::string property = textOf(file, "property");
+      if (!namesFolder(memberOf(memberOf(record, "properties"), property.c_str()))) // all files of a folder are listed
+      {
+        setProperty(options, property, Json(path), true);
+      }
     }
   }
 

@@ -2,6 +2,7 @@
 #include "recipe/RecipeRun.h"
 
 #include "base/Provenance.h"
+#include "bundle/TractFibres.h"
 #include "fibres/JoinFibres.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
@@ -15,6 +16,7 @@
 #include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -127,6 +129,18 @@ private:
     return joinFibres(std::move(inputs));
   }
 
+  void collectTracts(const std::vector<RecipeSource>& sources, std::vector<const Tractogram*>& tracts) const
+  {
+    for (const RecipeSource& source : sources)
+    {
+      if (source.blocks.empty())
+      {
+        tracts.push_back(&this->TractsOf.at(source.stage));
+      }
+      this->collectTracts(source.blocks, tracts);
+    }
+  }
+
   bool isParted(const RecipeSource& source) const { return source.blocks.empty() && this->FibresOf.at(source.stage).isParted; }
 
   DataOrigin originOf(const RecipeSource& source) const
@@ -146,7 +160,11 @@ private:
   template <typename Options>
   Provenance record(const Options& options, std::vector<std::pair<std::string, PropertyValue>> reached = {}) const
   {
-    StageRecord record{ this->stage().name, Options::properties().states(options), std::move(reached), {}, {} };
+    return this->withInputs({ this->stage().name, Options::properties().states(options), std::move(reached), {}, {} });
+  }
+
+  Provenance withInputs(StageRecord record) const
+  {
     for (const auto& [name, sources] : this->stage().inputs)
     {
       record.inputs.emplace_back(name, std::vector<DataOrigin>());
@@ -175,6 +193,36 @@ private:
     Fibres fibres = initialiseBundles(options, this->contextFor(0), &report);
     const Provenance records = provenanceOf(bundleRecord(stage, options, fibres.size(), report));
     this->giveFibres(std::move(fibres), records, false);
+  }
+
+  void work(const TractogramReaderStage& stage)
+  {
+    Tractogram tractogram = tractogramOf(stage, this->contextFor(0));
+    for (const std::string& remark : tractogram.remarks)
+    {
+      this->say("TractogramReader: " + stage.fileName + ": " + remark);
+    }
+    this->RecordsOf[{ this->Now, 0 }] = provenanceOfOutput(provenanceOf(tractogramRecord(stage)), 0, dataChecksum(tractogram));
+    this->TractsOf[this->Now] = std::move(tractogram);
+  }
+
+  void work(const TractFibresStage& stage)
+  {
+    const TractFibresOptions options = tractOptions(stage);
+    std::vector<const Tractogram*> tracts;
+    this->collectTracts(this->stage().input("Input"), tracts);
+    TractFibresReport report;
+    Fibres fibres = layTractFibres(streamlinesOf(tracts), options, this->contextFor(0), &report);
+    const std::string remarks = remarksOnTract(report);
+    this->say(remarks.empty() ? "" : "TractFibres: " + remarks);
+    const Provenance records = this->withInputs(tractRecord(stage, options, fibres.size(), report));
+    this->giveFibres(std::move(fibres), records, false);
+    const auto followsTract = [](const RecipeStage& one) { return std::holds_alternative<TractFibresStage>(one.options); };
+    const auto next = this->All.stages.begin() + static_cast<std::ptrdiff_t>(this->Now) + 1;
+    if (std::none_of(next, this->All.stages.end(), followsTract))
+    {
+      this->TractsOf.clear(); // which may be gigabytes
+    }
   }
 
   void work(const StrandReaderStage& stage) { this->giveFibres(strandsOf(stage), provenanceOf(strandRecord(stage)), false); }
@@ -289,6 +337,7 @@ private:
   const Context& Caller;
   const std::function<void(const std::string&)>& Remark;
   std::size_t Now = 0; ///< the stage at work
+  std::map<std::size_t, Tractogram> TractsOf;
   std::map<std::size_t, MadeFibres> FibresOf;
   std::map<std::pair<std::size_t, int>, Provenance> RecordsOf; ///< of each stage's output
   std::optional<GrownImage> Grown;

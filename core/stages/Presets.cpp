@@ -2,10 +2,12 @@
 #include "stages/Presets.h"
 
 #include "base/Error.h"
+#include "base/MyelinThickness.h"
 #include "base/Numbers.h"
 #include "stages/Stages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 
@@ -79,6 +81,34 @@ Preset histology(const std::string& row, double axons, double fibres, double pac
       { myelin, "TargetAxonVolumeFraction", axons } } };
 }
 
+/// One bundle of a tissue's axons, as thick as they were published to be, with the myelin that outer radii are made with.
+Preset publishedRadii(PublishedRadii which)
+{
+  const RadiusHistogram& histogram = radiusHistogram(which);
+  const bool isRelation = which == PublishedRadii::MouseGenu; // that of these very axons
+  const double gRatio = isRelation ? 0.0 : 0.7;
+  const double widest = 2.0 * histogram.largestRadius();
+  const double largest = 0.5 * (isRelation ? logLinearOuterDiameter(widest) : widest / gRatio);
+  const auto rounded = [](double value) { return std::round(100.0 * value) / 100.0; };
+  return { histogram.name,
+    text("One bundle with axons of ", rounded(histogram.meanRadius()), " ± ", rounded(histogram.deviation()),
+      " µm inner radius as they are there"),
+    histogram.source,
+    { { bundle, "RadiusDistribution", static_cast<std::int64_t>(RadiusModel::Histogram) },
+      { bundle, "RadiusHistogram", static_cast<std::int64_t>(which) }, { bundle, "RadiusHistogramGRatio", gRatio },
+      { bundle, "MaximumRadius", std::ceil(10.0 * largest) / 10.0 },
+      { myelin, "GRatioModel", static_cast<std::int64_t>(isRelation ? GRatioModel::LogLinear : GRatioModel::Constant) } } };
+}
+
+std::vector<Preset> withPublishedRadii(std::vector<Preset> presets)
+{
+  for (std::size_t i = 0; i < radiusHistograms().size(); ++i)
+  {
+    presets.push_back(publishedRadii(static_cast<PublishedRadii>(i)));
+  }
+  return presets;
+}
+
 /// The stages of the chain that a stage stands for.
 std::vector<std::string> partsOf(const std::string& stage)
 {
@@ -104,7 +134,7 @@ PropertyValue defaultOf(const std::string& stage, const std::string& property)
 
 const std::vector<Preset>& presets()
 {
-  static const std::vector<Preset> all = { tutorial(),
+  static const std::vector<Preset> all = withPublishedRadii({ tutorial(),
     callosum("EM-like", "which fills 95 %, with gaps of 20 nm, as in tissue that was fixed for electron microscopy",
       "5 % at most between cells, 15 to 20 nm wide, in micrographs of cortex: Arch Neurol 15:633 (1966); more before "
       "fixation: Korogod et al. 2015 (eLife 4:e05793)",
@@ -114,7 +144,7 @@ const std::vector<Preset>& presets()
       "103:5567)",
       { { bundle, "GrownFibreVolumeFraction", 0.8 }, { growth, "MinimumGap", 0.04 } }),
     crossing(60.0, "93.5"), crossing(90.0, "92.2"), histology("a", 0.25, 0.60, 0.54), histology("b", 0.25, 0.68, 0.61),
-    histology("c", 0.31, 0.75, 0.67), histology("d", 0.39, 0.76, 0.68) };
+    histology("c", 0.31, 0.75, 0.67), histology("d", 0.39, 0.76, 0.68) });
   return all;
 }
 

@@ -2,13 +2,17 @@
 #include "stages/StageWork.h"
 
 #include "base/Error.h"
+#include "base/Limits.h"
 #include "bundle/RadiusColumn.h"
 #include "fibres/TrimToDomain.h"
+#include "io/FileCollection.h"
 #include "io/StrandFile.h"
+#include "io/TractogramFile.h"
 #include "optimiser/OverlapReport.h"
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <numeric>
 
 namespace cactus
@@ -69,6 +73,31 @@ void keepRadiusTable(const RadiusDistributionOptions& radius, const std::string&
   {
     record.files.push_back({ "RadiusTableFile", path });
   }
+}
+
+/// A number for each streamline, of the values that the file calls so or of the groups; none where it has neither.
+std::vector<int> bundlesOf(const Tractogram& tractogram)
+{
+  constexpr char name[] = "BundleId";
+  const TractogramValues* values = valuesNamed(tractogram.streamlineValues, name);
+  if (values == nullptr)
+  {
+    return bundlesByGroup(tractogram);
+  }
+  if (values->components != 1)
+  {
+    throw InvalidInput(text("array BundleId must have one component and ", tractogram.size(), " values"));
+  }
+  std::vector<int> bundles;
+  for (const double value : values->values)
+  {
+    if (!limits::id.holds(value) || value != std::floor(value))
+    {
+      throw InvalidInput(text("BundleId of streamline ", bundles.size() + 1, " is ", value, ": ids are whole numbers from 1 on"));
+    }
+    bundles.push_back(static_cast<int>(value));
+  }
+  return bundles;
 }
 
 /// The distribution with the table that a stage was given.
@@ -136,6 +165,63 @@ StageRecord tractRecord(
     { "BundleDiameter", report.bundleDiameter }, { "Smoothing", report.smoothing },
     { "Middle", std::vector<double>(report.middle.data(), report.middle.data() + 3) } };
   return record;
+}
+
+Tractogram tractogramOf(const TractogramReaderStage& stage, const Context& context)
+{
+  if (stage.fileName.empty())
+  {
+    throw InvalidInput("FileName is empty: name the tractogram to read");
+  }
+  Tractogram tractogram = readTractogram(stage.fileName, context);
+  setLengths(tractogram, stage.lengthUnit, stage.radius);
+  return tractogram;
+}
+
+StageRecord tractogramRecord(const TractogramReaderStage& stage)
+{
+  StageRecord record;
+  record.filter = "TractogramReader";
+  record.properties = TractogramReaderStage::properties().states(stage);
+  std::error_code error;
+  if (!std::filesystem::is_directory(stage.fileName, error))
+  {
+    record.files.push_back({ "FileName", stage.fileName });
+    return record;
+  }
+  for (const std::string& name : Folder(stage.fileName).names())
+  {
+    record.files.push_back({ "FileName", (std::filesystem::path(stage.fileName) / name).string() });
+  }
+  return record;
+}
+
+Streamlines streamlinesOf(const std::vector<const Tractogram*>& tractograms)
+{
+  Streamlines all;
+  bool haveBundles = true;
+  for (const Tractogram* tractogram : tractograms)
+  {
+    const std::vector<int> bundles = bundlesOf(*tractogram);
+    haveBundles = haveBundles && bundles.size() == tractogram->size();
+    all.bundleIds.insert(all.bundleIds.end(), bundles.begin(), bundles.end());
+    const std::size_t before = all.points.size();
+    all.points.reserve(before + tractogram->pointCount());
+    for (std::size_t p = 0; p < tractogram->pointCount(); ++p)
+    {
+      all.points.emplace_back(tractogram->points.data() + 3 * p);
+    }
+    for (std::size_t s = 1; s < tractogram->offsets.size(); ++s)
+    {
+      all.offsets.push_back(before + tractogram->offsets[s]);
+    }
+  }
+  if (!haveBundles)
+  {
+    all.bundleIds.clear();
+  }
+  validate(all);
+  return all;
 }
 
 std::string remarksOnTract(const TractFibresReport& report)

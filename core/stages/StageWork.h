@@ -3,12 +3,15 @@
 // its record, and what its user is told.
 #pragma once
 
+#include "base/Context.h"
 #include "base/Provenance.h"
 #include "bundle/BundleInitializer.h"
+#include "bundle/Streamlines.h"
 #include "bundle/TractFibres.h"
 #include "fibres/Fibres.h"
 #include "io/SubstrateContents.h"
 #include "io/SubstrateProduction.h"
+#include "io/Tractogram.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "stages/Stages.h"
 
@@ -33,6 +36,14 @@ StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitia
 TractFibresOptions tractOptions(const TractFibresStage& stage);
 StageRecord tractRecord(
   const TractFibresStage& stage, const TractFibresOptions& options, std::size_t fibres, const TractFibresReport& report);
+
+/// The tractogram of the file, with its lengths in the unit that is asked for. Throws InvalidInput where none is named, and as
+/// readTractogram() does.
+Tractogram tractogramOf(const TractogramReaderStage& stage, const Context& context = {});
+/// Of a .trx that is a folder all files in it are noted.
+StageRecord tractogramRecord(const TractogramReaderStage& stage);
+/// The streamlines of several tractograms one after the other, validated, with bundles where all of them have any.
+Streamlines streamlinesOf(const std::vector<const Tractogram*>& tractograms);
 
 /// What of the streamlines the fibres do not follow; empty where they follow all.
 std::string remarksOnTract(const TractFibresReport& report);

@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/MyelinThickness.h"
 #include "base/RandomVariates.h"
 
 #include <algorithm>
@@ -17,21 +18,20 @@ double logLinearGRatio(double outerDiameter)
   {
     throw InvalidInput("a fibre's diameter must be positive");
   }
-  const auto outerOf = [](double d) { return d + 2.0 * (0.35 + 0.006 * d + 0.024 * std::log(d)); };
   double lower = smallestGRatio * outerDiameter;
   double upper = largestGRatio * outerDiameter;
-  if (outerOf(lower) >= outerDiameter)
+  if (logLinearOuterDiameter(lower) >= outerDiameter)
   {
     return smallestGRatio;
   }
-  if (outerOf(upper) <= outerDiameter)
+  if (logLinearOuterDiameter(upper) <= outerDiameter)
   {
     return largestGRatio;
   }
   while (upper - lower > 1e-12 * outerDiameter)
   {
     const double middle = 0.5 * (lower + upper);
-    (outerOf(middle) < outerDiameter ? lower : upper) = middle;
+    (logLinearOuterDiameter(middle) < outerDiameter ? lower : upper) = middle;
   }
   return 0.5 * (lower + upper) / outerDiameter;
 }

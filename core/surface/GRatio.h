@@ -19,11 +19,10 @@ enum class GRatioModel
 constexpr double smallestGRatio = 0.3;
 constexpr double largestGRatio = 0.95;
 
-/// The g-ratio of a fibre of outer diameter `outerDiameter` (µm) whose myelin is 0.35 + 0.006 D + 0.024 ln D µm thick, D the
-/// axon's diameter in µm (Lee et al. 2019, from electron microscopy of mouse corpus callosum; ln is the natural logarithm).
+/// The g-ratio of a fibre of outer diameter `outerDiameter` (µm) whose myelin is as thick as its axon asks for, see
+/// base/MyelinThickness.h, which is inverted here.
 ///
-/// D is the solution of D + 2 (0.35 + 0.006 D + 0.024 ln D) = outerDiameter, which rises with D and so has exactly one. The
-/// relation leaves no axon worth the name in thin fibres (at 1 µm g is 0.35), for which it was not measured: the result is at
+/// The relation leaves no axon worth the name in thin fibres (at 1 µm g is 0.35), for which it was not measured: the result is at
 /// least smallestGRatio. It is at most largestGRatio, which is passed at 30 µm. Throws InvalidInput unless the diameter is
 /// positive and finite.
 double logLinearGRatio(double outerDiameter);

@@ -4,10 +4,12 @@ done. RECIPES is the folder of the examples."""
 
 import glob
 import json
+import math
 import os
 import pty
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -99,6 +101,51 @@ class Command(unittest.TestCase):
         done = self.run_it("strands", "--output", "third")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertRegex(done.stderr, r"StrandReader: .*fibres\.strands, which it has read, is another file than it was")
+
+    def tract(self, name="tract.tck", **header):
+        """A streamline (mm) along x, and one beside it."""
+        points = [(x, y, z) for y in (0.0, 1.0) for x, z in ((-9.0, 0.0), (0.0, 0.3), (9.0, 0.0))]
+        rows = [*points[:3], 3 * (math.nan,), *points[3:], 3 * (math.nan,), 3 * (math.inf,)]
+        text = "mrtrix tracks\ndatatype: Float32LE\n" + "".join(f"{key}: {value}\n" for key, value in header.items()) + "file: . 128\nEND\n"
+        with open(os.path.join(self.folder, name), "wb") as file:
+            file.write(text.encode().ljust(128, b"\0") + b"".join(struct.pack("<3f", *row) for row in rows))
+
+    def test_along_a_tract(self):
+        self.tract(count=7)
+        growth = SMALL["FibreRadialGrowth"]
+        laid = {"ScaleFactor": 0.001, "Side": 4, "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0}
+        recipe = {"TractogramReader": {"FileName": "tract.tck"}, "TractFibres": laid, "FibreRadialGrowth": growth}
+        done = subprocess.run([PROGRAM, self.recipe(recipe)], capture_output=True, text=True, cwd="/")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"tract\.tck: the header says that there are 7 streamlines, and there are 2")
+        again = self.run_it("recipe", "--threads", "1")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(files(os.path.join(self.folder, "recipe-rerun")), files(os.path.join(self.folder, "recipe")))
+        with open(os.path.join(self.folder, "recipe", "manifest.json"), encoding="utf-8") as file:
+            stages = [stage["filter"] for stage in json.load(file)["provenance"]]
+        self.assertEqual(stages[:3], ["TractogramReader", "TractFibres", "CapsuleOptimizer"])
+        self.tract(count=2)
+        done = self.run_it("recipe", "--output", "other")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, r"TractogramReader: .*tract\.tck, which it has read, is another file than it was")
+
+    def test_refuses_tracts_that_are_none(self):
+        self.tract()
+        with open(os.path.join(self.folder, "cut.tck"), "wb") as file, open(os.path.join(self.folder, "tract.tck"), "rb") as whole:
+            file.write(whole.read()[:-12])
+        reader = {"TractogramReader": {"FileName": "tract.tck"}}
+        for content, pattern, status in (
+            (reader, r"TractogramReader gives streamlines, which nothing follows: add TractFibres$", 2),
+            ({"TractFibres": {}}, r"TractFibres has no streamlines to follow: name a file in TractogramReader$", 2),
+            ({"TractogramReader": {}, "TractFibres": {}}, r"TractogramReader: FileName is empty", 2),
+            ({"TractogramReader": {"FileName": "missing.trk"}, "TractFibres": {}}, r"cannot open tractogram .*missing\.trk: No such file", 2),
+            ({"TractogramReader": {"FileName": "recipe.json"}, "TractFibres": {}}, r"a tractogram's name ends in \.tck, \.trk or \.trx$", 2),
+            ({**reader, "TractFibres": {"Side": -1}}, r"TractFibres: Side is -1: give 0\.1 to 100000 µm$", 2),
+            ({"TractogramReader": {"FileName": "cut.tck"}, "TractFibres": {}}, r"cut\.tck is truncated", 1),
+            ({**reader, "TractFibres": {"Select": "Bundle"}}, r"no cell data BundleId|no BundleId", 1),
+        ):
+            with self.subTest(pattern=pattern):
+                self.assertRefused(content, pattern, status)
 
     def test_refuses_what_is_no_recipe(self):
         for content, pattern in (

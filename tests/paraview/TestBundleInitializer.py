@@ -94,6 +94,24 @@ class BundleInitializerTest(CactusTestCase):
         self.assertAlmostEqual(radii.mean(), 0.7, delta=0.015)
         self.assertAlmostEqual(radii.std(), 0.1, delta=0.01)
 
+    def test_radii_as_they_were_published(self):
+        """Of many fibres, as large as they have to be to count them."""
+        bundle = {"RadiusDistribution": "Histogram", "MinimumRadius": 0.01, "MaximumRadius": 20, "Side": 60, "FibreVolumeFraction": 0.5}
+        genu = ends(fetch(drawn_radii(RadiusHistogramGRatio=1, **bundle)))[2]
+        self.assertAlmostEqual(genu.mean(), 0.470, delta=4 * 0.275 / np.sqrt(len(genu)))
+        self.assertGreater(len(genu), 1000)
+        self.assertTrue(((genu > 0.05) & (genu < 1.85)).all())
+        visual = {**bundle, "RadiusHistogram": "Human visual (Caminiti 2009)"}
+        inner = 0.7 * ends(fetch(drawn_radii(**visual)))[2]
+        self.assertAlmostEqual(inner.mean(), 0.611, delta=4 * 0.245 / np.sqrt(len(inner)))
+        swollen = ends(fetch(drawn_radii(RadiusHistogramFactor=1.5, **visual)))[2]
+        self.assertAlmostEqual(0.7 * swollen.mean(), 1.5 * 0.611, delta=4 * 1.5 * 0.245 / np.sqrt(len(swollen)))
+        names = BundleInitializer().GetProperty("RadiusHistogram").Available
+        self.assertEqual(len(names), 10)
+        for name in names:
+            radii = ends(fetch(drawn_radii(RadiusHistogram=name, RadiusHistogramGRatio=0, **bundle)))[2]
+            self.assertGreater(radii.min(), 0.3, f"{name}: the relation's myelin is more than 0.3 µm thick")
+
     def test_seeds(self):
         one = ends(fetch(drawn_radii(Seed=5)))
         again = ends(fetch(drawn_radii(Seed=5)))
@@ -115,6 +133,9 @@ class BundleInitializerTest(CactusTestCase):
             (r"GammaScale is -1", {"GammaScale": -1}),
             (r"LognormalMean is 0", {"RadiusDistribution": "Lognormal", "LognormalMean": 0}),
             (r"LognormalDeviation is 0", {"RadiusDistribution": "Lognormal", "LognormalDeviation": 0}),
+            (r"RadiusHistogramGRatio is 0\.05", {"RadiusDistribution": "Histogram", "RadiusHistogramGRatio": 0.05}),
+            (r"RadiusHistogramFactor is 0", {"RadiusDistribution": "Histogram", "RadiusHistogramFactor": 0}),
+            (r"hardly any of the RadiusDistribution", {"RadiusDistribution": "Histogram", "MinimumRadius": 5, "MaximumRadius": 6}),
             (r"RadiusTable is empty", {"RadiusDistribution": "Table"}),
             (r"RadiusTable holds \"thin\"", {"RadiusDistribution": "Table", "RadiusTable": "0.5 thin"}),
             (r"RadiusTable holds 7", {"RadiusDistribution": "Table", "RadiusTable": "0.5 7"}),

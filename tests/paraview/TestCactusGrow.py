@@ -6,10 +6,12 @@ import json
 import os
 import subprocess
 
+import numpy
 from cactus_testing import CactusTestCase, main
 from folder_content import files
-from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
-                             SubstrateProduction, SubstrateWriter)
+from nibabel.streamlines import TckFile, Tractogram
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort, Placement,
+                             SubstrateProduction, SubstrateWriter, TractFibres, TractogramReader)
 
 PROGRAM = os.path.join(os.environ["CACTUS_TOOLS"], "cactus-grow")
 BUNDLE = {"Side": 4, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0}
@@ -78,6 +80,59 @@ class CactusGrow(CactusTestCase):
         self.write(fibres, {"VoxelSize": 0.15}, {})
         self.grow({"Preset": "Histological target c", "BundleInitializer": {"Side": 6, "MinimumRadius": 0.4}, "FibreRadialGrowth": {"VoxelSize": 0.15}}, "grown")
         self.assertSame("filters", "grown")
+
+    def tract(self, name, group=False):
+        """Streamlines (mm) that bend beside each other; in a .trx of two groups, as a folder, or in a .tck."""
+        angles = numpy.linspace(-0.6, 0.6, 25)
+        streamlines = [numpy.column_stack([40 * numpy.cos(angles) - 40, 0 * angles + 3 * beside, 40 * numpy.sin(angles)]).astype("<f4")
+                       for beside in range(-1, 2)]
+        path = self.path(name)
+        if not group:
+            TckFile(Tractogram(streamlines, affine_to_rasmm=numpy.eye(4))).save(path)
+            return path
+        os.makedirs(os.path.join(path, "groups"))
+        points = numpy.concatenate(streamlines)
+        with open(os.path.join(path, "header.json"), "w", encoding="utf-8") as file:
+            json.dump({"NB_VERTICES": len(points), "NB_STREAMLINES": 3, "DIMENSIONS": [9, 9, 9], "VOXEL_TO_RASMM": numpy.eye(4).tolist()}, file)
+        points.tofile(os.path.join(path, "positions.3.float32"))
+        numpy.array([0, 25, 50], "<u8").tofile(os.path.join(path, "offsets.uint64"))
+        numpy.array([0, 2], "<u4").tofile(os.path.join(path, "groups", "outer.uint32"))
+        numpy.array([1], "<u4").tofile(os.path.join(path, "groups", "inner.uint32"))
+        return path
+
+    TRACT = {"Side": 5, "ScaleFactor": 0.001, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0}
+
+    def test_fibres_along_a_tract(self):
+        path = self.tract("tract.tck")
+        reader = TractogramReader(FileName=path, LengthUnit="Millimetre")
+        fibres = OutputPort(CapsuleOptimizer(Input=TractFibres(Input=reader, LengthUnit="Millimetre", **self.TRACT)), 0)
+        self.write(fibres, GROWTH, {})
+        # Named as it is found from where the recipe is; the record has the path as it was given.
+        self.grow({"TractogramReader": {"FileName": path, "LengthUnit": "Millimetre"}, "TractFibres": {"LengthUnit": "Millimetre", **self.TRACT},
+                   "FibreRadialGrowth": GROWTH}, "grown")
+        self.assertSame("filters", "grown")
+        self.grow(self.path("filters"), "again")
+        self.assertSame("filters", "again")
+
+    def test_groups_of_a_tract_and_tracts_in_blocks(self):
+        """Bundles of a .trx that is a folder, beside a straight bundle; and two tracts at one input, of which one has no bundles."""
+        groups, plain = self.tract("tract.trx", group=True), self.tract("tract.tck")
+        reader = TractogramReader(FileName=groups, Radius=0.2)
+        chosen = {"Select": "Bundle", "BundleId": 1, "NumberOfStreamlines": 0, "BundleDiameter": 3.5, **self.TRACT, "FibreVolumeFraction": 0.4}
+        both = GroupDatasets(Input=[TractogramReader(FileName=plain), reader])
+        bundles = [BundleInitializer(**{**BUNDLE, "Side": 5}), TractFibres(Input=reader, **chosen), TractFibres(Input=both, Seed=5, **self.TRACT)]
+        fibres = OutputPort(CapsuleOptimizer(Input=bundles), 0)
+        self.write(fibres, {**GROWTH, "GrowthIterations": 0}, {})
+        self.grow(self.path("filters"), "grown")
+        self.assertSame("filters", "grown")
+
+    def test_what_is_placed_is_for_paraview(self):
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(**BUNDLE)), 0)
+        made = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, **GROWTH))
+        SubstrateWriter(Outer=Placement(Input=OutputPort(made, 0), PositionX=3), FolderName=self.path("placed")).UpdatePipeline()
+        done = subprocess.run([PROGRAM, self.path("placed")], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout, len(done.stderr.splitlines())), (2, "", 1))
+        self.assertRegex(done.stderr, r"there is no stage Placement that could be run without ParaView \(\./cactus rerun may\)")
 
     def test_a_production(self):
         fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(**BUNDLE)), 0)

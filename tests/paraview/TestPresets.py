@@ -149,6 +149,17 @@ class Presets(CactusTestCase):
             bundle, _, myelin = self.chain(Preset=TARGET + "abcd"[i])
             self.assertEqual((myelin.TargetAxonVolumeFraction, bundle.GrownFibreVolumeFraction), (target[0], target[2]))
 
+    def test_axons_are_as_thick_as_published(self):
+        """Axons of the finished surfaces, by a preset with a g-ratio and by that with a relation for the myelin."""
+        for preset, mean, deviation in (("Human genu (Aboitiz 1992)", 0.48, 0.27), ("Mouse genu (Lee 2019)", 0.51, 0.145)):
+            initial, growth, myelin = self.chain(Preset=preset, Side=14)
+            self.assertEqual([one.Preset for one in (initial, growth, myelin)], [preset] * 3)
+            statistics = simple.SubstrateStatistics(Fibres=simple.OutputPort(myelin, 0))
+            column = fetch(statistics, 1).GetColumnByName("InnerRadius_um")
+            radii = [radius for radius in (column.GetValue(i) for i in range(column.GetNumberOfTuples())) if radius > 0]
+            self.assertGreater(len(radii), 40)
+            self.assertAlmostEqual(sum(radii) / len(radii), mean, delta=3 * deviation / len(radii) ** 0.5, msg=preset)
+
     def test_substrates_are_as_their_presets_say(self):
         for preset, fraction, gap in ((ALIVE, 0.80, 0.04), (TUTORIAL, 0.90, 0.02)):
             _, growth, myelin = self.chain(Preset=preset, Side=7)

@@ -50,7 +50,7 @@ NAMES = {
     "SubstrateWriter": {"MinimumGap": -1},
 }
 CHOICES = {
-    ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table"],
+    ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table", "Histogram"],
     ("BundleInitializer", "DispersionModel"): ["Watson", "Cone", "Coherent"],
     ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],
 }

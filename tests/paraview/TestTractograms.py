@@ -148,6 +148,45 @@ class Tractograms(CactusTestCase):
     def fibres(self):
         return BundleInitializer(Side=12, FibreVolumeFraction=0.3, MinimumRadius=0.4, NumberOfBundles=2)
 
+    def many(self, name, count):
+        """A file of so many streamlines of three points, in any order of the bytes that the format has."""
+        points = numpy.random.default_rng(3).uniform(-70, 70, (count, 3, 3)).astype("<f4")
+        if name.endswith(".tck"):
+            rows = numpy.full((count, 4, 3), numpy.nan, "<f4")
+            rows[:, :3] = points
+            header = b"mrtrix tracks\ndatatype: Float32LE\nfile: . 128\nEND\n".ljust(128, b"\0")
+            return self.write(name, header + rows.tobytes() + numpy.full(3, numpy.inf, "<f4").tobytes()), points
+        streamlines = numpy.empty(count, [("size", "<i4"), ("points", "<f4", (3, 3))])
+        streamlines["size"], streamlines["points"] = 3, points + 0.5  # its corner is the origin
+        header = bytearray(1000)
+        struct.pack_into("<6s3h3f", header, 0, b"TRACK", 9, 9, 9, 1, 1, 1)
+        struct.pack_into("<16f", header, 440, *numpy.eye(4).ravel())
+        struct.pack_into("<4s", header, 948, b"RAS")
+        struct.pack_into("<3i", header, 988, count, 2, 1000)
+        return self.write(name, bytes(header) + streamlines.tobytes()), points
+
+    def memory(self, what):
+        """In MB: VmRSS now, or VmHWM, the most since it was asked for."""
+        with open("/proc/self/status", encoding="ascii") as file:
+            return next(int(line.split()[1]) / 1024 for line in file if line.startswith(what))
+
+    def test_many_streamlines_take_the_memory_of_their_data(self):
+        for name in ("many.tck", "many.trk"):
+            path, points = self.many(name, 1000000)
+            reader = TractogramReader(FileName=path, LengthUnit="Millimetre")
+            with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
+                file.write("5")  # the most is what there is now
+            before = self.memory("VmRSS")
+            reader.UpdatePipeline()
+            taken = self.memory("VmHWM") - before
+            data = reader.GetDataInformation().GetMemorySize() / 1024
+            self.assertGreater(data, 90)
+            self.assertLess(taken, 1.2 * data, name)
+            output = reader.GetClientSideObject().GetOutput()
+            self.assertEqual(output.GetNumberOfLines(), len(points))
+            numpy.testing.assert_allclose(vtk_to_numpy(output.GetPoints().GetData()), points.reshape(-1, 3), atol=1e-4)
+            os.remove(path)
+
     def test_tck_out(self):
         fibres = self.fibres()
         SaveData(self.path("fibres.tck"), proxy=fibres)

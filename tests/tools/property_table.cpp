@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints what the stages' descriptions say of their properties: docs/properties.md or, with --json, the same for programs.
 #include "base/Numbers.h"
+#include "bundle/RadiusHistogram.h"
 #include "stages/Presets.h"
 #include "stages/Stages.h"
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstring>
 #include <iostream>
 #include <stdexcept>
@@ -139,6 +141,28 @@ void printPresets()
   }
 }
 
+/// To two digits after the point.
+std::string roundedText(double value)
+{
+  return cactus::exactText(std::round(100.0 * value) / 100.0);
+}
+
+void printHistograms()
+{
+  std::cout
+    << "\n## Published radii\n\n"
+       "What `RadiusHistogram` offers ([histology](histology.md#axons-as-they-were-published)): radii of axons without their "
+       "myelin, in\nfixed tissue, in µm.\n\n"
+       "| histogram | mean ± deviation | effective, (⟨r⁶⟩/⟨r²⟩)^¼ | from, to | source |\n|---|---|---|---|---|\n";
+  for (const cactus::RadiusHistogram& histogram : cactus::radiusHistograms())
+  {
+    std::cout << "| " << histogram.name << " | " << roundedText(histogram.meanRadius()) << " ± "
+              << roundedText(histogram.deviation()) << " | " << roundedText(histogram.effectiveRadius()) << " | "
+              << roundedText(histogram.smallestRadius()) << ", " << roundedText(histogram.largestRadius()) << " | "
+              << histogram.source << ". |\n";
+  }
+}
+
 void printTables()
 {
   std::cout
@@ -161,6 +185,7 @@ void printTables()
     }
   }
   printPresets();
+  printHistograms();
 }
 
 } // namespace

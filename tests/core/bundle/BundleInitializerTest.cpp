@@ -332,7 +332,23 @@ TEST(BundleInitializer, BadParametersAreNamed)
   names("DispersionModel", [](auto& o) { o.dispersionModel = static_cast<DispersionModel>(3); });
   names("CorrelationLength", [](auto& o) { o.correlationLength = -1.0; });
   names("CorrelationLength", [](auto& o) { o.correlationLength = 0.01; });
-  names("RadiusDistribution", [](auto& o) { o.radius.model = static_cast<RadiusModel>(3); });
+  names("RadiusDistribution", [](auto& o) { o.radius.model = static_cast<RadiusModel>(4); });
+  const auto histogram = [&](const char* property, const std::function<void(RadiusDistributionOptions&)>& change)
+  {
+    names(property,
+      [&](auto& o)
+      {
+        o.radius.model = RadiusModel::Histogram;
+        change(o.radius);
+      });
+    // Of other distributions they are not asked for.
+    EXPECT_EQ(errorOf([&](auto& o) { change(o.radius); }).find(property), std::string::npos);
+  };
+  histogram("RadiusHistogram has no choice 10", [](auto& r) { r.histogram = static_cast<PublishedRadii>(10); });
+  histogram("RadiusHistogram has no choice -1", [](auto& r) { r.histogram = static_cast<PublishedRadii>(-1); });
+  histogram("RadiusHistogramFactor is 0", [](auto& r) { r.histogramFactor = 0.0; });
+  histogram("RadiusHistogramGRatio is 1.5", [](auto& r) { r.histogramGRatio = 1.5; });
+  histogram("RadiusHistogramGRatio is nan", [](auto& r) { r.histogramGRatio = std::nan(""); });
   sheets("CrossingStyle", [](auto& o) { o.crossingStyle = static_cast<CrossingStyle>(2); });
   for (const double large : { 1e7, 1e300 })
   {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Constants.h"
+#include "base/Context.h"
+#include "base/Domain.h"
+#include "base/Properties.h"
+#include "mesh/FibreSurfaces.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace cactus
+{
+
+/// How walkers go outside the fibres.
+struct ExtraAxonalWalkOptions
+{
+  int walkers = 0; ///< 0: none
+  /// µm along each axis that a free walker has moved in the end (root mean square).
+  double distance = 5.0;
+  double step = 0.1; ///< µm, between two changes of direction
+  std::uint64_t seed = 1;
+
+  static const PropertyList<ExtraAxonalWalkOptions>& properties();
+};
+
+/// Diffusion outside the fibres over the free one, in the long run; NaN without walkers.
+struct ExtraAxonalDiffusion
+{
+  Eigen::Vector3d ratio = Eigen::Vector3d::Constant(notANumber);         ///< D∞/D₀ along x, y and z
+  Eigen::Vector3d standardError = Eigen::Vector3d::Constant(notANumber); ///< of each
+  std::size_t leaked = 0; ///< walkers that came to be inside a fibre or in no room, and do not count
+};
+
+/// A random walk outside the surfaces: steps of one length in random directions, which walls and the domain's faces reflect. A
+/// face mirrors the substrate, so that walkers go on in its mirror image: the space has no end, and displacements are those in
+/// it.
+///
+/// The ratio is the growth of the mean squared displacement over the second half of the walk, over that of free walkers: what
+/// happened before the walkers had seen the fibres around them drops out (D(t) − D∞ falls off as ln t / t, Burcaw et al.
+/// 2015, NeuroImage 114:18). A step may be longer than a gap is wide: between parallel walls it moves a walker along them as it
+/// would without them. The result does not depend on threads.
+///
+/// Surfaces have to be closed, apart from each other, and in the domain. Throws Infeasible where hardly any of the domain is
+/// outside, and where more than one in a hundred walkers leaks; InvalidInput for options out of range; Cancelled.
+ExtraAxonalDiffusion walkOutside(
+  const Domain& domain, const FibreSurfaces& outer, const ExtraAxonalWalkOptions& options, const Context& context = {});
+
+} // namespace cactus

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantee: walkers outside fibres diffuse as fast as theory has it, on any number of threads, and do not leak unseen.
+#include "judge/ExtraAxonalWalk.h"
+
+#include "ExampleSurfaces.h"
+#include "base/Error.h"
+#include "judge/SubstrateStatistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace cactus;
+
+namespace
+{
+
+constexpr double side = 2.0;
+constexpr int corners = 96;
+
+/// A straight tube in the middle of a cube, which the cube's faces mirror into a square array of tubes that fill this much of it.
+FibreSurfaces array(double fraction)
+{
+  const double area = fraction * side * side;
+  const double radius = std::sqrt(area / (0.5 * corners * std::sin(2.0 * pi / corners)));
+  return example::surfacesOf({ 1 }, { example::tube(0.0, 0.0, radius, -0.5 * side, 0.5 * side, corners, 1) });
+}
+
+ExtraAxonalWalkOptions walks(int walkers, double distance, double step)
+{
+  ExtraAxonalWalkOptions options;
+  options.walkers = walkers;
+  options.distance = distance;
+  options.step = step;
+  return options;
+}
+
+/// Diffusivity between the tubes of a square array, across them, over the free one: the conductivity of the whole (Perrins,
+/// McKenzie and McPhedran 1979, Proc R Soc A 369:207) over what conducts.
+double perrins(double f)
+{
+  const double f4 = std::pow(f, 4);
+  const double f8 = f4 * f4;
+  const double conductivity = 1.0 - 2.0 * f / (1.0 + f - 0.305827 * f4 / (1.0 - 1.402958 * f8) - 0.013362 * f8);
+  return conductivity / (1.0 - f);
+}
+
+} // namespace
+
+TEST(ExtraAxonalWalk, IsAsFastAsTheoryHasItBetweenTubes)
+{
+  for (const double fraction : { 0.4, 0.7 })
+  {
+    const ExtraAxonalDiffusion found = walkOutside(Domain::cube(side), array(fraction), walks(1000, 3.0, 0.05));
+    const double across = 0.5 * (found.ratio[0] + found.ratio[1]);
+    const double error = std::hypot(found.standardError[0], found.standardError[1]) / 2.0;
+    EXPECT_NEAR(across, perrins(fraction), 3.0 * error) << fraction;
+    EXPECT_NEAR(found.ratio[2], 1.0, 3.0 * found.standardError[2]) << fraction;
+    EXPECT_LT(error, 0.06 * across);
+    EXPECT_EQ(found.leaked, 0u);
+  }
+  EXPECT_GT(perrins(0.4) - perrins(0.7), 0.2) << "or the test would not see a difference";
+}
+
+/// Along a gap that is thinner than a step is long, walkers are as fast as if it were wide: two boxes with 0.02 µm between them.
+TEST(ExtraAxonalWalk, GapsMayBeThinnerThanAStepIsLong)
+{
+  const Eigen::Vector3d low(-1.0, -1.0, -1.0);
+  const Eigen::Vector3d high(1.0, 1.0, 1.0);
+  const FibreSurfaces walls =
+    example::surfacesOf({ 1, 2 }, { example::box(low, { 1.0, -0.01, 1.0 }), example::box({ -1.0, 0.01, -1.0 }, high) });
+  const ExtraAxonalDiffusion found = walkOutside(Domain::cube(side), walls, walks(2000, 2.0, 0.1));
+  EXPECT_NEAR(found.ratio[0], 1.0, 3.0 * found.standardError[0]);
+  EXPECT_NEAR(found.ratio[2], 1.0, 3.0 * found.standardError[2]);
+  EXPECT_LT(std::abs(found.ratio[1]), 0.001);
+  EXPECT_EQ(found.leaked, 0u);
+}
+
+TEST(ExtraAxonalWalk, HasTheErrorOfItsNumberOfWalkers)
+{
+  const ExtraAxonalDiffusion found = walkOutside(Domain::cube(side), array(0.1), walks(4000, 1.0, 0.1));
+  // Of x² − m² with m half way: √6 of its mean.
+  for (const int axis : { 0, 1, 2 })
+  {
+    EXPECT_NEAR(found.standardError[axis], std::sqrt(6.0 / 4000.0) * found.ratio[axis], 0.1 * found.standardError[axis]);
+  }
+}
+
+TEST(ExtraAxonalWalk, IsTheSameOnAnyNumberOfThreadsAndForTheSameSeed)
+{
+  ExtraAxonalWalkOptions options = walks(50, 2.0, 0.1);
+  const auto on = [&](int threads)
+  {
+    Context context;
+    context.threads = threads;
+    return walkOutside(Domain::cube(side), array(0.5), options, context).ratio;
+  };
+  EXPECT_EQ(on(1), on(3));
+  const Eigen::Vector3d first = on(1);
+  options.seed = 2;
+  EXPECT_NE(on(1), first);
+}
+
+TEST(ExtraAxonalWalk, IsNotTakenUnasked)
+{
+  const ExtraAxonalDiffusion found = walkOutside(Domain::cube(side), array(0.5), {});
+  EXPECT_TRUE(std::isnan(found.ratio[0]));
+}
+
+TEST(ExtraAxonalWalk, SaysWhyItCannotBeTaken)
+{
+  const auto message = [](const FibreSurfaces& surfaces, const ExtraAxonalWalkOptions& options) -> std::string
+  {
+    try
+    {
+      walkOutside(Domain::cube(side), surfaces, options);
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_NE(message(array(0.5), walks(10, 1000.0, 0.01)).find("WalkStep 0.01 µm makes walks of 3e+10 steps"), std::string::npos);
+  EXPECT_NE(message(array(0.5), walks(-1, 1.0, 0.1)).find("ExtraAxonalWalkers is -1"), std::string::npos);
+  EXPECT_NE(message(array(0.5), walks(10, 1.0, 0.0)).find("WalkStep is 0"), std::string::npos);
+  const FibreSurfaces full = example::surfacesOf({ 1 }, { example::box({ -1.5, -1.5, -1.5 }, { 1.5, 1.5, 1.5 }) });
+  EXPECT_NE(message(full, walks(10, 1.0, 0.1)).find("none lay outside the fibres"), std::string::npos);
+  TriangleMesh open = example::tube(0.0, 0.0, 0.8, -1.0, 1.0, 24, 1);
+  open.triangles.erase(open.triangles.begin(), open.triangles.begin() + 20);
+  EXPECT_NE(
+    message(example::surfacesOf({ 1 }, { open }), walks(200, 2.0, 0.1)).find("came to be inside a fibre"), std::string::npos);
+}
