@@ -117,12 +117,17 @@ def not_finite(outputs):
     for port, data in enumerate(outputs):
         for name, value in contents(data):
             if not isinstance(value, str) and value.dtype.kind == "f" and value.size:
-                with np.errstate(all="ignore"):
-                    fine = np.abs(value) < 1e15
-                    if MAY_BE_MISSING.search(name):
-                        fine |= ~np.isfinite(value)
-                    if not np.all(fine):
-                        result.add(f"{port}.{name.split('.', 1)[1]}")
+                may_be_missing = MAY_BE_MISSING.search(name)
+                flat = value.ravel()
+                for first in range(0, flat.size, 10**6):  # in parts: this process has a limit of memory, too
+                    part = flat[first : first + 10**6]
+                    with np.errstate(all="ignore"):
+                        fine = np.abs(part) < 1e15
+                        if may_be_missing:
+                            fine |= ~np.isfinite(part)
+                        if not np.all(fine):
+                            result.add(f"{port}.{name.split('.', 1)[1]}")
+                            break
     return result
 
 
