@@ -551,7 +551,9 @@ class Bench:
         with socket.socket() as probe:
             probe.bind(("localhost", 0))
             port = probe.getsockname()[1]
-        environment = {**os.environ, "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        # This process is a run of MPI of its own, of which the server must not know.
+        environment = {one: value for one, value in os.environ.items() if not one.startswith(("PMIX_", "OMPI_", "PRTE_"))}
+        environment.update({"OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
         command = ["pvserver", f"--server-port={port}", "--force-offscreen-rendering"]
         if int(ranks) > 1:
             command = ["mpiexec", "--oversubscribe", "-n", ranks] + command
