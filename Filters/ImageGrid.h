@@ -33,9 +33,9 @@ inline void setGrid(vtkImageData* image, const ImageGrid& grid)
   image->SetSpacing(grid.spacing, grid.spacing, grid.spacing);
 }
 
-/// For RequestInformation: brings the inputs at port 0 up to date, and tells the pipeline the grid that `gridOf(data)` makes of them, and
-/// the type of its active scalars. Where there is no grid the pipeline gets a place holder: it wants to see an extent even where
-/// there cannot be an image.
+/// For RequestInformation: brings the inputs at port 0 up to date, and tells the pipeline the grid that `gridOf(data)` makes of
+/// them, and the type of its active scalars. Where there is no grid the pipeline gets a place holder: it wants to see an extent
+/// even where there cannot be an image.
 template <typename GridOf>
 void announceGrid(vtkAlgorithm* self, vtkInformationVector** inputs, vtkInformationVector* outputs, int scalars, GridOf&& gridOf)
 {

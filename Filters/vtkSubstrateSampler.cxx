@@ -125,8 +125,8 @@ int vtkSubstrateSampler::RequestInformation(vtkInformation*, vtkInformationVecto
   cactus::announceGrid(this, inputs, outputs, VTK_FLOAT,
     [this](vtkDataObject* surfaces)
     {
-      return gridOf(
-        cactus::samplerGrid(cactus::domainFrom(surfaces), cactus::stageOf<cactus::SubstrateSamplerStage>(this->Properties).options));
+      return gridOf(cactus::samplerGrid(
+        cactus::domainFrom(surfaces), cactus::stageOf<cactus::SubstrateSamplerStage>(this->Properties).options));
     });
   return 1;
 }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Run by CPack on what it has installed for the package: puts things where Debian has them. ParaView itself looks for plugins in two
-# ways only: by variables of the environment, and by a list of configuration files, paraview.conf, beside its programs
-# (vtkPVPluginTracker::LoadPluginConfigurationXMLs). Debian's ParaView has no such list, so the package brings it.
+# ways only: by variables of the environment, and by a list of configuration files, paraview.conf, beside its libraries or its
+# programs (vtkPVPluginTracker::LoadPluginConfigurationXMLs). Debian 12's ParaView has no such list, so the package brings it; the
+# list of Debian 13's names a file outside its folders, share/paraview/plugins, which is not there until a package brings it.
 set(root "${CPACK_TEMPORARY_INSTALL_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX}")
 set(doc "${root}/share/doc/${CPACK_PACKAGE_NAME}")
 
@@ -17,7 +18,20 @@ endif ()
 # What other builds would need of it, and nobody else.
 file(GLOB archives "${root}/${CPACK_CACTUS_LIBDIR}/*.a")
 file(REMOVE_RECURSE "${root}/${plugins}/CACTUS/vtk" ${archives})
-file(WRITE "${root}/bin/paraview.conf" "${CPACK_PACKAGING_INSTALL_PREFIX}/${plugins}/cactus.plugins.xml\n")
+set(prefix "${CPACK_PACKAGING_INSTALL_PREFIX}")
+set(list "${prefix}/lib/${CPACK_CACTUS_TRIPLET}/${CPACK_CACTUS_PARAVIEW}/paraview.conf")
+set(listed)
+if (EXISTS "${list}")
+  file(STRINGS "${list}" listed REGEX "^${prefix}/share/paraview/plugins$")
+endif ()
+if (listed)
+  set(configuration "${root}/share/paraview/plugins")
+  file(MAKE_DIRECTORY "${root}/share/paraview")
+  configure_file("${root}/${plugins}/cactus.plugins.xml" "${configuration}" COPYONLY)
+else ()
+  set(configuration "${root}/bin/paraview.conf")
+  file(WRITE "${configuration}" "${prefix}/${plugins}/cactus.plugins.xml\n")
+endif ()
 
 # Documents.
 if (NOT "${root}/${CPACK_CACTUS_DOCDIR}" STREQUAL "${doc}")
@@ -42,9 +56,13 @@ foreach (file IN ITEMS "${doc}/changelog" "${root}/${CPACK_CACTUS_MANDIR}/man1/c
   execute_process(COMMAND gzip -9nf "${file}" COMMAND_ERROR_IS_FATAL ANY)
 endforeach ()
 
-# Lintian is told why.
-file(READ "${CPACK_CACTUS_SOURCE}/packaging/debian/lintian-overrides" overrides)
-file(WRITE "${root}/share/lintian/overrides/${CPACK_PACKAGE_NAME}" "${overrides}")
+# Lintian is told why that list is beside programs.
+set(plain "${doc}/copyright" "${configuration}")
+if (NOT listed)
+  file(READ "${CPACK_CACTUS_SOURCE}/packaging/debian/lintian-overrides" overrides)
+  file(WRITE "${root}/share/lintian/overrides/${CPACK_PACKAGE_NAME}" "${overrides}")
+  list(APPEND plain "${root}/share/lintian/overrides/${CPACK_PACKAGE_NAME}")
+endif ()
 
 # Whatever the umask is.
 file(GLOB_RECURSE folders LIST_DIRECTORIES ON "${root}/*")
@@ -54,6 +72,6 @@ foreach (folder IN LISTS folders)
     file(CHMOD "${folder}" PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
   endif ()
 endforeach ()
-foreach (file IN ITEMS "${doc}/copyright" "${root}/bin/paraview.conf" "${root}/share/lintian/overrides/${CPACK_PACKAGE_NAME}")
+foreach (file IN LISTS plain)
   file(CHMOD "${file}" PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 endforeach ()

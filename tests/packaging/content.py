@@ -19,6 +19,14 @@ def output(*command, **options):
     return subprocess.run(command, capture_output=True, text=True, check=True, **options).stdout
 
 
+def lists_plugins():
+    """Whether this Debian's ParaView has a list of configurations which a package can add one to."""
+    for path in glob.glob(f"/usr/lib/*/{PARAVIEW}/paraview.conf"):
+        with open(path, encoding="utf-8") as file:
+            return "/usr/share/paraview/plugins" in file.read().splitlines()
+    return False
+
+
 class Package(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -43,14 +51,20 @@ class Package(unittest.TestCase):
         self.assertNotIn("cactus", depends)
 
     def test_paraview_finds_the_plugin(self):
-        with open(os.path.join(self.root, "usr/bin/paraview.conf"), encoding="utf-8") as file:
-            lines = file.read().splitlines()
-        self.assertEqual(len(lines), 1)
-        self.assertTrue(lines[0].endswith(f"/{PARAVIEW}/plugins/cactus.plugins.xml"), lines)
-        with open(self.root + lines[0], encoding="utf-8") as file:
-            self.assertIn('<Plugin name="CACTUS" auto_load="1"', file.read())
+        configuration = self.one(f"usr/lib/*/{PARAVIEW}/plugins/cactus.plugins.xml")
+        with open(configuration, encoding="utf-8") as file:
+            said = file.read()
+        self.assertIn('<Plugin name="CACTUS" auto_load="1"', said)
         # In the folder of ParaView's own plugins.
-        self.assertTrue(os.path.exists(os.path.join(os.path.dirname(lines[0]), "paraview.plugins.xml")), lines)
+        place = "/" + os.path.relpath(configuration, self.root)
+        self.assertTrue(os.path.exists(os.path.join(os.path.dirname(place), "paraview.plugins.xml")), place)
+        with open(os.path.join(self.root, *self.found_by()), encoding="utf-8") as file:
+            self.assertEqual(file.read(), said if lists_plugins() else place + "\n")
+
+    @staticmethod
+    def found_by():
+        """The file by which ParaView finds the plugin."""
+        return ("usr", "share", "paraview", "plugins") if lists_plugins() else ("usr", "bin", "paraview.conf")
 
     def test_everything_is_where_debian_has_it(self):
         for pattern in ("usr/bin/cactus-grow", "usr/share/man/man1/cactus-grow.1.gz", "usr/share/doc/cactus-paraview/copyright",
@@ -59,7 +73,7 @@ class Package(unittest.TestCase):
             self.one(pattern)
         self.assertEqual(sorted(os.listdir(self.root)), ["usr"])
         self.assertEqual(sorted(os.listdir(os.path.join(self.root, "usr"))), ["bin", "lib", "share"])
-        self.assertEqual(sorted(os.listdir(os.path.join(self.root, "usr/bin"))), ["cactus-grow", "paraview.conf"])
+        self.assertEqual(sorted(os.listdir(os.path.join(self.root, "usr/bin"))), ["cactus-grow"] + ([] if lists_plugins() else ["paraview.conf"]))
         self.assertEqual(glob.glob(os.path.join(self.root, "usr/lib/*")), [self.one("usr/lib/*-linux-*")])
 
     def test_the_plugin_loads_and_needs_nothing_of_the_build(self):
