@@ -14,6 +14,8 @@ from paraview import servermanager, simple
 from vtkmodules.vtkFiltersCore import vtkImageAppend
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
+from picture import white_view
+
 PIXELS = 200
 
 
@@ -40,12 +42,7 @@ def disentangled(wanted):
 
 def show(optimiser, side):
     """The view that is played."""
-    view = simple.CreateRenderView()
-    view.ViewSize = [PIXELS, PIXELS]
-    view.UseColorPaletteForBackground = 0
-    view.BackgroundColorMode = "Single Color"
-    view.Background = [1.0, 1.0, 1.0]
-    view.OrientationAxesVisibility = 0
+    view = white_view(PIXELS, PIXELS)
     fibres = simple.OutputPort(optimiser, 0)
     shown = simple.Show(fibres, view)
     simple.ColorBy(shown, ("POINTS", "Overlap"))

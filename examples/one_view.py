@@ -15,7 +15,8 @@ import sys
 
 from paraview import servermanager, simple
 from nifti import read_image
-from tract import SIDE, look, view_of, write_tract
+from picture import white_view
+from tract import SIDE, look, write_tract
 
 SCALE = 0.001  # 1 mm of the tract is 1 µm of the substrate
 VOXEL = 1.0  # mm
@@ -77,7 +78,7 @@ def draw(image, tract, fibres, outer, filename, pixels=900):
     layout.SplitHorizontal(0, 0.5)
     views = []
     for place, source, representation, width in ((1, fibres, "FibreRepresentation", 1.5), (2, outer, "MyelinRepresentation", 3.0)):
-        view = view_of(pixels)
+        view = white_view(pixels, pixels)
         shown = simple.Show(source, view, representation)
         if place == 2:
             shown.DiffuseColor = shown.AmbientColor = [0.8, 0.35, 0.3]

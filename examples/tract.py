@@ -12,6 +12,8 @@ import sys
 
 from paraview import servermanager, simple
 
+from picture import white_view
+
 SIDE = 24.0  # µm
 
 
@@ -35,16 +37,6 @@ def write_tract(path):
         file.write(struct.pack("<3f", *(math.inf,) * 3))
 
 
-def view_of(pixels):
-    view = simple.CreateRenderView()
-    view.ViewSize = [pixels, pixels]
-    view.UseColorPaletteForBackground = 0
-    view.BackgroundColorMode = "Single Color"
-    view.Background = [1.0, 1.0, 1.0]
-    view.OrientationAxesVisibility = 0
-    return view
-
-
 def look(view, direction, zoom=1.0):
     view.CameraFocalPoint = [0.0, 0.0, 0.0]
     view.CameraPosition = direction
@@ -57,7 +49,7 @@ def draw(tract, fibres, outer, filename, pixels=800):
     """A PNG of three views side by side: the tract, the fibres that were laid, the surfaces."""
     views = []
     for source, representation in ((tract, "Surface"), (fibres, "Tubes"), (outer, "Surface")):
-        view = view_of(pixels)
+        view = white_view(pixels, pixels)
         display = simple.Show(source, view)
         display.Representation = representation
         if source is tract:

@@ -10,7 +10,7 @@ import signal
 import subprocess
 import unittest
 
-from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, random_walk
+from cactus_testing import CactusTestCase, environment_of_its_own, fetch, main, mesh_oracle, random_walk
 from folder_content import files
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateProduction,
                              SubstrateWriter)
@@ -43,12 +43,6 @@ def rank():
 def ranks():
     controller = vtkMultiProcessController.GetGlobalController()
     return controller.GetNumberOfProcesses() if controller else 1
-
-
-def first_environment():
-    """What this process was started with: MPI has added to it since, and what runs with that is no run of its own."""
-    with open("/proc/self/environ", "rb") as file:
-        return dict(entry.split(b"=", 1) for entry in file.read().split(b"\0") if b"=" in entry)
 
 
 class SubstrateProductionTest(CactusTestCase):
@@ -139,7 +133,7 @@ class SubstrateProductionTest(CactusTestCase):
         with open(path, "w") as file:
             file.write(script)
         return subprocess.Popen(["mpiexec", "-n", str(count), "pvbatch", path, arguments[0], folder, *arguments[1:]],
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=first_environment())
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment_of_its_own())
 
     @unittest.skipIf(ranks() > 1, "starts processes of its own")
     def test_the_same_files_from_any_number_of_ranks(self):

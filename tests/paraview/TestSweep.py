@@ -10,7 +10,7 @@ import json
 import os
 import subprocess
 
-from cactus_testing import CactusTestCase, main
+from cactus_testing import CactusTestCase, environment_of_its_own, main
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "sweep.py")
 TINY = ("--side", "5", "--voxel-size", "0.2", "--dispersions", "0", "8", "--fractions", "0.5", "--seeds", "1")
@@ -31,10 +31,8 @@ def checksums(folder):
 
 class Sweep(CactusTestCase):
     def sweep(self, place, *words, start=("pvpython",)):
-        # This process is a run of MPI of its own, of which mpiexec must not know.
-        environment = {name: value for name, value in os.environ.items() if not name.startswith("PMIX_") and (not name.startswith("OMPI_") or name.startswith(("OMPI_MCA_rmaps", "OMPI_MCA_mpi", "OMPI_ALLOW")))}
         command = [*start, SCRIPT, *TINY, "--output", os.path.join(self.folder, place), *words]
-        done = subprocess.run(command, capture_output=True, text=True, env=environment)
+        done = subprocess.run(command, capture_output=True, text=True, env=environment_of_its_own())
         return done.returncode, done.stdout + done.stderr.replace("ERR|", "")
 
     def rows(self, place):

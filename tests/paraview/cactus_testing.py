@@ -31,6 +31,12 @@ _FOLLOW_UP = re.compile(r"returned failure for request|Failed to execute|Could n
 UNPARTED = r"the optimiser has not parted these fibres"
 
 
+def environment_of_its_own():
+    """That of this process for one that is a run of MPI of its own: without what MPI has added, with how this run was set up."""
+    kept = ("OMPI_MCA_rmaps", "OMPI_MCA_mpi", "OMPI_ALLOW", "PRTE_MCA_rmaps")
+    return {name: value for name, value in os.environ.items() if name.startswith(kept) or not name.startswith(("PMIX_", "OMPI_", "PRTE_"))}
+
+
 class CactusTestCase(unittest.TestCase):
     """Base class of all tests here. `self.folder` is an empty folder that goes away with the test. A warning in which `expected` (a
     regular expression) is found is none: what the inputs of a whole class bring about."""

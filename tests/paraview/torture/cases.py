@@ -26,7 +26,7 @@ import subprocess
 import tempfile
 import zlib
 
-from cactus_testing import produce
+from cactus_testing import environment_of_its_own, produce
 from paraview import servermanager, simple
 from paraview.servermanager import vtkSMPropertyHelper
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
@@ -551,8 +551,7 @@ class Bench:
         with socket.socket() as probe:
             probe.bind(("localhost", 0))
             port = probe.getsockname()[1]
-        # This process is a run of MPI of its own, of which the server must not know.
-        environment = {one: value for one, value in os.environ.items() if not one.startswith(("PMIX_", "OMPI_", "PRTE_"))}
+        environment = environment_of_its_own()
         environment.update({"OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
         command = ["pvserver", f"--server-port={port}", "--force-offscreen-rendering"]
         if int(ranks) > 1:
