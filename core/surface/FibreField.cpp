@@ -88,15 +88,16 @@ std::vector<std::uint32_t> inBricks(const NodeLattice& lattice)
 
 } // namespace
 
-std::vector<int> SampleBox::columnsOf(const NodeRange& range) const
+SampleRow SampleBox::rowOf(const NodeRange& range) const
 {
-  std::vector<int> columns;
-  columns.reserve(static_cast<std::size_t>(range.count[0]));
-  for (int i = 0; i < range.count[0]; ++i)
-  {
-    columns.push_back(this->sampleOf(0, range.first[0] + i) - this->first[0]);
-  }
-  return columns;
+  SampleRow row;
+  row.first = this->sampleOf(0, range.first[0]);
+  const int last = this->sampleOf(0, range.first[0] + range.count[0] - 1);
+  row.count = last - row.first + 1;
+  // Node 1 is the first sample of the box.
+  row.before = std::clamp(row.first - this->first[0] + 1 - range.first[0], 0, range.count[0] - 1);
+  row.behind = range.count[0] - row.before - row.count;
+  return row;
 }
 
 FibreField::FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain)
@@ -228,6 +229,33 @@ std::int32_t FibreField::nearest(const LabelImageView& held, int i, int j, int k
   return best;
 }
 
+/// Whether nearest() is that fibre.
+bool FibreField::isNearest(const LabelImageView& held, std::int32_t fibre, int i, int j, int k) const
+{
+  if (this->holds(i - 1, j - 1, k - 1) && this->holds(i + 1, j + 1, k + 1))
+  {
+    // Where straight neighbours are all of one kind, these tell.
+    const auto here = std::ptrdiff_t(held.grid.index(i, j, k));
+    const std::ptrdiff_t rows = held.grid.count[0];
+    const std::ptrdiff_t slices = rows * held.grid.count[1];
+    bool isBeside = false;
+    bool isBesideAnother = false;
+    for (const std::ptrdiff_t step : { std::ptrdiff_t(1), rows, slices })
+    {
+      for (const std::int32_t id : { held.fibreId[here - step], held.fibreId[here + step] })
+      {
+        isBeside = isBeside || id == fibre;
+        isBesideAnother = isBesideAnother || (id != fibre && id != 0);
+      }
+    }
+    if (isBeside != isBesideAnother)
+    {
+      return isBeside;
+    }
+  }
+  return this->nearest(held, i, j, k) == fibre;
+}
+
 bool FibreField::holds(int i, int j, int k) const
 {
   const VoxelGrid& grid = this->grid();
@@ -240,7 +268,7 @@ float FibreField::field(const LabelImageView& held, std::int32_t fibre, std::siz
   const std::int32_t id = held.fibreId[index];
   const float depth = held.depth[index];
   const auto gap = static_cast<float>(held.gap);
-  if (id == fibre || (id == 0 && (depth <= -0.5f * gap || this->nearest(held, i, j, k) == fibre)))
+  if (id == fibre || (id == 0 && (depth <= -0.5f * gap || this->isNearest(held, fibre, i, j, k))))
   {
     return depth;
   }
@@ -358,26 +386,36 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out)
 {
   thread_local LabelBuffer buffer;
   const LabelImageView held = this->samplesAt(range, farthestNeighbour, buffer);
-  const std::vector<int> columns = this->Samples.columnsOf(range);
+  const SampleRow row = this->Samples.rowOf(range);
   const auto gap = static_cast<float>(held.gap);
+  const float outside = -0.5f * gap;
   for (int k = 0; k < range.count[2]; ++k)
   {
     const int z = this->Samples.sampleOf(2, range.first[2] + k);
-    for (int j = 0; j < range.count[1]; ++j)
+    for (int j = 0; j < range.count[1]; ++j, out += row.nodes())
     {
       const int y = this->Samples.sampleOf(1, range.first[1] + j);
-      const std::size_t row = held.grid.index(this->Samples.first[0] + columns.front(), y, z);
-      for (const int column : columns)
+      const std::size_t first = held.grid.index(row.first, y, z);
+      const std::int32_t* ids = held.fibreId + first;
+      const float* depths = held.depth + first;
+      float* values = out + row.before;
+      // Most samples are plainly in a fibre or outside all.
+      int doubtful = 0;
+      for (int i = 0; i < row.count; ++i)
       {
-        const std::size_t index = row + std::size_t(column - columns.front());
-        const std::int32_t id = held.fibreId[index];
-        const float depth = held.depth[index];
-        // Most samples are plainly in a fibre or outside all.
-        const bool isPlain = id != 0 || depth <= -0.5f * gap;
-        *out++ = !isPlain                 ? this->field(held, fibre, index, this->Samples.first[0] + column, y, z)
-                 : id == fibre || id == 0 ? depth
-                                          : -(depth + gap);
+        const float depth = depths[i];
+        const float other = -(depth + gap);
+        values[i] = ids[i] == fibre || ids[i] == 0 ? depth : other;
+        doubtful |= int(ids[i] == 0) & int(depth > outside);
       }
+      for (int i = 0; doubtful != 0 && i < row.count; ++i)
+      {
+        if (ids[i] == 0 && depths[i] > outside && !this->isNearest(held, fibre, row.first + i, y, z))
+        {
+          values[i] = -(depths[i] + gap);
+        }
+      }
+      row.fillRim(out);
     }
   }
 }

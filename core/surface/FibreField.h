@@ -18,6 +18,25 @@
 namespace cactus
 {
 
+/// The samples that a row of nodes along x takes its values from: each has one node, the first and the last one some more.
+struct SampleRow
+{
+  int first = 0;  ///< index in the image
+  int count = 0;  ///< of samples, at least one
+  int before = 0; ///< nodes that have the value of the first sample's node, which follows them
+  int behind = 0; ///< nodes that have that of the last one's, and follow it
+
+  /// Copies values where the rim of a row has them; those of the samples are in their places.
+  template <typename Value>
+  void fillRim(Value* nodes) const
+  {
+    std::fill(nodes, nodes + this->before, nodes[this->before]);
+    Value* last = nodes + this->before + this->count - 1;
+    std::fill(last + 1, last + 1 + this->behind, *last);
+  }
+  int nodes() const { return this->before + this->count + this->behind; }
+};
+
 /// The samples of a label image that lie in a box, and which of them the nodes of a lattice take their values from: node 1 from
 /// the first one and so on, and those beyond the first and the last one from these.
 struct SampleBox
@@ -26,8 +45,8 @@ struct SampleBox
   std::array<int, 3> count{ { 0, 0, 0 } };
 
   int sampleOf(std::size_t axis, int node) const { return this->first[axis] + std::clamp(node - 1, 0, this->count[axis] - 1); }
-  /// Of a row of nodes, their samples, counted from the first one in the box.
-  std::vector<int> columnsOf(const NodeRange& range) const;
+  /// Of the rows of nodes of a range.
+  SampleRow rowOf(const NodeRange& range) const;
 };
 
 /// The fields of all fibres of a label image, in a box whose faces cut them off.
@@ -73,6 +92,7 @@ private:
   LabelImageView samplesAround(const SampleRange& range, int more, LabelBuffer& buffer) const;
   /// Of a sample outside all fibres that is nearer than gap/2 to one: to which, as its neighbours tell.
   std::int32_t nearest(const LabelImageView& held, int i, int j, int k) const;
+  bool isNearest(const LabelImageView& held, std::int32_t fibre, int i, int j, int k) const;
   bool holds(int i, int j, int k) const;
   float field(const LabelImageView& held, std::int32_t fibre, std::size_t index, int i, int j, int k) const;
 

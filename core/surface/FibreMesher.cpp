@@ -67,6 +67,11 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   }
 }
 
+bool FibreMesher::movesContours() const
+{
+  return this->Filters == nullptr && this->Options.decimationError > 0.0;
+}
+
 SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const
 {
   return SmoothedField(this->Field, fibreId, blocks, this->Options.smoothingIterations, this->Thin ? &*this->Thin : nullptr);
@@ -86,24 +91,30 @@ void FibreMesher::makeOuter(
   }
   SurfaceMeasure now = measure(surface);
   double volume = now.volume;
+  double right = level;
   if (furthest > 0.0)
   {
     volume = measure(this->Contours.unsmoothed(field)).volume;
-    const double right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
+    right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
     // The rest is left to the move after coarsening.
     const double rest = restPart * furthest;
-    if (std::abs(right - level) > rest)
+    if (!this->movesContours())
     {
-      level = right;
-      surface = this->Contours.outerAt(field, level, pair.droppedVolume);
-      now = measure(surface);
+      if (std::abs(right - level) > rest)
+      {
+        level = right;
+        surface = this->Contours.outerAt(field, level, pair.droppedVolume);
+        now = measure(surface);
+      }
+      right = level;
     }
-    volume = std::clamp(volume, now.volume - rest * now.freeArea, now.volume + rest * now.freeArea);
+    const double there = now.volume + (level - right) * now.freeArea;
+    volume = std::clamp(volume, there - rest * now.freeArea, there + rest * now.freeArea);
   }
-  const bool isSound = this->Finishing.finish(field, { level, volume, nullptr, bounds }, surface, pair.outerReport, pair);
+  const bool isSound = this->Finishing.finish(field, { level, right, volume, nullptr, bounds }, surface, pair.outerReport, pair);
   pair.isFlawed = pair.isFlawed || !isSound;
   pair.outer = packed(std::move(surface.mesh));
-  pair.outerLevel = level;
+  pair.outerLevel = right;
   pair.state = pair.outer.triangles.empty() ? MyelinState::NoFibre : MyelinState::NoAxon;
 }
 
@@ -157,7 +168,7 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   {
     return;
   }
-  const AxonSearch search(this->Contours, field, wanted, levels, this->Spacing, this->Options.decimationError > 0.0);
+  const AxonSearch search(this->Contours, field, wanted, levels, this->Spacing, this->movesContours());
   AxonContour axon;
   const MyelinState state = search.find(nullptr, axon);
   if (state != MyelinState::NoAxon)
@@ -173,11 +184,13 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
   const TriangleTree wall(pair.outer, this->wallOf(pair.outer));
   const TriangleTree* within = nullptr;
   double leastStep = 0.1 * this->ThinnestMyelin;
+  double level = axon.level;
   while (state != MyelinState::NoAxon)
   {
     const double volume = state == MyelinState::AsAsked ? search.volume() : axon.volume;
+    level = axon.level + (axon.volume - volume) / axon.area;
     const bool isSound =
-      this->Finishing.finish(search.field(), { axon.level, volume, &outer, {} }, axon.surface, pair.innerReport, pair);
+      this->Finishing.finish(search.field(), { axon.level, level, volume, &outer, {} }, axon.surface, pair.innerReport, pair);
     const TriangleMesh& inner = axon.surface.mesh;
     const bool isInside = isSound && liesInside(inner, pair.innerReport, outer);
     if (isSound && (inner.triangles.empty() || (within != nullptr && !isInside)))
@@ -213,9 +226,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
     return;
   }
   pair.inner = packed(std::move(axon.surface.mesh));
-  // The level was off by as much as the volume was before the surface was moved to the wanted one.
-  const double moved = state == MyelinState::AsAsked ? (axon.volume - search.volume()) / axon.area : 0.0;
-  pair.thickness = axon.level - pair.outerLevel + moved;
+  pair.thickness = level - pair.outerLevel;
   pair.state = state;
   pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
 }
@@ -240,7 +251,7 @@ void FibreMesher::finishByFilters(const AxonSearch& search, MyelinState state, A
     }
     CappedSurface surface = axon.surface;
     pair.largestMove = outerMove;
-    this->Finishing.finish(search.field(), { axon.level, wanted, nullptr, {} }, surface, pair.innerReport, pair);
+    this->Finishing.finish(search.field(), { axon.level, axon.level, wanted, nullptr, {} }, surface, pair.innerReport, pair);
     pair.inner = packed(std::move(surface.mesh));
     error = pair.innerReport.volume - wanted;
     if (std::abs(error) <= axonVolumeTolerance * wanted)

@@ -54,6 +54,8 @@ public:
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
 private:
+  /// Whether contours that lie a little beside where they are to be are moved there, rather than made again.
+  bool movesContours() const;
   AxonLevels axonLevels(const SmoothedField& field, double gRatio) const;
   void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   void finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;

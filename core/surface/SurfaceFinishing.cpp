@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/SurfaceFinishing.h"
 
+#include "mesh/BandCoarsening.h"
 #include "mesh/NeedleSplitting.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfacePieces.h"
 #include "mesh/SurfaceRemeshing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -35,6 +37,16 @@ Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
 bool isBeside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p, double distance)
 {
   return (p - box.min()).minCoeff() < distance || (box.max() - p).minCoeff() < distance;
+}
+
+/// Moves a contour to where it is to lie.
+void toLevel(CappedSurface& surface, const SurfaceTarget& target)
+{
+  const double way = std::abs(target.level - target.contoured);
+  if (way > 0.0)
+  {
+    moveToVolume(surface, target.volume, 2.0 * way); // more than it will have to move
+  }
 }
 
 } // namespace
@@ -94,6 +106,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
       pair.largestMove = std::max(pair.largestMove, this->largestMove(field, surface, target.level));
       return true;
     }
+    toLevel(surface, target);
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
   report = keepSoundPieces(surface.mesh, pair.droppedVolume);
@@ -114,6 +127,13 @@ bool SurfaceFinishing::coarsen(
   for (int attempt = 0; attempt <= repairs; ++attempt)
   {
     CappedSurface trial = surface;
+    if (decimation.localBounds.empty() && this->MinimumAngle <= 0.0)
+    {
+      decimation.level = target.contoured;
+      coarsenBands(trial, field.lattice(), decimation);
+      decimation.level = target.level;
+    }
+    toLevel(trial, target);
     this->reshape(trial, decimation);
     moveToVolume(trial, target.volume, this->DecimationError);
     splitNeedles(trial, largestSquaredEdgeRatio);
@@ -153,17 +173,27 @@ double SurfaceFinishing::largestMove(const SmoothedField& field, const CappedSur
   double largest = 0.0;
   for (const auto& t : surface.mesh.triangles)
   {
-    const Eigen::Vector3d& a = points[std::size_t(t[0])];
-    const Eigen::Vector3d ab = points[std::size_t(t[1])] - a;
-    const Eigen::Vector3d ac = points[std::size_t(t[2])] - a;
-    const bool isCap = surface.isCap(t) || (this->Filters != nullptr && isBeside(surface.box, a, this->Spacing));
-    const double longest = std::sqrt(std::max({ ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm() }));
-    const int n = std::max(1, static_cast<int>(std::ceil(longest / this->Spacing)));
-    for (int i = 0; i <= n; ++i)
+    // In rows along the longest edge, a to b, up to the corner c.
+    std::array<double, 3> lengths;
+    for (std::size_t i = 0; i < 3; ++i)
     {
-      for (int j = 0; i + j <= n; ++j)
+      lengths[i] = (points[std::size_t(t[(i + 1) % 3])] - points[std::size_t(t[i])]).norm();
+    }
+    const auto first = std::size_t(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+    const Eigen::Vector3d& a = points[std::size_t(t[first])];
+    const Eigen::Vector3d ab = points[std::size_t(t[(first + 1) % 3])] - a;
+    const Eigen::Vector3d ac = points[std::size_t(t[(first + 2) % 3])] - a;
+    const bool isCap = surface.isCap(t) || (this->Filters != nullptr && isBeside(surface.box, a, this->Spacing));
+    const double height = lengths[first] > 0.0 ? ab.cross(ac).norm() / lengths[first] : 0.0;
+    const int rows = std::max(1, static_cast<int>(std::ceil(height / this->Spacing)));
+    for (int j = 0; j <= rows; ++j)
+    {
+      const double up = double(j) / rows;
+      const int n = static_cast<int>(std::ceil((1.0 - up) * lengths[first] / this->Spacing));
+      for (int i = 0; i <= n; ++i)
       {
-        const double excess = field.value(a + (double(i) / n) * ab + (double(j) / n) * ac) - level;
+        const double along = (1.0 - up) * (n > 0 ? double(i) / n : 0.0);
+        const double excess = field.value(a + along * ab + up * ac) - level;
         largest = std::max(largest, isCap ? -excess : std::abs(excess));
       }
     }

@@ -22,7 +22,8 @@ std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& pl
 /// What a contour is to become.
 struct SurfaceTarget
 {
-  double level = 0.0;                      ///< of the field, µm
+  double contoured = 0.0;                  ///< level of the field that the contour lies at, µm
+  double level = 0.0;                      ///< and that it is to lie at, a little beside that
   double volume = 0.0;                     ///< µm³
   const TriangleTree* container = nullptr; ///< a surface that it must not meet
   std::vector<LocalErrorBound> bounds;     ///< where it is coarsened less

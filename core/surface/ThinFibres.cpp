@@ -173,29 +173,28 @@ bool ThinFibres::smoothingInside(const NodeRange& range, float* out) const
   thread_local LabelBuffer buffer;
   const LabelImageView held = this->Field.samplesAt(range, 0, buffer);
   const SampleBox& samples = this->Field.samples();
-  const std::vector<int> columns = samples.columnsOf(range);
+  const SampleRow row = samples.rowOf(range);
   bool any = false;
   std::int32_t last = 0;
   float part = outsideFibres;
   for (int k = 0; k < range.count[2]; ++k)
   {
     const int z = samples.sampleOf(2, range.first[2] + k);
-    for (int j = 0; j < range.count[1]; ++j)
+    for (int j = 0; j < range.count[1]; ++j, out += row.nodes())
     {
-      const std::int32_t* row =
-        held.fibreId + held.grid.index(samples.first[0] + columns.front(), samples.sampleOf(1, range.first[1] + j), z);
-      for (const int column : columns)
+      const std::int32_t* ids = held.fibreId + held.grid.index(row.first, samples.sampleOf(1, range.first[1] + j), z);
+      for (int i = 0; i < row.count; ++i)
       {
-        const std::int32_t id = row[column - columns.front()];
-        if (id != last)
+        if (ids[i] != last)
         {
-          const auto found = this->Smoothing.find(id);
-          part = id == 0 ? outsideFibres : found == this->Smoothing.end() ? 1.0f : found->second;
-          last = id;
+          last = ids[i];
+          const auto found = this->Smoothing.find(last);
+          part = last == 0 ? outsideFibres : found == this->Smoothing.end() ? 1.0f : found->second;
           any = any || part < 1.0f;
         }
-        *out++ = part;
+        out[row.before + i] = part;
       }
+      row.fillRim(out);
     }
   }
   return any;
@@ -208,15 +207,18 @@ bool ThinFibres::smoothingAt(const NodeRange& range, float* out) const
   {
     return false;
   }
-  const std::size_t stride[3] = { 1, std::size_t(range.count[0]), std::size_t(range.count[0]) * std::size_t(range.count[1]) };
+  const std::size_t rows(range.count[0]);
+  const std::size_t slices = rows * std::size_t(range.count[1]);
   std::transform(inside.begin(), inside.end(), out, [](float own) { return std::min(own, 1.0f); });
-  for (std::size_t n = stride[2]; n + stride[2] < range.size(); ++n)
+  for (std::size_t n = slices; n + slices < range.size(); ++n)
   {
     // Beside a fibre as in it.
-    for (std::size_t axis = 0; axis < 3 && inside[n] == outsideFibres; ++axis)
-    {
-      out[n] = std::min({ out[n], inside[n - stride[axis]], inside[n + stride[axis]] });
-    }
+    const float* at = inside.data() + n;
+    const float alongX = std::min(at[-1], at[1]);
+    const float alongY = std::min(at[-std::ptrdiff_t(rows)], at[rows]);
+    const float alongZ = std::min(at[-std::ptrdiff_t(slices)], at[slices]);
+    const float beside = std::min(std::min(alongX, alongY), std::min(alongZ, 1.0f));
+    out[n] = *at == outsideFibres ? beside : out[n];
   }
   return true;
 }
