@@ -21,11 +21,12 @@ using Eigen::Vector3d;
 
 /// How far apart points of a loop that one chord replaces may be, across it, as a part of the largest error: the chord goes
 /// amid them.
-constexpr double chordPart = 1.6;
+constexpr double chordPart = 1.2;
 /// Bands that one strip replaces at most.
 constexpr std::size_t mostBands = 16;
 constexpr std::size_t firstBands = 4;
-constexpr double singleSlack = 3.0;
+constexpr double slack = 1.2;
+constexpr double looseSlack = 2.0;
 
 /// The points of a surface in one plane, one after the other, counterclockwise as seen from the upper end of the axis.
 struct Loop
@@ -43,6 +44,8 @@ struct Strip
   bool hasAllBelow = false;
   bool hasAllAbove = false; ///< all points of the loop there, since the band behind stays as it is
   std::vector<std::array<std::int32_t, 3>> triangles;
+  /// Of each triangle, by how much the field exceeds its level in its middle, and in that of the edge to the next triangle.
+  std::vector<std::array<double, 2>> errors;
 };
 
 class Bands
@@ -63,6 +66,7 @@ public:
     this->findRings();
     this->chooseStrips();
     this->joinStrips();
+    this->settle();
     this->replace();
   }
 
@@ -290,11 +294,15 @@ private:
   {
     this->Few.resize(this->Planes.size());
     this->Places = this->Surface.mesh.points;
+    this->Moves.assign(this->Places.size(), 0.0);
     std::vector<double> moves;
     for (std::size_t plane = 0; plane < this->Planes.size(); ++plane)
     {
       this->Few[plane] = this->simplified(this->Loops[plane], moves);
-      this->move(this->Few[plane], moves);
+      for (std::size_t i = 0; i < moves.size(); ++i)
+      {
+        this->move(this->Few[plane], i, moves[i]);
+      }
     }
     std::size_t length = firstBands;
     for (std::size_t band = 0; band < this->bandCount();)
@@ -319,21 +327,19 @@ private:
     }
   }
 
-  /// Moves points of a loop outwards in their plane, where they are not held by a face of the box.
-  void move(const Loop& loop, const std::vector<double>& moves)
+  /// Moves a point of a loop outwards in its plane, from where it was first, if no face of the box holds it.
+  void move(const Loop& loop, std::size_t i, double way)
   {
     const std::size_t count = loop.points.size();
-    for (std::size_t i = 0; i < count; ++i)
+    const std::int32_t p = loop.points[i];
+    const Vector3d along = this->at(loop.points[(i + 1) % count]) - this->at(loop.points[(i + count - 1) % count]);
+    const Vector3d outwards = along.cross(Vector3d::Unit(this->Axis));
+    const double length = outwards.norm();
+    if (this->facesOf(p) == 0 && length > 0.0)
     {
-      const std::int32_t p = loop.points[i];
-      const Vector3d along = this->at(loop.points[(i + 1) % count]) - this->at(loop.points[(i + count - 1) % count]);
-      const Vector3d outwards = along.cross(Vector3d::Unit(this->Axis));
-      const double length = outwards.norm();
-      if (this->facesOf(p) == 0 && length > 0.0)
-      {
-        this->Places[std::size_t(p)] =
-          keptInside(this->Surface.box, this->at(p), this->at(p) + (moves[i] / length) * outwards, this->Options.maximumError);
-      }
+      const Vector3d to = this->at(p) + (way / length) * outwards;
+      this->Places[std::size_t(p)] = keptInside(this->Surface.box, this->at(p), to, this->Options.maximumError);
+      this->Moves[std::size_t(p)] = way;
     }
   }
 
@@ -371,6 +377,7 @@ private:
     for (const std::int32_t p : isRestored ? this->Few[plane].points : std::vector<std::int32_t>())
     {
       this->Places[std::size_t(p)] = this->at(p);
+      this->Moves[std::size_t(p)] = 0.0;
     }
   }
 
@@ -378,6 +385,7 @@ private:
   bool make(Strip& strip)
   {
     strip.triangles.clear();
+    strip.errors.clear();
     return this->fill(strip, strip.hasAllBelow ? this->Loops[strip.begin] : this->Few[strip.begin],
       strip.hasAllAbove ? this->Loops[strip.end] : this->Few[strip.end]);
   }
@@ -475,47 +483,48 @@ private:
     const std::size_t bands = strip.end - strip.begin;
     const auto below = [&](std::size_t at) { return lower.points[at % lower.points.size()]; };
     const auto above = [&](std::size_t at) { return upper.points[at % upper.points.size()]; };
-    const double most = (bands == 1 || strip.hasAllBelow || strip.hasAllAbove ? singleSlack : 1.5) * this->Options.maximumError;
-    if (this->errorAlong(below(i), above(j), bands) > most)
-    {
-      return false;
-    }
+    const bool isLoose = bands == 1 || strip.hasAllBelow || strip.hasAllAbove;
+    const double most = (isLoose ? looseSlack : slack) * this->Options.maximumError;
+    double error = this->errorAlong(below(i), above(j), bands);
     Vector3d before = Vector3d::Zero();
-    while (i < iEnd || j < jEnd)
+    while (std::abs(error) <= most && (i < iEnd || j < jEnd))
     {
       bool goesBelow = j == jEnd;
-      double error = 0.0;
       if (i < iEnd && j < jEnd)
       {
-        const Vector3d a = this->placeOf(below(i)) + offset;
-        const Vector3d& b = this->placeOf(above(j));
-        goesBelow =
-          (this->placeOf(below(i + 1)) + offset - b).squaredNorm() < (this->placeOf(above(j + 1)) - a).squaredNorm();
-        error = goesBelow ? this->errorAlong(below(i + 1), above(j), bands) : this->errorAlong(below(i), above(j + 1), bands);
-        if (error > this->Options.maximumError)
+        goesBelow = (this->placeOf(below(i + 1)) + offset - this->placeOf(above(j))).squaredNorm() <
+                    (this->placeOf(above(j + 1)) - this->placeOf(below(i)) - offset).squaredNorm();
+        error = this->errorAlong(below(i + (goesBelow ? 1 : 0)), above(j + (goesBelow ? 0 : 1)), bands);
+        if (std::abs(error) > this->Options.maximumError)
         {
-          const double other = goesBelow ? this->errorAlong(below(i), above(j + 1), bands) : this->errorAlong(below(i + 1), above(j), bands);
-          goesBelow = (other < error) != goesBelow;
-          error = std::min(error, other);
+          const double other = this->errorAlong(below(i + (goesBelow ? 0 : 1)), above(j + (goesBelow ? 1 : 0)), bands);
+          goesBelow = goesBelow != (std::abs(other) < std::abs(error));
+          error = std::abs(other) < std::abs(error) ? other : error;
         }
+      }
+      else
+      {
+        error = this->errorAlong(below(i + (goesBelow ? 1 : 0)), above(j + (goesBelow ? 0 : 1)), bands);
       }
       const std::array<std::int32_t, 3> triangle = goesBelow ? std::array<std::int32_t, 3>{ { below(i), below(i + 1), above(j) } }
                                                              : std::array<std::int32_t, 3>{ { below(i), above(j + 1), above(j) } };
       ++(goesBelow ? i : j);
       const Vector3d& p = this->placeOf(triangle[0]);
       const Vector3d normal = (this->placeOf(triangle[1]) - p).cross(this->placeOf(triangle[2]) - p);
-      const bool isCap = this->Surface.isCap(triangle);
-      if (normal.dot(before) < 0.0 || error > most || (!isCap && this->errorIn(triangle) > most))
+      const double inMiddle = this->Surface.isCap(triangle) ? 0.0 : this->errorIn(triangle);
+      if (normal.dot(before) < 0.0 || std::abs(inMiddle) > most)
       {
         return false;
       }
       before = normal;
       strip.triangles.push_back(triangle);
+      strip.errors.push_back({ { inMiddle, error } });
     }
-    return true;
+    return std::abs(error) <= most;
   }
 
-  /// How far the field is from its level along an edge that crosses so many bands; in a face of the box it may be larger.
+  /// By how much the field exceeds its level where it does so most, or falls below it, along an edge that crosses so many bands;
+  /// in a face of the box it may be larger.
   double errorAlong(std::int32_t lower, std::int32_t upper, std::size_t bands) const
   {
     const Vector3d& a = this->placeOf(lower);
@@ -525,18 +534,59 @@ private:
     double largest = 0.0;
     for (int i = 1; i < parts; ++i)
     {
-      const double below = this->Options.level - this->Options.field(a + (double(i) / parts) * along);
-      largest = std::max(largest, isInFace ? below : std::abs(below));
+      const double excess = this->errorAt(a + (double(i) / parts) * along);
+      const double error = isInFace ? std::min(excess, 0.0) : excess;
+      largest = std::abs(error) > std::abs(largest) ? error : largest;
     }
     return largest;
   }
 
   double errorIn(const std::array<std::int32_t, 3>& t) const
   {
-    const Vector3d middle = (this->placeOf(t[0]) + this->placeOf(t[1]) + this->placeOf(t[2])) / 3.0;
-    return std::abs(this->Options.field(middle) - this->Options.level);
+    return this->errorAt((this->placeOf(t[0]) + this->placeOf(t[1]) + this->placeOf(t[2])) / 3.0);
   }
 
+  double errorAt(const Vector3d& p) const { return this->Options.field(p) - this->Options.level; }
+
+  /// Moves points in their planes so that the surface around each is amid where the field is too large and too small.
+  void settle()
+  {
+    struct Range
+    {
+      double lowest = 0.0;
+      double highest = 0.0;
+      void add(double error)
+      {
+        lowest = std::min(lowest, error);
+        highest = std::max(highest, error);
+      }
+    };
+    std::vector<Range> around(this->Places.size());
+    for (std::size_t p = 0; p < this->Places.size(); ++p)
+    {
+      around[p].add(-this->Moves[p]);
+    }
+    for (const Strip& strip : this->Strips)
+    {
+      for (std::size_t t = 0; t < strip.triangles.size(); ++t)
+      {
+        for (const std::int32_t p : strip.triangles[t])
+        {
+          around[std::size_t(p)].add(strip.errors[t][0]);
+          around[std::size_t(p)].add(strip.errors[t][1]); // of an edge that most of them are at
+        }
+      }
+    }
+    for (const Strip& strip : this->Strips)
+    {
+      const Loop& loop = this->Few[strip.begin];
+      for (std::size_t i = 0; !strip.hasAllBelow && i < loop.points.size(); ++i)
+      {
+        const Range& range = around[std::size_t(loop.points[i])];
+        this->move(loop, i, this->Moves[std::size_t(loop.points[i])] + 0.5 * (range.lowest + range.highest));
+      }
+    }
+  }
 
   /// Puts strips in the place of bands, and removes points that no triangle has any more.
   void replace()
@@ -608,6 +658,7 @@ private:
   std::vector<Loop> Loops;               ///< per plane; empty where there is not one loop
   std::vector<Loop> Few;                 ///< the same with few points
   std::vector<Vector3d> Places;          ///< per point, where it is to go
+  std::vector<double> Moves;             ///< per point, how far it has moved outwards
   std::vector<Strip> Strips;             ///< from below
   std::size_t AnchorTurn = 0;            ///< see matchAnchors()
 };

@@ -235,22 +235,19 @@ bool FibreField::isNearest(const LabelImageView& held, std::int32_t fibre, int i
   if (this->holds(i - 1, j - 1, k - 1) && this->holds(i + 1, j + 1, k + 1))
   {
     // Where straight neighbours are all of one kind, these tell.
-    const auto here = std::ptrdiff_t(held.grid.index(i, j, k));
+    const std::int32_t* here = held.fibreId + held.grid.index(i, j, k);
     const std::ptrdiff_t rows = held.grid.count[0];
     const std::ptrdiff_t slices = rows * held.grid.count[1];
-    bool isBeside = false;
-    bool isBesideAnother = false;
-    for (const std::ptrdiff_t step : { std::ptrdiff_t(1), rows, slices })
+    int isBeside = 0;
+    int isBesideAnother = 0;
+    for (const std::int32_t id : { here[-1], here[1], here[-rows], here[rows], here[-slices], here[slices] })
     {
-      for (const std::int32_t id : { held.fibreId[here - step], held.fibreId[here + step] })
-      {
-        isBeside = isBeside || id == fibre;
-        isBesideAnother = isBesideAnother || (id != fibre && id != 0);
-      }
+      isBeside |= int(id == fibre);
+      isBesideAnother |= int(id != fibre) & int(id != 0);
     }
     if (isBeside != isBesideAnother)
     {
-      return isBeside;
+      return isBeside != 0;
     }
   }
   return this->nearest(held, i, j, k) == fibre;

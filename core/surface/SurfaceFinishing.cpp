@@ -127,7 +127,8 @@ bool SurfaceFinishing::coarsen(
   for (int attempt = 0; attempt <= repairs; ++attempt)
   {
     CappedSurface trial = surface;
-    if (decimation.localBounds.empty() && this->MinimumAngle <= 0.0)
+    const bool isBanded = attempt == 0 && decimation.localBounds.empty() && this->MinimumAngle <= 0.0;
+    if (isBanded)
     {
       decimation.level = target.contoured;
       coarsenBands(trial, field.lattice(), decimation);
@@ -144,7 +145,7 @@ bool SurfaceFinishing::coarsen(
       surface = std::move(trial);
       return true;
     }
-    if (places.empty())
+    if (places.empty() && !isBanded)
     {
       break; // what is wrong is nowhere in particular
     }
