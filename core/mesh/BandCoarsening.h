@@ -8,16 +8,17 @@
 namespace cactus
 {
 
-/// Coarsens a contour along the axis of its lattice along which it is longest, as a cheap beginning of decimate().
+/// Coarsens a contour along the axis of its lattice along which it is longest: a beginning of decimate() that costs little.
 ///
-/// The planes of the lattice across that axis cut a contour into bands. Where a plane meets it in one loop, so does the next one,
-/// and what lies between them is a ring (its Euler characteristic is 0), any number of such bands is replaced by one strip of
-/// triangles between two loops, of which only points are kept that their chords would miss. The strip is as long as the
-/// field lets it be: at the middles of its edges and the centroids of its triangles, and at points at most `options.sampling`
-/// apart along its edges, the field is within `options.maximumError` of the level. Everything else stays as it is, so that the
-/// topology does not change, no point moves, and caps stay in their faces.
+/// The planes of the lattice across that axis cut a contour into bands. Bands that are rings between planes which meet the
+/// surface in one loop each (see PlaneLoops) are replaced, several together, by one strip of triangles between two loops, of
+/// which only points are kept whose chords would miss others. A strip is as long as the field lets it be, which at its edges and
+/// the middles of its triangles has to be within little more than `options.maximumError` of `options.level`; bands that no strip
+/// can replace stay as they are. Points of strips then move in their planes, so that the surface around each lies amid where the
+/// field is too large and too small. The topology stays the same, and caps stay in their faces.
 ///
-/// `lattice` is that of contour(); its outermost planes do not matter. Of the options, `localBounds` are not looked at.
+/// `lattice` is that of contour(), of which the outermost planes do not matter; `options.localBounds` are not looked at. Without
+/// a `maximumError` nothing changes. The result depends on the input alone.
 void coarsenBands(CappedSurface& surface, const NodeLattice& lattice, const SurfaceDecimationOptions& options);
 
 } // namespace cactus

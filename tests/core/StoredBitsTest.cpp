@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "fc3a3984cb80c611fe7b6d0a6d038e0dc58211d0c5a394335792bfc405e7ab3d",
-           "8896559c061f308b547822487efda52d83234b6b7620a0dfe836bd59d02f73d9" },
-         Known{ 20, "6c211f309f584510847ca974529a5af2d179614f5e6b1e5fe1991e13f1502191",
-           "ebb5e61af84ce99bb90db79d140228d766d8ab76c6a3b424d249d4e98649f978" },
-         Known{ 38, "d345a1d46f55eee7a4d34506c4d460a02dd3ffdd676d0d335a762d3b5c74470a",
-           "ae42df7e5ec1bc2ce0172c9fc16f745f6639f0e8c9c342e84324bfcd3b1b4ad2" },
+         Known{ 1, "6cab01efdd97837b388c3088b1d47752bd239748c2f4797e3a8a1f494a051019",
+           "3be28bd9499039f433b46ab7ecac01926aaaa46c093ff47101c1b0c93a7197a3" },
+         Known{ 20, "0c84c071f2e16870368ceaf780c0ac27286a36b8260b665fac4806d8b86c50f8",
+           "c6b122817e1f90feded7a065d6f621193162b065e33efb09a0eaf02b323e6cea" },
+         Known{ 38, "b29bb6a88ae5243ce846a3a3389298e465d042f0d43dbf88727a03ac532f2bcf",
+           "5a7be78268e85b2b4224e6a0ed0f35d3244c5382437ca1793914a3b9ffa99bd6" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

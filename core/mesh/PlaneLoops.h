@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/CappedSurface.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// Points of a surface in one plane, one after the other, counterclockwise as seen from the upper end of the axis.
+struct PlaneLoop
+{
+  std::vector<std::int32_t> points;
+  /// Places in `points` at which the loop comes to a face of the box, or leaves it. It begins at the first one or, without any,
+  /// at the point farthest from the middle of all.
+  std::vector<std::size_t> anchors;
+
+  bool isEmpty() const { return points.empty(); }
+};
+
+/// What planes across an axis make of a contour whose lattice has them: loops in the planes, and bands between them. Band b lies
+/// between planes b and b + 1.
+class PlaneLoops
+{
+public:
+  /// `planes` (µm, increasing, at least four) are those of contour()'s lattice across the axis, of which all but the outermost
+  /// two are evenly spaced.
+  PlaneLoops(const CappedSurface& surface, Eigen::Index axis, const std::vector<double>& planes);
+
+  std::size_t planeCount() const { return this->Loops.size(); }
+  std::size_t bandCount() const { return this->IsRing.size(); }
+  /// The loop in a plane; empty where there is none or more than one, and in the outermost planes.
+  const PlaneLoop& loop(std::size_t plane) const { return this->Loops[plane]; }
+  /// Whether a band is a ring from a loop() to the next one: of Euler characteristic 0, in one plane or the other nowhere else.
+  bool isRing(std::size_t band) const { return this->IsRing[band]; }
+  std::size_t bandOf(std::size_t triangle) const { return this->Bands[triangle]; }
+  std::size_t trianglesIn(std::size_t band) const { return this->Triangles[band]; }
+
+private:
+  void placePoints(const CappedSurface& surface, Eigen::Index axis, const std::vector<double>& planes);
+  void sortTriangles(const CappedSurface& surface);
+  void findLoops(const CappedSurface& surface);
+  void findRings();
+
+  std::vector<int> Levels;            ///< per point: 2 p in plane p, 2 p + 1 between that and the next one
+  std::vector<std::size_t> Counts;    ///< of points, per level
+  std::vector<std::int32_t> Next;     ///< per point, the one behind it in its plane, or -1
+  std::vector<std::size_t> Bands;     ///< per triangle
+  std::vector<std::size_t> Triangles; ///< per band, how many
+  std::vector<PlaneLoop> Loops;       ///< per plane
+  std::vector<bool> IsRing;           ///< per band
+};
+
+} // namespace cactus

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantees: what is coarsened along its axis has far fewer triangles, and stays closed, of the same topology, near its field
+// and in the faces of its box; what planes do not cut into single rings stays as it is.
+#include "mesh/BandCoarsening.h"
+#include "base/Constants.h"
+#include "mesh/ExampleContours.h"
+#include "mesh/PlaneLoops.h"
+#include "mesh/SurfaceCheck.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+namespace
+{
+
+using namespace cactus;
+using namespace example;
+using Eigen::Vector3d;
+
+using Field = std::function<double(const Vector3d&)>;
+
+constexpr double spacing = 0.1;
+constexpr double error = 0.005;
+
+/// A box around the origin, of so many cells per axis.
+NodeLattice boxLattice(int x, int y, int z)
+{
+  NodeLattice lattice;
+  const std::array<int, 3> cells{ { x, y, z } };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (int i = 0; i <= cells[axis]; ++i)
+    {
+      lattice.planes[axis].push_back(spacing * (i - 0.5 * cells[axis]));
+    }
+  }
+  return lattice;
+}
+
+CappedSurface contourOf(const NodeLattice& lattice, const Field& field)
+{
+  const Vector3d first(lattice.planes[0].front(), lattice.planes[1].front(), lattice.planes[2].front());
+  return contour(
+    lattice, allBlocks(lattice), sampled([&](int i, int j, int k) { return field(first + spacing * Vector3d(i, j, k)); }));
+}
+
+SurfaceDecimationOptions optionsFor(const Field& field)
+{
+  SurfaceDecimationOptions options;
+  options.field = field;
+  options.maximumError = error;
+  return options;
+}
+
+/// Depth in a tube along z that winds about a line.
+double windingTube(const Vector3d& p)
+{
+  const double x = 0.1 * p.z() + 0.05 * std::sin(p.z());
+  return 0.6001 - std::hypot(p.x() - x, p.y() - 0.05 * std::cos(p.z())); // and at no node 0
+}
+
+/// Points less edges plus triangles.
+std::ptrdiff_t eulerCharacteristic(const TriangleMesh& mesh)
+{
+  return std::ptrdiff_t(mesh.points.size()) - std::ptrdiff_t(mesh.triangles.size()) / 2;
+}
+
+void expectOnFaces(const CappedSurface& surface)
+{
+  ASSERT_EQ(surface.faces.size(), surface.mesh.points.size());
+  for (std::size_t p = 0; p < surface.faces.size(); ++p)
+  {
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      const double x = surface.mesh.points[p][axis];
+      EXPECT_EQ(x == surface.box.min()[axis], ((surface.faces[p] >> (2 * axis)) & 1) != 0);
+      EXPECT_EQ(x == surface.box.max()[axis], ((surface.faces[p] >> (2 * axis)) & 2) != 0);
+    }
+  }
+}
+
+TEST(BandCoarsening, MakesLongTrianglesOfATube)
+{
+  const NodeLattice lattice = boxLattice(20, 20, 80);
+  const CappedSurface fine = contourOf(lattice, windingTube);
+  CappedSurface surface = fine;
+  coarsenBands(surface, lattice, optionsFor(windingTube));
+  const SurfaceReport report = checkSurface(surface.mesh);
+  EXPECT_TRUE(report.closedManifold() && report.outward());
+  EXPECT_EQ(report.components, 1u);
+  EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
+  EXPECT_LT(4 * surface.mesh.triangles.size(), fine.mesh.triangles.size());
+  EXPECT_NEAR(report.volume, checkSurface(fine.mesh).volume, 2.0 * pi * 0.6 * 8.0 * 0.4 * error);
+  expectOnFaces(surface);
+  for (const auto& t : surface.mesh.triangles)
+  {
+    const auto at = [&](std::size_t i) { return surface.mesh.points[std::size_t(t[i])]; };
+    if (!surface.isCap(t))
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        EXPECT_LE(std::abs(windingTube(at(i))), 2.0 * error);
+        EXPECT_LE(std::abs(windingTube(0.5 * (at(i) + at((i + 1) % 3)))), 2.0 * error);
+      }
+      EXPECT_LE(std::abs(windingTube((at(0) + at(1) + at(2)) / 3.0)), 2.0 * error);
+    }
+  }
+}
+
+TEST(BandCoarsening, GoesAlongEachAxis)
+{
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    std::array<int, 3> cells{ { 20, 20, 20 } };
+    cells[std::size_t(axis)] = 60;
+    const NodeLattice lattice = boxLattice(cells[0], cells[1], cells[2]);
+    const Field tube = [axis](const Vector3d& p)
+    { return 0.6 - std::hypot(p[(axis + 1) % 3] - 0.1 * p[axis] - 0.013, p[(axis + 2) % 3] + 0.021); };
+    const CappedSurface fine = contourOf(lattice, tube);
+    CappedSurface surface = fine;
+    coarsenBands(surface, lattice, optionsFor(tube));
+    const SurfaceReport report = checkSurface(surface.mesh);
+    EXPECT_TRUE(report.closedManifold() && report.outward());
+    EXPECT_LT(5 * surface.mesh.triangles.size(), fine.mesh.triangles.size());
+  }
+}
+
+TEST(BandCoarsening, KeepsWhatFacesCutOff)
+{
+  // Tubes along an edge of the box and along one of its faces: beside the caps at their ends they have caps along them.
+  for (const Vector3d& line : { Vector3d(1.0, 0.2, 0.0), Vector3d(0.98, -0.97, 0.0), Vector3d(0.7, 0.0, 0.0) })
+  {
+    const NodeLattice lattice = boxLattice(20, 20, 60);
+    const Field tube = [&line](const Vector3d& p)
+    { return 0.6001 - std::hypot(p.x() - line.x() - 0.03 * std::sin(p.z()), p.y() - line.y()); };
+    const CappedSurface fine = contourOf(lattice, tube);
+    CappedSurface surface = fine;
+    coarsenBands(surface, lattice, optionsFor(tube));
+    const SurfaceReport report = checkSurface(surface.mesh);
+    EXPECT_TRUE(report.closedManifold() && report.outward());
+    EXPECT_EQ(eulerCharacteristic(surface.mesh), 2);
+    EXPECT_LT(3 * surface.mesh.triangles.size(), fine.mesh.triangles.size());
+    EXPECT_NEAR(report.volume, checkSurface(fine.mesh).volume, 2.0 * pi * 0.6 * 6.0 * error);
+    expectOnFaces(surface);
+  }
+}
+
+TEST(BandCoarsening, KeepsHandlesAndBranches)
+{
+  // A ring with a tube through the box on either side: planes meet it in one loop, then in two, then in one again.
+  const Field ringOnTube = [](const Vector3d& p)
+  {
+    const double along = std::hypot(p.x(), p.z()) - 1.0;
+    const double ring = 0.3 - std::hypot(along, p.y());
+    const double tube = std::abs(p.z()) > 1.0 ? 0.3 - std::hypot(p.x(), p.y()) : -1.0;
+    return std::max(ring, tube) + 1e-4;
+  };
+  const NodeLattice lattice = boxLattice(30, 20, 60);
+  const CappedSurface fine = contourOf(lattice, ringOnTube);
+  ASSERT_EQ(eulerCharacteristic(fine.mesh), 0);
+  CappedSurface surface = fine;
+  coarsenBands(surface, lattice, optionsFor(ringOnTube));
+  const SurfaceReport report = checkSurface(surface.mesh);
+  EXPECT_TRUE(report.closedManifold() && report.outward());
+  EXPECT_EQ(eulerCharacteristic(surface.mesh), 0);
+  EXPECT_LT(surface.mesh.triangles.size(), fine.mesh.triangles.size());
+  // Of the two arms every triangle is there.
+  const auto inTheMiddle = [](const CappedSurface& of)
+  {
+    return std::count_if(of.mesh.triangles.begin(), of.mesh.triangles.end(),
+      [&](const auto& t) { return std::abs(of.mesh.points[std::size_t(t[0])].z()) < 0.5; });
+  };
+  EXPECT_EQ(inTheMiddle(surface), inTheMiddle(fine));
+}
+
+TEST(BandCoarsening, KeepsTheTopologyOfAnything)
+{
+  for (int seed = 0; seed < 40; ++seed)
+  {
+    const double a = 2.0 + 0.05 * seed;
+    const double b = 0.3 * seed;
+    const Field waves = [a, b](const Vector3d& p)
+    {
+      return 0.1 * (std::sin(a * p.x() + b) * std::cos(3.0 * p.y()) + std::sin(3.0 * p.y()) * std::cos(a * p.z() - b) +
+                     std::sin(2.5 * p.z()) * std::cos(a * p.x())) +
+             0.02;
+    };
+    const NodeLattice lattice = boxLattice(24, 24, 40);
+    const CappedSurface fine = contourOf(lattice, waves);
+    CappedSurface surface = fine;
+    coarsenBands(surface, lattice, optionsFor(waves));
+    EXPECT_TRUE(checkSurface(surface.mesh).closedManifold());
+    EXPECT_EQ(eulerCharacteristic(surface.mesh), eulerCharacteristic(fine.mesh));
+    expectOnFaces(surface);
+  }
+}
+
+TEST(BandCoarsening, ChangesNothingWithoutAnErrorOrBands)
+{
+  const NodeLattice lattice = boxLattice(20, 20, 40);
+  const CappedSurface fine = contourOf(lattice, windingTube);
+  SurfaceDecimationOptions options = optionsFor(windingTube);
+  options.maximumError = 0.0;
+  CappedSurface surface = fine;
+  coarsenBands(surface, lattice, options);
+  EXPECT_EQ(surface.mesh.triangles, fine.mesh.triangles);
+
+  const NodeLattice thin = boxLattice(2, 2, 2);
+  const Field all = [](const Vector3d&) { return 1.0; };
+  const CappedSurface box = contourOf(thin, all);
+  surface = box;
+  coarsenBands(surface, thin, optionsFor(all));
+  EXPECT_EQ(surface.mesh.triangles, box.mesh.triangles);
+  CappedSurface empty;
+  coarsenBands(empty, thin, optionsFor(all));
+  EXPECT_TRUE(empty.mesh.triangles.empty());
+}
+
+TEST(PlaneLoops, FindsLoopsRingsAndAnchors)
+{
+  const NodeLattice lattice = boxLattice(20, 20, 40);
+  const CappedSurface tube = contourOf(lattice, windingTube);
+  const PlaneLoops loops(tube, 2, lattice.planes[2]);
+  ASSERT_EQ(loops.planeCount(), 41u);
+  ASSERT_EQ(loops.bandCount(), 40u);
+  EXPECT_TRUE(loops.loop(0).isEmpty() && loops.loop(40).isEmpty());
+  EXPECT_FALSE(loops.isRing(0) || loops.isRing(39));
+  for (std::size_t plane = 1; plane < 40; ++plane)
+  {
+    const PlaneLoop& loop = loops.loop(plane);
+    ASSERT_FALSE(loop.isEmpty());
+    EXPECT_TRUE(loop.anchors.empty());
+    double area = 0.0; // positive where counterclockwise
+    for (std::size_t i = 0; i < loop.points.size(); ++i)
+    {
+      const Vector3d& p = tube.mesh.points[std::size_t(loop.points[i])];
+      const Vector3d& q = tube.mesh.points[std::size_t(loop.points[(i + 1) % loop.points.size()])];
+      EXPECT_EQ(p.z(), lattice.planes[2][plane]);
+      area += 0.5 * (p.x() * q.y() - q.x() * p.y());
+    }
+    EXPECT_NEAR(area, pi * 0.36, 0.03);
+    EXPECT_EQ(loops.isRing(plane), plane < 39);
+  }
+  std::size_t triangles = 0;
+  for (std::size_t band = 0; band < loops.bandCount(); ++band)
+  {
+    triangles += loops.trianglesIn(band);
+  }
+  EXPECT_EQ(triangles, tube.mesh.triangles.size());
+
+  const Field cutTube = [](const Vector3d& p) { return 0.6 - std::hypot(p.x() - 1.0, p.y() - 0.013); };
+  const CappedSurface cut = contourOf(lattice, cutTube);
+  const PlaneLoops cutLoops(cut, 2, lattice.planes[2]);
+  for (std::size_t plane = 1; plane < 40; ++plane)
+  {
+    const PlaneLoop& loop = cutLoops.loop(plane);
+    ASSERT_EQ(loop.anchors.size(), 2u); // where it comes to the face, and where it leaves it
+    EXPECT_EQ(loop.anchors[0], 0u);
+    for (const std::size_t anchor : loop.anchors)
+    {
+      EXPECT_NEAR(std::abs(cut.mesh.points[std::size_t(loop.points[anchor])].y() - 0.013), 0.6, 0.01);
+    }
+  }
+
+  const Field twoTubes = [](const Vector3d& p)
+  { return std::max(0.3 - std::hypot(p.x() - 0.5, p.y()), 0.3 - std::hypot(p.x() + 0.5, p.y())) + 1e-4; };
+  const CappedSurface two = contourOf(lattice, twoTubes);
+  const PlaneLoops twoLoops(two, 2, lattice.planes[2]);
+  for (std::size_t plane = 0; plane < twoLoops.planeCount(); ++plane)
+  {
+    EXPECT_TRUE(twoLoops.loop(plane).isEmpty());
+  }
+}
+
+} // namespace
