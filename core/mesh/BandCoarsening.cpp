@@ -26,9 +26,12 @@ using Eigen::Vector3d;
 /// How far apart, across a chord, points may be that it replaces: it goes amid them.
 constexpr double chordPart = 1.2;
 /// How far the field may be from its level along a strip, before its points settle.
-constexpr double slack = 1.2;
+constexpr double slack = 1.0;
 /// The same where the strip replaces one band, or is next to bands that stay.
 constexpr double looseSlack = 2.0;
+
+/// How far a point may move altogether.
+constexpr double movePart = 0.8;
 
 /// Bands that one strip replaces at most, and those that are tried first.
 constexpr std::size_t mostBands = 16;
@@ -477,13 +480,14 @@ private:
         }
       }
     }
+    const double furthest = movePart * this->Options.maximumError;
     for (const Strip& strip : this->Strips)
     {
       const PlaneLoop& loop = this->Few[strip.begin];
       for (std::size_t i = 0; !strip.hasAllBelow && i < loop.points.size(); ++i)
       {
         const auto p = std::size_t(loop.points[i]);
-        this->move(loop, i, this->Moves[p] + around[p].middle());
+        this->move(loop, i, std::clamp(this->Moves[p] + around[p].middle(), -furthest, furthest));
       }
     }
   }

@@ -58,11 +58,12 @@ struct BlockValues
 class ContourPoints
 {
 public:
-  /// Points are added to `surface`. What is given has to outlive the object.
-  ContourPoints(const NodeLattice& lattice, CappedSurface& surface)
+  /// Points are added to `surface`. What is given has to outlive the object. Of so many blocks room for their points is made.
+  ContourPoints(const NodeLattice& lattice, CappedSurface& surface, std::size_t blocks)
     : Lattice(lattice)
     , Surface(surface)
   {
+    this->Shared.reserve(sharedPerBlock * blocks);
   }
 
   /// Goes on to another block.
@@ -111,6 +112,8 @@ public:
   }
 
 private:
+  /// Points that a block shares with others, where a surface goes right through it.
+  static constexpr std::size_t sharedPerBlock = 128;
   /// Points of a node: the node itself, and one on the edge that leads up from it along each axis.
   static constexpr int pointsPerNode = 4;
 

@@ -151,9 +151,9 @@ std::vector<CellCase> allCases()
 class Contourer
 {
 public:
-  explicit Contourer(const NodeLattice& lattice)
+  Contourer(const NodeLattice& lattice, std::size_t blocks)
     : Lattice(lattice)
-    , Points(lattice, Surface)
+    , Points(lattice, Surface, blocks)
   {
     const auto& planes = lattice.planes;
     Surface.box = Eigen::AlignedBox3d(Eigen::Vector3d(planes[0].front(), planes[1].front(), planes[2].front()),
@@ -350,7 +350,7 @@ CappedSurface contour(const NodeLattice& lattice, const std::vector<std::uint32_
   {
     throw InvalidInput("blocks to contour must be increasing and lie in the lattice");
   }
-  Contourer contourer(lattice);
+  Contourer contourer(lattice, blocks.size());
   std::vector<float> buffer;
   for (const std::uint32_t block : blocks)
   {

@@ -29,8 +29,10 @@ constexpr double leastFlipTurn = 0.5;
 constexpr double quadricPart = 2.0;
 /// Errors of the sweeps before the last ones, as parts of that of the last ones.
 constexpr double sweepErrors[] = { 0.25, 0.5 };
-/// Collapses of less than this part of the largest error are made without a look at the field.
+/// Collapses of less than this part of the largest error are made without a look at the field, where no edge is longer than that
+/// part of the sampling distance.
 constexpr double unnoticed = 0.15;
+constexpr double smallPart = 0.5;
 /// How often edges are flipped, after which come sweeps of the largest error.
 constexpr int flipRounds = 2;
 /// An edge is flipped if that reduces the largest distance of the field from its level to this part, unless it is below that part
@@ -244,7 +246,7 @@ private:
       if (this->Shapes.allowCollapse(u, v, place, thorough))
       {
         const double noticed = unnoticed * this->Options.maximumError;
-        const bool isUnnoticed = error <= noticed * noticed && !thorough;
+        const bool isUnnoticed = error <= noticed * noticed && !thorough && this->isSmallAround(u, v);
         const Verdict verdict = isUnnoticed ? Verdict::NoWorse : this->keepsField(u, v, place, isInside && !thorough);
         if (verdict != Verdict::Worse)
         {
@@ -259,6 +261,15 @@ private:
       candidates.errors[p] = any;
     }
     return any;
+  }
+
+  /// Whether the triangles at u and v are so small that their planes tell what a collapse does.
+  bool isSmallAround(std::int32_t u, std::int32_t v) const
+  {
+    const double longest = smallPart * this->Options.sampling;
+    return !this->Mesh.visitCornersAt(u, v,
+      [&](std::int32_t c, std::int32_t point)
+      { return (this->Mesh.at(this->Mesh.oppositeEdge(c)[0]) - this->Mesh.at(point)).squaredNorm() > longest * longest; });
   }
 
   /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. With `mayMove`, `place` is

@@ -39,7 +39,7 @@ bool isBeside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p, double d
   return (p - box.min()).minCoeff() < distance || (box.max() - p).minCoeff() < distance;
 }
 
-/// Moves a contour to where it is to lie.
+/// Moves a contour to where it is to lie. Only of large triangles: the small ones of a fresh contour might come to meet.
 void toLevel(CappedSurface& surface, const SurfaceTarget& target)
 {
   const double way = std::abs(target.level - target.contoured);
@@ -106,7 +106,6 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
       pair.largestMove = std::max(pair.largestMove, this->largestMove(field, surface, target.level));
       return true;
     }
-    toLevel(surface, target);
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
   report = keepSoundPieces(surface.mesh, pair.droppedVolume);
@@ -133,8 +132,8 @@ bool SurfaceFinishing::coarsen(
       decimation.level = target.contoured;
       coarsenBands(trial, field.lattice(), decimation);
       decimation.level = target.level;
+      toLevel(trial, target);
     }
-    toLevel(trial, target);
     this->reshape(trial, decimation);
     moveToVolume(trial, target.volume, this->DecimationError);
     splitNeedles(trial, largestSquaredEdgeRatio);
