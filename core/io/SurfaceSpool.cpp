@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SurfaceSpool.h"
 
-#include "base/Checkpoint.h"
 #include "base/Error.h"
 #include "base/Sha256.h"
 #include "io/NumberedName.h"
 #include "surface/SurfaceNumbers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -59,24 +57,31 @@ std::string SurfaceSpool::Files::pathOf(std::size_t index) const
   return (this->Folder / kind / fiveDigits(index / filesInAFolder) / (fiveDigits(index) + ".surface")).string();
 }
 
-std::shared_ptr<const TriangleMesh> SurfaceSpool::Files::get(std::size_t index) const
+/// What `read(path, owner)` reads of a surface's file. Throws FileError, which says what to do.
+template <typename Read>
+auto SurfaceSpool::Files::from(std::size_t index, Read&& read) const
 {
-  auto mesh = std::make_shared<TriangleMesh>();
-  static_assert(sizeof(mesh->points[0]) == 3 * sizeof(double));
   const std::string path = this->pathOf(index);
   try
   {
-    CheckpointReader file(path, this->Fingerprint);
-    file.getAll(mesh->points);
-    file.getAll(mesh->triangles);
-    file.finish();
+    return read(path, this->ownerOf(index));
   }
   catch (const Error&)
   {
     throw FileError("the surface " + path + " is damaged, or cannot be read: remove the folder " + this->Folder.string() +
                     " and make all of it again");
   }
-  return mesh;
+}
+
+std::shared_ptr<const TriangleMesh> SurfaceSpool::Files::get(std::size_t index) const
+{
+  return std::make_shared<const TriangleMesh>(this->from(index, readSurface));
+}
+
+SurfacePart SurfaceSpool::Files::part(std::size_t index, double lower, double upper) const
+{
+  return this->from(index, [lower, upper](const std::string& path, const SurfaceFileOwner& owner)
+    { return readSurfacePart(path, owner, lower, upper); });
 }
 
 void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
@@ -84,10 +89,7 @@ void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
   this->isSpaced[index] = this->isSpacing ? 1 : 0;
   const std::string path = this->pathOf(index);
   makeFolders(std::filesystem::path(path).parent_path());
-  CheckpointWriter file(path, { this->Fingerprint, static_cast<std::int64_t>(index) });
-  file.putAll(surface.points);
-  file.putAll(surface.triangles);
-  file.commit();
+  writeSurface(path, this->ownerOf(index), surface);
 }
 
 SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing)

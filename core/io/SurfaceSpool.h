@@ -3,6 +3,7 @@
 
 #include "base/Sharing.h"
 #include "io/RecordLog.h"
+#include "io/SurfaceFile.h"
 #include "mesh/SurfaceStore.h"
 #include "surface/SurfaceJournal.h"
 
@@ -24,7 +25,8 @@ namespace cactus
 ///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
 ///
 /// Files appear whole or not at all, and what is in a journal is in its file. One that was never put
-/// is an error. Memory is one surface for each that is asked for. Any number of processes goes on with what any other has left.
+/// is an error. Memory is one surface for each that is asked for, or the part of it (see SurfaceFile.h). Any number of processes
+/// goes on with what any other has left.
 class SurfaceSpool : public SurfaceJournal
 {
 public:
@@ -59,6 +61,7 @@ private:
 
     std::size_t size() const override { return this->isSpaced.size(); }
     std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
+    SurfacePart part(std::size_t index, double lower, double upper) const override;
     void put(std::size_t index, TriangleMesh surface) override;
     void putElsewhere(std::size_t index) override { this->isSpaced[index] = this->isSpacing ? 1 : 0; }
 
@@ -67,6 +70,9 @@ private:
 
   private:
     std::string pathOf(std::size_t index) const;
+    SurfaceFileOwner ownerOf(std::size_t index) const { return { this->Fingerprint, index }; }
+    template <typename Read>
+    auto from(std::size_t index, Read&& read) const;
 
     std::filesystem::path Folder;
     std::string Kind;

@@ -2,6 +2,7 @@
 #include "mesh/SurfaceSpacing.h"
 
 #include "base/Parallel.h"
+#include "mesh/BoxTree.h"
 #include "mesh/CappedSurface.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/TriangleTree.h"
@@ -56,10 +57,26 @@ struct Slabs
   {
     return slab == this->count - 1 ? infinite : this->first + (slab + 1) * slabThickness + this->gap;
   }
+  bool isTouched(int slab, double from, double to) const { return to >= this->lower(slab) && from <= this->upper(slab); }
   /// The slab of a height, which may be beside the box.
   int at(double z) const
   {
     return static_cast<int>(std::clamp(std::floor((z - this->first) / slabThickness), 0.0, this->count - 1.0));
+  }
+
+  /// Calls visit(slab) for those that a range of heights touches.
+  template <typename Visit>
+  void visitTouched(double from, double to, Visit&& visit) const
+  {
+    // One more on either side: rounding, and the gap.
+    const int last = std::min(this->count - 1, this->at(to + this->gap) + 1);
+    for (int slab = std::max(0, this->at(from - this->gap) - 1); slab <= last; ++slab)
+    {
+      if (this->isTouched(slab, from, to))
+      {
+        visit(slab);
+      }
+    }
   }
 
   double first;
@@ -67,27 +84,28 @@ struct Slabs
   int count;
 };
 
-/// The boxes of what of a surface is in each slab, from the first slab that it is in.
+/// What of a surface is in a slab.
+struct SlabBox
+{
+  Eigen::AlignedBox3d box;
+  bool isChanged = false; ///< since it was looked at
+};
+
+/// The same in each slab, from the first that the surface is in.
 struct SlabBoxes
 {
   int first = 0;
-  std::vector<Eigen::AlignedBox3d> boxes;
+  std::vector<SlabBox> boxes;
 
-  /// Null where nothing of it is.
-  const Eigen::AlignedBox3d* in(int slab) const
-  {
-    const bool isHeld = slab >= this->first && slab - this->first < static_cast<int>(this->boxes.size());
-    const Eigen::AlignedBox3d* box = isHeld ? &this->boxes[std::size_t(slab - this->first)] : nullptr;
-    return box != nullptr && !box->isEmpty() ? box : nullptr;
-  }
+  /// Of a slab between the first and the last.
+  SlabBox& in(int slab) { return this->boxes[std::size_t(slab - this->first)]; }
 };
 
-/// What of a surface is in a slab, as a mesh of its own.
-struct Part
+/// What of a surface is in a slab, with its triangles.
+struct TreedPart
 {
-  TriangleMesh mesh;
-  std::vector<std::int32_t> pointOf; ///< the surface's points that are the mesh's
-  std::unique_ptr<TriangleTree> tree;
+  SurfacePart part;
+  std::unique_ptr<TriangleTree> tree; ///< over the part's mesh
 };
 
 /// Two surfaces whose parts are near each other, and by which triangles they are too near.
@@ -98,18 +116,6 @@ struct Pair
   double missing = 0.0; ///< µm, of the gap
   std::vector<std::uint32_t> trianglesOfOne;
   std::vector<std::uint32_t> trianglesOfOther;
-};
-
-/// Which pairs of surfaces are looked at.
-struct PairSelection
-{
-  std::vector<char> isGiven;   ///< by the caller, or moved
-  std::vector<char> isChanged; ///< since all were looked at
-
-  bool holds(std::size_t a, std::size_t b) const
-  {
-    return (this->isGiven[a] || this->isGiven[b]) && (this->isChanged[a] || this->isChanged[b]);
-  }
 };
 
 /// How far to move each of the points that have to move.
@@ -167,7 +173,7 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
   }
 }
 
-void addMoves(Moves& moves, const Part& part, const std::vector<std::uint32_t>& triangles, double distance)
+void addMoves(Moves& moves, const SurfacePart& part, const std::vector<std::uint32_t>& triangles, double distance)
 {
   for (const std::uint32_t t : triangles)
   {
@@ -179,6 +185,17 @@ void addMoves(Moves& moves, const Part& part, const std::vector<std::uint32_t>& 
   }
 }
 
+Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t)
+{
+  Eigen::AlignedBox3d box;
+  for (const std::int32_t corner : t)
+  {
+    box.extend(mesh.points[std::size_t(corner)]);
+  }
+  return box;
+}
+
+/// Changed in none.
 SlabBoxes boxesBySlab(const TriangleMesh& mesh, const Slabs& slabs)
 {
   SlabBoxes result;
@@ -188,60 +205,28 @@ SlabBoxes boxesBySlab(const TriangleMesh& mesh, const Slabs& slabs)
   }
   const auto byHeight = [](const Vector3d& a, const Vector3d& b) { return a[2] < b[2]; };
   const auto [lowest, highest] = std::minmax_element(mesh.points.begin(), mesh.points.end(), byHeight);
-  // One slab more on either side: rounding, and the gap.
+  // One slab more on either side, as in visitTouched().
   result.first = std::max(0, slabs.at((*lowest)[2] - slabs.gap) - 1);
   result.boxes.resize(std::size_t(std::min(slabs.count - 1, slabs.at((*highest)[2] + slabs.gap) + 1) - result.first + 1));
   for (const auto& t : mesh.triangles)
   {
-    Eigen::AlignedBox3d triangle;
-    for (const std::int32_t corner : t)
-    {
-      triangle.extend(mesh.points[std::size_t(corner)]);
-    }
-    const int last = std::min(slabs.count - 1, slabs.at(triangle.max()[2] + slabs.gap) + 1);
-    for (int slab = std::max(0, slabs.at(triangle.min()[2] - slabs.gap) - 1); slab <= last; ++slab)
-    {
-      if (triangle.max()[2] >= slabs.lower(slab) && triangle.min()[2] <= slabs.upper(slab))
-      {
-        result.boxes[std::size_t(slab - result.first)].extend(triangle);
-      }
-    }
+    const Eigen::AlignedBox3d triangle = boxOf(mesh, t);
+    slabs.visitTouched(triangle.min()[2], triangle.max()[2], [&](int slab) { result.in(slab).box.extend(triangle); });
   }
   return result;
 }
 
-/// Fills in what of a surface touches `lower` <= z <= `upper`.
-void cutOut(const TriangleMesh& mesh, double lower, double upper, Part& part)
+/// Marks the slabs in which triangles have a corner that is to move, or has moved.
+void markChanged(const TriangleMesh& mesh, const Moves& moves, const Slabs& slabs, SlabBoxes& boxes)
 {
-  std::vector<unsigned char> beyond(mesh.points.size());
-  for (std::size_t p = 0; p < beyond.size(); ++p)
-  {
-    const double z = mesh.points[p][2];
-    beyond[p] = static_cast<unsigned char>((z < lower ? 1 : 0) + (z > upper ? 2 : 0));
-  }
-  constexpr std::int32_t none = -1;
-  std::vector<std::int32_t> placeOf(mesh.points.size(), none);
   for (const auto& t : mesh.triangles)
   {
-    if ((beyond[std::size_t(t[0])] & beyond[std::size_t(t[1])] & beyond[std::size_t(t[2])]) != 0)
+    if (moves.count(t[0]) + moves.count(t[1]) + moves.count(t[2]) > 0)
     {
-      continue;
+      const Eigen::AlignedBox3d triangle = boxOf(mesh, t);
+      slabs.visitTouched(triangle.min()[2], triangle.max()[2], [&](int slab) { boxes.in(slab).isChanged = true; });
     }
-    std::array<std::int32_t, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      std::int32_t& place = placeOf[std::size_t(t[i])];
-      if (place == none)
-      {
-        place = static_cast<std::int32_t>(part.pointOf.size());
-        part.pointOf.push_back(t[i]);
-        part.mesh.points.push_back(mesh.points[std::size_t(t[i])]);
-      }
-      corners[i] = place;
-    }
-    part.mesh.triangles.push_back(corners);
   }
-  part.tree = std::make_unique<TriangleTree>(part.mesh);
 }
 
 void measureGap(Pair& pair, const TriangleTree& one, const TriangleTree& other, double gap)
@@ -256,16 +241,32 @@ void measureGap(Pair& pair, const TriangleTree& one, const TriangleTree& other, 
   }
 }
 
+/// What was changed before has changed.
+void keepMarks(SlabBoxes& before, SlabBoxes& boxes)
+{
+  const auto endOf = [](const SlabBoxes& of) { return of.first + static_cast<int>(of.boxes.size()); };
+  for (int slab = std::max(before.first, boxes.first); slab < std::min(endOf(before), endOf(boxes)); ++slab)
+  {
+    boxes.in(slab).isChanged = boxes.in(slab).isChanged || before.in(slab).isChanged;
+  }
+}
+
+FloatBox floatBox(const Eigen::AlignedBox3d& box)
+{
+  return FloatBox::around(box.min(), box.max(), box.max());
+}
+
 std::string bytesOf(const SlabBoxes& slabs)
 {
   ByteWriter put;
   put(slabs.first);
-  for (const Eigen::AlignedBox3d& box : slabs.boxes)
+  for (const SlabBox& slab : slabs.boxes)
   {
+    put(slab.isChanged);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
     {
-      put(box.min()[axis]);
-      put(box.max()[axis]);
+      put(slab.box.min()[axis]);
+      put(slab.box.max()[axis]);
     }
   }
   return put.bytes();
@@ -278,11 +279,12 @@ SlabBoxes boxesFrom(const std::string& bytes)
   get(slabs.first);
   while (!get.isAtEnd())
   {
-    Eigen::AlignedBox3d& box = slabs.boxes.emplace_back();
+    SlabBox& slab = slabs.boxes.emplace_back();
+    get(slab.isChanged);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
     {
-      get(box.min()[axis]);
-      get(box.max()[axis]);
+      get(slab.box.min()[axis]);
+      get(slab.box.max()[axis]);
     }
   }
   return slabs;
@@ -327,7 +329,9 @@ std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
 class Spacing
 {
 public:
-  Spacing(SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context, const Sharing& sharing)
+  /// `given` are the surfaces of which others may be too near.
+  Spacing(SurfaceStore& surfaces, const std::vector<std::size_t>& given, double gap, const Eigen::AlignedBox3d& box,
+    const Context& context, const Sharing& sharing)
     : Surfaces(surfaces)
     , Gap(gap)
     , Box(box)
@@ -335,21 +339,30 @@ public:
     , Shared(sharing)
     , InSlabs(box, gap)
     , Boxes(surfaces.size())
+    , IsGiven(surfaces.size(), 0)
   {
     this->Shared.loop(
       surfaces.size(), context, [this](std::size_t s) { this->Boxes[s] = boxesBySlab(*this->Surfaces.get(s), this->InSlabs); },
       [this](std::size_t s) { return bytesOf(this->Boxes[s]); },
       [this](std::size_t s, const std::string& bytes) { this->Boxes[s] = boxesFrom(bytes); });
+    for (const std::size_t s : given)
+    {
+      this->give(s);
+    }
   }
 
-  /// How far points of surfaces have to move. `report(part)` gets how much of the work is done.
+  /// How far points of surfaces have to move. Only those pairs are looked at, and only in those slabs, where one of the two is
+  /// given and one has changed since the last time; elsewhere the same would be found again, which is nothing. `report(part)`
+  /// gets how much of the work is done.
   template <typename Report>
-  std::map<std::size_t, Moves> measure(const PairSelection& selection, Report&& report) const
+  std::map<std::size_t, Moves> measure(Report&& report)
   {
     std::map<std::size_t, Moves> moves;
+    std::vector<std::vector<std::size_t>> held = this->surfacesBySlab();
     for (int slab = 0; slab < this->InSlabs.count; ++slab)
     {
-      this->measureSlab(slab, selection, moves);
+      this->measureSlab(slab, held[std::size_t(slab)], moves);
+      held[std::size_t(slab)] = {};
       report(double(slab + 1) / this->InSlabs.count);
     }
     return this->Shared.size() > 1 ? joined(this->Shared.exchange(bytesOf(moves))) : moves;
@@ -357,14 +370,25 @@ public:
 
   void move(const std::vector<std::size_t>& moving, const std::map<std::size_t, Moves>& moves)
   {
+    for (SlabBoxes& boxes : this->Boxes)
+    {
+      for (SlabBox& slab : boxes.boxes)
+      {
+        slab.isChanged = false;
+      }
+    }
     this->Shared.loop(
       moving.size(), this->Caller,
       [&](std::size_t m)
       {
         const std::size_t s = moving[m];
         TriangleMesh mesh = *this->Surfaces.get(s);
+        SlabBoxes before = this->Boxes[s];
+        markChanged(mesh, moves.at(s), this->InSlabs, before);
         moveInwards(mesh, moves.at(s), this->Box, this->Gap);
         this->Boxes[s] = boxesBySlab(mesh, this->InSlabs);
+        markChanged(mesh, moves.at(s), this->InSlabs, this->Boxes[s]);
+        keepMarks(before, this->Boxes[s]);
         this->Surfaces.put(s, std::move(mesh));
       },
       [&](std::size_t m) { return bytesOf(this->Boxes[moving[m]]); },
@@ -373,11 +397,27 @@ public:
         this->Boxes[moving[m]] = boxesFrom(bytes);
         this->Surfaces.putElsewhere(moving[m]);
       });
+    for (const std::size_t s : moving)
+    {
+      if (!this->IsGiven[s])
+      {
+        this->give(s); // large triangles may come nearer to a third one as they turn
+      }
+    }
   }
 
 private:
-  std::vector<Pair> neighbours(int slab, const PairSelection& selection) const;
-  void measureSlab(int slab, const PairSelection& selection, std::map<std::size_t, Moves>& moves) const;
+  void give(std::size_t surface)
+  {
+    this->IsGiven[surface] = 1;
+    for (SlabBox& slab : this->Boxes[surface].boxes)
+    {
+      slab.isChanged = true;
+    }
+  }
+  std::vector<std::vector<std::size_t>> surfacesBySlab();
+  std::vector<Pair> neighbours(int slab, const std::vector<std::size_t>& held);
+  void measureSlab(int slab, const std::vector<std::size_t>& held, std::map<std::size_t, Moves>& moves);
 
   SurfaceStore& Surfaces;
   double Gap;
@@ -386,64 +426,108 @@ private:
   const Sharing& Shared;
   Slabs InSlabs;
   std::vector<SlabBoxes> Boxes;
+  std::vector<char> IsGiven; ///< whether pairs with it are looked at at all
 };
 
-/// Pairs to look at, whose boxes in the slab come nearer than the gap.
-std::vector<Pair> Spacing::neighbours(int slab, const PairSelection& selection) const
+/// The surfaces in each slab where one has changed.
+std::vector<std::vector<std::size_t>> Spacing::surfacesBySlab()
 {
-  struct Place
-  {
-    std::size_t surface;
-    const Eigen::AlignedBox3d* box;
-  };
-  std::vector<Place> places;
-  bool isAnyChanged = false;
+  std::vector<std::vector<std::size_t>> held(std::size_t(this->InSlabs.count));
+  std::vector<char> isAnyChanged(held.size(), 0);
   for (std::size_t s = 0; s < this->Boxes.size(); ++s)
   {
-    if (const Eigen::AlignedBox3d* box = this->Boxes[s].in(slab))
+    std::size_t slab = std::size_t(this->Boxes[s].first);
+    for (const SlabBox& part : this->Boxes[s].boxes)
     {
-      places.push_back({ s, box });
-      isAnyChanged = isAnyChanged || selection.isChanged[s];
-    }
-  }
-  std::vector<Pair> pairs;
-  if (!isAnyChanged)
-  {
-    return pairs;
-  }
-  std::stable_sort(
-    places.begin(), places.end(), [](const Place& a, const Place& b) { return a.box->min()[0] < b.box->min()[0]; });
-  for (std::size_t i = 0; i < places.size(); ++i)
-  {
-    const Place& a = places[i];
-    for (std::size_t j = i + 1; j < places.size() && places[j].box->min()[0] <= a.box->max()[0] + this->Gap; ++j)
-    {
-      const Place& b = places[j];
-      if (selection.holds(a.surface, b.surface) && a.box->squaredExteriorDistance(*b.box) < this->Gap * this->Gap)
+      if (!part.box.isEmpty())
       {
-        pairs.push_back({ a.surface, b.surface, 0.0, {}, {} });
+        held[slab].push_back(s);
+        isAnyChanged[slab] = isAnyChanged[slab] != 0 || part.isChanged ? 1 : 0;
       }
+      ++slab;
     }
+  }
+  for (std::size_t slab = 0; slab < held.size(); ++slab)
+  {
+    if (isAnyChanged[slab] == 0)
+    {
+      held[slab] = {};
+    }
+  }
+  return held;
+}
+
+/// Pairs to look at, whose boxes in the slab come nearer than the gap: those to one side along x one after the other.
+std::vector<Pair> Spacing::neighbours(int slab, const std::vector<std::size_t>& held)
+{
+  std::vector<std::size_t> surfaces = held;
+  const auto boxAt = [&](std::size_t place) -> const SlabBox& { return this->Boxes[surfaces[place]].in(slab); };
+  std::stable_sort(surfaces.begin(), surfaces.end(),
+    [&](std::size_t a, std::size_t b) { return this->Boxes[a].in(slab).box.min()[0] < this->Boxes[b].in(slab).box.min()[0]; });
+  std::vector<BoxTree::Item> changed;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    if (boxAt(i).isChanged)
+    {
+      changed.push_back({ floatBox(boxAt(i).box), static_cast<std::uint32_t>(i) });
+    }
+  }
+  const BoxTree tree(std::move(changed));
+  const double squaredGap = this->Gap * this->Gap;
+  std::vector<std::vector<std::size_t>> near(surfaces.size());
+  parallelFor(surfaces.size(), this->Caller,
+    [&](std::size_t i)
+    {
+      const SlabBox& own = boxAt(i);
+      const FloatBox rough = floatBox(own.box);
+      visitEntries(
+        tree, [&](const FloatBox& box) { return double(rough.squaredDistance(box)) < squaredGap; },
+        [&](std::size_t j)
+        {
+          // Of two that have changed, each comes upon the other.
+          const bool isOwn = own.isChanged ? i < j : i != j;
+          if (isOwn && (this->IsGiven[surfaces[i]] || this->IsGiven[surfaces[j]]) &&
+              own.box.squaredExteriorDistance(boxAt(j).box) < squaredGap)
+          {
+            near[i].push_back(j);
+          }
+          return false;
+        });
+    });
+  std::vector<std::pair<std::size_t, std::size_t>> places;
+  for (std::size_t i = 0; i < near.size(); ++i)
+  {
+    for (const std::size_t j : near[i])
+    {
+      places.emplace_back(std::min(i, j), std::max(i, j));
+    }
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<Pair> pairs;
+  pairs.reserve(places.size());
+  for (const auto& [one, other] : places)
+  {
+    pairs.push_back({ surfaces[one], surfaces[other], 0.0, {}, {} });
   }
   return pairs;
 }
 
 /// Adds, per surface, how far points have to move for those pairs in a slab that are this process's: a run of them, since pairs
 /// that follow each other have surfaces in common.
-void Spacing::measureSlab(int slab, const PairSelection& selection, std::map<std::size_t, Moves>& moves) const
+void Spacing::measureSlab(int slab, const std::vector<std::size_t>& held, std::map<std::size_t, Moves>& moves)
 {
-  std::vector<Pair> pairs = this->neighbours(slab, selection);
+  std::vector<Pair> pairs = this->neighbours(slab, held);
   const auto startOf = [&](int place)
   { return std::ptrdiff_t(pairs.size() * std::size_t(place) / std::size_t(this->Shared.size())); };
   const int place = this->Shared.place();
   pairs = std::vector<Pair>(pairs.begin() + startOf(place), pairs.begin() + startOf(place + 1));
-  std::map<std::size_t, Part> parts;
+  std::map<std::size_t, TreedPart> parts;
   for (const Pair& pair : pairs)
   {
     parts[pair.one];
     parts[pair.other];
   }
-  std::vector<std::pair<const std::size_t, Part>*> entries;
+  std::vector<std::pair<const std::size_t, TreedPart>*> entries;
   entries.reserve(parts.size());
   for (auto& entry : parts)
   {
@@ -452,8 +536,9 @@ void Spacing::measureSlab(int slab, const PairSelection& selection, std::map<std
   parallelFor(entries.size(), this->Caller,
     [&](std::size_t i)
     {
-      auto& [surface, part] = *entries[i];
-      cutOut(*this->Surfaces.get(surface), this->InSlabs.lower(slab), this->InSlabs.upper(slab), part);
+      auto& [surface, treed] = *entries[i];
+      treed.part = this->Surfaces.part(surface, this->InSlabs.lower(slab), this->InSlabs.upper(slab));
+      treed.tree = std::make_unique<TriangleTree>(treed.part.mesh);
     });
   parallelFor(pairs.size(), this->Caller,
     [&](std::size_t p) { measureGap(pairs[p], *parts.at(pairs[p].one).tree, *parts.at(pairs[p].other).tree, this->Gap); });
@@ -462,8 +547,8 @@ void Spacing::measureSlab(int slab, const PairSelection& selection, std::map<std
     if (pair.missing > 0.0)
     {
       const double distance = 0.5 * pair.missing + extraDistance;
-      addMoves(moves[pair.one], parts.at(pair.one), pair.trianglesOfOne, distance);
-      addMoves(moves[pair.other], parts.at(pair.other), pair.trianglesOfOther, distance);
+      addMoves(moves[pair.one], parts.at(pair.one).part, pair.trianglesOfOne, distance);
+      addMoves(moves[pair.other], parts.at(pair.other).part, pair.trianglesOfOther, distance);
     }
   }
 }
@@ -478,21 +563,14 @@ SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& 
   {
     return report;
   }
-  PairSelection selection;
-  selection.isGiven.resize(surfaces.size(), 0);
-  for (const std::size_t s : changed)
-  {
-    selection.isGiven[s] = 1;
-  }
-  selection.isChanged = selection.isGiven;
-  Spacing spacing(surfaces, smallest + rounding, box, context, sharing);
+  Spacing spacing(surfaces, changed, smallest + rounding, box, context, sharing);
   std::set<std::size_t> moved;
   // Most of the work is the first look at all surfaces.
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {
     const std::map<std::size_t, Moves> moves = spacing.measure(
-      selection, [&](double part) { context.report((round == 0 ? from : half) + (half - from) * part, "keeping fibres apart"); });
+      [&](double part) { context.report((round == 0 ? from : half) + (half - from) * part, "keeping fibres apart"); });
     std::vector<std::size_t> moving;
     moving.reserve(moves.size());
     for (const auto& entry : moves)
@@ -504,13 +582,7 @@ SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& 
       report.tooNear = moving;
       break;
     }
-    std::fill(selection.isChanged.begin(), selection.isChanged.end(), 0);
-    for (const std::size_t s : moving)
-    {
-      selection.isChanged[s] = 1;
-      selection.isGiven[s] = 1; // large triangles may come nearer to a third one as they turn
-      moved.insert(s);
-    }
+    moved.insert(moving.begin(), moving.end());
     spacing.move(moving, moves);
   }
   report.moved.assign(moved.begin(), moved.end());

@@ -30,7 +30,9 @@ struct SpacingReport
 /// folds, is for the caller to check. Empty surfaces are left out. Same result on any number of threads.
 ///
 /// It looks at one slab of `box` after the other, 10 µm thick along z, and holds what of the surfaces is in that slab alone, and
-/// there near others, with search trees. How far a place is moved depends on what is missing of the gap within its slab.
+/// there near others, with search trees. How far a place is moved depends on what is missing of the gap within its slab. Of the
+/// store it asks each surface once, for where it is; its parts in the slabs; these again where anything was moved; and each
+/// surface that is moved, as often as it is. So what it reads and does is the same for each µm of a fibre, however long that is.
 ///
 /// Only pairs with a surface among those in `changed` (increasing), or one that is moved, are looked at: the others are taken to
 /// be apart.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mesh/SurfacePart.h"
 #include "mesh/TriangleMesh.h"
 
 #include <cstddef>
@@ -20,6 +21,11 @@ public:
   virtual std::size_t size() const = 0;
   /// A surface, which may have no triangles; it stays as it is until it is changed for another one.
   virtual std::shared_ptr<const TriangleMesh> get(std::size_t index) const = 0;
+  /// What of a surface touches `lower` <= z <= `upper` (µm), for those who need no more of it at a time.
+  virtual SurfacePart part(std::size_t index, double lower, double upper) const
+  {
+    return cutOut(*this->get(index), lower, upper);
+  }
 };
 
 /// Surfaces that are kept, each in the place of the one before; none has triangles at first. What is made of them does not depend

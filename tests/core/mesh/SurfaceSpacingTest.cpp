@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantees: surfaces that are too near are moved to the gap, by no more than that takes, wherever they lie to the slabs that
-// are looked at; others keep every bit.
+// are looked at; others keep every bit. What is read of surfaces does not grow faster than they do.
 #include "mesh/SurfaceSpacing.h"
 
 #include "ExampleSurfaces.h"
@@ -12,8 +12,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -306,6 +310,172 @@ TEST(SurfaceSpacing, FindsAllThatIsNearInALongBox)
       EXPECT_LT((results[0][i].points[p] - before[i].points[p]).norm(), 0.02) << i;
     }
   }
+}
+
+/// Counts what is asked of it.
+class CountingStore : public SurfacesInMemory
+{
+public:
+  explicit CountingStore(const std::vector<TriangleMesh>& surfaces)
+    : SurfacesInMemory(surfaces.size())
+  {
+    for (std::size_t s = 0; s < surfaces.size(); ++s)
+    {
+      this->SurfacesInMemory::put(s, surfaces[s]);
+    }
+  }
+
+  std::shared_ptr<const TriangleMesh> get(std::size_t index) const override
+  {
+    ++this->wholes;
+    const auto surface = this->SurfacesInMemory::get(index);
+    this->bytes += bytesIn(*surface);
+    return surface;
+  }
+  SurfacePart part(std::size_t index, double lower, double upper) const override
+  {
+    const SurfacePart part = cutOut(*this->SurfacesInMemory::get(index), lower, upper);
+    this->bytes += bytesIn(part.mesh);
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    ++this->parts[{ index, lower }];
+    return part;
+  }
+
+  static std::size_t bytesIn(const TriangleMesh& mesh)
+  {
+    return mesh.points.size() * sizeof(mesh.points[0]) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  }
+
+  mutable std::atomic<std::size_t> wholes{ 0 };
+  mutable std::atomic<std::size_t> bytes{ 0 };
+  mutable std::map<std::pair<std::size_t, double>, int> parts; ///< how often each was asked for
+
+private:
+  mutable std::mutex Mutex;
+};
+
+/// Three tubes that wave side by side along z from 0, of which the second and third are too near between `from` and `to`.
+std::vector<TriangleMesh> longTubes(double length, double from, double to)
+{
+  std::vector<TriangleMesh> tubes;
+  for (int i = 0; i < 3; ++i)
+  {
+    tubes.push_back(example::tube(1.021 * i, 0.0, 0.5, 0.0, length, 24, static_cast<int>(2 * length)));
+    for (Eigen::Vector3d& p : tubes.back().points)
+    {
+      p[0] += 0.2 * std::sin(0.5 * p[2]);
+    }
+  }
+  for (Eigen::Vector3d& p : tubes[2].points)
+  {
+    p[0] -= p[2] > from && p[2] < to ? 0.01 : 0.0;
+  }
+  return tubes;
+}
+
+Eigen::AlignedBox3d boxOfLength(double length)
+{
+  return { Eigen::Vector3d(-20.0, -20.0, 0.0), Eigen::Vector3d(20.0, 20.0, length) };
+}
+
+TEST(SurfaceSpacing, ReadsNoMoreOfSurfacesForEachSlab)
+{
+  for (const double length : { 40.0, 400.0 })
+  {
+    const std::vector<TriangleMesh> tubes = longTubes(length, 0.0, 0.0);
+    std::size_t all = 0;
+    for (const TriangleMesh& mesh : tubes)
+    {
+      all += CountingStore::bytesIn(mesh);
+    }
+    CountingStore store(tubes);
+    EXPECT_TRUE(cactus::keepApart(store, 0.02, boxOfLength(length)).moved.empty());
+    EXPECT_EQ(store.wholes, 3u);
+    EXPECT_EQ(store.parts.size(), std::size_t(3 * length / 10.0));
+    EXPECT_LT(double(store.bytes), 2.3 * double(all)) << length << " µm: once whole, once slab by slab, and what slabs share";
+  }
+}
+
+TEST(SurfaceSpacing, LooksAgainOnlyWhereAnythingWasMoved)
+{
+  const std::vector<TriangleMesh> tubes = longTubes(400.0, 203.0, 207.0);
+  CountingStore store(tubes);
+  const SpacingReport report = cactus::keepApart(store, 0.02, boxOfLength(400.0));
+  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 1, 2 }));
+  EXPECT_TRUE(report.tooNear.empty());
+  EXPECT_EQ(store.parts.size(), 3u * 40u);
+  for (const auto& [of, times] : store.parts)
+  {
+    const bool isMoved = of.second > 199.0 && of.second < 201.0;
+    EXPECT_EQ(times > 1, isMoved) << "surface " << of.first << " above " << of.second;
+  }
+}
+
+TEST(SurfaceSpacing, LooksAtTheNeighboursOfWhatItHasMovedAllAlong)
+{
+  // The first two are too near above, the second and third below; the third alone has changed, and then the first.
+  std::vector<TriangleMesh> tubes = longTubes(40.0, 3.0, 7.0);
+  for (Eigen::Vector3d& p : tubes[0].points)
+  {
+    p[0] += p[2] > 33.0 && p[2] < 37.0 ? 0.01 : 0.0;
+  }
+  CountingStore still(tubes);
+  EXPECT_TRUE(cactus::keepApart(still, std::vector<std::size_t>{}, 0.02, boxOfLength(40.0)).moved.empty());
+  EXPECT_TRUE(still.parts.empty());
+  for (const std::size_t changed : { 2, 0 })
+  {
+    CountingStore store(tubes);
+    const SpacingReport report = cactus::keepApart(store, std::vector<std::size_t>{ changed }, 0.02, boxOfLength(40.0));
+    EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 0, 1, 2 })) << changed;
+    EXPECT_TRUE(report.tooNear.empty()) << changed;
+    EXPECT_TRUE(allTooNear({ store.take(0), store.take(1), store.take(2) }, 0.02).empty()) << changed;
+  }
+}
+
+TriangleMesh tetrahedron(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
+{
+  TriangleMesh mesh;
+  mesh.points = { a, b, c, d };
+  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 3, 2 } };
+  for (auto& t : mesh.triangles)
+  {
+    if ((b - a).cross(c - a).dot(d - a) > 0.0)
+    {
+      std::swap(t[1], t[2]);
+    }
+  }
+  return mesh;
+}
+
+/// With a corner at `tip`, and 1 µm long.
+TriangleMesh thorn(const Eigen::Vector3d& tip, const Eigen::Vector3d& along)
+{
+  const Eigen::Vector3d aside = along.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d base = tip + along.normalized();
+  return tetrahedron(tip, base + 0.2 * aside, base - 0.2 * aside, base + Eigen::Vector3d(0.0, 0.0, 0.2));
+}
+
+// One that leans over is moved at its top, by which its face turns towards another one two slabs below.
+TEST(SurfaceSpacing, FindsWhatAMoveHasBroughtNearInAnotherSlab)
+{
+  const Eigen::Vector3d top(-5.0, 0.0, 38.0);
+  const Eigen::Vector3d right(0.0, -3.0, 1.0);
+  const Eigen::Vector3d left(-1.0, 0.0, 3.0);
+  const Eigen::Vector3d outwards = (left - top).cross(right - top).normalized();
+  ASSERT_LT(outwards[0], -0.5);
+  const Eigen::Vector3d amid = (top + right + left) / 3.0;
+  std::vector<TriangleMesh> surfaces{ tetrahedron(top, right, { 0.0, 3.0, 1.0 }, left), thorn(amid + 0.0205 * outwards, outwards),
+    thorn(top + Eigen::Vector3d(0.012, 0.0, 0.0), { 1.0, 0.0, 0.0 }) };
+  for (const TriangleMesh& mesh : surfaces)
+  {
+    ASSERT_TRUE(checkSurface(mesh).outward());
+  }
+  ASSERT_EQ(allTooNear(surfaces, 0.02), (std::vector<std::size_t>{ 0, 2 }));
+  CountingStore store(surfaces);
+  const SpacingReport report = cactus::keepApart(store, 0.02, boxOfLength(40.0));
+  EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 0, 1, 2 }));
+  EXPECT_TRUE(report.tooNear.empty());
+  EXPECT_TRUE(allTooNear({ store.take(0), store.take(1), store.take(2) }, 0.02).empty());
 }
 
 } // namespace
