@@ -78,6 +78,7 @@ class Package(unittest.TestCase):
 
     def test_the_plugin_loads_and_needs_nothing_of_the_build(self):
         plugin = self.one(f"usr/lib/*/{PARAVIEW}/plugins/CACTUS/CACTUS.so")
+        self.one(f"usr/lib/*/{PARAVIEW}/plugins/CACTUS/libCactusWindow.so")
         for library in [plugin, *glob.glob(os.path.join(os.path.dirname(plugin), "lib*.so"))]:
             # Found beside it, and nothing in a folder of the build.
             for line in output("ldd", library).splitlines():

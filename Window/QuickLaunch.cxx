@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuickLaunch.h"
+
+#include <pqPVApplicationCore.h>
+#include <pqProxyGroupMenuManager.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMProxy.h>
+#include <vtkSMProxyManager.h>
+#include <vtkSMSessionProxyManager.h>
+
+#include <QAction>
+#include <QApplication>
+#include <QMainWindow>
+#include <QStringList>
+
+#include <algorithm>
+#include <cstring>
+
+namespace cactus
+{
+namespace
+{
+
+constexpr char category[] = "CACTUS";
+
+/// The menus whose actions the search shows.
+QList<pqProxyGroupMenuManager*> searchedMenus()
+{
+  QList<pqProxyGroupMenuManager*> menus;
+  for (const QWidget* widget : QApplication::topLevelWidgets())
+  {
+    if (const QMainWindow* window = qobject_cast<const QMainWindow*>(widget))
+    {
+      menus += window->findChildren<pqProxyGroupMenuManager*>();
+    }
+  }
+  // Context menus have actions of their own.
+  menus.erase(
+    std::remove_if(menus.begin(), menus.end(), [](const pqProxyGroupMenuManager* menu) { return !menu->supportsQuickLaunch(); }),
+    menus.end());
+  return menus;
+}
+
+/// Whether what an action of ParaView's menus makes is in the submenu of this plugin, by the hint ShowInMenu in its XML.
+bool isOfThisPlugin(const QAction* action)
+{
+  vtkSMSessionProxyManager* manager = vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
+  const QStringList groupAndName = action->data().toStringList();
+  if (manager == nullptr || groupAndName.size() != 2)
+  {
+    return false;
+  }
+  vtkSMProxy* prototype = manager->GetPrototypeProxy(groupAndName[0].toUtf8().data(), groupAndName[1].toUtf8().data());
+  vtkPVXMLElement* hints = prototype != nullptr ? prototype->GetHints() : nullptr;
+  vtkPVXMLElement* shown = hints != nullptr ? hints->FindNestedElementByName("ShowInMenu") : nullptr;
+  const char* shownIn = shown != nullptr ? shown->GetAttribute("category") : nullptr;
+  return shownIn != nullptr && std::strcmp(shownIn, category) == 0;
+}
+
+} // namespace
+
+QuickLaunch::QuickLaunch(pqPVApplicationCore* core)
+  : QObject(core)
+{
+  core->registerForQuicklaunch(&this->entries);
+  connect(core, &pqPVApplicationCore::aboutToShowQuickLaunch, this, [this] { this->makeEntries(); });
+}
+
+void QuickLaunch::makeEntries()
+{
+  qDeleteAll(this->entries.findChildren<QAction*>());
+  for (const pqProxyGroupMenuManager* menu : searchedMenus())
+  {
+    for (QAction* action : menu->actions())
+    {
+      if (isOfThisPlugin(action))
+      {
+        this->addEntry(action);
+      }
+    }
+  }
+}
+
+void QuickLaunch::addEntry(QAction* menuAction)
+{
+  QAction* entry = new QAction(menuAction->icon(), QString("%1 %2").arg(category, menuAction->text()), &this->entries);
+  // The search of 5.11 tells actions apart by their names; that of 5.13 takes help and requirements from group and name of the
+  // proxy.
+  entry->setObjectName(QString("%1 %2").arg(category, menuAction->objectName()));
+  entry->setData(menuAction->data());
+  const auto follow = [entry, menuAction]
+  {
+    entry->setEnabled(menuAction->isEnabled());
+    entry->setStatusTip(menuAction->statusTip());
+  };
+  follow();
+  // The menus may find out what can be chosen only after this.
+  connect(menuAction, &QAction::changed, entry, follow);
+  connect(entry, &QAction::triggered, menuAction, &QAction::trigger);
+}
+
+} // namespace cactus

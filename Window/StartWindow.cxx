@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "QuickLaunch.h"
+
+#include <pqPVApplicationCore.h>
+
+#include <QCoreApplication>
+#include <QTimer>
+
+/// Called by the plugin (Plugin/LoadWindow.cxx). ParaView may still be starting then, so the rest waits until it runs.
+extern "C" Q_DECL_EXPORT void cactusStartWindow()
+{
+  QTimer::singleShot(0, QCoreApplication::instance(),
+    []
+    {
+      if (pqPVApplicationCore* core = pqPVApplicationCore::instance())
+      {
+        new cactus::QuickLaunch(core);
+      }
+    });
+}
