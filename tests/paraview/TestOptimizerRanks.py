@@ -30,9 +30,9 @@ class Ranks(CactusTestCase):
     expected = UNPARTED
 
     def grown(self, first, **properties):
-        """The provenance of each rank's part of an image of more fibres than are parted in a second."""
+        """The provenance of each rank's part of an image of more fibres than are parted in a fifth of a second."""
         bundle = BundleInitializer(Side=30, MeanDispersion=20, DispersionModel="Watson", FibreVolumeFraction=0.7)
-        optimizer = CapsuleOptimizer(Input=bundle, TimeBudget=1, OverlapTolerance=1e-9, MaximumIterations=1000000, **properties)
+        optimizer = CapsuleOptimizer(Input=bundle, TimeBudget=0.2, OverlapTolerance=1e-9, MaximumIterations=1000000, **properties)
         growth = FibreRadialGrowth(Input=OutputPort(optimizer, 0), VoxelSize=2)
         if first:
             optimizer.UpdatePipeline()  # which asks all ranks but the first for nothing
