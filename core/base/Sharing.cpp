@@ -186,6 +186,8 @@ void Sharing::together(const std::function<void()>& work) const
     work();
     return;
   }
+  // Where this is within the same of a caller, and one has failed on its way here, all end there.
+  this->exchange();
   try
   {
     std::string failure;

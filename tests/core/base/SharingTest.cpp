@@ -232,6 +232,35 @@ TEST(Sharing, EndsASwapToo)
   EXPECT_EQ(told, (std::vector<std::string>{ "on rank 1: no space", "reported elsewhere", "reported elsewhere" }));
 }
 
+// Such as data that only one of them cannot read, before the work on it begins.
+TEST(Sharing, EndsAllWhereOneFailsBeforeAnInnerLayer)
+{
+  const auto told = inTeam(3,
+    [](Team& team)
+    {
+      const Sharing outer(&team);
+      const Sharing inner(&team);
+      try
+      {
+        outer.together(
+          [&]
+          {
+            if (team.place() == 1)
+            {
+              throw FileError("no space");
+            }
+            inner.together([&] { inner.exchange(); });
+          });
+      }
+      catch (const ReportedElsewhere&)
+      {
+        return std::string("reported elsewhere");
+      }
+      return std::string("well");
+    });
+  EXPECT_EQ(told, (std::vector<std::string>{ "on rank 1: no space", "reported elsewhere", "reported elsewhere" }));
+}
+
 TEST(Sharing, TellsOthersAmidTheirWork)
 {
   const std::string file = ::testing::TempDir() + "cactus-stop-" + std::to_string(::getpid());
