@@ -84,6 +84,10 @@ public:
   /** The same as a number, which scripts can ask for. */
   int GetHasNews() { return this->GetNeedsUpdate() ? 1 : 0; }
 
+  /** Asks a run to stop. That is no change of the filter: of several ranks, one that was asked too late would else run again, and
+   * wait for the others. */
+  void SetAbortExecute(vtkTypeBool wanted) override { this->AbortExecute = wanted; }
+
   /** Ends a run in the background: what it shows next is its best state, which is its result. */
   void StopNow();
 

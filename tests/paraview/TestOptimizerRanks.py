@@ -91,6 +91,23 @@ optimizer.UpdatePipeline()
 print("bits", bits(optimizer), flush=True)
 """
 
+# The first rank is asked to stop while it runs, and once more when it is too late.
+STOPPED = BEGIN + """
+optimizer = CapsuleOptimizer(Input=bundle())
+filter = optimizer.GetClientSideObject()
+stop = lambda *_: filter.SetAbortExecute(1) if "iteration 20:" in str(filter.GetProgressText()) else None
+observer = filter.AddObserver("ProgressEvent", stop)
+optimizer.UpdatePipeline()
+print("bits stopped", bits(optimizer), flush=True)
+filter.RemoveObserver(observer)
+filter.SetAbortExecute(1)
+optimizer.UpdatePipeline()
+FibreRadialGrowth(Input=OutputPort(optimizer, 0), VoxelSize=1).UpdatePipeline()
+print("bits stopped", bits(optimizer), flush=True)
+optimizer.MaximumIterations = 2999
+print("bits", bits(optimizer), flush=True)
+"""
+
 # The second rank has something else: a radius below 0, another place of a point, a fault of what comes before, or nothing.
 FAULTS = BEGIN + """
 CHANGE = '''
@@ -203,6 +220,15 @@ class SharedRuns(CactusTestCase):
             said = self.said(self.on_ranks(following), CHECKPOINTS, checkpoint)
             self.assertNotIn("iteration 0:", said)
             self.assertEqual(self.bits(said), expected)
+
+    def test_stops_where_one_rank_is_asked_to(self):
+        alone, shared = (self.said(self.on_ranks(count), STOPPED) for count in (1, 2))
+        found = self.bits(alone)
+        self.assertEqual(len(found), 3)
+        self.assertEqual(found[0], found[1])
+        self.assertNotEqual(found[0], "stopped " + found[2])
+        self.assertEqual(self.bits(shared), found)
+        self.assertEqual(shared.count("the run was stopped after 21 iterations"), 1, shared)
 
     def test_an_error_on_one_rank_ends_all_with_one_message(self):
         said = self.said(self.on_ranks(2), FAULTS)
