@@ -17,9 +17,10 @@ namespace
 {
 
 /// Of the grid, at most: a set of its cells takes a bit for each.
-constexpr double mostCells = 4e6;
+constexpr double mostCells = 8e6;
 
-/// The grid that all processes make of what they tell each other, cells about as large as a box.
+/// The grid that all processes make of what they tell each other, cells half as large as a box along each axis, so that what lies
+/// between two boxes that have a cell in common is little.
 class CoarseGrid
 {
 public:
@@ -97,7 +98,7 @@ private:
     double wanted[3];
     for (int axis = 0; axis < 3; ++axis)
     {
-      wanted[axis] = std::max(1.0, (double(upper[axis]) - lower[axis]) * boxes / std::max(extent[axis], 1e-30));
+      wanted[axis] = std::max(1.0, 2.0 * (double(upper[axis]) - lower[axis]) * boxes / std::max(extent[axis], 1e-30));
       cells *= wanted[axis];
     }
     const double coarser = std::cbrt(std::max(1.0, cells / mostCells));
