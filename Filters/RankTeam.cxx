@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-constexpr int swapTag = 23107;
+constexpr int dealTag = 23107;
 
 vtkMultiProcessController* allRanks()
 {
@@ -94,7 +94,7 @@ void send(const std::string& bytes, int to)
 {
   for (vtkIdType from = 0; from < static_cast<vtkIdType>(bytes.size()); from += mostAtOnce)
   {
-    allRanks()->Send(bytes.data() + from, std::min(static_cast<vtkIdType>(bytes.size()) - from, mostAtOnce), to, swapTag);
+    allRanks()->Send(bytes.data() + from, std::min(static_cast<vtkIdType>(bytes.size()) - from, mostAtOnce), to, dealTag);
   }
 }
 
@@ -103,7 +103,7 @@ void receive(std::string& bytes, vtkIdType size, int from)
   bytes.resize(static_cast<std::size_t>(size));
   for (vtkIdType at = 0; at < size; at += mostAtOnce)
   {
-    allRanks()->Receive(&bytes[static_cast<std::size_t>(at)], std::min(size - at, mostAtOnce), from, swapTag);
+    allRanks()->Receive(&bytes[static_cast<std::size_t>(at)], std::min(size - at, mostAtOnce), from, dealTag);
   }
 }
 
@@ -156,13 +156,14 @@ std::vector<std::string> RankTeam::exchange(const std::string& bytes)
   return areAllTheSame(announced) ? gatherAll(bytes, announced) : passOn(std::vector<std::string>(ranks, bytes), announced);
 }
 
-std::vector<std::string> RankTeam::swap(const std::vector<std::string>& toEach)
+std::vector<std::string> RankTeam::deal(const std::vector<std::string>& toEach)
 {
   if (this->size() == 1)
   {
     return toEach;
   }
   std::vector<vtkIdType> sizes;
+  sizes.reserve(toEach.size());
   for (const std::string& bytes : toEach)
   {
     sizes.push_back(static_cast<vtkIdType>(bytes.size()));

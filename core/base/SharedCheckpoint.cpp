@@ -35,7 +35,7 @@ std::uint64_t sumOf(const std::vector<std::uint64_t>& counts)
   return sum;
 }
 
-/// Swaps where one process gives something to one other.
+/// A deal in which one process gives something to one other.
 std::string pass(std::string bytes, std::size_t from, std::size_t to, const Sharing& sharing)
 {
   std::vector<std::string> toEach(static_cast<std::size_t>(sharing.size()));
@@ -43,7 +43,7 @@ std::string pass(std::string bytes, std::size_t from, std::size_t to, const Shar
   {
     toEach[to] = std::move(bytes);
   }
-  return sharing.swap(std::move(toEach))[from];
+  return sharing.deal(std::move(toEach))[from];
 }
 
 } // namespace
@@ -114,7 +114,7 @@ std::string SharedCheckpointReader::fromFile(const std::function<void(Checkpoint
 /// How many values each process wants, once it is known that the file has so many: nothing is to be set aside for more.
 std::vector<std::uint64_t> SharedCheckpointReader::countsOfAll(std::size_t count, std::size_t bytes)
 {
-  const std::vector<std::uint64_t> counts = gatheredCounts(count, this->Processes);
+  std::vector<std::uint64_t> counts = gatheredCounts(count, this->Processes);
   if (this->File)
   {
     this->File->require(this->File->getCount(bytes) == sumOf(counts));

@@ -139,7 +139,7 @@ std::vector<std::string> Sharing::exchange(const std::string& bytes) const
   return this->whereWell(this->Members->exchange(static_cast<char>(Fate::Well) + bytes));
 }
 
-std::vector<std::string> Sharing::swap(std::vector<std::string> toEach) const
+std::vector<std::string> Sharing::deal(std::vector<std::string> toEach) const
 {
   if (this->Members == nullptr)
   {
@@ -152,7 +152,7 @@ std::vector<std::string> Sharing::swap(std::vector<std::string> toEach) const
       bytes.insert(0, 1, static_cast<char>(Fate::Well));
     }
   }
-  return this->whereWell(this->Members->swap(toEach));
+  return this->whereWell(this->Members->deal(toEach));
 }
 
 std::string Sharing::fromFirst(const std::string& bytes) const
@@ -213,7 +213,7 @@ void Sharing::together(const std::function<void()>& work) const
   }
 }
 
-/// Takes part in the exchange, or the swap, that the others come to, with a failure.
+/// Takes part in the exchange, or the deal, that the others come to, with a failure.
 void Sharing::tell(const std::string& failure) const
 {
   if (!this->StopFile.empty())

@@ -49,7 +49,7 @@ public:
   std::vector<std::string> exchange(const std::string& bytes = "") const;
   /// What each process has given to this one, by their places; toEach is what this one gives to each. Ends the work where one has
   /// failed.
-  std::vector<std::string> swap(std::vector<std::string> toEach) const;
+  std::vector<std::string> deal(std::vector<std::string> toEach) const;
   /// What the first process has given.
   std::string fromFirst(const std::string& bytes) const;
   /// Adds up what all processes have counted.

@@ -185,6 +185,7 @@ std::vector<std::vector<std::size_t>> boxesNearOthers(const std::vector<RunBox>&
   }
   const CellSet others(std::move(anybody));
   std::vector<CellSet> cells;
+  cells.reserve(told.size());
   for (std::string& bits : told)
   {
     cells.emplace_back(std::move(bits));

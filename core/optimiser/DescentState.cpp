@@ -135,7 +135,7 @@ void DescentState::loadNeighbours(SharedCheckpointReader& file, const FibreShare
           offsets.begin() + std::ptrdiff_t(shares.capsuleBegin(process + 1)) + 1));
       }
     });
-  getAll(shares.sharing().swap(std::move(toEach)).front(), this->neighbours.offsets);
+  getAll(shares.sharing().deal(std::move(toEach)).front(), this->neighbours.offsets);
   const std::size_t first = this->neighbours.offsets.front();
   std::for_each(this->neighbours.offsets.begin(), this->neighbours.offsets.end(), [&](std::size_t& offset) { offset -= first; });
   file.getAll(this->neighbours.indices, this->neighbours.offsets.back());

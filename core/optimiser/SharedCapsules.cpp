@@ -208,7 +208,7 @@ std::vector<float> SharedCapsules::giveAway(
     toEach.push_back(std::move(put.bytes()));
   }
   this->Given = std::move(stretches);
-  return this->takeIn(this->Shares.sharing().swap(std::move(toEach)), fibres.points.size(), reach);
+  return this->takeIn(this->Shares.sharing().deal(std::move(toEach)), fibres.points.size(), reach);
 }
 
 /// Takes in what each process has given.
@@ -307,7 +307,7 @@ bool SharedCapsules::update(const Fibres& fibres, bool withRadii, bool flag)
         toEach[process] = std::move(put.bytes());
       }
     }
-    const std::vector<std::string> found = this->Shares.sharing().swap(std::move(toEach));
+    const std::vector<std::string> found = this->Shares.sharing().deal(std::move(toEach));
     for (std::size_t process = 0; process < found.size(); ++process)
     {
       if (process != self)
@@ -380,12 +380,13 @@ std::vector<std::vector<SharedCapsules::Stretch>> SharedCapsules::stretchesAsked
     next = end;
   }
   std::vector<std::string> toEach;
+  toEach.reserve(asked.size());
   for (ByteWriter& put : asked)
   {
     toEach.push_back(std::move(put.bytes()));
   }
   std::vector<std::vector<Stretch>> stretches(asked.size());
-  const std::vector<std::string> found = this->Shares.sharing().swap(std::move(toEach));
+  const std::vector<std::string> found = this->Shares.sharing().deal(std::move(toEach));
   for (std::size_t process = 0; process < found.size(); ++process)
   {
     std::vector<std::uint32_t> numbers;

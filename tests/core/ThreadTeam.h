@@ -25,7 +25,7 @@ public:
 
   std::size_t size() const { return this->Given.size(); }
   /// What all give to the one at this place.
-  std::vector<std::string> swap(std::size_t place, const std::vector<std::string>& toEach)
+  std::vector<std::string> deal(std::size_t place, const std::vector<std::string>& toEach)
   {
     std::unique_lock<std::mutex> lock(this->Mutex);
     this->Given[place] = toEach;
@@ -68,11 +68,11 @@ public:
   int place() const override { return this->Place; }
   std::vector<std::string> exchange(const std::string& bytes) override
   {
-    return this->swap(std::vector<std::string>(this->Point.size(), bytes));
+    return this->deal(std::vector<std::string>(this->Point.size(), bytes));
   }
-  std::vector<std::string> swap(const std::vector<std::string>& toEach) override
+  std::vector<std::string> deal(const std::vector<std::string>& toEach) override
   {
-    return this->Point.swap(static_cast<std::size_t>(this->Place), toEach);
+    return this->Point.deal(static_cast<std::size_t>(this->Place), toEach);
   }
 
 private:

@@ -109,7 +109,7 @@ TEST(Sharing, AddsUp)
   EXPECT_EQ(told, std::vector<std::string>(3, "3 3298534883328"));
 }
 
-TEST(Sharing, SwapsWhatEachHasForEach)
+TEST(Sharing, DealsWhatEachHasForEach)
 {
   for (const int size : { 1, 2, 3, 4 })
   {
@@ -130,7 +130,7 @@ TEST(Sharing, SwapsWhatEachHasForEach)
         sharing.together(
           [&]
           {
-            for (const std::string& bytes : sharing.swap(toEach))
+            for (const std::string& bytes : sharing.deal(toEach))
             {
               found += bytes;
             }
@@ -203,8 +203,8 @@ TEST(Sharing, EndsAllAlikeAndTheFirstSaysWhy)
   EXPECT_EQ(endOf([](int) { throw Cancelled("by the user"); }), (Texts{ "stopped by the user", other, other }));
 }
 
-// Also where the one that failed cannot know that the others have come to a swap, which brings nothing from one to another.
-TEST(Sharing, EndsASwapToo)
+// Also where the one that failed cannot know that the others have come to a deal, which brings nothing from one to another.
+TEST(Sharing, EndsADealToo)
 {
   const auto told = inTeam(3,
     [](Team& team)
@@ -219,8 +219,8 @@ TEST(Sharing, EndsASwapToo)
             {
               throw FileError("no space");
             }
-            sharing.swap(std::vector<std::string>(3));
-            sharing.swap(std::vector<std::string>(3, "not for long"));
+            sharing.deal(std::vector<std::string>(3));
+            sharing.deal(std::vector<std::string>(3, "not for long"));
           });
       }
       catch (const ReportedElsewhere&)
