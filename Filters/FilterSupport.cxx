@@ -153,59 +153,50 @@ void sayStopped(vtkAlgorithm* self)
   info->Set(saidKey(), now);
 }
 
-/// Leaves the outputs empty where that is already known to be all that there can be.
-bool isKnownToFail(vtkAlgorithm* self)
+/// Why all outputs are already known to be empty; empty where that is not known.
+std::string knownFailure(vtkAlgorithm* self)
 {
   std::string upstream;
   forEachInput(self, [&](vtkDataObject* data) { upstream = upstream.empty() ? errorOf(data) : upstream; });
   if (!upstream.empty())
   {
-    leaveEmpty(self, upstream);
-    return true;
+    return upstream;
   }
   vtkInformation* info = self->GetInformation();
-  if (info->Has(failedRunKey()) == 0 || runOf(self) != info->Get(failedRunKey()))
+  const bool isKnown = info->Has(failedRunKey()) != 0 && runOf(self) == info->Get(failedRunKey());
+  return isKnown ? info->Get(failureKey()) : "";
+}
+
+/// Leaves the outputs empty where that is already known to be all that there can be, in this rank or in another.
+bool isKnownToFail(vtkAlgorithm* self, const Sharing& sharing)
+{
+  const std::string own = knownFailure(self);
+  std::string known = own;
+  sharing.together(
+    [&]
+    {
+      for (const std::string& told : sharing.exchange(own))
+      {
+        known = known.empty() ? told : known;
+      }
+    });
+  if (known.empty())
   {
     return false;
   }
-  leaveEmpty(self, info->Get(failureKey()));
-  if (info->Get(stoppedKey()) != 0)
+  leaveEmpty(self, known);
+  vtkInformation* info = self->GetInformation();
+  if (info->Get(stoppedKey()) != 0 && own == info->Get(failureKey()))
   {
     sayStopped(self);
   }
   return true;
 }
 
-} // namespace
-
-Context contextFor(vtkAlgorithm* algorithm, int threads)
+/// See attempt(), and guarded() for several ranks.
+bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work)
 {
-  Context context;
-  context.threads = threads;
-  context.progress = [algorithm](double fraction, const std::string& message)
-  {
-    algorithm->SetProgressText(message.c_str());
-    algorithm->UpdateProgress(fraction);
-  };
-  // The flag is taken back here and once it is noticed. VTK leaves it set, which would stop the next run at its start; and
-  // cleared by others after this run, it would mark the filter as modified and have it run again.
-  algorithm->SetAbortExecute(0);
-  // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
-  context.cancelled = [algorithm, stopped = std::make_shared<bool>(false)]
-  {
-    if (algorithm->GetAbortExecute() != 0)
-    {
-      *stopped = true;
-      algorithm->SetAbortExecute(0);
-    }
-    return *stopped;
-  };
-  return context;
-}
-
-bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
-{
-  if (isKnownToFail(self))
+  if (isKnownToFail(self, sharing))
   {
     return false;
   }
@@ -253,6 +244,38 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
   return false;
 }
 
+} // namespace
+
+Context contextFor(vtkAlgorithm* algorithm, int threads)
+{
+  Context context;
+  context.threads = threads;
+  context.progress = [algorithm](double fraction, const std::string& message)
+  {
+    algorithm->SetProgressText(message.c_str());
+    algorithm->UpdateProgress(fraction);
+  };
+  // The flag is taken back here and once it is noticed. VTK leaves it set, which would stop the next run at its start; and
+  // cleared by others after this run, it would mark the filter as modified and have it run again.
+  algorithm->SetAbortExecute(0);
+  // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
+  context.cancelled = [algorithm, stopped = std::make_shared<bool>(false)]
+  {
+    if (algorithm->GetAbortExecute() != 0)
+    {
+      *stopped = true;
+      algorithm->SetAbortExecute(0);
+    }
+    return *stopped;
+  };
+  return context;
+}
+
+bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
+{
+  return attemptTogether(self, Sharing(), work);
+}
+
 int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time)
 {
   *time = self->GetMTime();
@@ -268,6 +291,12 @@ int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time)
 int guarded(vtkAlgorithm* self, const std::function<void()>& work)
 {
   attempt(self, work);
+  return 1;
+}
+
+int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work)
+{
+  attemptTogether(self, sharing, work);
   return 1;
 }
 

@@ -15,6 +15,8 @@ class vtkDataObject;
 namespace cactus
 {
 
+class Sharing;
+
 /// Context whose progress goes to `algorithm` and which stops when the user aborts it.
 Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
 
@@ -30,6 +32,9 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work);
 /// The same for RequestData: always 1. After a 0 ParaView's pipeline does not execute again for the next good value, and a server
 /// and its client wait for each other.
 int guarded(vtkAlgorithm* self, const std::function<void()>& work);
+
+/// The same where all ranks share `work`, and all of them come here: where it is not run in one of them, it is in none.
+int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work);
 
 /// The same as vtkAlgorithm::ComputePipelineMTime, but for a filter that was stopped: it counts as changed until it has run, so
 /// that whatever asks for its output gets the warning. What follows in the pipeline would not ask again.

@@ -12,9 +12,125 @@ namespace cactus
 namespace
 {
 
+constexpr int dealTag = 23107;
+
 vtkMultiProcessController* allRanks()
 {
   return vtkMultiProcessController::GetGlobalController();
+}
+
+/// In pieces: messages count their bytes with 31 bits.
+constexpr vtkIdType mostAtOnce = vtkIdType(1) << 29;
+
+/// Of what a rank announces: whether it gives the same to all, then how many bytes to each.
+constexpr std::size_t announcedBefore = 1;
+
+/// What each rank announces, one after the other. All ranks begin so, whether they give the same to all or not: only now do they
+/// know what the others have come for.
+std::vector<vtkIdType> announce(bool toAll, std::vector<vtkIdType> sizes)
+{
+  sizes.insert(sizes.begin(), toAll ? 1 : 0);
+  std::vector<vtkIdType> all(sizes.size() * (sizes.size() - announcedBefore));
+  allRanks()->AllGather(sizes.data(), all.data(), static_cast<vtkIdType>(sizes.size()));
+  return all;
+}
+
+std::size_t rankCount()
+{
+  return static_cast<std::size_t>(allRanks()->GetNumberOfProcesses());
+}
+
+bool areAllTheSame(const std::vector<vtkIdType>& announced)
+{
+  bool same = true;
+  for (std::size_t rank = 0; rank < rankCount(); ++rank)
+  {
+    same = same && announced[rank * (rankCount() + announcedBefore)] != 0;
+  }
+  return same;
+}
+
+/// How many bytes one rank gives to another.
+vtkIdType sizeOf(const std::vector<vtkIdType>& announced, std::size_t from, std::size_t to)
+{
+  return announced[from * (rankCount() + announcedBefore) + announcedBefore + to];
+}
+
+/// What each rank gives to all.
+std::vector<std::string> gatherAll(const std::string& bytes, const std::vector<vtkIdType>& announced)
+{
+  const std::size_t ranks = rankCount();
+  const auto own = static_cast<vtkIdType>(bytes.size());
+  std::vector<std::string> all(ranks);
+  vtkIdType longest = 0;
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+  {
+    longest = std::max(longest, sizeOf(announced, rank, 0));
+  }
+  const vtkIdType piece = mostAtOnce / static_cast<vtkIdType>(ranks);
+  for (vtkIdType from = 0; from < longest; from += piece)
+  {
+    std::vector<vtkIdType> lengths;
+    std::vector<vtkIdType> offsets;
+    vtkIdType total = 0;
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+    {
+      lengths.push_back(std::clamp<vtkIdType>(sizeOf(announced, rank, 0) - from, 0, piece));
+      offsets.push_back(total);
+      total += lengths.back();
+    }
+    std::vector<char> received(static_cast<std::size_t>(total));
+    const vtkIdType length = std::clamp<vtkIdType>(own - from, 0, piece);
+    allRanks()->AllGatherV(bytes.data() + std::min(from, own), received.data(), length, lengths.data(), offsets.data());
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+    {
+      all[rank].append(received.data() + offsets[rank], static_cast<std::size_t>(lengths[rank]));
+    }
+  }
+  return all;
+}
+
+void send(const std::string& bytes, int to)
+{
+  for (vtkIdType from = 0; from < static_cast<vtkIdType>(bytes.size()); from += mostAtOnce)
+  {
+    allRanks()->Send(bytes.data() + from, std::min(static_cast<vtkIdType>(bytes.size()) - from, mostAtOnce), to, dealTag);
+  }
+}
+
+void receive(std::string& bytes, vtkIdType size, int from)
+{
+  bytes.resize(static_cast<std::size_t>(size));
+  for (vtkIdType at = 0; at < size; at += mostAtOnce)
+  {
+    allRanks()->Receive(&bytes[static_cast<std::size_t>(at)], std::min(size - at, mostAtOnce), from, dealTag);
+  }
+}
+
+/// What each rank gives to this one. Ranks meet in pairs, all pairs in an order in which nobody waits in a circle: in round r
+/// those whose sum is r, modulo their number; where one of two sends, the other receives. What is empty is not sent.
+std::vector<std::string> passOn(const std::vector<std::string>& toEach, const std::vector<vtkIdType>& announced)
+{
+  const auto ranks = static_cast<int>(rankCount());
+  const int self = allRanks()->GetLocalProcessId();
+  std::vector<std::string> all(rankCount());
+  all[std::size_t(self)] = toEach[std::size_t(self)];
+  for (int round = 0; round < ranks; ++round)
+  {
+    const int other = (round - self + ranks) % ranks;
+    for (const bool isSending : { self<other, self> other })
+    {
+      if (other != self && isSending)
+      {
+        send(toEach[std::size_t(other)], other);
+      }
+      else if (other != self)
+      {
+        receive(all[std::size_t(other)], sizeOf(announced, std::size_t(other), std::size_t(self)), other);
+      }
+    }
+  }
+  return all;
 }
 
 } // namespace
@@ -31,39 +147,28 @@ int RankTeam::place() const
 
 std::vector<std::string> RankTeam::exchange(const std::string& bytes)
 {
-  // In pieces: messages count their bytes with 31 bits.
-  constexpr vtkIdType mostAtOnce = vtkIdType(1) << 29;
-  const auto ranks = static_cast<std::size_t>(this->size());
-  const auto own = static_cast<vtkIdType>(bytes.size());
-  std::vector<vtkIdType> sizes(ranks, own);
-  std::vector<std::string> all(ranks);
-  if (ranks == 1)
+  if (this->size() == 1)
   {
     return { bytes };
   }
-  allRanks()->AllGather(&own, sizes.data(), 1);
-  const vtkIdType piece = mostAtOnce / static_cast<vtkIdType>(ranks);
-  const vtkIdType longest = *std::max_element(sizes.begin(), sizes.end());
-  for (vtkIdType from = 0; from < longest; from += piece)
+  const auto ranks = static_cast<std::size_t>(this->size());
+  const std::vector<vtkIdType> announced = announce(true, std::vector<vtkIdType>(ranks, static_cast<vtkIdType>(bytes.size())));
+  return areAllTheSame(announced) ? gatherAll(bytes, announced) : passOn(std::vector<std::string>(ranks, bytes), announced);
+}
+
+std::vector<std::string> RankTeam::deal(const std::vector<std::string>& toEach)
+{
+  if (this->size() == 1)
   {
-    std::vector<vtkIdType> lengths;
-    std::vector<vtkIdType> offsets;
-    vtkIdType total = 0;
-    for (const vtkIdType size : sizes)
-    {
-      lengths.push_back(std::clamp<vtkIdType>(size - from, 0, piece));
-      offsets.push_back(total);
-      total += lengths.back();
-    }
-    std::vector<char> received(static_cast<std::size_t>(total));
-    const vtkIdType length = std::clamp<vtkIdType>(own - from, 0, piece);
-    allRanks()->AllGatherV(bytes.data() + std::min(from, own), received.data(), length, lengths.data(), offsets.data());
-    for (std::size_t rank = 0; rank < ranks; ++rank)
-    {
-      all[rank].append(received.data() + offsets[rank], static_cast<std::size_t>(lengths[rank]));
-    }
+    return toEach;
   }
-  return all;
+  std::vector<vtkIdType> sizes;
+  sizes.reserve(toEach.size());
+  for (const std::string& bytes : toEach)
+  {
+    sizes.push_back(static_cast<vtkIdType>(bytes.size()));
+  }
+  return passOn(toEach, announce(false, sizes));
 }
 
 } // namespace cactus

@@ -16,6 +16,7 @@ public:
   int size() const override;
   int place() const override;
   std::vector<std::string> exchange(const std::string& bytes) override;
+  std::vector<std::string> deal(const std::vector<std::string>& toEach) override;
 };
 
 } // namespace cactus

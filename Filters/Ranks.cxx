@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <vector>
 
 namespace cactus
 {
@@ -13,26 +12,9 @@ namespace cactus
 namespace
 {
 
-/// What a rank tells the others in an exchange.
-enum State
-{
-  Done = 0,
-  GoOn = 1,
-  Stop = 2
-};
-
 vtkMultiProcessController* controller()
 {
   return vtkMultiProcessController::GetGlobalController();
-}
-
-/// What the first rank that still works says; Done where none does.
-int exchange(int state)
-{
-  std::vector<int> states(static_cast<std::size_t>(processCount()), Done);
-  controller()->AllGather(&state, states.data(), 1);
-  const auto first = std::find_if(states.begin(), states.end(), [](int one) { return one != Done; });
-  return first != states.end() ? *first : Done;
 }
 
 } // namespace
@@ -40,23 +22,6 @@ int exchange(int state)
 int processCount()
 {
   return controller() != nullptr ? controller()->GetNumberOfProcesses() : 1;
-}
-
-RankAgreement::RankAgreement(bool isNeeded)
-  : IsNeeded(isNeeded && processCount() > 1)
-{
-}
-
-RankAgreement::~RankAgreement()
-{
-  while (this->IsNeeded && exchange(Done) != Done)
-  {
-  }
-}
-
-bool RankAgreement::decide(bool wanted)
-{
-  return this->IsNeeded ? exchange(wanted ? Stop : GoOn) == Stop : wanted;
 }
 
 int processesOnThisMachine()

@@ -7,11 +7,13 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "InputBlocks.h"
+#include "RankTeam.h"
 #include "Ranks.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Context.h"
 #include "base/Error.h"
+#include "base/Sharing.h"
 #include "fibres/FibreShape.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "optimiser/OverlapReport.h"
@@ -190,22 +192,37 @@ int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVecto
   if (this->Stage().keepHistory)
   {
     // Only the run itself says which times there are, and what follows asks for them here, not after RequestData.
-    cactus::RankAgreement agreement(this->Stage().options.timeBudget > 0.0);
     cactus::quietly(
       [&]
       {
         cactus::updateWholeInputs(this, inputs);
-        this->EnsureRun(inputs[0], agreement);
+        this->EnsureRun(inputs[0]);
       });
   }
   this->OfferTimes(outputs);
   return 1;
 }
 
-void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs, cactus::RankAgreement& agreement)
+bool vtkCapsuleOptimizer::IsRunKnown(vtkInformationVector* inputs)
 {
-  const bool isKnown = this->Stage().keepHistory && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
-                       this->LastRun->InputTime == inputTime(inputs);
+  const bool isKept = this->Stage().keepHistory || (cactus::processCount() > 1 && this->LastRun && !this->LastRun->Failure);
+  return isKept && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
+         this->LastRun->InputTime == inputTime(inputs);
+}
+
+void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs)
+{
+  cactus::RankTeam ranks;
+  const cactus::Sharing sharing(&ranks);
+  bool isKnown = this->IsRunKnown(inputs);
+  sharing.together(
+    [&]
+    {
+      for (const std::string& told : sharing.exchange(isKnown ? "1" : "0"))
+      {
+        isKnown = isKnown && told == "1";
+      }
+    });
   if (!isKnown)
   {
     this->LastRun.reset();
@@ -213,7 +230,7 @@ void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs, cactus::RankAg
     run->InputTime = inputTime(inputs);
     try
     {
-      this->Optimise(inputs, agreement, *run);
+      sharing.together([&] { this->Optimise(inputs, *run); });
     }
     catch (...)
     {
@@ -234,16 +251,16 @@ const cactus::CapsuleOptimizerStage& vtkCapsuleOptimizer::Stage() const
   return cactus::stageOf<cactus::CapsuleOptimizerStage>(this->Properties);
 }
 
-void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgreement& agreement, Run& run)
+void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, Run& run)
 {
   const cactus::CapsuleOptimizerStage& stage = this->Stage();
   cactus::validateProperties(stage);
   cactus::validate(stage.options);
-  cactus::Context context = cactus::contextFor(this, stage.threads);
-  context.agree = [&](bool wanted) { return agreement.decide(wanted); };
+  const cactus::Context context = cactus::contextFor(this, stage.threads);
   run.Fibres = cactus::joinedFibres(dataOf(inputs));
   run.Before = cactus::measureShape(run.Fibres);
-  const cactus::Fibres before = run.Fibres;
+  cactus::Fibres before = run.Fibres;
+  std::vector<Eigen::Vector3d>().swap(before.points); // only radii are compared
   const auto keep = [&](const cactus::ConvergenceRow& row, const cactus::Fibres& fibres)
   {
     if (row.iteration % stage.historyInterval != 0)
@@ -268,7 +285,8 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, cactus::RankAgr
   {
     observe = keep;
   }
-  run.Optimisation = cactus::optimise(run.Fibres, stage.options, context, observe);
+  cactus::RankTeam ranks;
+  run.Optimisation = cactus::optimise(run.Fibres, stage.options, context, observe, &ranks);
   run.RadiusDistance = cactus::radiusDistance(before, run.Fibres);
   // The result takes the place of the last state.
   while (!run.States.empty() && run.States.back().Iteration >= run.lastIteration())
@@ -406,52 +424,59 @@ void vtkCapsuleOptimizer::Show(const Run& run, std::size_t state, vtkInformation
   fillTable(run.Optimisation.convergence, vtkTable::GetData(outputs, 1));
 }
 
+void vtkCapsuleOptimizer::ShowWanted(const Run& run, vtkInformation* request, vtkInformationVector* outputs)
+{
+  if (!this->Stage().keepHistory)
+  {
+    this->Show(run, run.States.size(), outputs);
+    return;
+  }
+  const std::vector<double> times = run.times();
+  double time = run.lastIteration();
+  // The other port may still hold the time it was asked for before.
+  const int from = request->Has(vtkExecutive::FROM_OUTPUT_PORT()) ? request->Get(vtkExecutive::FROM_OUTPUT_PORT()) : 0;
+  vtkInformation* info = outputs->GetInformationObject(std::max(from, 0));
+  if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+  }
+  const auto after = std::upper_bound(times.begin(), times.end(), time);
+  this->Show(run, after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1, outputs);
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  }
+}
+
 int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // Before anything else, on ranks that have nothing to give, too.
-  cactus::RankAgreement agreement(this->Stage().options.timeBudget > 0.0);
-  return cactus::guarded(this,
+  cactus::RankTeam ranks;
+  const cactus::Sharing sharing(&ranks);
+  return cactus::guarded(this, sharing,
     [&]
     {
-      if (!cactus::ownsWholeOutput(request, outputs))
-      {
-        return;
-      }
+      // Ranks that have nothing to give share the work, too.
+      const bool isAsked = cactus::ownsWholeOutput(request, outputs);
+      Run* run = nullptr;
       if (this->Stage().showEvery > 0 && !this->Stage().keepHistory)
       {
-        Run& seen = this->LookAtRun(inputs[0]);
-        this->Show(seen, 0, outputs);
-        this->Report(seen);
-        return;
+        sharing.together([&] { run = &this->LookAtRun(inputs[0]); });
       }
-      this->Live.reset();
-      this->EnsureRun(inputs[0], agreement);
-      Run& run = *this->LastRun;
-      std::size_t state = run.States.size();
-      double time = run.lastIteration();
-      if (this->Stage().keepHistory)
+      else
       {
-        const std::vector<double> times = run.times();
-        // The other port may still hold the time it was asked for before.
-        const int from = request->Has(vtkExecutive::FROM_OUTPUT_PORT()) ? request->Get(vtkExecutive::FROM_OUTPUT_PORT()) : 0;
-        vtkInformation* info = outputs->GetInformationObject(std::max(from, 0));
-        if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
-        {
-          time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
-        }
-        const auto after = std::upper_bound(times.begin(), times.end(), time);
-        state = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
+        this->Live.reset();
+        this->EnsureRun(inputs[0]);
+        run = this->LastRun.get();
       }
-      this->Show(run, state, outputs);
-      if (this->Stage().keepHistory)
+      if (isAsked)
       {
-        for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
-        {
-          vtkDataObject::GetData(outputs, port)->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-        }
+        this->ShowWanted(*run, request, outputs);
       }
-      this->Report(run);
-      if (!this->Stage().keepHistory)
+      if (sharing.isFirst())
+      {
+        this->Report(*run);
+      }
+      if (!this->Stage().keepHistory && sharing.size() == 1)
       {
         this->LastRun.reset();
       }

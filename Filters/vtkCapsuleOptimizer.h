@@ -21,6 +21,10 @@
  * GetNeedsUpdate() tells, as ParaView asks of live sources, when there is another one, the result at last. Its bits are those of
  * a run in the foreground. StopNow() ends it with the best state so far. In one process only.
  *
+ * In a parallel run all ranks share the work, each with some of the fibres, and the result has the bits of one rank alone. All of
+ * them keep it, since each is asked for a piece of its own by whatever updates this filter by itself, and for the whole by the
+ * next stage; the ranks that are asked for a piece other than the first give none.
+ *
  * Where overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how
  * many and how large, and the output is the best state that was seen.
  */
@@ -37,7 +41,6 @@
 namespace cactus
 {
 struct CapsuleOptimizerStage;
-class RankAgreement;
 } // namespace cactus
 
 class CACTUSFILTERS_EXPORT vtkCapsuleOptimizer : public vtkPolyDataAlgorithm
@@ -81,6 +84,10 @@ public:
   /** The same as a number, which scripts can ask for. */
   int GetHasNews() { return this->GetNeedsUpdate() ? 1 : 0; }
 
+  /** Asks a run to stop. That is no change of the filter: of several ranks, one that was asked too late would else run again, and
+   * wait for the others. */
+  void SetAbortExecute(vtkTypeBool wanted) override { this->AbortExecute = wanted; }
+
   /** Ends a run in the background: what it shows next is its best state, which is its result. */
   void StopNow();
 
@@ -104,12 +111,16 @@ private:
 
   /** The values of the properties, not checked. */
   const cactus::CapsuleOptimizerStage& Stage() const;
-  /** Runs the optimisation unless LastRun holds it; throws what it throws, or threw. */
-  void EnsureRun(vtkInformationVector* inputs, cactus::RankAgreement& agreement);
+  /** Runs the optimisation, which all ranks share, unless LastRun holds it in all of them; throws what it throws, or threw. */
+  void EnsureRun(vtkInformationVector* inputs);
+  /** Whether LastRun holds what would come out. */
+  bool IsRunKnown(vtkInformationVector* inputs);
   /** Runs the optimisation. */
-  void Optimise(vtkInformationVector* inputs, cactus::RankAgreement& agreement, Run& run);
+  void Optimise(vtkInformationVector* inputs, Run& run);
   /** Runs the optimisation in the background, unless it does already, and gives what there is of it. */
   Run& LookAtRun(vtkInformationVector* inputs);
+  /** Fills the outputs with the state that is asked for. */
+  void ShowWanted(const Run& run, vtkInformation* request, vtkInformationVector* outputs);
   /** Fills the outputs with a state of the run. */
   void Show(const Run& run, std::size_t state, vtkInformationVector* outputs);
   /** Says which times there are. */
@@ -118,7 +129,7 @@ private:
   /** Warns of what the run has not reached, once. */
   void Report(Run& run);
 
-  std::unique_ptr<Run> LastRun;  ///< kept where KeepHistory is on
+  std::unique_ptr<Run> LastRun;  ///< kept where KeepHistory is on, and where there are several ranks
   std::unique_ptr<LiveRun> Live; ///< the run in the background
 };
 

@@ -4,6 +4,7 @@
 
 #include "base/Error.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -36,6 +37,12 @@ public:
   {
     (*this)(static_cast<std::uint64_t>(text.size()));
     this->Bytes += text;
+  }
+  /// Things that consist of nothing but numbers, without gaps; their count is for the caller to keep.
+  template <typename Value>
+  void addAll(const Value* values, std::size_t count)
+  {
+    this->Bytes.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
   }
 
   std::string& bytes() { return this->Bytes; }
@@ -76,6 +83,18 @@ public:
     const std::uint64_t size = this->count(1);
     text.assign(this->Bytes, this->At, size);
     this->At += size;
+  }
+  /// What addAll() has put.
+  template <typename Value>
+  void getAll(Value* values, std::size_t count)
+  {
+    this->requireLeft(count, sizeof(Value));
+    // Not where there is nothing to copy, perhaps to nowhere.
+    if (count > 0)
+    {
+      std::memcpy(static_cast<void*>(values), this->Bytes.data() + this->At, count * sizeof(Value));
+    }
+    this->At += count * sizeof(Value);
   }
   template <typename Value>
   Value get()

@@ -73,6 +73,8 @@ public:
     this->put(static_cast<std::uint64_t>(values.size()));
     this->write(values.data(), values.size() * sizeof(Value));
   }
+  /// Bytes of an array whose count has been put.
+  void putPart(const void* data, std::size_t bytes) { this->write(data, bytes); }
   /// Throws, besides, InvalidInput or FileError where meanwhile another run's checkpoint, or something else, is at `path`.
   void commit();
 
@@ -109,6 +111,8 @@ public:
     this->require(count <= this->Left / bytes);
     return static_cast<std::size_t>(count);
   }
+  /// Bytes of an array whose count has been got.
+  void getPart(void* data, std::size_t bytes) { this->read(data, bytes); }
   /// `expected`: how many there must be; −1 for any number.
   template <typename Value>
   void getAll(std::vector<Value>& values, std::int64_t expected = -1)

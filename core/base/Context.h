@@ -18,9 +18,6 @@ struct Context
   std::function<void(double, const std::string&)> progress;
   /// True once the caller wants the operation to stop.
   std::function<bool()> cancelled;
-  /// Makes one decision of what the processes of a parallel run want each for itself, where the clock would tell them apart; each
-  /// asks equally often. Where it is empty, each does as it wants.
-  std::function<bool(bool)> agree;
 
   /// `threads`, with 0 replaced by the machine's number: at most the larger of 16 and the machine's processors, and no more than
   /// the system lets this process start (limits on address space and on the number of threads). At least 1. No result depends
@@ -34,7 +31,6 @@ struct Context
     }
   }
   bool stopRequested() const { return cancelled && cancelled(); }
-  bool agreed(bool wanted) const { return agree ? agree(wanted) : wanted; }
   /// Throws Cancelled once the caller wants the operation to stop.
   void checkpoint() const;
 };

@@ -84,12 +84,13 @@ std::string currentFailure()
 }
 
 /// Which process ends the work of all: the first that has failed, else the first that was stopped; their number if none has.
+/// Where nothing was given, nothing is wrong.
 std::size_t placeOfFailure(const std::vector<std::string>& given)
 {
   std::size_t found = given.size();
   for (std::size_t place = 0; place < given.size(); ++place)
   {
-    const Fate fate = static_cast<Fate>(given[place].front());
+    const Fate fate = given[place].empty() ? Fate::Well : static_cast<Fate>(given[place].front());
     if (fate != Fate::Well && fate != Fate::Stopped)
     {
       return place;
@@ -114,13 +115,9 @@ Sharing::Sharing(Team* team, std::string stopFile)
 {
 }
 
-std::vector<std::string> Sharing::exchange(const std::string& bytes) const
+/// What was given, without the mark in front. Throws Ended where one of them has failed.
+std::vector<std::string> Sharing::whereWell(std::vector<std::string> all)
 {
-  if (this->Members == nullptr)
-  {
-    return { bytes };
-  }
-  std::vector<std::string> all = this->Members->exchange(static_cast<char>(Fate::Well) + bytes);
   const std::size_t failed = placeOfFailure(all);
   if (failed < all.size())
   {
@@ -131,6 +128,31 @@ std::vector<std::string> Sharing::exchange(const std::string& bytes) const
     given.erase(0, 1);
   }
   return all;
+}
+
+std::vector<std::string> Sharing::exchange(const std::string& bytes) const
+{
+  if (this->Members == nullptr)
+  {
+    return { bytes };
+  }
+  return this->whereWell(this->Members->exchange(static_cast<char>(Fate::Well) + bytes));
+}
+
+std::vector<std::string> Sharing::deal(std::vector<std::string> toEach) const
+{
+  if (this->Members == nullptr)
+  {
+    return toEach;
+  }
+  for (std::string& bytes : toEach)
+  {
+    if (!bytes.empty())
+    {
+      bytes.insert(0, 1, static_cast<char>(Fate::Well));
+    }
+  }
+  return this->whereWell(this->Members->deal(toEach));
 }
 
 std::string Sharing::fromFirst(const std::string& bytes) const
@@ -164,6 +186,8 @@ void Sharing::together(const std::function<void()>& work) const
     work();
     return;
   }
+  // Where this is within the same of a caller, and one has failed on its way here, all end there.
+  this->exchange();
   try
   {
     std::string failure;
@@ -189,7 +213,7 @@ void Sharing::together(const std::function<void()>& work) const
   }
 }
 
-/// Takes part in the exchange that the others come to, with a failure.
+/// Takes part in the exchange, or the deal, that the others come to, with a failure.
 void Sharing::tell(const std::string& failure) const
 {
   if (!this->StopFile.empty())

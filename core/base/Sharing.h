@@ -47,6 +47,9 @@ public:
 
   /// What each process has given. Ends the work where one has failed.
   std::vector<std::string> exchange(const std::string& bytes = "") const;
+  /// What each process has given to this one, by their places; toEach is what this one gives to each. Ends the work where one has
+  /// failed.
+  std::vector<std::string> deal(std::vector<std::string> toEach) const;
   /// What the first process has given.
   std::string fromFirst(const std::string& bytes) const;
   /// Adds up what all processes have counted.
@@ -64,6 +67,7 @@ private:
   struct Ended;
 
   std::vector<std::size_t> partOf(int process, std::size_t count) const;
+  static std::vector<std::string> whereWell(std::vector<std::string> all);
   void tell(const std::string& failure) const;
   [[noreturn]] void rethrow(const Ended& ended) const;
 

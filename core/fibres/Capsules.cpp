@@ -11,17 +11,24 @@
 namespace cactus
 {
 
-Capsules capsulesOf(const Fibres& fibres)
+std::vector<Eigen::Vector3d> placesOf(const std::vector<int>& fibreIds)
 {
-  Capsules capsules;
-  capsules.places.reserve(fibres.size());
-  for (const int id : fibres.fibreIds)
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(fibreIds.size());
+  for (const int id : fibreIds)
   {
     RandomEngine engine = randomStream(0, RandomStage::Optimiser, static_cast<std::uint64_t>(id));
     const double x = uniform(engine);
     const double y = uniform(engine);
-    capsules.places.emplace_back(x, y, uniform(engine));
+    places.emplace_back(x, y, uniform(engine));
   }
+  return places;
+}
+
+Capsules capsulesOf(const Fibres& fibres)
+{
+  Capsules capsules;
+  capsules.places = placesOf(fibres.fibreIds);
   require(fibres.points.size() <= std::numeric_limits<std::uint32_t>::max(),
     "the fibres have more control points than 32 bits count: make the domain smaller, or the points fewer");
   capsules.bodies.reserve(fibres.points.size());

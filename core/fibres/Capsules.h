@@ -30,6 +30,18 @@ struct Capsules
   std::size_t size() const { return bodies.size(); }
 };
 
+/// Consecutive ones: begin … end − 1.
+struct CapsuleRange
+{
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  std::size_t size() const { return end - begin; }
+};
+
 Capsules capsulesOf(const Fibres& fibres);
+
+/// The places of fibres (see Capsules), given their FibreIds.
+std::vector<Eigen::Vector3d> placesOf(const std::vector<int>& fibreIds);
 
 } // namespace cactus

@@ -31,6 +31,17 @@ public:
     }
   }
 
+  /// The same for some of the values, the first of which belongs to the control point at `place` in this order. `original` has
+  /// room for all.
+  template <typename Value>
+  void restore(const Value* ordered, std::size_t count, std::size_t place, std::vector<Value>& original) const
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      original[this->Points[place + i]] = ordered[i];
+    }
+  }
+
 private:
   std::vector<std::size_t> Order;  ///< fibre by place
   std::vector<std::size_t> Points; ///< control point by place

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/CapsuleOptimizer.h"
 
+#include "base/Bytes.h"
 #include "base/Error.h"
 #include "base/Memory.h"
+#include "base/Sharing.h"
 #include "fibres/FibreOrder.h"
 #include "optimiser/BundleBox.h"
+#include "optimiser/FibreShares.h"
 #include "optimiser/OptimisationCheckpoints.h"
 #include "optimiser/OptimisationRun.h"
 #include "optimiser/OverlapReport.h"
@@ -27,8 +30,9 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What a descent takes for a control point, with some fifty neighbours.
-constexpr double bytesPerPoint = 1000.0;
+/// What a descent takes for a control point, with some fifty neighbours: of the fibres that a process moves, and of all fibres.
+constexpr double bytesPerOwnPoint = 900.0;
+constexpr double bytesPerPoint = 100.0;
 
 std::string describe(const ConvergenceRow& row)
 {
@@ -77,9 +81,10 @@ void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const
     {
       checkpoints.write(run);
     }
-    ConvergenceRow row = run.descent.evaluate();
+    Moment moment;
+    ConvergenceRow row = run.descent.evaluate([&] { return Moment{ secondsSince(start), context.stopRequested() }; }, moment);
     row.iteration = run.iteration;
-    row.seconds = run.seconds + secondsSince(start);
+    row.seconds = run.seconds + moment.seconds;
     run.note(row, options.overlapTolerance);
     if (observe)
     {
@@ -91,7 +96,7 @@ void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const
       completed = std::max(completed, completedFraction(row, first, options));
       context.report(completed, describe(row));
     }
-    const auto reason = reasonToStop(row, run.progress, options, context, secondsSince(start));
+    const auto reason = reasonToStop(row, run.progress, options, moment);
     if (reason)
     {
       // Before this row is added: a run that goes on from here measures this state again.
@@ -113,47 +118,92 @@ void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const
   result.convergence = std::move(run.rows);
 }
 
-} // namespace
+/// Puts values of all control points, of which each process has its own, where they belong in the fibres that came in.
+template <typename Value>
+void bringTogether(
+  const std::vector<Value>& own, const FibreShares& shares, const FibreOrder& order, std::vector<Value>& original)
+{
+  if (shares.processes() == 1)
+  {
+    order.restore(own, original);
+    return;
+  }
+  ByteWriter mine;
+  mine.addAll(own.data(), own.size());
+  const std::vector<std::string> all = shares.sharing().exchange(mine.bytes());
+  mine = {};
+  original.resize(shares.pointCount());
+  std::vector<Value> part;
+  for (std::size_t process = 0; process < all.size(); ++process)
+  {
+    part.resize(shares.pointBegin(process + 1) - shares.pointBegin(process));
+    ByteReader(all[process]).getAll(part.data(), part.size());
+    order.restore(part.data(), part.size(), shares.pointBegin(process), original);
+  }
+}
 
-OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
-  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe)
+void requireRoom(const Fibres& fibres, int processes)
+{
+  const auto points = static_cast<double>(fibres.points.size());
+  requireMemory((bytesPerPoint + bytesPerOwnPoint / processes) * points,
+    text("an optimisation of ", fibres.size(), " fibres with ", fibres.points.size(), " control points",
+      processes > 1 ? text(" on ", processes, " ranks") : std::string()),
+    "use fewer fibres, or a larger spacing of their control points");
+}
+
+/// Whether any process has something.
+bool hasAny(bool own, const Sharing& sharing)
+{
+  for (const std::string& told : sharing.exchange(own ? "1" : "0"))
+  {
+    own = own || told == "1";
+  }
+  return own;
+}
+
+OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
+  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe, const Sharing& sharing)
 {
   validate(options);
   validate(fibres);
   requireSegmentsToSearch(fibres);
-  requireMemory(bytesPerPoint * static_cast<double>(fibres.points.size()),
-    text("an optimisation of ", fibres.size(), " fibres with ", fibres.points.size(), " control points"),
-    "use fewer fibres, or a larger spacing of their control points");
+  requireRoom(fibres, sharing.size());
   const Clock::time_point start = Clock::now();
   const int threads = context.threadCount();
-  OptimisationCheckpoints checkpoints(fibres, options);
+  OptimisationCheckpoints checkpoints(fibres, options, sharing);
   OptimisationResult result;
   const FibreOrder order(fibres);
-  Fibres state = order.ordered(fibres);
-  const auto handBack = [&]
-  {
-    order.restore(state.points, fibres.points);
-    order.restore(state.radii, fibres.radii);
-  };
+  Fibres all = order.ordered(fibres);
+  const FibreShares shares(all, sharing);
   // A state without overlap is left alone.
-  const bool apart = measureOverlap(state, options.overlapTolerance, threads).overlappingPairs == 0;
+  const bool apart = measureOverlap(shares.own(all), shares, options.overlapTolerance, threads).overlappingPairs == 0;
   if (!apart && options.weights.compactness > 0.0)
   {
-    spreadBundles(state, options.packingLimit);
+    spreadBundles(all, options.packingLimit);
   }
+  std::vector<BundleBox> boxes = shares.ownOf(bundleBoxes(all, options.packingLimit));
+  Fibres state = shares.own(std::move(all));
+  const auto handBack = [&]
   {
-    OptimisationRun run(state, options, threads);
+    bringTogether(state.points, shares, order, fibres.points);
+    bringTogether(state.radii, shares, order, fibres.radii);
+  };
+  {
+    OptimisationRun run(state, shares, std::move(boxes), options, threads);
     if (options.resume && checkpoints.found())
     {
       checkpoints.load(run);
     }
     Observe handOver;
-    if (observe)
+    if (hasAny(static_cast<bool>(observe), sharing))
     {
       handOver = [&](const ConvergenceRow& row)
       {
         handBack();
-        observe(row, fibres);
+        if (observe)
+        {
+          observe(row, fibres);
+        }
       };
     }
     descend(run, options, context, start, checkpoints, handOver, result);
@@ -161,11 +211,22 @@ OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& optio
     state.radii = std::move(run.bestRadii);
   }
   // The lists above reach only as far as the descent needs: what is handed back is measured afresh.
-  const OverlapReport report = measureOverlap(state, options.overlapTolerance, threads);
+  const OverlapReport report = measureOverlap(state, shares, options.overlapTolerance, threads);
   result.maximumPenetration = std::max(0.0, report.largestPenetration);
   result.overlappingPairs = report.overlappingPairs;
-  order.restore(report.perPoint, result.overlap);
+  bringTogether(report.perPoint, shares, order, result.overlap);
   handBack();
+  return result;
+}
+
+} // namespace
+
+OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
+  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe, Team* team)
+{
+  const Sharing sharing(team);
+  OptimisationResult result;
+  sharing.together([&] { result = optimiseTogether(fibres, options, context, observe, sharing); });
   return result;
 }
 

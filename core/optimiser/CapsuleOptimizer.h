@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Team.h"
 #include "fibres/Fibres.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/ConvergenceRow.h"
@@ -36,7 +37,12 @@ struct OptimisationResult
 /// smallest largest penetration. End points slide in the plane across their bundle's axis. Same bits on any number of threads.
 /// `observe`, where given, is called with each iteration's row and state, the first included. Throws InvalidInput (fibres,
 /// options, a checkpoint of something else) and FileError (the checkpoint), OutOfMemory.
+///
+/// The processes of a team share the work: each moves some of the fibres, and knows of the others those that lie beside its own.
+/// All are given the same fibres and options, and end with the same result, which has the bits that one process alone gives it,
+/// after the same iterations; any of them may want to stop, and the clock is the first one's, which has the checkpoint. Errors
+/// end all, see Sharing::together(). States are observed where anybody observes them, each iteration then told to all.
 OptimisationResult optimise(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
-  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe = {});
+  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe = {}, Team* team = nullptr);
 
 } // namespace cactus

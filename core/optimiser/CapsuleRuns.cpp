@@ -51,7 +51,9 @@ CapsuleRuns::CapsuleRuns(const Capsules& capsules, const std::vector<float>& rea
   {
     this->First.push_back(static_cast<std::uint32_t>(k));
     const std::size_t begin = k;
-    while (k < capsules.size() && k < begin + longest && capsules.fibre[k] == capsules.fibre[begin])
+    const auto follows = [&](std::size_t next)
+    { return capsules.fibre[next] == capsules.fibre[next - 1] && capsules.first[next] == capsules.first[next - 1] + 1; };
+    for (++k; k < capsules.size() && k < begin + longest && follows(k);)
     {
       ++k;
     }

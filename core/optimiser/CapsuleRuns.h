@@ -27,8 +27,8 @@ void extend(RunBox& box, const RunBox& other);
 /// Runs that one thread takes one after the other.
 constexpr std::size_t runsTogether = 1024;
 
-/// Short runs of consecutive capsules of one fibre, which have most of their neighbours in common, and the boxes that hold what
-/// is within reach of them.
+/// Short runs of capsules that follow each other in one fibre, so have most of their neighbours in common, and the boxes that
+/// hold what is within reach of them.
 class CapsuleRuns
 {
 public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/Descent.h"
 
+#include "base/Bytes.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Parallel.h"
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace cactus
 {
@@ -40,12 +42,14 @@ private:
 
 } // namespace
 
-Descent::Descent(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads)
+Descent::Descent(
+  Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes, const CapsuleOptimizerOptions& options, int threads)
   : State(fibres, options.radiusTolerance > 0.0)
+  , Shares(shares)
   , Options(options)
   , Threads(threads)
-  , Costs(fibres, options.weights, options.packingLimit)
-  , Bodies(capsulesOf(fibres))
+  , Costs(fibres, options.weights, std::move(boxes))
+  , Bodies(fibres, shares)
   , ReferenceRadii(fibres.radii)
   , Gradient(fibres.points.size())
   , RadiusGradient(fibres.points.size())
@@ -54,19 +58,14 @@ Descent::Descent(Fibres& fibres, const CapsuleOptimizerOptions& options, int thr
 {
 }
 
-ConvergenceRow Descent::evaluate()
+ConvergenceRow Descent::evaluate(const std::function<Moment()>& now, Moment& moment)
 {
   this->requireFinite();
   this->refreshNeighbours();
-  ConvergenceRow row;
   const Stopwatch watch;
-  const OverlapTotals overlap = evaluateOverlap(this->Bodies, this->State.neighbours, this->Options.safetyMargin,
-    this->Options.overlapTolerance, this->Threads, this->Overlaps);
+  const OverlapParts overlap = this->Bodies.evaluate(
+    this->State.neighbours, this->Options.safetyMargin, this->Options.overlapTolerance, this->Threads, this->Overlaps);
   this->State.effort.evaluationSeconds += watch.seconds();
-  this->State.effort.pairEvaluations += static_cast<double>(this->State.neighbours.indices.size());
-  row.overlapCost = this->Options.overlapWeight * overlap.cost;
-  row.maximumPenetration = std::max(0.0, overlap.penetration);
-  row.overlappingPairs = overlap.overlappingPairs;
   const Fibres& fibres = this->State.fibres;
   std::vector<FibreCostTotals> perFibre(fibres.size());
   const FibreGradients gradients{ this->Gradient, this->RadiusGradient, this->Stiffness };
@@ -76,13 +75,62 @@ ConvergenceRow Descent::evaluate()
       this->gatherOverlap(f);
       perFibre[f] = this->Costs.add(fibres, f, this->State.relaxation, gradients);
     });
-  for (const FibreCostTotals& totals : perFibre)
+  return this->sumUp(this->Shares.sharing().exchange(this->tell(overlap, perFibre, now())), moment);
+}
+
+/// What the others have to know of this process's part.
+std::string Descent::tell(const OverlapParts& overlap, const std::vector<FibreCostTotals>& perFibre, const Moment& moment) const
+{
+  ByteWriter put;
+  put(moment.seconds);
+  put(static_cast<std::uint8_t>(moment.wantsStop));
+  put(static_cast<std::uint64_t>(this->State.neighbours.indices.size()));
+  put(overlap.before);
+  put(overlap.blocks);
+  put(overlap.after);
+  put(overlap.penetration);
+  put(static_cast<std::uint64_t>(overlap.overlapping));
+  put(static_cast<std::uint64_t>(perFibre.size()));
+  put.addAll(perFibre.data(), perFibre.size());
+  return std::move(put.bytes());
+}
+
+/// The sums over all processes, in the order that they have in one.
+ConvergenceRow Descent::sumUp(const std::vector<std::string>& told, Moment& moment)
+{
+  ConvergenceRow row;
+  OverlapSum sum;
+  std::uint64_t pairs = 0;
+  std::vector<FibreCostTotals> perFibre;
+  for (std::size_t process = 0; process < told.size(); ++process)
   {
-    row.curvatureCost += totals.curvature;
-    row.lengthCost += totals.length;
-    row.radiusCost += totals.radius;
-    row.compactnessCost += totals.compactness;
+    ByteReader get(told[process]);
+    const double seconds = get.get<double>();
+    const bool wantsStop = get.get<std::uint8_t>() != 0;
+    moment = process == 0 ? Moment{ seconds, wantsStop } : Moment{ moment.seconds, moment.wantsStop || wantsStop };
+    pairs += get.get<std::uint64_t>();
+    OverlapParts overlap;
+    get(overlap.before);
+    get(overlap.blocks);
+    get(overlap.after);
+    get(overlap.penetration);
+    overlap.overlapping = get.get<std::uint64_t>();
+    sum.add(overlap);
+    perFibre.resize(get.get<std::uint64_t>());
+    get.getAll(perFibre.data(), perFibre.size());
+    for (const FibreCostTotals& totals : perFibre)
+    {
+      row.curvatureCost += totals.curvature;
+      row.lengthCost += totals.length;
+      row.radiusCost += totals.radius;
+      row.compactnessCost += totals.compactness;
+    }
   }
+  this->State.effort.pairEvaluations += static_cast<double>(pairs);
+  const OverlapTotals overlap = sum.totals();
+  row.overlapCost = this->Options.overlapWeight * overlap.cost;
+  row.maximumPenetration = std::max(0.0, overlap.penetration);
+  row.overlappingPairs = overlap.overlappingPairs;
   return row;
 }
 
@@ -94,10 +142,11 @@ void Descent::step()
     [&](std::size_t f)
     {
       exceeded[f] = momentum ? this->stepMomentum(f) : this->stepAdagrad(f);
-      this->copyToCapsules(f);
+      this->Bodies.take(this->State.fibres, f);
     });
   ++this->State.stepsSinceSearch;
-  this->State.exceeded = std::find(exceeded.begin(), exceeded.end(), true) != exceeded.end();
+  this->State.exceeded = this->Bodies.update(
+    this->State.fibres, this->Options.radiusTolerance > 0.0, std::find(exceeded.begin(), exceeded.end(), true) != exceeded.end());
   if (momentum)
   {
     this->State.relaxation = std::max(1e-8, this->State.relaxation * this->Options.relaxation);
@@ -128,16 +177,16 @@ void Descent::refreshNeighbours()
   }
   this->setAllowances();
   const double margin = this->Options.safetyMargin - 1.0;
-  std::vector<float> reach(this->Bodies.size());
+  std::vector<float> reach(this->Bodies.own().size());
   parallelForInBlocks(reach.size(), pointsTogether, this->Threads,
     [&](std::size_t k)
     {
-      const std::size_t i = this->Bodies.first[k];
+      const std::size_t i = this->Bodies.pointOf(k);
       const double radius = std::max(state.fibres.radii[i], state.fibres.radii[i + 1]);
       reach[k] = std::max(state.allowance[i], state.allowance[i + 1]) + static_cast<float>(margin * radius * 1.0001);
     });
   const Stopwatch watch;
-  findNeighbours(this->Bodies, reach, this->Threads, state.neighbours);
+  this->Bodies.findNeighbours(state.fibres, reach, this->Threads, state.neighbours);
   state.effort.searchSeconds += watch.seconds();
   ++state.effort.neighbourSearches;
   state.exceeded = false;
@@ -334,26 +383,14 @@ double Descent::changeRadius(std::size_t i, double change)
   return radius - before;
 }
 
-void Descent::copyToCapsules(std::size_t f)
+void Descent::load(SharedCheckpointReader& file)
 {
-  const Fibres& fibres = this->State.fibres;
-  for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
-  {
-    Capsule& body = this->Bodies.bodies[i - f];
-    std::copy_n(fibres.points[i].data(), 3, body.p0);
-    std::copy_n(fibres.points[i + 1].data(), 3, body.p1);
-    body.r0 = fibres.radii[i];
-    body.r1 = fibres.radii[i + 1];
-  }
-}
-
-void Descent::load(CheckpointReader& file)
-{
-  this->State.load(file);
+  this->State.load(file, this->Shares);
   file.require(this->isSound());
-  for (std::size_t f = 0; f < this->State.fibres.size(); ++f)
+  this->Bodies.takeAll(this->State.fibres);
+  if (!this->State.searchDue())
   {
-    this->copyToCapsules(f);
+    this->Bodies.numberForThis(this->State.fibres, this->State.neighbours.indices);
   }
 }
 
@@ -368,8 +405,9 @@ bool Descent::couldReach(const std::vector<Eigen::Vector3d>& points, const std::
     good = good && points[i].cwiseAbs().maxCoeff() <= farthest && points[i].allFinite() &&
            std::abs(radii[i] - this->ReferenceRadii[i]) <= tolerance * this->ReferenceRadii[i];
   }
-  for (const std::uint32_t i : this->Bodies.first)
+  for (std::size_t k = 0; k < this->Bodies.own().size(); ++k)
   {
+    const std::size_t i = this->Bodies.pointOf(k);
     good = good && (points[i + 1] - points[i]).squaredNorm() > 0.0;
   }
   return good;
@@ -396,19 +434,20 @@ bool Descent::isSound() const
                               all(state.allowance, isLength) && this->areNeighboursSound()));
 }
 
+/// In the numbers of a file. Where the lists of all processes begin and end, the one that reads it has seen.
 bool Descent::areNeighboursSound() const
 {
   const std::vector<std::size_t>& offsets = this->State.neighbours.offsets;
   const std::vector<std::uint32_t>& indices = this->State.neighbours.indices;
-  if (offsets.front() != 0 || offsets.back() != indices.size() || !std::is_sorted(offsets.begin(), offsets.end()))
-  {
-    return false;
-  }
-  for (std::size_t k = 0; k < this->Bodies.size(); ++k)
+  const std::vector<std::uint32_t>& fibre = this->Bodies.all().fibre; // nothing of others is there yet
+  const std::size_t own = this->Shares.ownCapsule();
+  for (std::size_t k = 0; k < fibre.size(); ++k)
   {
     for (std::size_t n = offsets[k]; n < offsets[k + 1]; ++n)
     {
-      if (indices[n] >= this->Bodies.size() || this->Bodies.fibre[indices[n]] == this->Bodies.fibre[k])
+      const std::size_t other = indices[n];
+      const bool isOwn = other >= own && other < own + fibre.size();
+      if (other >= this->Shares.capsuleCount() || (isOwn && fibre[other - own] == fibre[k]))
       {
         return false;
       }

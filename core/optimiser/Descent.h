@@ -1,41 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fibres/Capsules.h"
 #include "fibres/Fibres.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/CapsuleOverlap.h"
 #include "optimiser/ConvergenceRow.h"
 #include "optimiser/DescentState.h"
 #include "optimiser/FibreCosts.h"
+#include "optimiser/FibreShares.h"
+#include "optimiser/SharedCapsules.h"
+#include "optimiser/StoppingRule.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace cactus
 {
 
 /// Moves fibres down the gradient of all costs, step by step: evaluate(), step(), evaluate() … Same bits on any number of
-/// threads.
+/// threads, and of processes, each of which moves its own fibres.
 class Descent
 {
 public:
-  /// From the fibres as they are, at rest; they are moved in place.
-  Descent(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads);
+  /// From the fibres as they are, at rest; they are moved in place. `boxes`: their bundles' cuboids; see bundleBoxes.
+  Descent(
+    Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes, const CapsuleOptimizerOptions& options, int threads);
 
-  /// Costs and penetration at the present positions, and the gradient that the next step follows. Iteration and seconds are left
-  /// to the caller.
-  ConvergenceRow evaluate();
+  /// Costs and penetration at the present positions, and the gradient that the next step follows. `now` is asked once in each
+  /// process; what the first says, and whether any of them wants to stop, is in `moment` in all. Iteration and seconds of the
+  /// row are left to the caller.
+  ConvergenceRow evaluate(const std::function<Moment()>& now, Moment& moment);
 
   void step();
 
   const DescentState& state() const { return this->State; }
 
-  void save(CheckpointWriter& file) const { this->State.save(file); }
+  void save(SharedCheckpointWriter& file) const { this->State.save(file, this->Bodies, this->Shares); }
   /// Goes on from what was saved. Throws FileError where no descent from the fibres given can be there.
-  void load(CheckpointReader& file);
+  void load(SharedCheckpointReader& file);
 
   /// Whether a descent from the fibres given can have made these positions and radii.
   bool couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const;
@@ -44,6 +50,8 @@ private:
   void requireFinite() const;
   void refreshNeighbours();
   void setAllowances();
+  std::string tell(const OverlapParts& overlap, const std::vector<FibreCostTotals>& perFibre, const Moment& moment) const;
+  ConvergenceRow sumUp(const std::vector<std::string>& told, Moment& moment);
   void gatherOverlap(std::size_t f);
   bool move(std::size_t i, const Eigen::Vector3d& by, double growth);
   bool stepMomentum(std::size_t f);
@@ -56,15 +64,15 @@ private:
   double changeRadius(std::size_t i, double change);
   double stiffnessOfPoint(std::size_t i) const;
   double stiffnessOfThread(std::size_t i) const;
-  void copyToCapsules(std::size_t f);
   bool isSound() const;
   bool areNeighboursSound() const;
 
   DescentState State;
+  const FibreShares& Shares;
   const CapsuleOptimizerOptions& Options;
   int Threads;
   FibreCosts Costs;
-  Capsules Bodies;
+  SharedCapsules Bodies;
   std::vector<double> ReferenceRadii;
   std::vector<CapsuleOverlap> Overlaps;
   std::vector<Eigen::Vector3d> Gradient;

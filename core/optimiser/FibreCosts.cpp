@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cactus
 {
@@ -21,11 +22,16 @@ constexpr double sharpestBend = 1.2;
 } // namespace
 
 FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit)
+  : FibreCosts(fibres, weights, bundleBoxes(fibres, packingLimit))
+{
+}
+
+FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, std::vector<BundleBox> boxes)
   : Weights(weights)
   , ReferenceLength(fibres.points.size(), 0.0)
   , SmallestCosine(fibres.points.size(), -1.0f)
   , ReferenceRadius(fibres.radii)
-  , Boxes(bundleBoxes(fibres, packingLimit))
+  , Boxes(std::move(boxes))
 {
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {

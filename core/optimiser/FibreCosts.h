@@ -58,6 +58,8 @@ class FibreCosts
 public:
   /// Takes reference lengths, target radii and cuboids from the fibres as they come in.
   FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit);
+  /// The same for some of the fibres, with their cuboids, which depend on all.
+  FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, std::vector<BundleBox> boxes);
 
   /// Adds the derivatives of fibre f's costs, and returns the costs. `relaxation` scales curvature, length and compactness, but
   /// not their limits.

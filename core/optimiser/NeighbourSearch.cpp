@@ -87,7 +87,7 @@ public:
   {
   }
 
-  /// counts[k] becomes the number of neighbours of capsule k.
+  /// counts[l] becomes the number of neighbours of the run's l-th capsule.
   void find(std::size_t run, std::size_t* counts)
   {
     const std::size_t count = this->collect(run);
@@ -112,9 +112,9 @@ public:
       }
       std::uint32_t* begin = this->Room.data() + this->Size;
       const std::uint32_t* end = this->Kernels.selectNeighbours(near, this->Candidates.data(), count, numbers, begin);
-      counts[mine[l]] = static_cast<std::size_t>(end - begin);
-      this->Size += counts[mine[l]];
-      this->All.pairs.add(counts[mine[l]]);
+      counts[l] = static_cast<std::size_t>(end - begin);
+      this->Size += counts[l];
+      this->All.pairs.add(counts[l]);
     }
   }
 
@@ -220,14 +220,31 @@ private:
   std::size_t Size = 0;
 };
 
-/// counts[k] becomes the number of neighbours of capsule k; returned are the neighbours themselves, per block of runs.
-std::vector<std::vector<std::uint32_t>> searchAll(
-  const Capsules& capsules, const std::vector<float>& reach, const CapsuleRuns& runs, int threads, std::size_t* counts)
+/// Consecutive runs.
+struct RunRange
+{
+  std::size_t begin;
+  std::size_t end;
+};
+
+/// The runs of some capsules, which are whole fibres.
+RunRange runsOf(const CapsuleRuns& runs, const CapsuleRange& capsules)
+{
+  const auto runAt = [&](std::size_t capsule) {
+    return static_cast<std::size_t>(std::lower_bound(runs.first().begin(), runs.first().end(), capsule) - runs.first().begin());
+  };
+  return { runAt(capsules.begin), runAt(capsules.end) };
+}
+
+/// Searches for the neighbours of the capsules of some runs. counts[l] becomes their number for the l-th of these capsules;
+/// returned are the neighbours themselves, per block of runs.
+std::vector<std::vector<std::uint32_t>> searchAll(const Capsules& capsules, const std::vector<float>& reach,
+  const CapsuleRuns& runs, const RunRange& of, int threads, std::size_t* counts)
 {
   const RunGrid grid(runs.boxes());
   const RunGridEntries entries(runs.boxes(), grid, threads);
   PairLimit pairs;
-  std::vector<std::vector<std::uint32_t>> found((runs.size() + runsTogether - 1) / runsTogether);
+  std::vector<std::vector<std::uint32_t>> found((of.end - of.begin + runsTogether - 1) / runsTogether);
   Context context;
   context.threads = threads;
   parallelForWithWorkers(
@@ -237,10 +254,10 @@ std::vector<std::vector<std::uint32_t>> searchAll(
     },
     [&](RunSearch& search, std::size_t block)
     {
-      const std::size_t end = std::min(runs.size(), (block + 1) * runsTogether);
-      for (std::size_t i = block * runsTogether; i < end; ++i)
+      const std::size_t end = std::min(of.end, of.begin + (block + 1) * runsTogether);
+      for (std::size_t i = of.begin + block * runsTogether; i < end; ++i)
       {
-        search.find(i, counts);
+        search.find(i, counts + (runs.first()[i] - runs.first()[of.begin]));
       }
       found[block] = search.take();
     });
@@ -249,9 +266,10 @@ std::vector<std::vector<std::uint32_t>> searchAll(
 
 } // namespace
 
-void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, int threads, NeighbourList& list)
+void findNeighbours(
+  const Capsules& capsules, const CapsuleRange& of, const std::vector<float>& reach, int threads, NeighbourList& list)
 {
-  const std::size_t count = capsules.size();
+  const std::size_t count = of.size();
   list.offsets.assign(count + 1, 0);
   if (count == 0)
   {
@@ -259,13 +277,14 @@ void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, i
     return;
   }
   std::vector<std::vector<std::uint32_t>> found;
-  std::vector<std::uint32_t> firstOfBlock; // capsules
+  std::vector<std::size_t> firstOfBlock; // of the capsules that were asked for
   {
     const CapsuleRuns runs(capsules, reach, threads);
-    found = searchAll(capsules, reach, runs, threads, list.offsets.data() + 1);
-    for (std::size_t run = 0; run < runs.size(); run += runsTogether)
+    const RunRange range = runsOf(runs, of);
+    found = searchAll(capsules, reach, runs, range, threads, list.offsets.data() + 1);
+    for (std::size_t run = range.begin; run < range.end; run += runsTogether)
     {
-      firstOfBlock.push_back(runs.first()[run]);
+      firstOfBlock.push_back(runs.first()[run] - of.begin);
     }
   }
   std::partial_sum(list.offsets.begin(), list.offsets.end(), list.offsets.begin());
@@ -281,6 +300,11 @@ void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, i
       std::copy(found[block].begin(), found[block].end(), list.indices.begin() + begin);
       std::vector<std::uint32_t>().swap(found[block]);
     });
+}
+
+void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, int threads, NeighbourList& list)
+{
+  findNeighbours(capsules, { 0, capsules.size() }, reach, threads, list);
 }
 
 void findNeighbours(const Capsules& capsules, double reach, int threads, NeighbourList& list)

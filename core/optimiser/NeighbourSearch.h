@@ -29,6 +29,10 @@ struct NeighbourList
 /// exactly whose bounding balls meet. Same result on any number of threads. Throws OutOfMemory where the pairs do not fit.
 void findNeighbours(const Capsules& capsules, const std::vector<float>& reach, int threads, NeighbourList& list);
 
+/// The same for the capsules `of` alone, whole fibres: list.offsets[0] belongs to the first of these.
+void findNeighbours(
+  const Capsules& capsules, const CapsuleRange& of, const std::vector<float>& reach, int threads, NeighbourList& list);
+
 /// The same with distance < rp + rq + reach for all.
 void findNeighbours(const Capsules& capsules, double reach, int threads, NeighbourList& list);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/OptimisationCheckpoints.h"
 
+#include "base/Bytes.h"
 #include "base/Checkpoint.h"
 #include "base/Error.h"
 
@@ -40,18 +41,50 @@ std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions&
 
 } // namespace
 
-OptimisationCheckpoints::OptimisationCheckpoints(const Fibres& fibres, const CapsuleOptimizerOptions& options)
-  : Path(options.checkpointFile)
+OptimisationCheckpoints::OptimisationCheckpoints(
+  const Fibres& fibres, const CapsuleOptimizerOptions& options, const Sharing& sharing)
+  : Processes(sharing)
+  , Path(options.checkpointFile)
   , Interval(options.checkpointInterval)
   , Latest(Clock::now())
 {
-  if (!this->Path.empty())
+  if (!this->Path.empty() || sharing.size() > 1)
   {
     this->Print = fingerprintOf(fibres, options);
+    this->requireAlike(options);
+  }
+  if (!this->Path.empty() && sharing.isFirst())
+  {
     const auto found = findCheckpoint(this->Path, this->Print);
     this->Reached = found ? found->iteration : -1;
     // Goes away again unless it is committed.
     const CheckpointWriter attempt(this->Path, { this->Print, 0 });
+  }
+  ByteWriter reached;
+  reached(this->Reached);
+  const std::string told = sharing.fromFirst(reached.bytes());
+  ByteReader get(told);
+  get(this->Reached);
+}
+
+/// Processes that were given different runs could not go through them together.
+void OptimisationCheckpoints::requireAlike(const CapsuleOptimizerOptions& options) const
+{
+  ByteWriter mine;
+  mine(this->Print);
+  mine(options.checkpointFile);
+  mine(static_cast<std::uint8_t>(options.resume));
+  mine(options.maximumIterations);
+  mine(options.timeBudget);
+  mine(options.checkpointInterval);
+  for (const std::string& other : this->Processes.exchange(mine.bytes()))
+  {
+    if (other != mine.bytes())
+    {
+      throw InvalidInput(
+        "the ranks of this run were given different fibres or parameters, but work on one optimisation together: "
+        "give all the same, or let each work alone, as examples/sweep.py does");
+    }
   }
 }
 
@@ -62,9 +95,16 @@ void OptimisationCheckpoints::load(OptimisationRun& run) const
 
 bool OptimisationCheckpoints::due(const OptimisationRun& run) const
 {
-  const auto sinceLatest = [&] { return std::chrono::duration<double>(Clock::now() - this->Latest).count(); };
-  return !this->Path.empty() &&
-         ((!this->found() && !this->Written) || (run.descent.state().searchDue() && sinceLatest() >= this->Interval));
+  if (this->Path.empty() || (!this->found() && !this->Written))
+  {
+    return !this->Path.empty();
+  }
+  if (!run.descent.state().searchDue())
+  {
+    return false;
+  }
+  const double sinceLatest = std::chrono::duration<double>(Clock::now() - this->Latest).count();
+  return this->Processes.fromFirst(sinceLatest >= this->Interval ? "1" : "0") == "1";
 }
 
 void OptimisationCheckpoints::write(const OptimisationRun& run)

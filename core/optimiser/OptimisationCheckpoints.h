@@ -11,19 +11,20 @@
 namespace cactus
 {
 
-/// The file in which a run is written down every now and then, and what was in it before.
+/// The file in which a run is written down every now and then, and what was in it before. Where processes share the run, the
+/// first has the file, and throws what is said here; all come to each call.
 class OptimisationCheckpoints
 {
 public:
   /// Throws where the file is there and not a checkpoint of this run, and where it cannot be written.
-  OptimisationCheckpoints(const Fibres& fibres, const CapsuleOptimizerOptions& options);
+  OptimisationCheckpoints(const Fibres& fibres, const CapsuleOptimizerOptions& options, const Sharing& sharing);
 
   /// Whether there was a checkpoint of this run.
   bool found() const { return this->Reached >= 0; }
 
   void load(OptimisationRun& run) const;
 
-  bool due(const OptimisationRun& run) const;
+  bool due(const OptimisationRun& run) const; ///< by the clock of the first process
 
   /// Writes the run down, unless what is there has come further (the same run, from the beginning once more). That a later
   /// checkpoint cannot be written is no reason to give up a long run: it is noted, see failure().
@@ -33,8 +34,11 @@ public:
   const std::string& failure() const { return this->Failure; }
 
 private:
+  void requireAlike(const CapsuleOptimizerOptions& options) const;
+
   using Clock = std::chrono::steady_clock;
 
+  const Sharing& Processes;
   std::string Path;
   double Interval;
   Clock::time_point Latest;

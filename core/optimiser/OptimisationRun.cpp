@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/OptimisationRun.h"
 
-#include "base/Checkpoint.h"
+#include "base/Bytes.h"
+#include "base/SharedCheckpoint.h"
 
 #include <cmath>
+#include <utility>
 
 namespace cactus
 {
@@ -13,7 +15,7 @@ namespace
 
 /// One by one: a row as a whole has a gap.
 template <typename Row, typename Visitor>
-void visit(Row& row, const Visitor& visitor)
+void visit(Row& row, Visitor&& visitor)
 {
   visitor(row.iteration);
   visitor(row.overlapCost);
@@ -28,9 +30,11 @@ void visit(Row& row, const Visitor& visitor)
 
 } // namespace
 
-OptimisationRun::OptimisationRun(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads)
-  : state(fibres)
-  , descent(fibres, options, threads)
+OptimisationRun::OptimisationRun(
+  Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes, const CapsuleOptimizerOptions& options, int threads)
+  : sharing(shares.sharing())
+  , state(fibres)
+  , descent(fibres, shares, std::move(boxes), options, threads)
   , bestPoints(fibres.points)
   , bestRadii(fibres.radii)
 {
@@ -49,7 +53,7 @@ void OptimisationRun::note(const ConvergenceRow& row, double tolerance)
 
 void OptimisationRun::save(const std::string& path, std::uint64_t fingerprint) const
 {
-  CheckpointWriter file(path, { fingerprint, this->iteration });
+  SharedCheckpointWriter file(path, { fingerprint, this->iteration }, this->sharing);
   file.put(this->seconds);
   file.put(this->bestCost);
   file.put(this->progress.lowestCost);
@@ -67,30 +71,56 @@ void OptimisationRun::save(const std::string& path, std::uint64_t fingerprint) c
 
 void OptimisationRun::load(const std::string& path, std::uint64_t fingerprint)
 {
-  const auto count = static_cast<std::int64_t>(this->state.points.size());
-  CheckpointReader file(path, fingerprint);
-  file.require(file.header().iteration >= 0 && file.header().iteration <= std::numeric_limits<int>::max());
-  this->iteration = static_cast<int>(file.header().iteration);
-  file.get(this->seconds);
-  file.get(this->bestCost);
-  file.get(this->progress.lowestCost);
-  file.get(this->progress.lowestPenetration);
-  file.get(this->progress.lastIteration);
-  file.require(std::isfinite(this->seconds) && this->bestCost >= 0.0 && this->progress.lowestCost >= 0.0 &&
-               this->progress.lowestPenetration >= 0.0 && this->progress.lastIteration >= 0 &&
-               this->progress.lastIteration <= this->iteration);
-  for (int i = 0; i < this->iteration; ++i)
+  SharedCheckpointReader file(path, fingerprint, this->sharing);
+  const std::string numbers = file.fromFile(loadNumbers);
+  ByteReader get(numbers);
+  get(this->iteration);
+  get(this->seconds);
+  get(this->bestCost);
+  get(this->progress.lowestCost);
+  get(this->progress.lowestPenetration);
+  get(this->progress.lastIteration);
+  this->rows.resize(static_cast<std::size_t>(this->iteration));
+  for (ConvergenceRow& row : this->rows)
   {
-    ConvergenceRow row;
-    visit(row, [&](auto& value) { file.get(value); });
-    file.require(row.iteration == i && std::isfinite(row.overlapCost) && row.maximumPenetration >= 0.0);
-    this->rows.push_back(row);
+    visit(row, get);
   }
+  const std::size_t count = this->state.points.size();
   file.getAll(this->bestPoints, count);
   file.getAll(this->bestRadii, count);
   file.require(this->descent.couldReach(this->bestPoints, this->bestRadii));
   this->descent.load(file);
   file.finish();
+}
+
+/// What is the same in all processes.
+void OptimisationRun::loadNumbers(CheckpointReader& file, ByteWriter& put)
+{
+  file.require(file.header().iteration >= 0 && file.header().iteration <= std::numeric_limits<int>::max());
+  const int next = static_cast<int>(file.header().iteration);
+  double before = 0.0;
+  double cost = 0.0;
+  DescentProgress made;
+  file.get(before);
+  file.get(cost);
+  file.get(made.lowestCost);
+  file.get(made.lowestPenetration);
+  file.get(made.lastIteration);
+  file.require(std::isfinite(before) && cost >= 0.0 && made.lowestCost >= 0.0 && made.lowestPenetration >= 0.0 &&
+               made.lastIteration >= 0 && made.lastIteration <= next);
+  put(next);
+  put(before);
+  put(cost);
+  put(made.lowestCost);
+  put(made.lowestPenetration);
+  put(made.lastIteration);
+  for (int i = 0; i < next; ++i)
+  {
+    ConvergenceRow row;
+    visit(row, [&](auto& value) { file.get(value); });
+    file.require(row.iteration == i && std::isfinite(row.overlapCost) && row.maximumPenetration >= 0.0);
+    visit(row, put);
+  }
 }
 
 } // namespace cactus

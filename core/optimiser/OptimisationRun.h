@@ -16,18 +16,22 @@
 namespace cactus
 {
 
-/// A descent and all that its caller knows of it: what a checkpoint holds.
+/// A descent and all that its caller knows of it: what a checkpoint holds. Where processes share it, each has the states of its
+/// own fibres, and all have the rest.
 struct OptimisationRun
 {
-  OptimisationRun(Fibres& fibres, const CapsuleOptimizerOptions& options, int threads);
+  /// See Descent.
+  OptimisationRun(
+    Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes, const CapsuleOptimizerOptions& options, int threads);
 
   /// Notes the state that was just measured.
   void note(const ConvergenceRow& row, double tolerance);
 
-  /// Throws FileError, and InvalidInput where another run's checkpoint is at `path`.
+  /// Throws FileError, and InvalidInput where another run's checkpoint is at `path`; in the first process, which has the file.
   void save(const std::string& path, std::uint64_t fingerprint) const;
   void load(const std::string& path, std::uint64_t fingerprint);
 
+  const Sharing& sharing;
   Fibres& state;
   Descent descent;
   int iteration = 0;    ///< the next one
@@ -37,6 +41,9 @@ struct OptimisationRun
   std::vector<double> bestRadii;
   double bestCost = std::numeric_limits<double>::infinity();
   DescentProgress progress;
+
+private:
+  static void loadNumbers(CheckpointReader& file, ByteWriter& put);
 };
 
 } // namespace cactus

@@ -17,6 +17,9 @@ namespace cactus
 namespace
 {
 
+/// Capsules whose costs are summed before they are added to the others.
+constexpr std::size_t blockSize = 1024;
+
 /// Axes count as meeting where their distance is less than this share of the sum of the radii.
 constexpr double meeting = 1e-9;
 
@@ -84,43 +87,105 @@ void partCoincident(const Capsules& capsules, std::size_t k, const std::uint32_t
 
 } // namespace
 
-OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& neighbours, double margin, double tolerance,
-  int threads, std::vector<CapsuleOverlap>& result)
+bool isAnyTapered(const Capsules& capsules, const CapsuleRange& of)
 {
-  const std::size_t count = capsules.size();
-  result.resize(count);
-  constexpr std::size_t blockSize = 1024;
-  std::vector<OverlapTotals> partial((count + blockSize - 1) / blockSize);
+  const auto begin = capsules.bodies.begin();
+  return std::any_of(begin + static_cast<std::ptrdiff_t>(of.begin), begin + static_cast<std::ptrdiff_t>(of.end),
+    [](const Capsule& body) { return body.r0 != body.r1; });
+}
+
+OverlapParts evaluateOverlap(const Capsules& capsules, const CapsuleRange& of, std::size_t place, const NeighbourList& neighbours,
+  const OverlapTerms& terms, int threads, std::vector<CapsuleOverlap>& result)
+{
+  result.resize(of.size());
+  // Blocks are those of all capsules, of which the first may be entered in its midst.
+  const std::size_t skipped = place % blockSize;
+  const std::size_t end = skipped + of.size();
+  std::vector<OverlapTotals> partial((end + blockSize - 1) / blockSize);
   const auto evaluateCapsule = bestKernels<OverlapKernels>().evaluateCapsule;
-  const bool tapered =
-    std::any_of(capsules.bodies.begin(), capsules.bodies.end(), [](const Capsule& body) { return body.r0 != body.r1; });
-  parallelBlocks(count, blockSize, threads,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  parallelBlocks(end, blockSize, threads,
+    [&](std::size_t block, std::size_t blockBegin, std::size_t blockEnd)
     {
       OverlapTotals& mine = partial[block];
-      for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t k = std::max(blockBegin, skipped) - skipped; k + skipped < blockEnd; ++k)
       {
         const std::uint32_t* others = neighbours.indices.data() + neighbours.offsets[k];
         const std::size_t othersCount = neighbours.offsets[k + 1] - neighbours.offsets[k];
-        evaluateCapsule(capsules.bodies.data(), others, othersCount, capsules.bodies[k], margin, tolerance, tapered, result[k]);
+        const Capsule& body = capsules.bodies[of.begin + k];
+        evaluateCapsule(
+          capsules.bodies.data(), others, othersCount, body, terms.margin, terms.tolerance, terms.tapered, result[k]);
         if (result[k].penetration > 1.0 - 2.0 * meeting)
         {
-          partCoincident(capsules, k, others, othersCount, margin, result[k]);
+          partCoincident(capsules, of.begin + k, others, othersCount, terms.margin, result[k]);
         }
         mine.cost += result[k].cost;
         mine.penetration = std::max(mine.penetration, result[k].penetration);
         mine.overlappingPairs += result[k].overlapping;
       }
     });
-  OverlapTotals totals;
-  for (const OverlapTotals& mine : partial)
+  OverlapParts parts;
+  for (std::size_t block = 0; block < partial.size(); ++block)
   {
-    totals.cost += mine.cost;
-    totals.penetration = std::max(totals.penetration, mine.penetration);
-    totals.overlappingPairs += mine.overlappingPairs;
+    const std::size_t first = block * blockSize;
+    if (first >= skipped && first + blockSize <= end)
+    {
+      parts.blocks.push_back(partial[block].cost);
+    }
+    else
+    {
+      std::vector<double>& costs = parts.blocks.empty() && first < skipped ? parts.before : parts.after;
+      for (std::size_t k = std::max(first, skipped); k < std::min(first + blockSize, end); ++k)
+      {
+        costs.push_back(result[k - skipped].cost);
+      }
+    }
+    parts.penetration = std::max(parts.penetration, partial[block].penetration);
+    parts.overlapping += partial[block].overlappingPairs;
   }
+  return parts;
+}
+
+void OverlapSum::addCapsules(const std::vector<double>& costs)
+{
+  for (const double cost : costs)
+  {
+    this->Block += cost;
+    if (++this->InBlock == blockSize)
+    {
+      this->Sum.cost += this->Block;
+      this->Block = 0.0;
+      this->InBlock = 0;
+    }
+  }
+}
+
+void OverlapSum::add(const OverlapParts& parts)
+{
+  this->addCapsules(parts.before);
+  for (const double cost : parts.blocks)
+  {
+    this->Sum.cost += cost;
+  }
+  this->addCapsules(parts.after);
+  this->Sum.penetration = std::max(this->Sum.penetration, parts.penetration);
+  this->Sum.overlappingPairs += parts.overlapping;
+}
+
+OverlapTotals OverlapSum::totals() const
+{
+  OverlapTotals totals = this->Sum;
+  totals.cost += this->Block;
   totals.overlappingPairs /= 2;
   return totals;
+}
+
+OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& neighbours, double margin, double tolerance,
+  int threads, std::vector<CapsuleOverlap>& result)
+{
+  OverlapSum sum;
+  const OverlapTerms terms{ margin, tolerance, isAnyTapered(capsules, { 0, capsules.size() }) };
+  sum.add(evaluateOverlap(capsules, { 0, capsules.size() }, 0, neighbours, terms, threads, result));
+  return sum.totals();
 }
 
 } // namespace cactus

@@ -28,4 +28,45 @@ struct OverlapTotals
 OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& neighbours, double margin, double tolerance,
   int threads, std::vector<CapsuleOverlap>& result);
 
+/// How it is evaluated.
+struct OverlapTerms
+{
+  double margin = 1.0;
+  double tolerance = 0.0;
+  bool tapered = true; ///< whether the radius of any capsule varies along it
+};
+
+/// Sums over some consecutive capsules, from which those over all follow to the last bit, however these are parted: costs are
+/// summed by blocks of capsules, and what has no whole block is kept capsule by capsule.
+struct OverlapParts
+{
+  std::vector<double> before; ///< costs of the capsules before the first whole block
+  std::vector<double> blocks;
+  std::vector<double> after;
+  double penetration = 0.0;
+  std::size_t overlapping = 0; ///< pairs, counted from this side
+};
+
+bool isAnyTapered(const Capsules& capsules, const CapsuleRange& of);
+
+/// The same for the capsules `of` alone, whose lists begin with neighbours.offsets[0] and whose results with result[0]. `place`:
+/// the number of the first of them among the capsules of all processes.
+OverlapParts evaluateOverlap(const Capsules& capsules, const CapsuleRange& of, std::size_t place, const NeighbourList& neighbours,
+  const OverlapTerms& terms, int threads, std::vector<CapsuleOverlap>& result);
+
+/// Adds up the parts, the first capsules first.
+class OverlapSum
+{
+public:
+  void add(const OverlapParts& parts);
+  OverlapTotals totals() const;
+
+private:
+  void addCapsules(const std::vector<double>& costs);
+
+  OverlapTotals Sum;
+  double Block = 0.0; ///< what there is of a block
+  std::size_t InBlock = 0;
+};
+
 } // namespace cactus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fibres/Fibres.h"
+#include "optimiser/FibreShares.h"
 
 #include <cstddef>
 #include <vector>
@@ -19,5 +20,9 @@ struct OverlapReport
 
 /// Measures every pair of capsules of different fibres with exact closest points. Tolerance: the D above which a pair counts.
 OverlapReport measureOverlap(const Fibres& fibres, double tolerance = 0.0, int threads = 0);
+
+/// The same, shared by processes, which all come here: `fibres` and the values per control point are this process's own, the
+/// numbers those of all.
+OverlapReport measureOverlap(const Fibres& fibres, const FibreShares& shares, double tolerance, int threads);
 
 } // namespace cactus

@@ -27,8 +27,8 @@ void DescentProgress::note(const ConvergenceRow& row)
   }
 }
 
-std::optional<StopReason> reasonToStop(const ConvergenceRow& row, const DescentProgress& progress,
-  const CapsuleOptimizerOptions& options, const Context& context, double seconds)
+std::optional<StopReason> reasonToStop(
+  const ConvergenceRow& row, const DescentProgress& progress, const CapsuleOptimizerOptions& options, const Moment& moment)
 {
   if (row.maximumPenetration <= options.overlapTolerance)
   {
@@ -42,11 +42,11 @@ std::optional<StopReason> reasonToStop(const ConvergenceRow& row, const DescentP
   {
     return StopReason::Stagnated;
   }
-  if (context.stopRequested())
+  if (moment.wantsStop)
   {
     return StopReason::Stopped;
   }
-  if (options.timeBudget > 0.0 && context.agreed(seconds >= options.timeBudget))
+  if (options.timeBudget > 0.0 && moment.seconds >= options.timeBudget)
   {
     return StopReason::TimeBudget;
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/Context.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/ConvergenceRow.h"
 
@@ -31,9 +30,16 @@ struct DescentProgress
   void note(const ConvergenceRow& row);
 };
 
-/// Why the state that was just measured, after `seconds` of this run, is the last one; nothing where it is not.
-std::optional<StopReason> reasonToStop(const ConvergenceRow& row, const DescentProgress& progress,
-  const CapsuleOptimizerOptions& options, const Context& context, double seconds);
+/// What a process has to say of its run while it goes on.
+struct Moment
+{
+  double seconds = 0.0; ///< on the clock of its run
+  bool wantsStop = false;
+};
+
+/// Why the state that was just measured is the last one; nothing where it is not.
+std::optional<StopReason> reasonToStop(
+  const ConvergenceRow& row, const DescentProgress& progress, const CapsuleOptimizerOptions& options, const Moment& moment);
 
 /// How far a run has come, from 0 to 0.99: by its iterations or by the logarithm of the largest penetration, whichever is more.
 double completedFraction(const ConvergenceRow& row, double firstPenetration, const CapsuleOptimizerOptions& options);

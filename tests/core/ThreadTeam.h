@@ -24,10 +24,11 @@ public:
   }
 
   std::size_t size() const { return this->Given.size(); }
-  std::vector<std::string> exchange(std::size_t place, const std::string& bytes)
+  /// What all give to the one at this place.
+  std::vector<std::string> deal(std::size_t place, const std::vector<std::string>& toEach)
   {
     std::unique_lock<std::mutex> lock(this->Mutex);
-    this->Given[place] = bytes;
+    this->Given[place] = toEach;
     const unsigned long round = this->Round;
     if (++this->Arrived == this->size())
     {
@@ -37,14 +38,19 @@ public:
       this->Changed.notify_all();
     }
     this->Changed.wait(lock, [&] { return this->Round != round; });
-    return this->Result;
+    std::vector<std::string> found;
+    for (const std::vector<std::string>& given : this->Result)
+    {
+      found.push_back(given.at(place));
+    }
+    return found;
   }
 
 private:
   std::mutex Mutex;
   std::condition_variable Changed;
-  std::vector<std::string> Given;
-  std::vector<std::string> Result;
+  std::vector<std::vector<std::string>> Given;
+  std::vector<std::vector<std::string>> Result;
   std::size_t Arrived = 0;
   unsigned long Round = 0;
 };
@@ -62,7 +68,11 @@ public:
   int place() const override { return this->Place; }
   std::vector<std::string> exchange(const std::string& bytes) override
   {
-    return this->Point.exchange(static_cast<std::size_t>(this->Place), bytes);
+    return this->deal(std::vector<std::string>(this->Point.size(), bytes));
+  }
+  std::vector<std::string> deal(const std::vector<std::string>& toEach) override
+  {
+    return this->Point.deal(static_cast<std::size_t>(this->Place), toEach);
   }
 
 private:

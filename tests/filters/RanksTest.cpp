@@ -47,11 +47,4 @@ TEST_F(Ranks, AreAsManyAsTheLauncherSays)
   EXPECT_EQ(cactus::processesOnThisMachine(7), 7);
 }
 
-TEST_F(Ranks, OfOneDecideAsTheyWant)
-{
-  cactus::RankAgreement agreement(true);
-  EXPECT_TRUE(agreement.decide(true));
-  EXPECT_FALSE(agreement.decide(false));
-}
-
 } // namespace

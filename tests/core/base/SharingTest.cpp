@@ -109,6 +109,38 @@ TEST(Sharing, AddsUp)
   EXPECT_EQ(told, std::vector<std::string>(3, "3 3298534883328"));
 }
 
+TEST(Sharing, DealsWhatEachHasForEach)
+{
+  for (const int size : { 1, 2, 3, 4 })
+  {
+    const auto told = inTeam(size,
+      [&](Team& team)
+      {
+        const Sharing sharing(&team);
+        std::vector<std::string> toEach(static_cast<std::size_t>(size));
+        std::string wanted;
+        for (int other = 0; other < size; ++other)
+        {
+          // Nothing at all for the one behind it.
+          toEach[std::size_t(other)] =
+            other == team.place() + 1 ? "" : std::to_string(team.place()) + std::string(3, char('a' + other));
+          wanted += other == team.place() - 1 ? "" : std::to_string(other) + std::string(3, char('a' + team.place()));
+        }
+        std::string found;
+        sharing.together(
+          [&]
+          {
+            for (const std::string& bytes : sharing.deal(toEach))
+            {
+              found += bytes;
+            }
+          });
+        return found == wanted ? "right" : "wrong: " + found;
+      });
+    EXPECT_EQ(told, std::vector<std::string>(std::size_t(size), "right"));
+  }
+}
+
 /// What each of three members says where work(place) is done between two exchanges.
 std::vector<std::string> endOf(const std::function<void(int)>& work)
 {
@@ -169,6 +201,64 @@ TEST(Sharing, EndsAllAlikeAndTheFirstSaysWhy)
   const auto stoppedToo = [](int place) { place == 1 ? throw FileError("no space") : throw Cancelled("stopped"); };
   EXPECT_EQ(endOf(stoppedToo), (Texts{ "file error on rank 1: no space", other, other }));
   EXPECT_EQ(endOf([](int) { throw Cancelled("by the user"); }), (Texts{ "stopped by the user", other, other }));
+}
+
+// Also where the one that failed cannot know that the others have come to a deal, which brings nothing from one to another.
+TEST(Sharing, EndsADealToo)
+{
+  const auto told = inTeam(3,
+    [](Team& team)
+    {
+      const Sharing sharing(&team);
+      try
+      {
+        sharing.together(
+          [&]
+          {
+            if (team.place() == 1)
+            {
+              throw FileError("no space");
+            }
+            sharing.deal(std::vector<std::string>(3));
+            sharing.deal(std::vector<std::string>(3, "not for long"));
+          });
+      }
+      catch (const ReportedElsewhere&)
+      {
+        return std::string("reported elsewhere");
+      }
+      return std::string("well");
+    });
+  EXPECT_EQ(told, (std::vector<std::string>{ "on rank 1: no space", "reported elsewhere", "reported elsewhere" }));
+}
+
+// Such as data that only one of them cannot read, before the work on it begins.
+TEST(Sharing, EndsAllWhereOneFailsBeforeAnInnerLayer)
+{
+  const auto told = inTeam(3,
+    [](Team& team)
+    {
+      const Sharing outer(&team);
+      const Sharing inner(&team);
+      try
+      {
+        outer.together(
+          [&]
+          {
+            if (team.place() == 1)
+            {
+              throw FileError("no space");
+            }
+            inner.together([&] { inner.exchange(); });
+          });
+      }
+      catch (const ReportedElsewhere&)
+      {
+        return std::string("reported elsewhere");
+      }
+      return std::string("well");
+    });
+  EXPECT_EQ(told, (std::vector<std::string>{ "on rank 1: no space", "reported elsewhere", "reported elsewhere" }));
 }
 
 TEST(Sharing, TellsOthersAmidTheirWork)

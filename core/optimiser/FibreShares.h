@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Sharing.h"
+#include "fibres/Capsules.h"
+#include "fibres/Fibres.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// Which of the fibres each process moves: consecutive ones, whole, and about as many capsules in each process. Which these are
+/// depends on the fibres and the number of processes alone, so that all processes know it of all.
+class FibreShares
+{
+public:
+  /// All fibres, which are the same in every process; `sharing` has to outlive the object. Throws InvalidInput where there are
+  /// more control points than 32 bits count.
+  FibreShares(const Fibres& fibres, const Sharing& sharing);
+
+  const Sharing& sharing() const { return this->Processes; }
+  int place() const { return this->Processes.place(); }
+  std::size_t processes() const { return this->FibreBegin.size() - 1; }
+
+  /// Of all processes.
+  std::size_t fibreCount() const { return this->FibreBegin.back(); }
+  std::size_t pointCount() const { return this->PointBegin.back(); }
+  std::size_t capsuleCount() const { return this->capsuleBegin(this->processes()); }
+  const std::vector<int>& fibreIds() const { return this->FibreIds; }
+
+  /// The first fibre, control point and capsule of a process; those behind the last of all for processes().
+  std::size_t fibreBegin(std::size_t process) const { return this->FibreBegin[process]; }
+  std::size_t pointBegin(std::size_t process) const { return this->PointBegin[process]; }
+  std::size_t capsuleBegin(std::size_t process) const { return this->PointBegin[process] - this->FibreBegin[process]; }
+
+  /// Those of this process.
+  std::size_t ownFibre() const { return this->fibreBegin(this->self()); }
+  std::size_t ownPoint() const { return this->pointBegin(this->self()); }
+  std::size_t ownCapsule() const { return this->capsuleBegin(this->self()); }
+
+  /// The process that has a capsule.
+  std::size_t ownerOf(std::size_t capsule) const;
+
+  /// This process's fibres, by themselves.
+  Fibres own(Fibres all) const;
+
+  /// What each process has of a thing that every fibre has.
+  template <typename Value>
+  std::vector<Value> ownOf(std::vector<Value> perFibre) const
+  {
+    perFibre.resize(this->fibreBegin(this->self() + 1));
+    perFibre.erase(perFibre.begin(), perFibre.begin() + static_cast<std::ptrdiff_t>(this->ownFibre()));
+    return perFibre;
+  }
+
+private:
+  std::size_t self() const { return static_cast<std::size_t>(this->place()); }
+
+  const Sharing& Processes;
+  std::vector<std::size_t> FibreBegin;
+  std::vector<std::size_t> PointBegin;
+  std::vector<int> FibreIds;
+};
+
+} // namespace cactus
