@@ -33,6 +33,9 @@ constexpr double looseSlack = 2.0;
 /// How far a point may move altogether.
 constexpr double movePart = 0.8;
 
+/// Loops of fewer points are of fibres so thin that there is little to gain, and an axon's room to lose.
+constexpr std::size_t fewestPoints = 24;
+
 /// Bands that one strip replaces at most, and those that are tried first.
 constexpr std::size_t mostBands = 16;
 constexpr std::size_t firstBands = 4;
@@ -211,7 +214,7 @@ private:
     {
       Strip strip;
       strip.begin = strip.end = band;
-      while (strip.end < this->Loops.bandCount() && this->Loops.isRing(strip.end) && strip.end - band < length)
+      while (strip.end < this->Loops.bandCount() && this->canGo(strip.end) && strip.end - band < length)
       {
         ++strip.end;
       }
@@ -227,6 +230,13 @@ private:
         this->Strips.push_back(std::move(strip));
       }
     }
+  }
+
+  /// Whether a band may be part of a strip.
+  bool canGo(std::size_t band) const
+  {
+    return this->Loops.isRing(band) && this->Loops.loop(band).points.size() >= fewestPoints &&
+           this->Loops.loop(band + 1).points.size() >= fewestPoints;
   }
 
   /// Makes those strips again which have bands that stay beside them, and leaves bands as they are where that fails.

@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "6cab01efdd97837b388c3088b1d47752bd239748c2f4797e3a8a1f494a051019",
-           "3be28bd9499039f433b46ab7ecac01926aaaa46c093ff47101c1b0c93a7197a3" },
-         Known{ 20, "0c84c071f2e16870368ceaf780c0ac27286a36b8260b665fac4806d8b86c50f8",
-           "c6b122817e1f90feded7a065d6f621193162b065e33efb09a0eaf02b323e6cea" },
-         Known{ 38, "b29bb6a88ae5243ce846a3a3389298e465d042f0d43dbf88727a03ac532f2bcf",
-           "5a7be78268e85b2b4224e6a0ed0f35d3244c5382437ca1793914a3b9ffa99bd6" },
+         Known{ 1, "602e73a234d48cb49cdfe6c32070c5e6ecb10e2da2c8737e2484c464434ef27b",
+           "1e5c45842eb0bba9c4a938a60ec08fcdac2a1ca585fb6093ad5b1e6ed07faeae" },
+         Known{ 20, "035c56aa038bc73d02cd6dd2256a996aa0fd5a875e6e483b62cc9f0dc990cf83",
+           "1cc45bfc0c56eef8468e3b869005135014a8474cf82fa2f12f66ca0dc31d55ac" },
+         Known{ 38, "7d0ef264d9a7e1a848a9f2bf7067f8136eb607efb0aa4c91f64fac4249e54032",
+           "084e6118d9cd3815ab41711e7d12d62a249a8630f407ebd3d556557d01fe8f51" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
