@@ -2,7 +2,7 @@
 """Measures what a production takes per µm of fibre, per voxel and per triangle, on several ranks, and predicts larger ones from that.
 
     ./cactus bench scale
-    ./cactus bench scale --sides 10 14 20 --ranks 1x2 2x1 --predict 500x31000x64 1000x124000x256
+    ./cactus bench scale --sides 10 14 20 --ranks 1x2 2x1 --predict 500x31370x64 1000x125500x256
 
 --ranks are ranks x threads of each, --predict side (µm) x fibres x cores. Every size is made by SubstrateProduction from the same kind of
 bundle, in folders that are removed again. Processor time is that of all ranks, waiting for each other included; on a machine that does
@@ -26,7 +26,7 @@ from paraview.simple import *
 side, threads, folder, voxel = float(sys.argv[1]), int(sys.argv[2]), sys.argv[3], float(sys.argv[4])
 strands = folder + ".strands"
 if threads == 0:
-    bundle = BundleInitializer(Side=side, MeanDispersion=5, GrownFibreVolumeFraction=0.9)
+    bundle = BundleInitializer(Side=side, MeanDispersion=5, GammaShape=6, GammaScale=0.258, MaximumRadius=2.5, GrownFibreVolumeFraction=0.9)
     SaveData(strands, proxy=OutputPort(CapsuleOptimizer(Input=bundle), 0))
 else:
     made = SubstrateProduction(Input=StrandReader(FileName=strands), FolderName=folder, NumberOfThreads=threads, VoxelSize=voxel)
@@ -134,7 +134,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sides", type=float, nargs="+", default=[10, 14, 20], help="µm (%(default)s)")
     parser.add_argument("--ranks", nargs="+", default=["1x2", "2x1"], help="ranks x threads (%(default)s)")
-    parser.add_argument("--predict", nargs="+", default=["500x31000x64", "1000x124000x256"], help="side x fibres x cores (%(default)s)")
+    parser.add_argument("--predict", nargs="+", default=["500x31370x64", "1000x125500x256"], help="side x fibres x cores (%(default)s)")
     parser.add_argument("--voxel", type=float, default=0.1, help="VoxelSize, µm (%(default)s)")
     arguments = parser.parse_args()
     rows = []
