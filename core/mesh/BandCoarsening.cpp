@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/BandCoarsening.h"
 
+#include "mesh/LoopStitching.h"
 #include "mesh/PlaneLoops.h"
 
 #include <Eigen/Geometry>
@@ -9,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -39,6 +39,8 @@ constexpr std::size_t fewestPoints = 24;
 /// Bands that one strip replaces at most, and those that are tried first.
 constexpr std::size_t mostBands = 16;
 constexpr std::size_t firstBands = 4;
+/// From so many on the field is looked at in more points of edges.
+constexpr std::size_t longBands = 4;
 
 /// Triangles between two planes, in the place of the bands between them.
 struct Strip
@@ -47,9 +49,7 @@ struct Strip
   std::size_t end = 0;   ///< plane above
   bool hasAllBelow = false;
   bool hasAllAbove = false; ///< all points of the loop there, since the band behind stays as it is
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  /// Of each triangle, by how much the field exceeds its level in its middle, and on the edge to the next triangle.
-  std::vector<std::array<double, 2>> errors;
+  StitchedLoops stitched;
 };
 
 /// Errors around a point.
@@ -103,8 +103,6 @@ public:
 
 private:
   const Vector3d& at(std::int32_t point) const { return this->Surface.mesh.points[std::size_t(point)]; }
-  /// Where a point is to go.
-  const Vector3d& placeOf(std::int32_t point) const { return this->Places[std::size_t(point)]; }
   std::uint8_t facesOf(std::int32_t point) const { return this->Surface.faces[std::size_t(point)]; }
 
   /// Finds of each loop the points that are kept, and moves these so that chords go amid those that are not.
@@ -278,198 +276,16 @@ private:
   }
 
   /// Fills a strip between its planes, and says whether it is near enough to the field's level.
-  bool make(Strip& strip)
-  {
-    strip.triangles.clear();
-    strip.errors.clear();
-    return this->fill(strip, strip.hasAllBelow ? this->Loops.loop(strip.begin) : this->Few[strip.begin],
-      strip.hasAllAbove ? this->Loops.loop(strip.end) : this->Few[strip.end]);
-  }
-
-  bool fill(Strip& strip, const PlaneLoop& lower, const PlaneLoop& upper) const
-  {
-    const Vector3d offset = this->middleOf(upper) - this->middleOf(lower);
-    if (lower.anchors.empty() && upper.anchors.empty())
-    {
-      const auto [i, j] = this->nearestPair(lower, upper, offset);
-      return this->stitch(strip, { lower, i, i + lower.points.size() }, { upper, j, j + upper.points.size() }, offset);
-    }
-    std::size_t turn = 0;
-    if (lower.anchors.size() != upper.anchors.size() || !this->matchAnchors(lower, upper, offset, turn))
-    {
-      return false;
-    }
-    for (std::size_t part = 0; part < lower.anchors.size(); ++part)
-    {
-      const std::size_t other = (turn + part) % upper.anchors.size();
-      if (!this->stitch(strip, behindAnchor(lower, part), behindAnchor(upper, other), offset))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  Vector3d middleOf(const PlaneLoop& loop) const
-  {
-    Vector3d sum = Vector3d::Zero();
-    for (const std::int32_t p : loop.points)
-    {
-      sum += this->placeOf(p);
-    }
-    return sum / double(loop.points.size());
-  }
-
-  /// The points of two loops that are nearest to each other, by their places.
-  std::pair<std::size_t, std::size_t> nearestPair(const PlaneLoop& lower, const PlaneLoop& upper, const Vector3d& offset) const
-  {
-    std::pair<std::size_t, std::size_t> nearest{ 0, 0 };
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < lower.points.size(); ++i)
-    {
-      const Vector3d from = this->placeOf(lower.points[i]) + offset;
-      for (std::size_t j = 0; j < upper.points.size(); ++j)
-      {
-        const double distance = (this->placeOf(upper.points[j]) - from).squaredNorm();
-        if (distance < least)
-        {
-          least = distance;
-          nearest = { i, j };
-        }
-      }
-    }
-    return nearest;
-  }
-
-  /// Finds which anchor of the upper loop belongs to the first one of the lower loop. Returns false where the loops do not come
-  /// to the same faces, one after the other.
-  bool matchAnchors(const PlaneLoop& lower, const PlaneLoop& upper, const Vector3d& offset, std::size_t& found) const
-  {
-    const std::size_t count = lower.anchors.size();
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t turn = 0; turn < count; ++turn)
-    {
-      double distance = 0.0;
-      bool fits = true;
-      for (std::size_t i = 0; i < count && fits; ++i)
-      {
-        const std::size_t j = (turn + i) % count;
-        const std::int32_t p = lower.points[lower.anchors[i]];
-        const std::int32_t q = upper.points[upper.anchors[j]];
-        fits = this->facesOf(p) == this->facesOf(q) && this->isInFace(lower, i) == this->isInFace(upper, j);
-        distance += (this->placeOf(q) - this->placeOf(p) - offset).squaredNorm();
-      }
-      if (fits && distance < least)
-      {
-        least = distance;
-        found = turn;
-      }
-    }
-    return least < std::numeric_limits<double>::infinity();
-  }
-
-  /// Whether a loop runs in a face of the box behind an anchor.
-  bool isInFace(const PlaneLoop& loop, std::size_t anchor) const
-  {
-    const std::size_t i = loop.anchors[anchor];
-    return (this->facesOf(loop.points[i]) & this->facesOf(loop.points[(i + 1) % loop.points.size()])) != 0;
-  }
-
-  /// A part of a loop, from one of its points to another, counted on past its end.
-  struct Line
-  {
-    const PlaneLoop& loop;
-    std::size_t at;
-    std::size_t end;
-
-    bool isAtEnd() const { return at == end; }
-    std::int32_t here() const { return loop.points[at % loop.points.size()]; }
-    std::int32_t next() const { return loop.points[(at + 1) % loop.points.size()]; }
-  };
-
-  static Line behindAnchor(const PlaneLoop& loop, std::size_t anchor)
-  {
-    return { loop, loop.anchors[anchor], anchor + 1 < loop.anchors.size() ? loop.anchors[anchor + 1] : loop.points.size() };
-  }
-
-  /// Adds the triangles between two lines to a strip, and says whether they are near enough to the field's level. `offset` is how
-  /// far the upper loop lies from the lower one.
-  bool stitch(Strip& strip, Line lower, Line upper, const Vector3d& offset) const
+  bool make(Strip& strip) const
   {
     const std::size_t bands = strip.end - strip.begin;
     const bool isLoose = bands == 1 || strip.hasAllBelow || strip.hasAllAbove;
-    const double most = (isLoose ? looseSlack : slack) * this->Options.maximumError;
-    double error = this->errorAlong(lower.here(), upper.here(), bands);
-    Vector3d before = Vector3d::Zero();
-    while (std::abs(error) <= most && !(lower.isAtEnd() && upper.isAtEnd()))
-    {
-      const bool goesBelow = this->goesBelow(lower, upper, offset, bands, error);
-      const std::array<std::int32_t, 3> triangle{ { lower.here(), goesBelow ? lower.next() : upper.next(), upper.here() } };
-      ++(goesBelow ? lower : upper).at;
-      const Vector3d& p = this->placeOf(triangle[0]);
-      const Vector3d normal = (this->placeOf(triangle[1]) - p).cross(this->placeOf(triangle[2]) - p);
-      const double inMiddle = this->Surface.isCap(triangle) ? 0.0 : this->errorIn(triangle);
-      if (normal.dot(before) < 0.0 || std::abs(inMiddle) > most)
-      {
-        return false;
-      }
-      before = normal;
-      strip.triangles.push_back(triangle);
-      strip.errors.push_back({ { inMiddle, error } });
-    }
-    return std::abs(error) <= most;
+    const double furthest = (isLoose ? looseSlack : slack) * this->Options.maximumError;
+    const PlaneLoop& lower = strip.hasAllBelow ? this->Loops.loop(strip.begin) : this->Few[strip.begin];
+    const PlaneLoop& upper = strip.hasAllAbove ? this->Loops.loop(strip.end) : this->Few[strip.end];
+    return LoopStitching(this->Surface, this->Places, this->Options)
+      .stitch(lower, upper, bands < longBands ? 2 : 4, furthest, strip.stitched);
   }
-
-  /// Whether the next triangle has an edge of the lower loop, and what the error is on its edge to the one behind. That is the
-  /// shorter one of the two in question, unless only the other one is near enough to the level.
-  bool goesBelow(const Line& lower, const Line& upper, const Vector3d& offset, std::size_t bands, double& error) const
-  {
-    const auto errorIf = [&](bool below)
-    { return this->errorAlong(below ? lower.next() : lower.here(), below ? upper.here() : upper.next(), bands); };
-    if (lower.isAtEnd() || upper.isAtEnd())
-    {
-      error = errorIf(upper.isAtEnd());
-      return upper.isAtEnd();
-    }
-    const bool isShorter = (this->placeOf(lower.next()) + offset - this->placeOf(upper.here())).squaredNorm() <
-                           (this->placeOf(upper.next()) - this->placeOf(lower.here()) - offset).squaredNorm();
-    error = errorIf(isShorter);
-    if (std::abs(error) > this->Options.maximumError)
-    {
-      const double other = errorIf(!isShorter);
-      if (std::abs(other) < std::abs(error))
-      {
-        error = other;
-        return !isShorter;
-      }
-    }
-    return isShorter;
-  }
-
-  /// By how much the field exceeds its level where it does so most, or falls below it, along an edge that crosses so many bands;
-  /// in a face of the box it may be larger.
-  double errorAlong(std::int32_t lower, std::int32_t upper, std::size_t bands) const
-  {
-    const Vector3d& a = this->placeOf(lower);
-    const Vector3d along = this->placeOf(upper) - a;
-    const int parts = bands < 4 ? 2 : 4;
-    const bool isInFace = (this->facesOf(lower) & this->facesOf(upper)) != 0;
-    double largest = 0.0;
-    for (int i = 1; i < parts; ++i)
-    {
-      const double excess = this->errorAt(a + (double(i) / parts) * along);
-      const double error = isInFace ? std::min(excess, 0.0) : excess;
-      largest = std::abs(error) > std::abs(largest) ? error : largest;
-    }
-    return largest;
-  }
-
-  double errorIn(const std::array<std::int32_t, 3>& t) const
-  {
-    return this->errorAt((this->placeOf(t[0]) + this->placeOf(t[1]) + this->placeOf(t[2])) / 3.0);
-  }
-
-  double errorAt(const Vector3d& p) const { return this->Options.field(p) - this->Options.level; }
 
   /// Moves points of strips so that the surface around each lies amid where the field is too large and too small.
   void settle()
@@ -481,12 +297,12 @@ private:
     }
     for (const Strip& strip : this->Strips)
     {
-      for (std::size_t t = 0; t < strip.triangles.size(); ++t)
+      for (std::size_t t = 0; t < strip.stitched.triangles.size(); ++t)
       {
-        for (const std::int32_t p : strip.triangles[t])
+        for (const std::int32_t p : strip.stitched.triangles[t])
         {
-          around[std::size_t(p)].add(strip.errors[t][0]);
-          around[std::size_t(p)].add(strip.errors[t][1]); // of an edge that most of them are at
+          around[std::size_t(p)].add(strip.stitched.errors[t][0]);
+          around[std::size_t(p)].add(strip.stitched.errors[t][1]); // of an edge that most of them are at
         }
       }
     }
@@ -523,7 +339,7 @@ private:
     this->Surface.mesh.points.swap(this->Places);
     for (const Strip& strip : this->Strips)
     {
-      triangles.insert(triangles.end(), strip.triangles.begin(), strip.triangles.end());
+      triangles.insert(triangles.end(), strip.stitched.triangles.begin(), strip.stitched.triangles.end());
     }
     this->removeUnused();
   }

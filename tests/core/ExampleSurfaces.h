@@ -24,6 +24,14 @@ inline cactus::TriangleMesh tetrahedron(const Eigen::Vector3d& origin, double si
   return mesh;
 }
 
+/// Outward, whatever the order of its corners.
+inline cactus::TriangleMesh tetrahedronOf(
+  const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
+{
+  const bool outward = (b - a).cross(c - a).dot(d - a) < 0.0;
+  return { { a, outward ? b : c, outward ? c : b, d }, { { { 0, 1, 2 } }, { { 0, 3, 1 } }, { { 1, 3, 2 } }, { { 2, 3, 0 } } } };
+}
+
 /// A box from corner to corner, wound outward.
 inline cactus::TriangleMesh box(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
 {

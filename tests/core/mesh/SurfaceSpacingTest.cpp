@@ -432,27 +432,12 @@ TEST(SurfaceSpacing, LooksAtTheNeighboursOfWhatItHasMovedAllAlong)
   }
 }
 
-TriangleMesh tetrahedron(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
-{
-  TriangleMesh mesh;
-  mesh.points = { a, b, c, d };
-  mesh.triangles = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 1, 3, 2 } };
-  for (auto& t : mesh.triangles)
-  {
-    if ((b - a).cross(c - a).dot(d - a) > 0.0)
-    {
-      std::swap(t[1], t[2]);
-    }
-  }
-  return mesh;
-}
-
 /// With a corner at `tip`, and 1 µm long.
 TriangleMesh thorn(const Eigen::Vector3d& tip, const Eigen::Vector3d& along)
 {
   const Eigen::Vector3d aside = along.cross(Eigen::Vector3d::UnitZ()).normalized();
   const Eigen::Vector3d base = tip + along.normalized();
-  return tetrahedron(tip, base + 0.2 * aside, base - 0.2 * aside, base + Eigen::Vector3d(0.0, 0.0, 0.2));
+  return example::tetrahedronOf(tip, base + 0.2 * aside, base - 0.2 * aside, base + Eigen::Vector3d(0.0, 0.0, 0.2));
 }
 
 // One that leans over is moved at its top, by which its face turns towards another one two slabs below.
@@ -464,8 +449,8 @@ TEST(SurfaceSpacing, FindsWhatAMoveHasBroughtNearInAnotherSlab)
   const Eigen::Vector3d outwards = (left - top).cross(right - top).normalized();
   ASSERT_LT(outwards[0], -0.5);
   const Eigen::Vector3d amid = (top + right + left) / 3.0;
-  std::vector<TriangleMesh> surfaces{ tetrahedron(top, right, { 0.0, 3.0, 1.0 }, left), thorn(amid + 0.0205 * outwards, outwards),
-    thorn(top + Eigen::Vector3d(0.012, 0.0, 0.0), { 1.0, 0.0, 0.0 }) };
+  std::vector<TriangleMesh> surfaces{ example::tetrahedronOf(top, right, { 0.0, 3.0, 1.0 }, left),
+    thorn(amid + 0.0205 * outwards, outwards), thorn(top + Eigen::Vector3d(0.012, 0.0, 0.0), { 1.0, 0.0, 0.0 }) };
   for (const TriangleMesh& mesh : surfaces)
   {
     ASSERT_TRUE(checkSurface(mesh).outward());

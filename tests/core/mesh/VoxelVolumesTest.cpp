@@ -23,12 +23,6 @@ using cactus::TriangleMesh;
 using cactus::VoxelBoxes;
 using Eigen::Vector3d;
 
-TriangleMesh tetrahedron(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d)
-{
-  const bool outward = (b - a).cross(c - a).dot(d - a) < 0.0;
-  return { { a, outward ? b : c, outward ? c : b, d }, { { { 0, 1, 2 } }, { { 0, 3, 1 } }, { { 1, 3, 2 } }, { { 2, 3, 0 } } } };
-}
-
 VoxelBoxes grid(const Vector3d& origin, double spacing, int n)
 {
   return { origin, spacing, { { n, n, n } } };
@@ -89,7 +83,7 @@ TEST(VoxelVolumes, OfTetrahedraAgreeWithCountedPoints)
     {
       continue;
     }
-    const auto found = cactus::voxelVolumes(tetrahedron(a, b, c, d), voxels);
+    const auto found = cactus::voxelVolumes(example::tetrahedronOf(a, b, c, d), voxels);
     const Eigen::Matrix3d inverse = edges.inverse();
     std::vector<double> counted(8, 0.0);
     constexpr int n = 60; // a side
@@ -118,7 +112,7 @@ TEST(VoxelVolumes, OfTetrahedraAgreeWithCountedPoints)
 
 TEST(VoxelVolumes, OfATetrahedronAddUpOnAFineGrid)
 {
-  const TriangleMesh mesh = tetrahedron({ 0.01, 0.3, 0.2 }, { 2.9, 0.7, 0.11 }, { 0.5, 2.6, 0.4 }, { 1.1, 0.9, 2.99 });
+  const TriangleMesh mesh = example::tetrahedronOf({ 0.01, 0.3, 0.2 }, { 2.9, 0.7, 0.11 }, { 0.5, 2.6, 0.4 }, { 1.1, 0.9, 2.99 });
   const double wanted =
     std::abs((mesh.points[1] - mesh.points[0]).cross(mesh.points[2] - mesh.points[0]).dot(mesh.points[3] - mesh.points[0])) / 6.0;
   for (const int n : { 1, 7, 40 })
