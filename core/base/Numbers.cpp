@@ -54,12 +54,22 @@ bool isTiny(std::string_view number, IsDigit&& isADigit, long perDigit)
   return exponent < -perDigit * power;
 }
 
+/// A hexadecimal number without sign and 0x, up to its exponent where that has two signs: from_chars of GCC 12 takes both.
+std::string_view withOneSign(std::string_view number)
+{
+  const std::size_t exponent = number.find_first_of("pP");
+  const auto isSign = [&](std::size_t i) { return i < number.size() && (number[i] == '+' || number[i] == '-'); };
+  const bool hasTwo = exponent != std::string_view::npos && isSign(exponent + 1) && isSign(exponent + 2);
+  return hasTwo ? number.substr(0, exponent) : number;
+}
+
 /// Takes a number without a sign, of the standard library's `format`, from the front of `text`.
 template <typename IsDigit>
 bool takeUnsigned(std::string_view& text, double& value, std::chars_format format, IsDigit&& isADigit, long perDigit)
 {
   double found = 0.0;
-  const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), found, format);
+  const std::string_view number = format == std::chars_format::hex ? withOneSign(text) : text;
+  const std::from_chars_result read = std::from_chars(number.data(), number.data() + number.size(), found, format);
   const auto length = static_cast<std::size_t>(read.ptr - text.data());
   if (read.ec == std::errc::result_out_of_range && isTiny(text.substr(0, length), isADigit, perDigit))
   {

@@ -87,7 +87,8 @@ Layering layersOf(const TriangleMesh& surface)
   const auto byHeight = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a[2] < b[2]; };
   const auto [lowest, highest] = std::minmax_element(surface.points.begin(), surface.points.end(), byHeight);
   const double height = (*highest)[2] - (*lowest)[2];
-  const double most = std::min(height / leastLayerHeight, static_cast<double>(surface.triangles.size() / trianglesOfLayer));
+  const std::size_t mostByTriangles = surface.triangles.size() / trianglesOfLayer;
+  const double most = std::min(height / leastLayerHeight, static_cast<double>(mostByTriangles));
   layers.first = (*lowest)[2];
   layers.count = most > 1.0 ? static_cast<std::uint64_t>(most) : 1;
   layers.height = layers.count > 1 ? height / static_cast<double>(layers.count) : 1.0;

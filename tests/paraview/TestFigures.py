@@ -82,7 +82,7 @@ class Figures(CactusTestCase):
         self.assertEqual([row["paper_FVF"] for row in self.table("crossings")], ["0.935"])
 
     def test_histology(self):
-        self.make("histology", "--side", "6", "--voxel-size", "0.15")
+        self.make("histology", "--side", "6", "--voxel-size", "0.1")
         for row in self.table("histology"):
             for name in ("AVF", "MVF", "FVF"):
                 self.assertAlmostEqual(float(row[name]), float(row[f"target_{name}"]), delta=0.01)

@@ -89,7 +89,7 @@ class Rerun(CactusTestCase):
 
     def test_a_run_that_ran_out_of_time_takes_as_many_iterations(self):
         with self.assertError("overlaps remain: TimeBudget ran out"):
-            fibres = CapsuleOptimizer(Input=bundle(FibreVolumeFraction=0.6, MeanDispersion=8, DispersionModel="Watson", GrownFibreVolumeFraction=0), TimeBudget=0.002)
+            fibres = CapsuleOptimizer(Input=bundle(FibreVolumeFraction=0.6, MeanDispersion=8, DispersionModel="Watson", GrownFibreVolumeFraction=0), TimeBudget=1e-6)
             fibres.UpdatePipeline()
         with self.assertError("still overlap"):
             manifest = self.write_from(fibres)

@@ -188,6 +188,8 @@ TEST(Numbers, AreReadAsInTheCLocale)
   EXPECT_EQ(taken("0x-1", "x-1"), 0.0);
   EXPECT_EQ(taken("0x1P+4"), 16.0);
   EXPECT_EQ(taken("0x1p", "p"), 1.0);
+  EXPECT_EQ(taken("0x8p+-3", "p+-3"), 8.0);
+  EXPECT_EQ(taken("0x8p--3", "p--3"), 8.0);
   EXPECT_EQ(taken("0x" + std::string(400, 'f') + "p-1650"), 0x1p-50);
   EXPECT_EQ(taken("0x." + std::string(400, '0') + "1p1000"), 0x1p-604);
   EXPECT_EQ(taken("0x" + std::string(400, 'f') + "p-999999999999999999999"), 0.0);
