@@ -27,8 +27,6 @@ FibreSurfaces surfacesIn(
       places.push_back(i);
     }
   }
-  surfaces.part = [&store, places](std::size_t index, double lower, double upper)
-  { return store.part(places[index], lower, upper).mesh; };
   surfaces.mesh = [&store, places = std::move(places)](std::size_t index) { return *store.get(places[index]); };
   surfaces.isGiven = true;
   surfaces.promisedGap = gap;

@@ -184,19 +184,11 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
   return files;
 }
 
-/// µm that a coordinate is moved by where it is written, at most: a coordinate is 10⁵ µm at most, and has 24 bits.
-constexpr double mostOfRounding = 0.01;
-
 /// The surfaces as a reader of the files gets them.
 FibreSurfaces asWritten(const FibreSurfaces& surfaces, PlyEncoding encoding)
 {
   FibreSurfaces written = surfaces;
   written.mesh = [&surfaces, encoding](std::size_t i) { return asWritten(surfaces.mesh(i), encoding); };
-  if (surfaces.part)
-  {
-    written.part = [&surfaces, encoding](std::size_t i, double lower, double upper)
-    { return asWritten(surfaces.part(i, lower - mostOfRounding, upper + mostOfRounding), encoding); };
-  }
   return written;
 }
 

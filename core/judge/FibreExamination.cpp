@@ -101,11 +101,6 @@ std::unique_ptr<TreedSurface> FibreExamination::outerOf(int fibreId) const
   return std::make_unique<TreedSurface>(this->Outer.mesh(this->OuterIndex.at(fibreId)));
 }
 
-std::unique_ptr<TreedSurface> FibreExamination::outerPartOf(int fibreId, double lower, double upper) const
-{
-  return std::make_unique<TreedSurface>(this->Outer.part(this->OuterIndex.at(fibreId), lower, upper));
-}
-
 std::unique_ptr<TreedSurface> FibreExamination::measure(
   TriangleMesh mesh, int fibreId, const std::string& name, Findings findings) const
 {

@@ -31,8 +31,6 @@ public:
 
   /// The outer surface of a fibre that has one.
   std::unique_ptr<TreedSurface> outerOf(int fibreId) const;
-  /// What of it touches `lower` <= z <= `upper` (µm), at least. Only where outer surfaces have parts.
-  std::unique_ptr<TreedSurface> outerPartOf(int fibreId, double lower, double upper) const;
 
 private:
   using Index = std::unordered_map<int, std::size_t>;

@@ -24,61 +24,11 @@ constexpr float unboundedLine = std::numeric_limits<float>::infinity();
 /// Share of the work that looking for neighbours takes.
 constexpr double neighboursShare = 0.3;
 
-/// A range of heights (µm); empty at first.
-struct Heights
-{
-  bool isEmpty() const { return this->lower > this->upper; }
-  void include(const Heights& other)
-  {
-    this->lower = std::min(this->lower, other.lower);
-    this->upper = std::max(this->upper, other.upper);
-  }
-
-  double lower = infinite;
-  double upper = -infinite;
-};
-
-Heights heightsOf(const FloatBox& box)
-{
-  return { double(box.lower[2]), double(box.upper[2]) };
-}
-
-/// A fibre seen from another one.
-struct NearFibre
-{
-  std::size_t rank = 0;
-  Heights heights;      ///< that hold all places where both are near each other
-  bool mayHold = false; ///< whether it may hold a piece of the other one
-};
-
-/// Each rank once, with all that is known of it.
-void joinRanks(std::vector<NearFibre>& found)
-{
-  std::sort(found.begin(), found.end(), [](const NearFibre& a, const NearFibre& b) { return a.rank < b.rank; });
-  std::size_t count = 0;
-  for (const NearFibre& next : found)
-  {
-    if (count > 0 && found[count - 1].rank == next.rank)
-    {
-      found[count - 1].heights.include(next.heights);
-      found[count - 1].mayHold = found[count - 1].mayHold || next.mayHold;
-    }
-    else
-    {
-      found[count++] = next;
-    }
-  }
-  found.resize(count);
-}
-
 /// Two fibres.
 struct FibrePair
 {
   std::size_t a = 0;
   std::size_t b = 0;
-  Heights heights; ///< where they are near each other, if anywhere
-  bool mayAHoldB = false;
-  bool mayBHoldA = false;
   double gap = infinite; ///< as far as it matters to one of them
   bool nested = false;
 };
@@ -91,7 +41,7 @@ public:
   void run(const Context& context, double from, const Sharing& sharing)
   {
     const double middle = from + neighboursShare * (1.0 - from);
-    std::vector<std::vector<NearFibre>> near(this->Present.size());
+    std::vector<std::vector<std::size_t>> near(this->Present.size());
     sharing.loop(
       near.size(), context,
       [&](std::size_t rank)
@@ -99,33 +49,19 @@ public:
         this->Bound[rank] = this->gapToLikeliest(rank);
         near[rank] = this->thoseWithin(rank, this->Bound[rank]);
         this->addThoseAround(rank, near[rank]);
-        joinRanks(near[rank]);
       },
       [&](std::size_t rank)
       {
         ByteWriter put;
         put(this->Bound[rank]);
-        for (const NearFibre& other : near[rank])
-        {
-          put(other.rank);
-          put(other.heights.lower);
-          put(other.heights.upper);
-          put(other.mayHold);
-        }
+        put(near[rank]);
         return put.bytes();
       },
       [&](std::size_t rank, const std::string& bytes)
       {
         ByteReader get(bytes);
         get(this->Bound[rank]);
-        while (!get.isAtEnd())
-        {
-          NearFibre& other = near[rank].emplace_back();
-          get(other.rank);
-          get(other.heights.lower);
-          get(other.heights.upper);
-          get(other.mayHold);
-        }
+        get(near[rank]);
       },
       "Measuring gaps", from, middle);
     std::vector<FibrePair> pairs = this->pairsOf(near);
@@ -152,20 +88,17 @@ private:
   // Fibres are known by their ranks: those that follow each other are near each other, so that few surfaces are in use at a time.
 
   std::shared_ptr<const TreedSurface> surface(std::size_t rank) const { return this->Outer.get(this->Present[rank]); }
-  std::shared_ptr<const TreedSurface> part(std::size_t rank, const Heights& heights) const
-  {
-    return this->Outer.part(this->Present[rank], heights.lower, heights.upper);
-  }
   const FibreCertificate& findings(std::size_t rank) const { return this->Result.fibres[this->Present[rank]]; }
 
   std::size_t likeliestNeighbour(std::size_t rank) const;
   double gapToLikeliest(std::size_t rank) const;
-  std::vector<NearFibre> thoseWithin(std::size_t rank, double distance) const;
-  void addThoseAround(std::size_t rank, std::vector<NearFibre>& found) const;
+  std::vector<std::size_t> thoseWithin(std::size_t rank, double distance) const;
+  void addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const;
   std::vector<std::size_t> thoseOnAllSides(const Eigen::Vector3d& point) const;
-  std::vector<FibrePair> pairsOf(const std::vector<std::vector<NearFibre>>& near) const;
+  std::vector<FibrePair> pairsOf(const std::vector<std::vector<std::size_t>>& near) const;
   void measure(FibrePair& pair) const;
-  bool holdsAPiece(std::size_t aroundRank, std::size_t insideRank) const;
+  bool hasPieceInside(
+    const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const;
   void enter(std::vector<FibrePair> pairs);
 
   const OuterSurfaces& Outer;
@@ -242,9 +175,9 @@ double GapSearch::gapToLikeliest(std::size_t rank) const
 }
 
 /// The fibres of which a part's box is as near to one of this fibre's.
-std::vector<NearFibre> GapSearch::thoseWithin(std::size_t rank, double distance) const
+std::vector<std::size_t> GapSearch::thoseWithin(std::size_t rank, double distance) const
 {
-  std::vector<NearFibre> found;
+  std::vector<std::size_t> found;
   const double squared = distance * distance;
   for (const FloatBox& box : this->Outer.branches(this->Present[rank]))
   {
@@ -253,21 +186,20 @@ std::vector<NearFibre> GapSearch::thoseWithin(std::size_t rank, double distance)
       [&](std::uint32_t place)
       {
         const std::size_t other = this->RankOf[this->Branches.order()[place]];
-        const FloatBox& near = this->Branches.boxes()[place];
-        if (other != rank && isNear(near))
+        if (other != rank && isNear(this->Branches.boxes()[place]))
         {
-          found.push_back({ other, heightsOf(box), false });
-          found.back().heights.include(heightsOf(near));
+          found.push_back(other);
         }
         return false;
       });
-    joinRanks(found);
   }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
 /// Adds the fibres that may hold a piece of this one.
-void GapSearch::addThoseAround(std::size_t rank, std::vector<NearFibre>& found) const
+void GapSearch::addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const
 {
   const std::shared_ptr<const TreedSurface> own = this->surface(rank);
   for (const std::int32_t point : this->findings(rank).outer.pieces)
@@ -276,7 +208,7 @@ void GapSearch::addThoseAround(std::size_t rank, std::vector<NearFibre>& found) 
     {
       if (other != rank)
       {
-        found.push_back({ other, {}, true });
+        found.push_back(other);
       }
     }
   }
@@ -316,65 +248,45 @@ std::vector<std::size_t> GapSearch::thoseOnAllSides(const Eigen::Vector3d& point
 }
 
 /// Each pair once, those near each other one after the other.
-std::vector<FibrePair> GapSearch::pairsOf(const std::vector<std::vector<NearFibre>>& near) const
+std::vector<FibrePair> GapSearch::pairsOf(const std::vector<std::vector<std::size_t>>& near) const
 {
-  std::vector<FibrePair> all;
+  std::vector<std::pair<std::size_t, std::size_t>> ranks;
   for (std::size_t rank = 0; rank < near.size(); ++rank)
   {
-    for (const NearFibre& other : near[rank])
+    for (const std::size_t other : near[rank])
     {
-      FibrePair& pair = all.emplace_back();
-      pair.a = std::min(rank, other.rank);
-      pair.b = std::max(rank, other.rank);
-      pair.heights = other.heights;
-      (other.rank < rank ? pair.mayAHoldB : pair.mayBHoldA) = other.mayHold;
+      ranks.emplace_back(std::min(rank, other), std::max(rank, other));
     }
   }
-  std::sort(
-    all.begin(), all.end(), [](const FibrePair& p, const FibrePair& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
   std::vector<FibrePair> pairs;
-  for (const FibrePair& next : all)
-  {
-    if (pairs.empty() || pairs.back().a != next.a || pairs.back().b != next.b)
-    {
-      pairs.push_back(next);
-      continue;
-    }
-    pairs.back().heights.include(next.heights);
-    pairs.back().mayAHoldB = pairs.back().mayAHoldB || next.mayAHoldB;
-    pairs.back().mayBHoldA = pairs.back().mayBHoldA || next.mayBHoldA;
-  }
-  for (FibrePair& pair : pairs)
+  pairs.reserve(ranks.size());
+  for (const auto& [one, other] : ranks)
   {
     // The smaller place first: the last bits of a distance depend on it.
-    if (this->Present[pair.a] > this->Present[pair.b])
-    {
-      std::swap(pair.a, pair.b);
-      std::swap(pair.mayAHoldB, pair.mayBHoldA);
-    }
+    const bool isInOrder = this->Present[one] < this->Present[other];
+    pairs.push_back({ isInOrder ? one : other, isInOrder ? other : one });
   }
   return pairs;
 }
 
 void GapSearch::measure(FibrePair& pair) const
 {
-  if (!pair.heights.isEmpty())
-  {
-    const std::shared_ptr<const TreedSurface> a = this->part(pair.a, pair.heights);
-    const std::shared_ptr<const TreedSurface> b = this->part(pair.b, pair.heights);
-    // A little more than the bound, so that what equals it is found.
-    const double below = 1.000001 * std::max(this->Bound[pair.a], this->Bound[pair.b]) + 1e-9;
-    pair.gap = smallestGap(a->tree, b->tree, below).distance;
-  }
-  pair.nested = pair.gap > 0.0 &&
-                ((pair.mayBHoldA && this->holdsAPiece(pair.b, pair.a)) || (pair.mayAHoldB && this->holdsAPiece(pair.a, pair.b)));
+  const std::shared_ptr<const TreedSurface> a = this->surface(pair.a);
+  const std::shared_ptr<const TreedSurface> b = this->surface(pair.b);
+  // A little more than the bound, so that what equals it is found.
+  const double below = 1.000001 * std::max(this->Bound[pair.a], this->Bound[pair.b]) + 1e-9;
+  pair.gap = smallestGap(a->tree, b->tree, below).distance;
+  pair.nested = pair.gap > 0.0 && (this->hasPieceInside(*a, pair.a, *b, pair.b) || this->hasPieceInside(*b, pair.b, *a, pair.a));
 }
 
-/// Of surfaces that do not meet.
-bool GapSearch::holdsAPiece(std::size_t aroundRank, std::size_t insideRank) const
+/// For surfaces that do not meet.
+bool GapSearch::hasPieceInside(
+  const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const
 {
   return this->findings(aroundRank).outer.closed() && // else it has no inside, and is a fault by itself
-         anyLiesInside(this->surface(insideRank)->mesh, this->findings(insideRank).outer, this->surface(aroundRank)->tree);
+         anyLiesInside(inside.mesh, this->findings(insideRank).outer, around.tree);
 }
 
 void GapSearch::enter(std::vector<FibrePair> pairs)

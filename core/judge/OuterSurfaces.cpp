@@ -83,10 +83,4 @@ std::shared_ptr<const TreedSurface> OuterSurfaces::get(std::size_t place) const
   return surface;
 }
 
-std::shared_ptr<const TreedSurface> OuterSurfaces::part(std::size_t place, double lower, double upper) const
-{
-  std::shared_ptr<const TreedSurface> kept = this->MakePart ? this->Recent.find(place) : this->get(place);
-  return kept != nullptr ? kept : this->MakePart(place, lower, upper);
-}
-
 } // namespace cactus

@@ -35,12 +35,9 @@ class OuterSurfaces
 {
 public:
   using Maker = std::function<std::shared_ptr<const TreedSurface>(std::size_t place)>;
-  using PartMaker = std::function<std::shared_ptr<const TreedSurface>(std::size_t place, double lower, double upper)>;
 
   /// For `count` fibres, in about so many `bytes` and those of the surfaces in use.
   OuterSurfaces(std::size_t count, std::size_t bytes, Maker maker);
-  /// Of what touches a range of heights (µm), where that is less work. Before any part is asked for.
-  void setPartMaker(PartMaker maker) { this->MakePart = std::move(maker); }
 
   /// Gets to know a surface; null for a fibre without one. Once for each place.
   void enter(std::size_t place, std::shared_ptr<const TreedSurface> surface);
@@ -51,12 +48,9 @@ public:
   /// The boxes that hold the parts of a surface, neighbours one after the other; none where there is no surface, or an empty one.
   const std::vector<FloatBox>& branches(std::size_t place) const { return this->Branches[place]; }
   std::shared_ptr<const TreedSurface> get(std::size_t place) const;
-  /// Of a surface at least what touches `lower` <= z <= `upper` (µm): the whole where that is kept, or no less work.
-  std::shared_ptr<const TreedSurface> part(std::size_t place, double lower, double upper) const;
 
 private:
   Maker Make;
-  PartMaker MakePart;
   std::vector<std::vector<FloatBox>> Branches;
   mutable RecentThings<TreedSurface> Recent;
 };

@@ -103,11 +103,6 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
   const FibreExamination examination(domain, outer, inner, fibres, options.cutSpacing);
   OuterSurfaces surfaces(count, std::max(leastBytesOfSurfaces, bytesOfSurfaces / std::size_t(sharing.size())),
     [&](std::size_t f) { return examination.outerOf(certificate.fibres[f].fibreId); });
-  if (outer.part)
-  {
-    surfaces.setPartMaker([&](std::size_t f, double lower, double upper)
-      { return examination.outerPartOf(certificate.fibres[f].fibreId, lower, upper); });
-  }
   std::vector<double> reach(count, 0.0);
   sharing.loop(
     count, context, [&](std::size_t f) { surfaces.enter(f, examination.examine(certificate.fibres[f], reach[f])); },

@@ -31,10 +31,9 @@ struct SubstrateCertificateOptions
 /// Fractions of no surfaces are 0, those of surfaces that are not given NaN.
 ///
 /// The outer surfaces used last are held in memory, 1 GiB of them in all processes together but 256 MiB in each at least, with
-/// about 100 bytes a triangle; of others only what is near another fibre, where they have parts (FibreSurfaces::part); inner ones
-/// one per thread. Pairs of fibres are sorted out by their boxes, and triangles by trees of boxes. The result does not depend on
-/// the number of threads, nor of processes, which share the work and all get it. Throws InvalidInput (a surface that is damaged,
-/// which is named) and Cancelled.
+/// about 100 bytes a triangle; inner ones one per thread. Pairs of fibres are sorted out by their boxes, and triangles by trees
+/// of boxes. The result does not depend on the number of threads, nor of processes, which share the work and all get it. Throws
+/// InvalidInput (a surface that is damaged, which is named) and Cancelled.
 SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres,
   const SubstrateCertificateOptions& options = {}, const Context& context = {}, const Sharing& sharing = Sharing());
 

@@ -17,8 +17,6 @@ struct FibreSurfaces
   std::vector<int> bundleIds; ///< one per surface
   /// The surface (µm) of fibreIds[index]. May be called from several threads at once.
   std::function<TriangleMesh(std::size_t index)> mesh;
-  /// At least those of its triangles that touch `lower` <= z <= `upper` (µm), where this is less work than mesh(); else empty.
-  std::function<TriangleMesh(std::size_t index, double lower, double upper)> part = nullptr;
   /// Whether there is such a set of surfaces at all, however empty; one that holds a surface counts in any case.
   bool isGiven = false;
   /// Fibres that were to have a surface, where whoever made the surfaces has said so; in any order.

@@ -5,7 +5,6 @@
 #include "ExampleSurfaces.h"
 #include "mesh/SurfaceCheck.h"
 #include "mesh/SurfaceDistance.h"
-#include "mesh/SurfacePart.h"
 #include "mesh/SurfacePieces.h"
 
 #include <gtest/gtest.h>
@@ -26,10 +25,8 @@ using cactus::TreedSurface;
 using cactus::TriangleMesh;
 using Eigen::Vector3d;
 
-/// The findings where about so many bytes of surfaces are kept; counts how many are made whole, and, where surfaces have parts,
-/// triangles of these.
-SubstrateCertificate findingsOf(const std::vector<TriangleMesh>& surfaces, std::size_t bytes, std::size_t& made, int threads = 1,
-  std::atomic<std::size_t>* trianglesOfParts = nullptr)
+/// The findings where about so many bytes of surfaces are kept; counts how many are made.
+SubstrateCertificate findingsOf(const std::vector<TriangleMesh>& surfaces, std::size_t bytes, std::size_t& made, int threads = 1)
 {
   std::atomic<std::size_t> count{ 0 };
   const auto make = [&](std::size_t place)
@@ -39,16 +36,6 @@ SubstrateCertificate findingsOf(const std::vector<TriangleMesh>& surfaces, std::
   };
   SubstrateCertificate certificate;
   OuterSurfaces outer(surfaces.size(), bytes, make);
-  if (trianglesOfParts != nullptr)
-  {
-    outer.setPartMaker(
-      [&surfaces, trianglesOfParts](std::size_t place, double lower, double upper)
-      {
-        auto part = std::make_shared<const TreedSurface>(cactus::cutOut(surfaces[place], lower, upper).mesh);
-        *trianglesOfParts += part->mesh.triangles.size();
-        return part;
-      });
-  }
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     FibreCertificate fibre;
@@ -178,51 +165,7 @@ TEST(FibreGaps, AreTheSameHoweverFewSurfacesAreKeptOnSeveralThreads)
     SubstrateCertificate same = expected;
     same.fibres.back().gap = 0.0;
     expectSame(found, same);
-    std::atomic<std::size_t> triangles{ 0 };
-    found = findingsOf(surfaces, 1, made, threads, &triangles);
-    EXPECT_GT(triangles, 0u);
-    found.fibres.back().gap = 0.0;
-    expectSame(found, same);
   }
-}
-
-TEST(FibreGaps, AreThoseOfAllPairsFromParts)
-{
-  for (unsigned seed = 1; seed <= 6; ++seed)
-  {
-    std::vector<TriangleMesh> surfaces = someTubes(seed);
-    surfaces.pop_back();
-    std::size_t made = 0;
-    std::atomic<std::size_t> triangles{ 0 };
-    expectSame(findingsOf(surfaces, 1, made, 1, &triangles), byAllPairs(surfaces));
-  }
-}
-
-// Each of one layer crosses each of the other: what a pair takes does not depend on how long the two are.
-TEST(FibreGaps, TakeOfTwoFibresWhatIsNear)
-{
-  std::vector<TriangleMesh> surfaces;
-  std::size_t all = 0;
-  for (int i = 0; i < 10; ++i)
-  {
-    surfaces.push_back(example::tube(10.0 * i + 5.0, 0.0, 0.5, 0.0, 100.0, 24, 200));
-    all += surfaces.back().triangles.size();
-  }
-  for (int i = 0; i < 10; ++i)
-  {
-    surfaces.push_back(example::tube(0.0, 0.0, 0.5, 0.0, 100.0, 24, 200));
-    for (Vector3d& p : surfaces.back().points)
-    {
-      p = Vector3d(p[2], 1.05 + p[0], 10.0 * i + 5.0 + p[1]);
-    }
-    all += surfaces.back().triangles.size();
-  }
-  std::size_t made = 0;
-  std::atomic<std::size_t> triangles{ 0 };
-  const SubstrateCertificate found = findingsOf(surfaces, 1, made, 1, &triangles);
-  EXPECT_NEAR(found.smallestGap, 0.05, 1e-9);
-  EXPECT_LE(made, 4 * surfaces.size()) << "each as it is entered, with its likeliest neighbour, and for its pieces";
-  EXPECT_LT(triangles, 7 * all) << "those along z near the crossings, of the others, which lie there, all";
 }
 
 // Two tubes in a wide hollow one are nearer to each other than to what holds them.
