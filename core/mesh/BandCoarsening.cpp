@@ -341,39 +341,7 @@ private:
     {
       triangles.insert(triangles.end(), strip.stitched.triangles.begin(), strip.stitched.triangles.end());
     }
-    this->removeUnused();
-  }
-
-  void removeUnused()
-  {
-    auto& points = this->Surface.mesh.points;
-    std::vector<std::int32_t> place(points.size(), -1);
-    for (const auto& t : this->Surface.mesh.triangles)
-    {
-      for (const std::int32_t p : t)
-      {
-        place[std::size_t(p)] = 0;
-      }
-    }
-    std::size_t kept = 0;
-    for (std::size_t p = 0; p < points.size(); ++p)
-    {
-      if (place[p] == 0)
-      {
-        points[kept] = points[p];
-        this->Surface.faces[kept] = this->Surface.faces[p];
-        place[p] = static_cast<std::int32_t>(kept++);
-      }
-    }
-    points.resize(kept);
-    this->Surface.faces.resize(kept);
-    for (auto& t : this->Surface.mesh.triangles)
-    {
-      for (std::int32_t& p : t)
-      {
-        p = place[std::size_t(p)];
-      }
-    }
+    dropUnusedPoints(this->Surface.mesh, &this->Surface.faces);
   }
 
   CappedSurface& Surface;

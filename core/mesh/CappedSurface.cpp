@@ -48,6 +48,41 @@ std::vector<Vector3d> normals(const CappedSurface& surface)
 
 } // namespace
 
+void dropUnusedPoints(TriangleMesh& mesh, std::vector<std::uint8_t>* faces)
+{
+  std::vector<std::int32_t> number(mesh.points.size(), -1);
+  for (const auto& t : mesh.triangles)
+  {
+    for (const std::int32_t p : t)
+    {
+      number[std::size_t(p)] = 0;
+    }
+  }
+  std::size_t used = 0;
+  for (std::size_t p = 0; p < number.size(); ++p)
+  {
+    if (number[p] == 0)
+    {
+      number[p] = static_cast<std::int32_t>(used);
+      mesh.points[used] = mesh.points[p];
+      if (faces != nullptr)
+      {
+        (*faces)[used] = (*faces)[p];
+      }
+      ++used;
+    }
+  }
+  mesh.points.resize(used);
+  if (faces != nullptr)
+  {
+    faces->resize(used);
+  }
+  for (auto& t : mesh.triangles)
+  {
+    t = { { number[std::size_t(t[0])], number[std::size_t(t[1])], number[std::size_t(t[2])] } };
+  }
+}
+
 SurfaceMeasure measure(const CappedSurface& surface)
 {
   SurfaceMeasure result;

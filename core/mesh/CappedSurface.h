@@ -35,6 +35,9 @@ inline Eigen::Vector3d keptInside(
   return box.isEmpty() ? to : Eigen::Vector3d(to.cwiseMax(lower).cwiseMin(upper));
 }
 
+/// Removes points that no triangle has, and of `faces`, where given, what is said of them. The others keep their order.
+void dropUnusedPoints(TriangleMesh& mesh, std::vector<std::uint8_t>* faces);
+
 /// How much a surface holds.
 struct SurfaceMeasure
 {

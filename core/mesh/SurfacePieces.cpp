@@ -25,42 +25,15 @@ void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std:
   const std::vector<char>& isKept)
 {
   std::vector<std::array<std::int32_t, 3>> kept;
-  std::vector<std::int32_t> number(mesh.points.size(), -1);
   for (std::size_t t = 0; t < pieceOf.size(); ++t)
   {
     if (isKept[pieceOf[t]])
     {
       kept.push_back(mesh.triangles[t]);
-      for (const std::int32_t p : mesh.triangles[t])
-      {
-        number[std::size_t(p)] = 0;
-      }
     }
-  }
-  std::int32_t used = 0;
-  for (std::size_t p = 0; p < number.size(); ++p)
-  {
-    if (number[p] == 0)
-    {
-      number[p] = used;
-      mesh.points[std::size_t(used)] = mesh.points[p];
-      if (faces != nullptr)
-      {
-        (*faces)[std::size_t(used)] = (*faces)[p];
-      }
-      ++used;
-    }
-  }
-  mesh.points.resize(std::size_t(used));
-  if (faces != nullptr)
-  {
-    faces->resize(std::size_t(used));
-  }
-  for (auto& t : kept)
-  {
-    t = { { number[std::size_t(t[0])], number[std::size_t(t[1])], number[std::size_t(t[2])] } };
   }
   mesh.triangles = std::move(kept);
+  dropUnusedPoints(mesh, faces);
 }
 
 /// By the first point of each piece, its signed volume.
