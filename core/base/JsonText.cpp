@@ -12,7 +12,6 @@ namespace cactus
 namespace
 {
 
-constexpr int deepest = 32;
 /// A word of the reader has 255 characters; punctuation goes with a text.
 constexpr std::size_t longestWord = 200;
 constexpr std::array<std::string_view, 6> keywords{ { "dimensions", "extent", "aspect_ratio", "spacing", "origin",
@@ -56,7 +55,7 @@ std::optional<Json> parsedJson(const std::string& text)
   bool isTooDeep = false;
   const Json::parser_callback_t watch = [&isTooDeep](int depth, Json::parse_event_t, Json&)
   {
-    isTooDeep = isTooDeep || depth > deepest;
+    isTooDeep = isTooDeep || depth > deepestJson;
     return !isTooDeep;
   };
   Json value = Json::parse(text, watch, false);

@@ -12,7 +12,12 @@ namespace cactus
 /// Names keep their order.
 using Json = nlohmann::ordered_json;
 
-/// The value that a text holds; nothing where it holds none, or one that is nested more deeply than any of ours.
+/// How deeply values may be nested. A record says twice as much as there are filters of others between two stages, of which a
+/// hundred are followed.
+constexpr int deepestJson = 256;
+
+/// The value that a text holds; nothing where it holds none, or one that is nested more
+/// deeply.
 std::optional<Json> parsedJson(const std::string& text);
 
 /// A value on one line, with a blank after each comma and colon. Text that is not UTF-8 (a file's name may be anything) is marked

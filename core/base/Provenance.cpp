@@ -88,7 +88,15 @@ public:
       reference = { { "stage", (*record)["id"] } };
       if (record->contains("output") && (*record)["output"].is_object())
       {
-        reference.update((*record)["output"]);
+        // What else others may have written there could be nested more deeply than what is read again.
+        for (const char* name : { "port", "checksum" })
+        {
+          const auto known = (*record)["output"].find(name);
+          if (known != (*record)["output"].end() && known->is_primitive())
+          {
+            reference[name] = *known;
+          }
+        }
         record->erase("output");
       }
       this->insert((*record)["id"].get<std::string>(), singleLine(*record));

@@ -28,7 +28,7 @@ class ParseWatch
 public:
   bool operator()(int depth, Json::parse_event_t event, const Json& value)
   {
-    constexpr int deepest = 32;
+    constexpr int deepest = deepestJson + 8; // a manifest holds records
     if (depth > deepest)
     {
       throw InvalidInput("it is nested more deeply than any recipe");

@@ -25,6 +25,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
   writeSeeds(*argc, *argv,
     { next({}).back(), next(next({})).back(), "{\"id\": \"a\", \"filter\": \"b\", \"output\": {\"port\": [1e400, -0]}}",
+      "{\"id\": \"a\", \"filter\": \"b\", \"output\": {\"port\": " + std::string(254, '[') + std::string(254, ']') + "}}",
       "BundleInitializer 0.1.0: Side=5", "[[[[{\"\\u0073pacing\": \" \\ud83d\\ude00 origin\"}]]]]" });
   return 0;
 }

@@ -74,7 +74,7 @@ TEST(JsonText, HoldsNoKeywordOfLegacyFiles)
 TEST(JsonText, RefusesWhatIsNoneOfOurs)
 {
   for (const std::string& text : { std::string(), std::string("BundleInitializer 0.1.0: Side=5"), std::string("{\"a\": "),
-         std::string(100, '[') + std::string(100, ']'), std::string(100000, '[') })
+         std::string(300, '[') + std::string(300, ']'), std::string(100000, '[') })
   {
     EXPECT_FALSE(cactus::parsedJson(text)) << text.substr(0, 40);
   }

@@ -165,6 +165,27 @@ TEST(Provenance, SaysWhatItDoesNotKnow)
   EXPECT_TRUE(foreign.isKnown());
 }
 
+TEST(Provenance, IsReadBehindManyFiltersOfOthers)
+{
+  DataOrigin origin = from(source(1, "aa"));
+  for (int filter = 0; filter < 100; ++filter)
+  {
+    DataOrigin next;
+    next.filter = "vtkTransformFilter";
+    next.parts = { std::move(origin) };
+    origin = std::move(next);
+  }
+  auto record = stage("Last");
+  record.inputs = { { "Input", { origin } } };
+  EXPECT_EQ(parsed(provenanceOf(record).back())["inputs"]["Input"][0]["filter"], "vtkTransformFilter");
+
+  const std::string nested = std::string(250, '[') + std::string(250, ']');
+  record.inputs = { { "Input", { from({ R"({"id": "a", "filter": "b", "output": {"port": )" + nested + "}}" }) } } };
+  const Provenance all = provenanceOfOutput(provenanceOf(record), 0, "cc");
+  EXPECT_EQ(parsed(all.back())["inputs"]["Input"][0], Json::object({ { "stage", "a" } }));
+  EXPECT_EQ(cactus::checksumOf(all), "cc");
+}
+
 TEST(Provenance, ChecksFiles)
 {
   const std::string path = (std::filesystem::temp_directory_path() / "cactus-provenance-test.txt").string();
