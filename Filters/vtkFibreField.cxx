@@ -13,6 +13,7 @@
 #include "base/Parallel.h"
 #include "stages/Stages.h"
 #include "surface/FibreImage.h"
+#include "surface/FibreSurvey.h"
 
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -125,7 +126,7 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
       cactus::requireWithin(
         "SurfaceTolerance of the label image", labels.facts.surfaceTolerance, cactus::limits::surfaceTolerance);
       const cactus::FibreField field(labels.view, labels.facts.domain, stage.clipToDomain);
-      const auto blocksOf = field.findFibres(reach, context);
+      const cactus::FoundFibres found = cactus::findFibres(field, reach, context);
       const std::vector<Chosen> chosen = choose(labels.facts, stage);
 
       auto* output = vtkMultiBlockDataSet::GetData(outputs);
@@ -135,10 +136,10 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
         chosen.size(), context,
         [&](std::size_t i)
         {
-          const auto blocks = blocksOf.find(chosen[i].fibreId);
-          if (blocks != blocksOf.end())
+          const auto fibre = found.find(chosen[i].fibreId);
+          if (fibre != found.end())
           {
-            images[i] = imageFrom(cactus::fibreImage(field, chosen[i].fibreId, blocks->second, stage.level));
+            images[i] = imageFrom(cactus::fibreImage(field, chosen[i].fibreId, fibre->second.blocks, stage.level));
           }
         },
         "sampling fibres");

@@ -81,7 +81,7 @@ public:
       std::optional<Json> record = recordFrom(text);
       if (!record)
       {
-        this->insert(text, text);
+        this->insert("text " + text, text);
         reference = Json::object();
         continue;
       }
@@ -99,7 +99,7 @@ public:
         }
         record->erase("output");
       }
-      this->insert((*record)["id"].get<std::string>(), singleLine(*record));
+      this->insert("stage " + (*record)["id"].get<std::string>(), singleLine(*record));
     }
     if (origin.isChanged && !reference.empty())
     {
@@ -131,9 +131,9 @@ private:
     return isOne ? parts.front() : Json{ { "blocks", std::move(parts) } };
   }
 
-  void insert(const std::string& id, std::string record)
+  void insert(const std::string& key, std::string record)
   {
-    if (this->Known.insert(id).second)
+    if (this->Known.insert(key).second)
     {
       this->Records.push_back(std::move(record));
     }

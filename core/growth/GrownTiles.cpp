@@ -188,8 +188,6 @@ LabelImageView GrownTiles::samples(const SampleRange& range, LabelBuffer& buffer
   view.grid = this->grid();
   view.grid.lower = range.first;
   view.grid.count = range.count;
-  buffer.fibreId.resize(view.grid.size());
-  buffer.depth.resize(view.grid.size());
   std::array<int, 3> first{};
   std::array<int, 3> last{};
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -197,6 +195,17 @@ LabelImageView GrownTiles::samples(const SampleRange& range, LabelBuffer& buffer
     first[axis] = range.first[axis] / edge;
     last[axis] = (range.first[axis] + range.count[axis] - 1) / edge;
   }
+  if (first == last)
+  {
+    const std::shared_ptr<const Tile> tile = this->tile(first);
+    buffer.held = tile;
+    view.grid = tile->grid;
+    view.fibreId = tile->fibreId.data();
+    view.depth = tile->depth.data();
+    return view;
+  }
+  buffer.fibreId.resize(view.grid.size());
+  buffer.depth.resize(view.grid.size());
   for (int z = first[2]; z <= last[2]; ++z)
   {
     for (int y = first[1]; y <= last[1]; ++y)

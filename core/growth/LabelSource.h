@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace cactus
@@ -22,6 +23,7 @@ struct LabelBuffer
 {
   std::vector<std::int32_t> fibreId;
   std::vector<float> depth;
+  std::shared_ptr<const void> held; ///< instead of room: what a view shows a part of
 };
 
 /// Where the samples of a label image come from. May be used from several threads.

@@ -2,8 +2,6 @@
 #include "surface/FibreField.h"
 
 #include "base/Error.h"
-#include "base/Limits.h"
-#include "base/Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,33 +55,6 @@ std::array<Direction, 26> neighbourDirections()
     }
   }
   return directions;
-}
-
-/// All blocks of a lattice, in an order in which those that follow one another are near each other.
-std::vector<std::uint32_t> inBricks(const NodeLattice& lattice)
-{
-  constexpr std::uint32_t edge = 8;
-  const std::array<std::uint32_t, 3> count{ { std::uint32_t(lattice.blocks(0)), std::uint32_t(lattice.blocks(1)),
-    std::uint32_t(lattice.blocks(2)) } };
-  std::vector<std::uint32_t> order;
-  order.reserve(lattice.blockCount());
-  for (std::uint32_t y0 = 0; y0 < count[1]; y0 += edge)
-  {
-    for (std::uint32_t x0 = 0; x0 < count[0]; x0 += edge)
-    {
-      for (std::uint32_t z = 0; z < count[2]; ++z)
-      {
-        for (std::uint32_t y = y0; y < std::min(count[1], y0 + edge); ++y)
-        {
-          for (std::uint32_t x = x0; x < std::min(count[0], x0 + edge); ++x)
-          {
-            order.push_back(x + count[0] * (y + count[1] * z));
-          }
-        }
-      }
-    }
-  }
-  return order;
 }
 
 } // namespace
@@ -301,82 +272,6 @@ double FibreField::atSample(std::int32_t fibre, int i, int j, int k) const
   LabelBuffer buffer;
   const LabelImageView held = this->samplesAround({ { { i, j, k } }, { { 1, 1, 1 } } }, farthestNeighbour, buffer);
   return this->field(held, fibre, held.grid.index(i, j, k), i, j, k);
-}
-
-std::vector<std::int32_t> FibreField::idsWithin(const NodeRange& range) const
-{
-  constexpr auto deepest = float(limits::coordinate.highest); // more than any fibre's radius
-  thread_local LabelBuffer buffer;
-  const LabelImageView held = this->samplesAt(range, 0, buffer);
-  std::vector<std::int32_t> ids;
-  std::int32_t last = 0;
-  const int i0 = this->Samples.sampleOf(0, range.first[0]);
-  const int i1 = this->Samples.sampleOf(0, range.first[0] + range.count[0] - 1);
-  for (int k = range.first[2]; k < range.first[2] + range.count[2]; ++k)
-  {
-    for (int j = range.first[1]; j < range.first[1] + range.count[1]; ++j)
-    {
-      const std::size_t row = held.grid.index(i0, this->Samples.sampleOf(1, j), this->Samples.sampleOf(2, k));
-      bool within = true;
-      bool fits = true;
-      for (int i = 0; i <= i1 - i0; ++i)
-      {
-        const std::int32_t id = held.fibreId[row + std::size_t(i)];
-        const float depth = held.depth[row + std::size_t(i)];
-        within = within && std::abs(depth) <= deepest; // which NaN is not
-        fits = fits && (depth > 0.0f) == (id > 0);
-        if (id != last && id != 0)
-        {
-          const auto place = std::lower_bound(ids.begin(), ids.end(), id);
-          if (place == ids.end() || *place != id)
-          {
-            ids.insert(place, id);
-          }
-          last = id;
-        }
-      }
-      require(within, "the label image has a Depth that is not finite (NaN or infinite), or beyond 100000 µm");
-      require(fits || (!ids.empty() && ids.front() < 0),
-        "the label image has a Depth that does not fit its FibreId: Depth must be positive just where FibreId is");
-    }
-  }
-  if (!ids.empty() && ids.front() < 0)
-  {
-    throw InvalidInput("the label image has a FibreId of " + std::to_string(ids.front()) + ": ids count from 1");
-  }
-  return ids;
-}
-
-std::map<std::int32_t, std::vector<std::uint32_t>> FibreField::findFibres(
-  int reach, const Context& context, const Sharing& sharing) const
-{
-  constexpr std::size_t blocksAtOnce = std::size_t(1) << 20; // so that exchanges stay small
-
-  const NodeLattice all = this->lattice();
-  require(all.blockCount() <= std::numeric_limits<std::uint32_t>::max(),
-    "the label image has more blocks of 16³ voxels than 32 bits count: choose a larger VoxelSize");
-  const std::vector<std::uint32_t> order = inBricks(all);
-  std::vector<std::vector<std::int32_t>> idsOf(all.blockCount());
-  for (std::size_t first = 0; first < order.size(); first += blocksAtOnce)
-  {
-    const std::size_t count = std::min(blocksAtOnce, order.size() - first);
-    const auto part = [&](std::size_t end) { return 0.05 * static_cast<double>(end) / static_cast<double>(order.size()); };
-    const auto idsOfBlock = [&](std::size_t i) -> std::vector<std::int32_t>& { return idsOf[order[first + i]]; };
-    sharing.loop(
-      count, context, [&](std::size_t i) { idsOfBlock(i) = this->idsWithin(nodesOfBlock(all, order[first + i]).widened(reach)); },
-      [&](std::size_t i) { return bytesOf(idsOfBlock(i)); },
-      [&](std::size_t i, const std::string& bytes) { getAll(bytes, idsOfBlock(i)); }, "looking for fibres", part(first),
-      part(first + count));
-  }
-  std::map<std::int32_t, std::vector<std::uint32_t>> blocksOf;
-  for (std::size_t block = 0; block < idsOf.size(); ++block)
-  {
-    for (const std::int32_t id : idsOf[block])
-    {
-      blocksOf[id].push_back(static_cast<std::uint32_t>(block));
-    }
-  }
-  return blocksOf;
 }
 
 void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out) const

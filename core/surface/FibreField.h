@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/Context.h"
 #include "base/Domain.h"
-#include "base/Sharing.h"
 #include "growth/LabelImage.h"
 #include "growth/LabelSource.h"
 #include "mesh/NodeLattice.h"
@@ -11,9 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
-#include <vector>
 
 namespace cactus
 {
@@ -70,14 +66,10 @@ public:
   /// Planes through the samples; the outermost ones are moved into the box by `inset` (µm, less than a quarter of a voxel).
   NodeLattice lattice(double inset = 0.0) const;
 
-  /// Of each fibre, in increasing order of fibres, the blocks of the lattice with a node that belongs to it or has one at most
-  /// `reach` nodes away. Throws InvalidInput for a negative FibreId, a Depth that is not finite, beyond limits::coordinate or
-  /// does not fit its FibreId, and Cancelled. Processes share it, and get all of it.
-  std::map<std::int32_t, std::vector<std::uint32_t>> findFibres(
-    int reach, const Context& context = {}, const Sharing& sharing = Sharing()) const;
-
   /// The image at the samples that a range of nodes takes its values from, and at those up to `more` beyond.
   LabelImageView samplesAt(const NodeRange& range, int more, LabelBuffer& buffer) const;
+  /// The same for a range of samples.
+  LabelImageView samplesAround(const SampleRange& range, int more, LabelBuffer& buffer) const;
 
   /// The field of a fibre at a sample of the image.
   double atSample(std::int32_t fibre, int i, int j, int k) const;
@@ -87,9 +79,6 @@ public:
   Eigen::Vector3d firstNode() const;
 
 private:
-  /// The fibres that have a sample in a range of nodes, increasing. Throws as findFibres() does.
-  std::vector<std::int32_t> idsWithin(const NodeRange& range) const;
-  LabelImageView samplesAround(const SampleRange& range, int more, LabelBuffer& buffer) const;
   /// Of a sample outside all fibres that is nearer than gap/2 to one: to which, as its neighbours tell.
   std::int32_t nearest(const LabelImageView& held, int i, int j, int k) const;
   bool isNearest(const LabelImageView& held, std::int32_t fibre, int i, int j, int k) const;

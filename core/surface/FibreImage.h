@@ -18,7 +18,7 @@ struct FibreImage
   std::vector<float> values; ///< µm, positive inside the fibre, x fastest
 };
 
-/// Samples the field of `fibre` (as FibreField gives it) in the box of `blocks`, which FibreField::findFibres() found for it with
+/// Samples the field of `fibre` (as FibreField gives it) in the box of `blocks`, which findFibres() found for it with
 /// a reach of 1 or more.
 ///
 /// Where the fibre is cut off by a face of the field's box, one or two layers of samples are added beyond that face, with values

@@ -53,6 +53,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Options(options)
   , Filters(filters)
   , Field(image, facts.domain, options.clipToDomain)
+  , Fibres(findFibres(Field, options.smoothingIterations, context, sharing))
   , Spacing(image->grid().spacing)
   , Contours(Field, std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing),
       nudgeFor(Spacing, facts.surfaceTolerance), filters)
@@ -63,7 +64,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
 {
   if (options.smoothingIterations > 0)
   {
-    this->Thin.emplace(this->Field, context, sharing);
+    this->Thin.emplace(this->Field, this->Fibres);
   }
 }
 
@@ -72,9 +73,11 @@ bool FibreMesher::movesContours() const
   return this->Filters == nullptr && this->Options.decimationError > 0.0;
 }
 
-SmoothedField FibreMesher::smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const
+SmoothedField FibreMesher::smoothed(std::int32_t fibreId) const
 {
-  return SmoothedField(this->Field, fibreId, blocks, this->Options.smoothingIterations, this->Thin ? &*this->Thin : nullptr);
+  const auto found = this->Fibres.find(fibreId);
+  return SmoothedField(this->Field, fibreId, found != this->Fibres.end() ? found->second.blocks : std::vector<std::uint32_t>(),
+    this->Options.smoothingIterations, this->Thin ? &*this->Thin : nullptr);
 }
 
 void FibreMesher::makeOuter(

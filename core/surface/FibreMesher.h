@@ -5,6 +5,7 @@
 #include "surface/FibreContours.h"
 #include "surface/FibreField.h"
 #include "surface/FibreSurfacePair.h"
+#include "surface/FibreSurvey.h"
 #include "surface/MyelinSurfaceOptions.h"
 #include "surface/SurfaceFilters.h"
 #include "surface/SurfaceFinishing.h"
@@ -33,9 +34,10 @@ public:
   FibreMesher& operator=(const FibreMesher&) = delete;
 
   const FibreField& field() const { return this->Field; }
+  /// All that there are.
+  const FoundFibres& fibres() const { return this->Fibres; }
 
-  /// The field of a fibre, from the blocks that findFibres() found for it.
-  SmoothedField smoothed(const std::vector<std::uint32_t>& blocks, int fibreId) const;
+  SmoothedField smoothed(std::int32_t fibreId) const;
 
   /// Makes the outer surface, coarsened within `bounds`, and `deeper` (µm) than it might be; leaves the pair's state at NoFibre
   /// if there is none, else at NoAxon.
@@ -65,6 +67,7 @@ private:
   const MyelinSurfaceOptions& Options;
   const SurfaceFilters* Filters; ///< null for core's own means
   FibreField Field;
+  FoundFibres Fibres;
   std::optional<ThinFibres> Thin; ///< if surfaces are smoothed
   double Spacing;
   FibreContours Contours;

@@ -40,8 +40,7 @@ std::int32_t idOf(const FibreSurfacePair& pair)
   return pair.fibreId;
 }
 
-std::vector<FibreSurfacePair> fibresOf(
-  const LabelImageFacts& facts, const std::map<std::int32_t, std::vector<std::uint32_t>>& blocksOf)
+std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const FoundFibres& found)
 {
   require(facts.bundleIds.size() == facts.fibreIds.size() && facts.targetRadii.size() == facts.fibreIds.size() &&
             (facts.lengths.empty() || facts.lengths.size() == facts.fibreIds.size()),
@@ -63,7 +62,7 @@ std::vector<FibreSurfacePair> fibresOf(
         text("the label image's FibreTable names fibre ", pairs[i].fibreId, ": ids must count from 1 and be unique"));
     }
   }
-  for (const auto& entry : blocksOf)
+  for (const auto& entry : found)
   {
     const bool known =
       std::binary_search(pairs.begin(), pairs.end(), entry.first, [](const auto& a, const auto& b) { return idOf(a) < idOf(b); });
@@ -90,18 +89,18 @@ std::uint64_t placeNumber(const std::array<int, 3>& place)
 }
 
 /// The fibres in such an order by the middle of their blocks, so that samples that neighbours share are at hand.
-std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs,
-  const std::map<std::int32_t, std::vector<std::uint32_t>>& blocksOf, const NodeLattice& lattice)
+std::vector<std::size_t> orderByPlace(
+  const std::vector<FibreSurfacePair>& pairs, const FoundFibres& fibres, const NodeLattice& lattice)
 {
   std::vector<std::pair<std::uint64_t, std::size_t>> places;
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
     std::array<int, 3> middle{ { 0, 0, 0 } };
-    const auto found = blocksOf.find(pairs[i].fibreId);
-    if (found != blocksOf.end())
+    const auto found = fibres.find(pairs[i].fibreId);
+    if (found != fibres.end())
     {
       std::array<double, 3> sum{ { 0.0, 0.0, 0.0 } };
-      for (const std::uint32_t block : found->second)
+      for (const std::uint32_t block : found->second.blocks)
       {
         const NodeRange nodes = nodesOfBlock(lattice, block);
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -109,7 +108,7 @@ std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs
           sum[axis] += nodes.first[axis];
         }
       }
-      const auto blocks = static_cast<double>(found->second.size()) * NodeLattice::blockCells;
+      const auto blocks = static_cast<double>(found->second.blocks.size()) * NodeLattice::blockCells;
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
         middle[axis] = static_cast<int>(sum[axis] / blocks);
@@ -183,9 +182,8 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   , Shared(sharing)
   , Journal(journal != nullptr ? *journal : NoJournal)
   , Mesher(image, facts, options, filters, context, sharing)
-  , BlocksOf(Mesher.field().findFibres(options.smoothingIterations, context, sharing))
-  , Pairs(fibresOf(facts, BlocksOf))
-  , Order(orderByPlace(Pairs, BlocksOf, Mesher.field().lattice()))
+  , Pairs(fibresOf(facts, Mesher.fibres()))
+  , Order(orderByPlace(Pairs, Mesher.fibres(), Mesher.field().lattice()))
 {
 }
 
@@ -220,13 +218,6 @@ void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
                                                                : this->makeEachInner(outer, inner);
 }
 
-SmoothedField SurfaceMaker::fieldOf(const FibreSurfacePair& pair) const
-{
-  static const Blocks none;
-  const auto found = this->BlocksOf.find(pair.fibreId);
-  return this->Mesher.smoothed(found == this->BlocksOf.end() ? none : found->second, pair.fibreId);
-}
-
 double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const
 {
   switch (this->Options.model)
@@ -252,7 +243,7 @@ void SurfaceMaker::contourOuter(SurfaceStore& outer)
       {
         return;
       }
-      this->Mesher.makeOuter(this->fieldOf(pair), pair);
+      this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair);
       if (pair.state != MyelinState::NoFibre)
       {
         pair.volumeAsMade = pair.outerReport.volume;
@@ -332,7 +323,7 @@ void SurfaceMaker::makeAgain(
       FibreSurfacePair& pair = this->Pairs[which[i]];
       pair.isFlawed = false; // of the surface that goes
       pair.outer = *outer.get(which[i]);
-      this->Mesher.makeOuter(this->fieldOf(pair), pair, bounds.at(which[i]), deeper);
+      this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair, bounds.at(which[i]), deeper);
       outer.put(which[i], std::exchange(pair.outer, TriangleMesh()));
     },
     [&](std::size_t i) { return bytesOf(this->Pairs[which[i]]); },
@@ -351,7 +342,7 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
       {
         return;
       }
-      const SmoothedField field = this->fieldOf(pair);
+      const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
       if (!isCommon)
       {
         pair.targetGRatio = this->targetGRatio(field, pair);

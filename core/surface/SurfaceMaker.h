@@ -42,13 +42,10 @@ public:
   void makeInner(const SurfaceSource& outer, SurfaceStore& inner);
 
 private:
-  using Blocks = std::vector<std::uint32_t>;
-  using BlocksOfFibres = std::map<std::int32_t, Blocks>;
   using BoundsOfFibres = std::map<std::size_t, std::vector<LocalErrorBound>>;
 
   template <typename Body>
   void forEachFibre(Body&& body, const char* message, double from, double to);
-  SmoothedField fieldOf(const FibreSurfacePair& pair) const;
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
   void contourOuter(SurfaceStore& outer);
   void spaceOut(SurfaceStore& outer);
@@ -66,7 +63,6 @@ private:
   SurfaceJournal NoJournal;
   SurfaceJournal& Journal;
   FibreMesher Mesher;
-  BlocksOfFibres BlocksOf;
   std::vector<FibreSurfacePair> Pairs;
   std::vector<std::size_t> Order; ///< in which to work on them: one after the other what is near each other
 };

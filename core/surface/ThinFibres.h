@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/Context.h"
-#include "base/Sharing.h"
 #include "surface/FibreField.h"
+#include "surface/FibreSurvey.h"
 
 #include <cstdint>
 #include <unordered_map>
@@ -17,8 +16,8 @@ namespace cactus
 class ThinFibres
 {
 public:
-  /// `field` has to outlive the object. Throws Cancelled. Processes share the look at the image, and all know the fibres.
-  explicit ThinFibres(const FibreField& field, const Context& context = {}, const Sharing& sharing = Sharing());
+  /// `field` has to outlive the object; `fibres` are all that it has.
+  ThinFibres(const FibreField& field, const FoundFibres& fibres);
 
   /// How much of each pass of smoothing the nodes get that have a node before and behind in the range, from 0 to 1, which is the
   /// same for the fields of all fibres. False if that is 1 everywhere; then `out` is not written.

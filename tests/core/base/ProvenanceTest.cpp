@@ -186,6 +186,15 @@ TEST(Provenance, IsReadBehindManyFiltersOfOthers)
   EXPECT_EQ(cactus::checksumOf(all), "cc");
 }
 
+TEST(Provenance, KeepsTextsThatAreTheIdOfAStage)
+{
+  const Provenance one = source(1, "aa");
+  const Json id = parsed(one.back())["id"];
+  auto record = stage("Last");
+  record.inputs = { { "Input", { from({ id.get<std::string>() }), from(one) } } };
+  EXPECT_EQ(provenanceOf(record).size(), 3u);
+}
+
 TEST(Provenance, ChecksFiles)
 {
   const std::string path = (std::filesystem::temp_directory_path() / "cactus-provenance-test.txt").string();

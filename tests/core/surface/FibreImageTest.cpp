@@ -3,6 +3,7 @@
 #include "surface/FibreImage.h"
 #include "base/Error.h"
 #include "growth/FibreRadialGrowth.h"
+#include "surface/FibreSurvey.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ struct Example
   FibreImage image(std::int32_t fibre, double level = 0.0, double inset = 0.0) const
   {
     const FibreField field(view, domain, true);
-    return fibreImage(field, fibre, field.findFibres(1).at(fibre), level, inset);
+    return fibreImage(field, fibre, findFibres(field, 1).at(fibre).blocks, level, inset);
   }
 
   LabelImage labels;
@@ -206,7 +207,7 @@ TEST(FibreImage, RefusesWhatIsNoContour)
 {
   const Example example;
   const FibreField field(example.view, example.domain, true);
-  const auto blocks = field.findFibres(1).at(1);
+  const auto blocks = findFibres(field, 1).at(1).blocks;
   EXPECT_THROW(fibreImage(field, 1, {}), InvalidInput);
   EXPECT_THROW(fibreImage(field, 1, blocks, -0.1), InvalidInput);
   EXPECT_THROW(fibreImage(field, 1, blocks, std::numeric_limits<double>::quiet_NaN()), InvalidInput);

@@ -48,8 +48,7 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   const FibreMesher mesher(
     std::make_shared<LabelImageInMemory>(LabelImageView{ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }),
     facts, surfaceOptions);
-  const auto blocks = mesher.field().findFibres(surfaceOptions.smoothingIterations, {});
-  const SmoothedField field = mesher.smoothed(blocks.at(1), 1);
+  const SmoothedField field = mesher.smoothed(1);
   FibreSurfacePair pair;
   pair.fibreId = 1;
   pair.targetGRatio = 0.7;

