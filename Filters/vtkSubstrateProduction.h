@@ -51,6 +51,7 @@ public:
   CACTUS_WHOLE_PROPERTY(Format)
   CACTUS_WHOLE_PROPERTY(Encoding)
   CACTUS_SWITCH_PROPERTY(AllowOpenSurfaces)
+  CACTUS_NUMBER_PROPERTY(SampledFraction)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Writes the folder, whatever has or has not changed. Gives 1, or 0 where it could not be written. */

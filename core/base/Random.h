@@ -19,7 +19,8 @@ enum class RandomStage : std::uint32_t
   GRatio = 5,
   Optimiser = 6,
   StartPositions = 7,
-  ExtraAxonalWalk = 8
+  ExtraAxonalWalk = 8,
+  Sample = 9
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere; what is made of them is

@@ -30,16 +30,24 @@ enum class SubstrateFormat
   SpinDoctor = 6 ///< finite elements: one complex of triangles for tetgen, beside a PLY file per surface (µm)
 };
 
+/// A substrate's fibres that surfaces were made of, where these are not all.
+struct SubstrateSample
+{
+  std::size_t fibres = 0; ///< all that the substrate has
+  double share = 1.0;     ///< of the volume of all fibres, that of the sample
+};
+
 /// What goes into a substrate folder.
 struct SubstrateFolderContents
 {
   Domain domain;
   FibreSurfaces outer;
   FibreSurfaces inner;
-  const Fibres* fibres = nullptr;     ///< centre lines, if they are to be written too (`fibres.strands`)
-  std::optional<Placement> placement; ///< in an image's space; files stay in the substrate's own, and the manifest says it
-  Provenance provenance;              ///< of the surfaces, and what is to be written of them
-  bool allowOpenSurfaces = false;     ///< write surfaces that leak, too
+  const Fibres* fibres = nullptr;        ///< centre lines, if they are to be written too (`fibres.strands`)
+  std::optional<SubstrateSample> sample; ///< if the surfaces are of a part of the fibres
+  std::optional<Placement> placement;    ///< in an image's space; files stay in the substrate's own, and the manifest says it
+  Provenance provenance;                 ///< of the surfaces, and what is to be written of them
+  bool allowOpenSurfaces = false;        ///< write surfaces that leak, too
   SubstrateCertificateOptions certificate;
   SubstrateFormat format = SubstrateFormat::Mcdc;
   PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files that no simulator reads, see mayBeBinary()

@@ -136,6 +136,10 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   manifest["domain"] = domain;
   manifest["placement_um_to_mm"] = placementRows(contents.placement);
   manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();
+  if (contents.sample)
+  {
+    manifest["sample_of_fibres"] = contents.sample->fibres;
+  }
   manifest["outer_surfaces"] = contents.outer.size();
   manifest["inner_surfaces"] = contents.inner.size();
   manifest["triangles"] = triangles;

@@ -2,7 +2,9 @@
 #include "io/SubstrateProduction.h"
 
 #include "base/Error.h"
+#include "base/Limits.h"
 #include "base/Pace.h"
+#include "base/Random.h"
 #include "base/Sha256.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrownTiles.h"
@@ -15,6 +17,7 @@
 #include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <utility>
@@ -66,7 +69,53 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   sum.add(fibres.domain.upper.data(), 3 * sizeof(double));
   const std::string values = "CACTUS " CACTUS_VERSION ", journal 3\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
+  if (order.sampledFraction < 1.0)
+  {
+    sum.add(&order.sampledFraction, sizeof(double));
+  }
   return sum.digest();
+}
+
+void checkSample(const ProductionOrder& order)
+{
+  requireWithin("SampledFraction", order.sampledFraction, limits::sampledFraction);
+  if (order.sampledFraction == 1.0)
+  {
+    return;
+  }
+  require(order.format == SubstrateFormat::Surfaces,
+    "SampledFraction is below 1, and Format is a simulator's, which would take the space of all other fibres for extra-axonal: "
+    "choose Surfaces alone, or make all surfaces");
+  require(order.surfaces.model != GRatioModel::TargetAxonVolumeFraction,
+    "SampledFraction is below 1, and the g-ratio for TargetAxonVolumeFraction depends on all fibres: choose another GRatioModel, "
+    "or make all surfaces");
+}
+
+/// The fibres whose surfaces are made: one at least.
+Fibres madeOf(const Fibres& fibres, const ProductionOrder& order)
+{
+  std::vector<double> numbers;
+  for (const int id : fibres.fibreIds)
+  {
+    RandomEngine engine = randomStream(order.surfaces.seed, RandomStage::Sample, static_cast<std::uint64_t>(id));
+    numbers.push_back(uniform(engine));
+  }
+  const double most = std::max(order.sampledFraction, *std::min_element(numbers.begin(), numbers.end()));
+  Fibres made;
+  made.domain = fibres.domain;
+  made.grownFraction = fibres.grownFraction;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    if (numbers[f] <= most)
+    {
+      made.addFibre(fibres.fibreIds[f], fibres.bundleIds[f], fibres.targetRadii[f]);
+      for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
+      {
+        made.addPoint(fibres.points[p], fibres.radii[p]);
+      }
+    }
+  }
+  return made;
 }
 
 std::unique_ptr<SurfaceSpool> openSpool(
@@ -108,8 +157,9 @@ void requireAlike(const std::string& identity, const std::string& folder, const 
   }
 }
 
-ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const ProductionOrder& order, const std::string& folder,
-  const Context& context, const Sharing& sharing)
+/// made: the fibres, or a sample of them.
+ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
+  const std::string& folder, const Context& context, const Sharing& sharing)
 {
   ProducedSubstrate result;
   result.found = spool.found();
@@ -121,7 +171,8 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const P
   const auto tiles =
     std::make_shared<GrownTiles>(aimed, order.growth, growth, tilesPerThread * std::size_t(context.threadCount()));
   const double spacing = tiles->grid().spacing;
-  const LabelImageFacts facts = grownImageFacts(fibres, order.growth);
+  LabelImageFacts facts = grownImageFacts(made, order.growth);
+  facts.isSample = made.size() < fibres.size();
   const Context making = partOf(context, growthSolved, surfacesMade, pace);
   SubstrateFolderContents contents;
   {
@@ -133,7 +184,11 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const P
     addMadeSurfaces(maker.fibres(), spool.outer(), spool.inner(), order.growth.minimumGap, contents);
   }
   contents.domain = fibres.domain;
-  contents.fibres = &fibres;
+  contents.fibres = &made;
+  if (facts.isSample)
+  {
+    contents.sample = SubstrateSample{ fibres.size(), capsuleVolumeInDomain(made) / capsuleVolumeInDomain(fibres) };
+  }
   contents.provenance = order.provenance ? order.provenance(spacing, growth) : Provenance();
   contents.format = order.format;
   contents.encoding = order.encoding;
@@ -166,6 +221,7 @@ ProducedSubstrate produceSubstrate(
   const auto produce = [&]
   {
     validate(fibres);
+    checkSample(order);
     require(!folder.empty(), "FolderName is empty: name the folder to write");
     const std::string identity = identityOf(fibres, order);
     requireAlike(identity, folder, sharing);
@@ -173,8 +229,10 @@ ProducedSubstrate produceSubstrate(
     {
       const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
     }
-    spool = openSpool(work, identity, fibres.size(), sharing);
-    result = produceFrom(*spool, fibres, order, folder, sharing.watching(context), sharing);
+    const Fibres sample = order.sampledFraction < 1.0 ? madeOf(fibres, order) : Fibres();
+    const Fibres& made = order.sampledFraction < 1.0 ? sample : fibres;
+    spool = openSpool(work, identity, made.size(), sharing);
+    result = produceFrom(*spool, fibres, made, order, folder, sharing.watching(context), sharing);
   };
   const auto removeWork = [&]
   {

@@ -25,6 +25,9 @@ struct ProductionOrder
   SubstrateFormat format = SubstrateFormat::Mcdc; ///< labels of voxels are those of growth's voxels
   PlyEncoding encoding = PlyEncoding::Ascii;
   bool allowOpenSurfaces = false;
+  /// Of all fibres, the part whose surfaces are made, drawn at random by the surfaces' seed, each fibre by itself: a larger part
+  /// has those of a smaller one.
+  double sampledFraction = 1.0;
   /// Of what is written, from the size of a voxel and the growth that was solved for (µm).
   std::function<Provenance(double spacing, double growth)> provenance;
 };
@@ -45,12 +48,14 @@ std::string workFolderOf(const std::string& folder);
 /// growFibres(), myelinSurfaces() and that would, with a certificate for the growth's minimumGap. The label image is computed
 /// tile by tile where it is needed, and surfaces go to workFolderOf(folder) as soon as they are made, so that neither is held in
 /// memory. A run that was stopped or killed goes on from there, if fibres, options and version are the same; at its end the work
-/// folder is removed. Outer surfaces are held while they are judged, see certify().
+/// folder is removed. Outer surfaces are held while they are judged, see certify(). Those of a sample are what they are among
+/// all, but for what keeps them apart from fibres that have none.
 ///
 /// The processes of a team, which are all given the same, share the work, and all get the result; any number of them goes on with
 /// what any other has left. An error in one ends it in all (see Sharing::together()).
 ///
-/// Throws what these do, InvalidInput for a work folder of something else, and FileError.
+/// Throws what these do, InvalidInput for a sample that is to be simulated or whose volumes all fibres decide on, for a work
+/// folder of something else, and FileError.
 ProducedSubstrate produceSubstrate(const Fibres& fibres, const ProductionOrder& order, const std::string& folder,
   const Context& context = {}, Team* team = nullptr);
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateReadme.h"
 
+#include "base/Error.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace cactus
 {
@@ -54,9 +57,12 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
 {
   const bool hasInner = contents.inner.size() > 0;
   const bool hasOuter = contents.outer.size() > 0;
-  std::string text = "A substrate of " + std::to_string(std::max(contents.outer.size(), contents.inner.size())) + " fibres" +
-                     (hasInner ? "" : " without inner surfaces") + (hasOuter ? "" : " without outer surfaces") +
-                     ", written by CACTUS " CACTUS_VERSION ".\n\n";
+  const std::string count = std::to_string(std::max(contents.outer.size(), contents.inner.size()));
+  std::string text =
+    (contents.sample ? "A sample, " + count + " of the " + std::to_string(contents.sample->fibres) + " fibres of a substrate"
+                     : "A substrate of " + count + " fibres") +
+    (hasInner ? "" : " without inner surfaces") + (hasOuter ? "" : " without outer surfaces") +
+    ", written by CACTUS " CACTUS_VERSION ".\n\n";
   const std::string scope = certificate.scope();
   text += certificate.certified() ? "CERTIFIED" + (scope.empty() ? "" : " " + scope) +
                                       ": every surface is closed, no two meet, and no walker can leak (certificate.csv).\n\n"
@@ -66,6 +72,13 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
     text += "  - " + fault + "\n";
   }
   text += certificate.certified() ? "" : "\n";
+  if (contents.sample)
+  {
+    text +=
+      "The other fibres are in their places, and have no surfaces here: space between the surfaces is not extra-axonal space.\n"
+      "With all of them, fibres would fill about " +
+      cactus::text(0.001 * std::round(1000.0 * certificate.fibreVolumeFraction / contents.sample->share)) + " of the domain.\n\n";
+  }
   return text;
 }
 

@@ -333,6 +333,7 @@ ProductionOrder productionOrder(
   order.format = stage.format;
   order.encoding = stage.encoding;
   order.allowOpenSurfaces = stage.allowOpenSurfaces;
+  order.sampledFraction = stage.sampledFraction;
   order.provenance = std::move(provenance);
   return order;
 }

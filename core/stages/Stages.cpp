@@ -254,6 +254,9 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .where("Format", { 4, 5, 6 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
+      .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
+        "Part of the fibres whose surfaces are made, drawn at random by Seed, in place among all the others; 1: all. For Format "
+        "Surfaces alone")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;

@@ -170,6 +170,7 @@ struct SubstrateProductionStage
   SubstrateFormat format = SubstrateFormat::Mcdc;
   PlyEncoding encoding = PlyEncoding::Ascii;
   bool allowOpenSurfaces = false;
+  double sampledFraction = 1.0;
   int threads = 0;
 
   static const PropertyList<SubstrateProductionStage>& properties();

@@ -52,11 +52,12 @@ struct LabelImageFacts
   Domain domain;
   double minimumGap = 0.02;        ///< least distance between the surfaces of two fibres
   double surfaceTolerance = 0.005; ///< room beside the gap, on either side, for moving surfaces
-  std::vector<int> fibreIds;       ///< all fibres, unique, in any order
+  std::vector<int> fibreIds;       ///< all fibres whose surfaces are to be made, unique, in any order
   std::vector<int> bundleIds;      ///< one per fibre
   std::vector<double> targetRadii; ///< one per fibre
   /// µm of each fibre's centre line inside the domain: one of 0 only passes by outside. Empty where that is not known.
   std::vector<double> lengths;
+  bool isSample = false; ///< the image has other fibres, too, of which no surfaces are made
 };
 
 /// Of the image that these options grow from the fibres. Lengths are left open.

@@ -66,7 +66,7 @@ std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const Found
   {
     const bool known =
       std::binary_search(pairs.begin(), pairs.end(), entry.first, [](const auto& a, const auto& b) { return idOf(a) < idOf(b); });
-    if (!known)
+    if (!known && !facts.isSample)
     {
       throw InvalidInput(text("fibre ", entry.first, " of the label image is not in its FibreTable"));
     }

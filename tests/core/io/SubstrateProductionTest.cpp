@@ -169,6 +169,52 @@ TEST_F(Production, WritesTheFilesOfTheStagesOnSeveralThreads)
   }
 }
 
+TEST_F(Production, MakesASampleAmongAllFibres)
+{
+  this->Order.format = SubstrateFormat::Surfaces;
+  const auto surfacesIn = [&](const std::string& name)
+  {
+    auto files = filesIn(this->folder(name));
+    for (auto file = files.begin(); file != files.end();)
+    {
+      file = file->first.find(".ply") != std::string::npos ? std::next(file) : files.erase(file);
+    }
+    return files;
+  };
+  this->Order.growth.surfaceTolerance = 0.02; // so that none has to be moved to keep off another
+  this->produce("whole");
+  const auto whole = surfacesIn("whole");
+  ASSERT_EQ(whole.size(), 6u);
+  std::map<std::string, std::string> before;
+  bool isPart = false;
+  for (const double part : { 1e-4, 0.3, 0.6, 0.9999 })
+  {
+    this->Order.sampledFraction = part;
+    const ProducedSubstrate produced = this->produce("sample");
+    EXPECT_TRUE(produced.written.certificate.certified());
+    const auto sample = surfacesIn("sample");
+    EXPECT_EQ(sample.size(), 2 * produced.fibres.size());
+    EXPECT_TRUE(std::includes(whole.begin(), whole.end(), sample.begin(), sample.end())) << "as they are in the whole";
+    EXPECT_TRUE(std::includes(sample.begin(), sample.end(), before.begin(), before.end())) << "more hold fewer";
+    const std::string readme = filesIn(this->folder("sample")).at("README.txt");
+    EXPECT_EQ(readme.find("A sample, " + std::to_string(produced.fibres.size()) + " of the 3 fibres") == 0, sample.size() < 6);
+    isPart = isPart || sample.size() < 6;
+    before = sample;
+  }
+  EXPECT_TRUE(isPart);
+
+  this->Order.sampledFraction = 0.5;
+  this->Order.surfaces.model = GRatioModel::TargetAxonVolumeFraction;
+  EXPECT_THROW(this->produce("refused"), InvalidInput);
+  this->Order.surfaces.model = GRatioModel::Constant;
+  this->Order.format = SubstrateFormat::Mcdc;
+  EXPECT_THROW(this->produce("refused"), InvalidInput);
+  this->Order.sampledFraction = 0.0;
+  EXPECT_THROW(this->produce("refused"), InvalidInput);
+  EXPECT_FALSE(fs::exists(this->folder("refused")));
+  EXPECT_FALSE(fs::exists(this->folder("refused.work")));
+}
+
 TEST_F(Production, GoesOnWhereItWasKilled)
 {
   for (const auto model : { GRatioModel::Constant, GRatioModel::TargetAxonVolumeFraction })
