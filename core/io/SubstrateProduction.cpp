@@ -32,7 +32,8 @@ namespace
 constexpr double growthSolved = 0.03;
 constexpr double surfacesMade = 0.85;
 
-/// Tiles of the label image that are kept for each thread: 128 MB.
+/// Tiles of the label image that are kept: 1 GB in all processes together, but 128 MB for each thread at least.
+constexpr std::size_t tilesTogether = 32768;
 constexpr std::size_t tilesPerThread = 4096;
 
 template <typename Value>
@@ -168,8 +169,9 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const F
   const Context solving = partOf(context, 0.0, growthSolved, pace);
   const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving, sharing);
   const double growth = growthFor(aimed, order.growth, solving, sharing);
-  const auto tiles =
-    std::make_shared<GrownTiles>(aimed, order.growth, growth, tilesPerThread * std::size_t(context.threadCount()));
+  const std::size_t kept =
+    std::max(tilesTogether / std::size_t(sharing.size()), tilesPerThread * std::size_t(context.threadCount()));
+  auto tiles = std::make_shared<GrownTiles>(aimed, order.growth, growth, kept);
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
@@ -183,6 +185,7 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const F
     result.remarks = notAsAsked(maker.fibres(), spacing, facts);
     addMadeSurfaces(maker.fibres(), spool.outer(), spool.inner(), order.growth.minimumGap, contents);
   }
+  tiles.reset();
   contents.domain = fibres.domain;
   contents.fibres = &made;
   if (facts.isSample)

@@ -274,10 +274,13 @@ double FibreField::atSample(std::int32_t fibre, int i, int j, int k) const
   return this->field(held, fibre, held.grid.index(i, j, k), i, j, k);
 }
 
-void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, float* out) const
+LabelImageView FibreField::samplesFor(const NodeRange& range, LabelBuffer& buffer) const
 {
-  thread_local LabelBuffer buffer;
-  const LabelImageView held = this->samplesAt(range, farthestNeighbour, buffer);
+  return this->samplesAt(range, farthestNeighbour, buffer);
+}
+
+void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const LabelImageView& held, float* out) const
+{
   const SampleRow row = this->Samples.rowOf(range);
   const auto gap = static_cast<float>(held.gap);
   const float outside = -0.5f * gap;

@@ -73,8 +73,11 @@ public:
 
   /// The field of a fibre at a sample of the image.
   double atSample(std::int32_t fibre, int i, int j, int k) const;
-  /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside.
-  void atNodes(std::int32_t fibre, const NodeRange& range, float* out) const;
+  /// The image as far around a range of nodes as atNodes() looks.
+  LabelImageView samplesFor(const NodeRange& range, LabelBuffer& buffer) const;
+  /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside. held: samplesFor()
+  /// the range.
+  void atNodes(std::int32_t fibre, const NodeRange& range, const LabelImageView& held, float* out) const;
   /// Where node 0 would be if it were as far from the first sample as that from the next, µm.
   Eigen::Vector3d firstNode() const;
 

@@ -184,7 +184,8 @@ FibreImage fibreImage(
       " samples"),
     "choose a larger VoxelSize in FibreRadialGrowth, fewer fibres at once, or fewer threads");
   std::vector<float> held(samples.size());
-  field.atNodes(fibre, samples, held.data());
+  LabelBuffer buffer;
+  field.atNodes(fibre, samples, field.samplesFor(samples, buffer), held.data());
   fill(held, samples, faces, level, image);
   return image;
 }

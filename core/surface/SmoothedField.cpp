@@ -18,10 +18,10 @@ namespace cactus
 namespace
 {
 
-/// Up to so many passes each block is smoothed by itself; with more, cubes of so many blocks along each edge are, since blocks
-/// that are smoothed together share the nodes around them, of which many passes need many.
-constexpr int fewPasses = 8;
+/// So many blocks in a row along the fibre are smoothed together, since they share the nodes around them; with more than so many
+/// passes, which need many of these, cubes of so many along each edge are.
 constexpr int blocksTogether = 4;
+constexpr int fewPasses = 8;
 
 /// Four floats as they lie in memory.
 inline FourFloats fourAt(const float* from)
@@ -112,13 +112,13 @@ SmoothedField::SmoothedField(
   , FirstNode(field.firstNode())
   , NodesPerLength(1.0 / field.grid().spacing)
 {
-  for (const std::vector<Piece>& together : this->layOut(passes > fewPasses ? blocksTogether : 1))
+  for (const std::vector<Piece>& together : this->layOut(passes > fewPasses))
   {
     this->smooth(field, together, passes, thin);
   }
 }
 
-std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(int edge)
+std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCubes)
 {
   std::vector<Index> at;
   Index last{ { 0, 0, 0 } };
@@ -140,12 +140,14 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(int edge)
     this->Cells[axis] = this->Lattice.cells(int(axis));
   }
   this->Places.assign(std::size_t(this->Count[0]) * std::size_t(this->Count[1]) * std::size_t(this->Count[2]), -1);
+  const std::size_t longest = std::size_t(std::max_element(this->Count.begin(), this->Count.end()) - this->Count.begin());
+  const auto edge = [&](std::size_t axis) { return inCubes || axis == longest ? blocksTogether : 1; };
   std::map<Index, std::vector<Piece>> groups;
   std::ptrdiff_t place = 0;
   for (std::size_t b = 0; b < at.size(); ++b)
   {
     const Piece piece{ nodesOfBlock(this->Lattice, this->Blocks[b]).widened(1), place };
-    groups[{ { at[b][0] / edge, at[b][1] / edge, at[b][2] / edge } }].push_back(piece);
+    groups[{ { at[b][0] / edge(0), at[b][1] / edge(1), at[b][2] / edge(2) } }].push_back(piece);
     this->Places[std::size_t(this->placeOf(at[b]))] = place;
     place += std::ptrdiff_t(piece.range.size());
   }
@@ -178,10 +180,12 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
     range.count[axis] = end - first + 2 * reach;
   }
   std::vector<float> buffer(range.size());
-  field.atNodes(this->Fibre, range, buffer.data());
+  thread_local LabelBuffer samples;
+  const LabelImageView held = field.samplesFor(range, samples);
+  field.atNodes(this->Fibre, range, held, buffer.data());
   copyPieces(buffer, range, pieces, this->Unsmoothed);
   std::vector<float> part(thin != nullptr && passes > 0 ? range.size() : 0);
-  const bool isUniform = part.empty() || !thin->smoothingAt(range, part.data());
+  const bool isUniform = part.empty() || !thin->smoothingAt(range, held, part.data());
   // Each pass leaves one node less on every side. Strides stay.
   const std::size_t rowLength(range.count[0]);
   std::vector<float> before(range.size());

@@ -55,9 +55,8 @@ private:
     NodeRange range;
     std::ptrdiff_t place;
   };
-  /// Finds room for all blocks, and puts those together that are smoothed together: those of a cube of so many
-  /// blocks along each edge.
-  std::vector<std::vector<Piece>> layOut(int edge);
+  /// Finds room for all blocks, and puts those together that are smoothed together.
+  std::vector<std::vector<Piece>> layOut(bool inCubes);
   /// Fills Values and Unsmoothed for some blocks.
   void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
   /// Copies what is held of some blocks out of a larger range.

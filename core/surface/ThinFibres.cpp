@@ -32,10 +32,8 @@ ThinFibres::ThinFibres(const FibreField& field, const FoundFibres& fibres)
   }
 }
 
-bool ThinFibres::smoothingInside(const NodeRange& range, float* out) const
+bool ThinFibres::smoothingInside(const NodeRange& range, const LabelImageView& held, float* out) const
 {
-  thread_local LabelBuffer buffer;
-  const LabelImageView held = this->Field.samplesAt(range, 0, buffer);
   const SampleBox& samples = this->Field.samples();
   const SampleRow row = samples.rowOf(range);
   bool any = false;
@@ -64,10 +62,10 @@ bool ThinFibres::smoothingInside(const NodeRange& range, float* out) const
   return any;
 }
 
-bool ThinFibres::smoothingAt(const NodeRange& range, float* out) const
+bool ThinFibres::smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const
 {
   std::vector<float> inside(this->Smoothing.empty() ? 0 : range.size());
-  if (inside.empty() || !this->smoothingInside(range, inside.data()))
+  if (inside.empty() || !this->smoothingInside(range, held, inside.data()))
   {
     return false;
   }

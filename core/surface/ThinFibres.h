@@ -20,12 +20,12 @@ public:
   ThinFibres(const FibreField& field, const FoundFibres& fibres);
 
   /// How much of each pass of smoothing the nodes get that have a node before and behind in the range, from 0 to 1, which is the
-  /// same for the fields of all fibres. False if that is 1 everywhere; then `out` is not written.
-  bool smoothingAt(const NodeRange& range, float* out) const;
+  /// same for the fields of all fibres. False if that is 1 everywhere; then `out` is not written. held: the image there.
+  bool smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const;
 
 private:
   /// Of each node by itself, whatever is beside it; 2 outside all fibres. False if there is no thin fibre.
-  bool smoothingInside(const NodeRange& range, float* out) const;
+  bool smoothingInside(const NodeRange& range, const LabelImageView& held, float* out) const;
 
   const FibreField& Field;
   std::unordered_map<std::int32_t, float> Smoothing; ///< of thin fibres, below 1

@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "602e73a234d48cb49cdfe6c32070c5e6ecb10e2da2c8737e2484c464434ef27b",
-           "1e5c45842eb0bba9c4a938a60ec08fcdac2a1ca585fb6093ad5b1e6ed07faeae" },
-         Known{ 20, "035c56aa038bc73d02cd6dd2256a996aa0fd5a875e6e483b62cc9f0dc990cf83",
-           "1cc45bfc0c56eef8468e3b869005135014a8474cf82fa2f12f66ca0dc31d55ac" },
-         Known{ 38, "7d0ef264d9a7e1a848a9f2bf7067f8136eb607efb0aa4c91f64fac4249e54032",
-           "084e6118d9cd3815ab41711e7d12d62a249a8630f407ebd3d556557d01fe8f51" },
+         Known{ 1, "5ba2b374e00a0e804dfd26ab059d29572c4c9a6108de262a1be2f9f7230f1ea9",
+           "1483540a4867077e4301bc3cb351bce1137f47cb982e3bbfb009e132c81aafe0" },
+         Known{ 20, "a050ffdfa0dcdda67878b3c2c5eb140411545e2408269dc8470565f79f734037",
+           "ccea80f1e18bc686082838934060c48bd7bbca9f1b7cb5bb0d13f435e7dc4d65" },
+         Known{ 38, "ed3eaf3c88314dc59ec4d13100f4dcdfaa0476ea3a0badefa270f3fd5f292f71",
+           "9ce1c837e3f88be728ce710372069ae16c8f572b36a72c78c5dc35aee6dfcf85" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
