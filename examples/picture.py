@@ -68,9 +68,15 @@ def white_view(width, height):
 def section_view(layers, window, pixels, normal=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0)):
     """The cut through the origin across `normal` (a unit vector), in a square of `window` µm. `layers` are (surfaces, colour), each drawn
     over those before it; what none of them covers is white."""
+    filled = [(_filled_cut(surfaces, normal, lift=0.01 * window * i), colour) for i, (surfaces, colour) in enumerate(layers)]
+    return flat_view(filled, window, pixels, normal, up)
+
+
+def flat_view(layers, window, pixels, normal=(0.0, 0.0, 1.0), up=(0.0, 1.0, 0.0)):
+    """The same of what is flat already: `layers` are (polygons, colour)."""
     view = white_view(pixels, pixels)
-    for i, (surfaces, colour) in enumerate(layers):
-        show(_filled_cut(surfaces, normal, lift=0.01 * window * i), view, colour, flat=True)
+    for polygons, colour in layers:
+        show(polygons, view, colour, flat=True)
     view.CameraParallelProjection = 1
     view.CameraPosition = [2.0 * window * part for part in normal]
     view.CameraFocalPoint = [0.0, 0.0, 0.0]
@@ -101,11 +107,12 @@ def below(surfaces, height):
     return clipped
 
 
-def draw_substrate(outer, inner, side, filename, pixels=900):
+def draw_substrate(outer, inner, side, filename, pixels=900, flat=()):
     """Writes a PNG, 2 × `pixels` wide: left the cut at z = 0 (axon blue, myelin red, extra-axonal space white), right the fibres, of
-    which the axons stand out of the myelin at the top. `outer` and `inner` (or None) are pipeline ports, `side` the domain's side in µm."""
+    which the axons stand out of the myelin at the top. `outer` and `inner` (or None) are pipeline ports, `side` the domain's side in µm.
+    `flat` is the cut where that is at hand, as (polygons, colour)."""
     axons = [] if inner is None else [(inner, AXON)]
-    cut = section_view([(outer, MYELIN), *axons], 1.02 * side, pixels)
+    cut = flat_view(flat, 1.02 * side, pixels) if flat else section_view([(outer, MYELIN), *axons], 1.02 * side, pixels)
     solid = solid_view([(below(outer, 0.22 * side), MYELIN), *axons], side, pixels)
     layout = simple.CreateLayout("Substrate")
     simple.AssignViewToLayout(view=cut, layout=layout, hint=0)

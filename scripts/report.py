@@ -13,19 +13,24 @@ import sys
 import tempfile
 
 from paraview import servermanager, simple
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
+from preview import SAYS_OF_FORMAT, cuts_through, middle_of, surface_files, tubes
 from report_page import page
 from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.append(os.path.join(ROOT, "examples"))
-from picture import draw_substrate, moved  # noqa: E402  (which is no room of scripts)
+from picture import AXON, MYELIN, draw_substrate, moved  # noqa: E402  (which is no room of scripts)
 
 OUTER, INNER, ASKED = "#c8553d", "#1b6ca8", "#222222"
+# Triangles of all surfaces up to which they are drawn as they are, and of the tubes that stand for more of them.
+MOST_DRAWN = 10_000_000
+MOST_OF_TUBES = 1_000_000
 # How a page of ours begins, so that an earlier one may be replaced, and nothing else.
 MARK = '<meta name="generator" content="CACTUS report">'
 
@@ -84,33 +89,50 @@ def mean_dispersion(fibres):
 def surfaces(folder, manifest, kind):
     """All surfaces of a kind as one source, moved so that the domain's middle is the origin; None where there are none."""
     together = vtkAppendPolyData()
-    count = 0
-    for entry in manifest["files"]:
-        path = os.path.join(folder, entry["path"])
-        if entry["surface"] == kind and entry["path"] in manifest["sha256"] and os.path.isfile(path):
-            reader = vtkPLYReader()
-            reader.SetFileName(path)
-            reader.Update()
-            together.AddInputData(reader.GetOutput())
-            count += 1
-    if count == 0:
-        return None
-    domain = manifest["domain"]
-    return moved(together, [-0.5 * (domain[2 * axis] + domain[2 * axis + 1]) for axis in range(3)])
+    paths = [path for entry, path in surface_files(folder, manifest) if entry["surface"] == kind]
+    for path in paths:
+        reader = vtkPLYReader()
+        reader.SetFileName(path)
+        reader.Update()
+        together.AddInputData(reader.GetOutput())
+    return moved(together, [-middle for middle in middle_of(manifest)]) if paths else None
+
+
+def in_middle(polygons, manifest, lift=0.0):
+    """The same as a source, with the domain's middle in the origin, and lifted along z (µm)."""
+    source = vtkTrivialProducer()
+    source.SetOutput(polygons)
+    back = [-middle for middle in middle_of(manifest)]
+    return moved(source, [back[0], back[1], back[2] + lift])
+
+
+def drawn(folder, manifest, side, path):
+    """Draws the surfaces, or of very many a cut through them beside tubes. False where there is nothing to draw."""
+    if manifest["triangles"] <= MOST_DRAWN:
+        outer, inner = surfaces(folder, manifest, "outer"), surfaces(folder, manifest, "inner")
+        if outer is None:
+            return False
+        draw_substrate(outer, inner, side, path, pixels=700)
+        return True
+    cut, fibres = cuts_through(folder, manifest, "z")["z"], tubes(folder, MOST_OF_TUBES)
+    if "outer" not in cut or fibres is None:
+        return False
+    layers = [(in_middle(cut[kind], manifest, lift), colour)
+              for kind, lift, colour in (("outer", 0.0, MYELIN), ("inner", 0.01 * side, AXON)) if kind in cut]
+    draw_substrate(in_middle(fibres, manifest), None, side, path, pixels=700, flat=layers)
+    return True
 
 
 def picture(folder, manifest):
     """A cut and a view in three dimensions, as the data URI of a PNG; or None, and why."""
-    if manifest.get("simulator", "MC/DC") not in ("MC/DC", "Reference program"):
-        return None, f"No picture: the surfaces of a folder for {manifest['simulator']} are in one file, in metres."
-    outer, inner = surfaces(folder, manifest, "outer"), surfaces(folder, manifest, "inner")
-    if outer is None:
-        return None, "No picture: there are no outer surfaces."
+    if manifest.get("simulator") in ("Camino", "Disimpy"):
+        return None, f"No picture: {SAYS_OF_FORMAT.format(manifest['simulator'])}."
     domain = manifest["domain"]
     side = max(domain[2 * axis + 1] - domain[2 * axis] for axis in range(3))
     with tempfile.TemporaryDirectory(prefix="cactus-report-") as scratch:
         path = os.path.join(scratch, "substrate.png")
-        draw_substrate(outer, inner, side, path, pixels=700)
+        if not drawn(folder, manifest, side, path):
+            return None, "No picture: there are no outer surfaces, or of very many no centre lines to draw in their place."
         with open(path, "rb") as file:
             return data_uri("image/png", file.read()), ""
 
@@ -167,7 +189,7 @@ def gathered(folder, manifest_file, with_pictures):
     with open(manifest_file, "rb") as file:
         content = file.read()
     return {
-        "title": f"Substrate {name}", "certified": bool(manifest["certified"]), "judged": manifest["judged"], "faults": manifest["faults"],
+        "title": f"Substrate {name}", "certified": bool(manifest["certified"]), "sample_of": manifest.get("sample_of_fibres"), "judged": manifest["judged"], "faults": manifest["faults"],
         "changed": changed_files(folder, manifest),
         "rows": asked_and_reached(manifest, certificate, fibres, mean_dispersion(lines) if lines is not None else None),
         "picture": shown, "no_picture": why, "charts": drawn, "notes": notes, "stages": manifest["provenance"],

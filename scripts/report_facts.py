@@ -81,8 +81,10 @@ def asked_and_reached(manifest, certificate, fibres, dispersion):
     axons = fraction * g * g if fraction is not None and g is not None else None
     axons = only(values.get("TargetAxonVolumeFraction") for values in stages_of(manifest, *COATING)
                  if values.get("GRatioModel") == "TargetAxonVolumeFraction") or axons
+    if manifest.get("sample_of_fibres"):
+        fraction = axons = None  # of all fibres
     rows = [
-        ("fibres", None, float(len(fibres))),
+        ("fibres", manifest.get("sample_of_fibres"), float(len(fibres))),
         ("fibre volume fraction (FVF)", fraction, certificate.get("FVF")),
         ("axon volume fraction (AVF)", axons, certificate.get("AVF")),
         ("myelin volume fraction (MVF)", fraction - axons if axons is not None and fraction is not None else None, certificate.get("MVF")),

@@ -32,7 +32,8 @@ def _verdict(report):
     judged = " and ".join(report["judged"]) or "no"
     if report["certified"]:
         without = "" if "inner" in report["judged"] else " There are no inner surfaces."
-        return "good", f"CERTIFIED: every surface is closed, no two meet, and no walker can leak ({judged} surfaces judged).{without}"
+        sample = f" This is a sample of {report['sample_of']} fibres, the others of which have no surfaces here." if report["sample_of"] else ""
+        return "good", f"CERTIFIED: every surface is closed, no two meet, and no walker can leak ({judged} surfaces judged).{without}{sample}"
     return "bad", f"NOT CERTIFIED ({judged} surfaces judged): " + ("; ".join(report["faults"]) or "no reason is given")
 
 
@@ -52,7 +53,7 @@ def _stage(stage):
 
 def page(report):
     """The HTML of a report: title, certified, judged, faults, changed, rows, picture (a data URI, or None with no_picture saying why), charts
-    (SVG texts), stages, versions, again (commands), manifest (a data URI), citation (text and link)."""
+    (SVG texts), sample_of (fibres, or None), stages, versions, again (commands), manifest (a data URI), citation (text and link)."""
     kind, verdict = _verdict(report)
     picture = (f'<img alt="Left: a cut across the substrate. Right: the fibres, with axons that stand out of their myelin." src="{report["picture"]}">'
                if report["picture"] else f"<p>{html.escape(report['no_picture'])}</p>")

@@ -146,6 +146,17 @@ class Report(CactusTestCase):
         low, high = reader.GetOutput().GetPointData().GetScalars().GetRange()
         self.assertLess(low + 100, high)  # something is drawn
 
+    def test_a_sample(self):
+        folder = os.path.join(self.folder, "sample")
+        fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=5, MinimumRadius=0.3)), 0)
+        simple.SubstrateProduction(Input=fibres, FolderName=folder, Format="Surfaces alone", SampledFraction=0.5, VoxelSize=0.15).UpdatePipeline()
+        page = Page(self.made(folder))
+        self.assertRegex(page.verdict, r"^CERTIFIED.* This is a sample of \d+ fibres, the others of which have no surfaces here\.$")
+        rows = {row[0]: row[1:] for row in page.rows}
+        self.assertLess(float(rows["fibres"][1]), float(rows["fibres"][0]))
+        self.assertEqual(rows["fibre volume fraction (FVF)"][0], "–")
+        self.check_picture(next(address for tag, address in page.addresses if tag == "img"))
+
     def test_what_was_changed_is_said_first(self):
         folder = self.copied()
         with open(os.path.join(folder, "outer", "fibre_00001.ply"), "a", encoding="utf-8") as file:
