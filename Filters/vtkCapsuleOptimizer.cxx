@@ -214,16 +214,7 @@ void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs)
 {
   cactus::RankTeam ranks;
   const cactus::Sharing sharing(&ranks);
-  bool isKnown = this->IsRunKnown(inputs);
-  sharing.together(
-    [&]
-    {
-      for (const std::string& told : sharing.exchange(isKnown ? "1" : "0"))
-      {
-        isKnown = isKnown && told == "1";
-      }
-    });
-  if (!isKnown)
+  if (!sharing.isEverywhere(this->IsRunKnown(inputs)))
   {
     this->LastRun.reset();
     auto run = std::make_unique<Run>();

@@ -54,12 +54,12 @@ int vtkSubstrateProduction::ComputePipelineMTime(
 
 int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  return cactus::guarded(this,
+  cactus::RankTeam ranks;
+  const cactus::Sharing sharing(&ranks);
+  return cactus::guarded(this, sharing,
     [&]
     {
-      cactus::RankTeam ranks;
-      const cactus::Sharing sharing(&ranks);
-      if (!this->Kept.isWritten(this))
+      if (!sharing.isEverywhere(this->Kept.isWritten(this)))
       {
         sharing.together([this] { this->Produce(); });
         this->Kept.noteWritten(this, cactus::changeTime(this->GetInputDataObject(0, 0)));

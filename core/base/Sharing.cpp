@@ -160,6 +160,20 @@ std::string Sharing::fromFirst(const std::string& bytes) const
   return this->exchange(this->isFirst() ? bytes : "").front();
 }
 
+bool Sharing::isEverywhere(bool isHere) const
+{
+  bool isThere = isHere;
+  this->together(
+    [&]
+    {
+      for (const std::string& told : this->exchange(isHere ? "1" : "0"))
+      {
+        isThere = isThere && told == "1";
+      }
+    });
+  return isThere;
+}
+
 void Sharing::addUp(std::vector<std::uint64_t>& counts) const
 {
   if (this->Members == nullptr)

@@ -42,6 +42,8 @@ public:
   /// Runs what is shared, and ends it alike on all: where it throws on one of them, the first throws that, with the number of the
   /// process, and the others ReportedElsewhere. Of several errors, that of the first process; being stopped comes last.
   void together(const std::function<void()>& work) const;
+  /// Whether something that each process knows of itself is so in all of them.
+  bool isEverywhere(bool isHere) const;
 
   // The rest is for such work.
 

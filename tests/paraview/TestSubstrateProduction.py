@@ -35,6 +35,39 @@ print("peak", [line for line in open("/proc/self/status") if line.startswith("Vm
 """
 
 
+# A stage before it fails on one rank, and then on none.
+FAULT = """
+import sys
+from paraview import servermanager
+from paraview.simple import *
+CHANGE = '''
+from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+output = self.GetPolyDataOutput()
+output.ShallowCopy(self.GetPolyDataInput())
+if IS_BAD and vtkMultiProcessController.GetGlobalController().GetLocalProcessId() == 1:
+    mark = vtkStringArray()
+    mark.SetName("Error")
+    mark.InsertNextValue("no such file on this machine")
+    output.Initialize()
+    output.GetFieldData().AddArray(mark)
+'''
+fibres = CapsuleOptimizer(Input=BundleInitializer(Side=float(sys.argv[1]), GrownFibreVolumeFraction=0.85))
+changed = ProgrammableFilter(Input=OutputPort(fibres, 0), Script="IS_BAD = True" + CHANGE)
+changed.RequestUpdateExtentScript = '''
+self.GetInputInformation().Set(self.GetExecutive().UPDATE_PIECE_NUMBER(), 0)
+self.GetInputInformation().Set(self.GetExecutive().UPDATE_NUMBER_OF_PIECES(), 1)
+'''
+made = SubstrateProduction(Input=changed, FolderName=sys.argv[2])
+made.UpdatePipeline()
+print("rank 0:", servermanager.Fetch(made, idx=0).GetFieldData().GetAbstractArray("Error").GetValue(0), flush=True)
+changed.Script = "IS_BAD = False" + CHANGE
+made.FolderName = sys.argv[2] + "-after"
+made.UpdatePipeline()
+print("files after:", servermanager.Fetch(made, idx=0).GetNumberOfRows(), flush=True)
+"""
+
+
 def rank():
     controller = vtkMultiProcessController.GetGlobalController()
     return controller.GetLocalProcessId() if controller else 0
@@ -176,6 +209,14 @@ class SubstrateProductionTest(CactusTestCase):
             said = process.stdout.read()
         self.assertEqual(said.count("is more than the room"), 1, said)
         self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("refused")], [])
+
+    @unittest.skipIf(ranks() > 1, "starts processes of its own")
+    def test_a_fault_before_one_rank_ends_all(self):
+        folder = os.path.join(self.folder, "fault")
+        with self.on_ranks(2, folder, FAULT) as process:
+            said = process.stdout.read()
+        self.assertRegex(said, r"(?m)^rank 0: no such file on this machine$", said)
+        self.assertRegex(said, r"(?m)^files after: [1-9]", said)
 
     @unittest.skipIf(ranks() > 1, "starts processes of its own")
     def test_goes_on_after_it_was_killed(self):
