@@ -12,12 +12,17 @@ import sys
 from paraview import servermanager, simple
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkLogger, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPlane, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCutter, vtkTubeFilter
 from vtkmodules.vtkFiltersGeneral import vtkContourTriangulator
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter
 
 from substrate_folder import Refusal, ended, manifest_path, read_manifest, read_rows
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.append(os.path.join(ROOT, "examples"))
+from picture import moved  # noqa: E402  (which is no room of scripts)
 
 AXES = "xyz"
 TUBE_SIDES = 8
@@ -39,6 +44,14 @@ def surface_files(folder, manifest):
         if entry["path"] in manifest["sha256"] and os.path.isfile(path):
             found.append((entry, path))
     return found
+
+
+def in_middle(polygons, manifest, lift=0.0):
+    """The same as a source, with the domain's middle in the origin, and lifted along z (µm)."""
+    source = vtkTrivialProducer()
+    source.SetOutput(polygons)
+    back = [-middle for middle in middle_of(manifest)]
+    return moved(source, [back[0], back[1], back[2] + lift])
 
 
 def with_numbers(data, **numbers):

@@ -13,13 +13,12 @@ import sys
 import tempfile
 
 from paraview import servermanager, simple
-from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
-from preview import SAYS_OF_FORMAT, cuts_through, middle_of, surface_files, tubes
+from preview import SAYS_OF_FORMAT, cuts_through, in_middle, middle_of, surface_files, tubes
 from report_page import page
 from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
 
@@ -96,14 +95,6 @@ def surfaces(folder, manifest, kind):
         reader.Update()
         together.AddInputData(reader.GetOutput())
     return moved(together, [-middle for middle in middle_of(manifest)]) if paths else None
-
-
-def in_middle(polygons, manifest, lift=0.0):
-    """The same as a source, with the domain's middle in the origin, and lifted along z (µm)."""
-    source = vtkTrivialProducer()
-    source.SetOutput(polygons)
-    back = [-middle for middle in middle_of(manifest)]
-    return moved(source, [back[0], back[1], back[2] + lift])
 
 
 def drawn(folder, manifest, side, path):

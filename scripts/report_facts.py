@@ -56,6 +56,19 @@ class AskedRadii:
         return math.fsum(radius * weight for radius, weight in self.density) / math.fsum(weight for _, weight in self.density)
 
 
+def ks_distance(radii, density):
+    """Kolmogorov-Smirnov distance of radii to the distribution that they were drawn from, [(radius, density)] at equal steps."""
+    step = density[1][0] - density[0][0]
+    below_it, largest, count = 0.0, 0.0, 0
+    radii = sorted(radii)
+    for radius, weight in density:
+        below_it += weight * step
+        while count < len(radii) and radii[count] <= radius + step / 2:
+            count += 1
+        largest = max(largest, abs(count / len(radii) - below_it))
+    return largest
+
+
 def asked_fraction(manifest):
     """The fibre volume fraction that growth was to reach; None where it grew by steps."""
     growth = only(stages_of(manifest, *GROWING))
