@@ -168,7 +168,7 @@ class Command(unittest.TestCase):
             ('{"MyelinSurface": {"GRatio": 0.7, "GRatio": 0.6}}', r'"GRatio" stands twice'),
             ('{"MyelinSurface": {"GRatio": 0.7},\n}', r"it is no JSON: parse error at line 2"),
             ('{"MyelinSurface": {"GRatio": 1e999}}', r"it is no JSON: number overflow"),
-            (100 * "[", r"nested more deeply"),
+            (300 * "[", r"nested more deeply"),
             ("[]", r"it is no recipe"),
             ("", r"it is no JSON"),
             ({"provenance": ["BundleInitializer 0.1.0: Side=5"]}, r"in words only"),
