@@ -257,6 +257,7 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
         "Part of the fibres whose surfaces are made, drawn at random by Seed, in place among all the others; 1: all. For Format "
         "Surfaces alone")
+      .where("Format", { 5 })
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;
