@@ -15,21 +15,18 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path += [os.path.join(ROOT, "examples", "figures"), os.path.join(ROOT, "scripts")]
 from paper_figure import pyplot  # noqa: E402  (sets the look of all figures)
-from preview import cuts_through, in_middle  # noqa: E402
+from preview import drawn_cut  # noqa: E402
 from report_facts import AskedRadii, ks_distance, mean  # noqa: E402
 from substrate_folder import ended, manifest_path, read_manifest, read_quantities, read_rows  # noqa: E402
 from paraview import simple  # noqa: E402
-from picture import AXON, MYELIN, flat_view  # noqa: E402  (after paper_figure, which names its folder)
+from picture import flat_view  # noqa: E402  (after paper_figure, which names its folder)
 
 PIXELS = 1000
 
 
 def cut_image(folder, manifest, window):
     """The cut at the middle of z, as an array of pixels."""
-    cut = cuts_through(folder, manifest, "z")["z"]
-    layers = [(in_middle(cut[kind], manifest, lift), colour)
-              for kind, lift, colour in (("outer", 0.0, MYELIN), ("inner", 0.01 * window, AXON)) if kind in cut]
-    view = flat_view(layers, window, PIXELS)
+    view = flat_view(drawn_cut(folder, manifest, window), window, PIXELS)
     with tempfile.TemporaryDirectory() as scratch:
         path = os.path.join(scratch, "cut.png")
         simple.SaveScreenshot(path, view, ImageResolution=[PIXELS, PIXELS])

@@ -22,7 +22,7 @@ from substrate_folder import Refusal, ended, manifest_path, read_manifest, read_
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.append(os.path.join(ROOT, "examples"))
-from picture import moved  # noqa: E402  (which is no room of scripts)
+from picture import AXON, MYELIN, moved  # noqa: E402  (which is no room of scripts)
 
 AXES = "xyz"
 TUBE_SIDES = 8
@@ -106,6 +106,13 @@ def cuts_through(folder, manifest, axes):
                 append.Update()
                 cuts[axis][kind] = append.GetOutput()
     return cuts
+
+
+def drawn_cut(folder, manifest, window):
+    """The cut across z as layers of (polygons, colour) about the origin, for a view of `window` µm."""
+    cut = cuts_through(folder, manifest, "z")["z"]
+    return [(in_middle(cut[kind], manifest, lift), colour)
+            for kind, lift, colour in (("outer", 0.0, MYELIN), ("inner", 0.01 * window, AXON)) if kind in cut]
 
 
 def outer_radii(folder, count):

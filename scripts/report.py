@@ -18,13 +18,13 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
-from preview import SAYS_OF_FORMAT, cuts_through, in_middle, middle_of, surface_files, tubes
+from preview import SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, surface_files, tubes
 from report_page import page
 from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.append(os.path.join(ROOT, "examples"))
-from picture import AXON, MYELIN, draw_substrate, moved  # noqa: E402  (which is no room of scripts)
+from picture import draw_substrate, moved  # noqa: E402  (which is no room of scripts)
 
 OUTER, INNER, ASKED = "#c8553d", "#1b6ca8", "#222222"
 # Triangles of all surfaces up to which they are drawn as they are, and of the tubes that stand for more of them.
@@ -105,11 +105,9 @@ def drawn(folder, manifest, side, path):
             return False
         draw_substrate(outer, inner, side, path, pixels=700)
         return True
-    cut, fibres = cuts_through(folder, manifest, "z")["z"], tubes(folder, MOST_OF_TUBES)
-    if "outer" not in cut or fibres is None:
+    layers, fibres = drawn_cut(folder, manifest, side), tubes(folder, MOST_OF_TUBES)
+    if not layers or fibres is None:
         return False
-    layers = [(in_middle(cut[kind], manifest, lift), colour)
-              for kind, lift, colour in (("outer", 0.0, MYELIN), ("inner", 0.01 * side, AXON)) if kind in cut]
     draw_substrate(in_middle(fibres, manifest), None, side, path, pixels=700, flat=layers)
     return True
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/FibreOrder.h"
 
+#include "fibres/SelectFibres.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -66,20 +68,7 @@ FibreOrder::FibreOrder(const Fibres& fibres)
 
 Fibres FibreOrder::ordered(const Fibres& fibres) const
 {
-  Fibres result;
-  result.domain = fibres.domain;
-  result.grownFraction = fibres.grownFraction;
-  result.points.reserve(fibres.points.size());
-  result.radii.reserve(fibres.points.size());
-  for (const std::size_t f : this->Order)
-  {
-    result.addFibre(fibres.fibreIds[f], fibres.bundleIds[f], fibres.targetRadii[f]);
-    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
-    {
-      result.addPoint(fibres.points[i], fibres.radii[i]);
-    }
-  }
-  return result;
+  return selectFibres(fibres, this->Order);
 }
 
 } // namespace cactus

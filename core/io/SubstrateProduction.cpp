@@ -6,6 +6,7 @@
 #include "base/Pace.h"
 #include "base/Random.h"
 #include "base/Sha256.h"
+#include "fibres/SelectFibres.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrownTiles.h"
 #include "growth/GrowthTarget.h"
@@ -102,21 +103,15 @@ Fibres madeOf(const Fibres& fibres, const ProductionOrder& order)
     numbers.push_back(uniform(engine));
   }
   const double most = std::max(order.sampledFraction, *std::min_element(numbers.begin(), numbers.end()));
-  Fibres made;
-  made.domain = fibres.domain;
-  made.grownFraction = fibres.grownFraction;
+  std::vector<std::size_t> drawn;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     if (numbers[f] <= most)
     {
-      made.addFibre(fibres.fibreIds[f], fibres.bundleIds[f], fibres.targetRadii[f]);
-      for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
-      {
-        made.addPoint(fibres.points[p], fibres.radii[p]);
-      }
+      drawn.push_back(f);
     }
   }
-  return made;
+  return selectFibres(fibres, drawn);
 }
 
 std::unique_ptr<SurfaceSpool> openSpool(

@@ -2,10 +2,13 @@
 #include "optimiser/FibreShares.h"
 
 #include "base/Error.h"
+#include "fibres/SelectFibres.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace cactus
 {
@@ -46,21 +49,9 @@ Fibres FibreShares::own(Fibres all) const
   {
     return all;
   }
-  Fibres part;
-  part.domain = all.domain;
-  part.grownFraction = all.grownFraction;
-  const std::size_t end = this->fibreBegin(this->self() + 1);
-  part.points.reserve(all.offsets[end] - this->ownPoint());
-  part.radii.reserve(all.offsets[end] - this->ownPoint());
-  for (std::size_t f = this->ownFibre(); f < end; ++f)
-  {
-    part.addFibre(all.fibreIds[f], all.bundleIds[f], all.targetRadii[f]);
-    for (std::size_t i = all.offsets[f]; i < all.offsets[f + 1]; ++i)
-    {
-      part.addPoint(all.points[i], all.radii[i]);
-    }
-  }
-  return part;
+  std::vector<std::size_t> own(this->fibreBegin(this->self() + 1) - this->ownFibre());
+  std::iota(own.begin(), own.end(), this->ownFibre());
+  return selectFibres(all, own);
 }
 
 } // namespace cactus

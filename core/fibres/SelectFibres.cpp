@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibres/SelectFibres.h"
+
+namespace cactus
+{
+
+Fibres selectFibres(const Fibres& fibres, const std::vector<std::size_t>& which)
+{
+  Fibres selected;
+  selected.domain = fibres.domain;
+  selected.grownFraction = fibres.grownFraction;
+  std::size_t points = 0;
+  for (const std::size_t f : which)
+  {
+    points += fibres.pointCount(f);
+  }
+  selected.points.reserve(points);
+  selected.radii.reserve(points);
+  for (const std::size_t f : which)
+  {
+    selected.addFibre(fibres.fibreIds[f], fibres.bundleIds[f], fibres.targetRadii[f]);
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      selected.addPoint(fibres.points[i], fibres.radii[i]);
+    }
+  }
+  return selected;
+}
+
+} // namespace cactus
