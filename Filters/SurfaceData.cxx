@@ -18,13 +18,14 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTypeInt32Array.h>
+#include <vtkTypeInt64Array.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace cactus
@@ -215,7 +216,7 @@ FibreSurfaces surfacesFrom(vtkDataObject* input, const std::string& port, int su
   return result;
 }
 
-void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output)
+void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output, std::size_t mostInShort)
 {
   std::size_t pointCount = 0;
   std::size_t triangleCount = 0;
@@ -224,48 +225,56 @@ void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* ou
     pointCount += named.mesh.points.size();
     triangleCount += named.mesh.triangles.size();
   }
-  if (std::max(pointCount, 3 * triangleCount) > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-  {
-    throw OutOfMemory(std::to_string(triangleCount) +
-                      " triangles are more than one surface can hold: choose a larger VoxelSize or "
-                      "DecimationError, or a smaller domain");
-  }
   auto place = makeArray<vtkDoubleArray>("Points", pointCount, 3);
   vtkNew<vtkPoints> points;
   points->SetData(place);
   double* coordinates = place->GetPointer(0);
-  auto offsets = makeArray<vtkTypeInt32Array>("", triangleCount + 1);
-  auto corners = makeArray<vtkTypeInt32Array>("", 3 * triangleCount);
   const vtkSmartPointer<vtkIntArray> columns[3] = { makeArray<vtkIntArray>("FibreId", triangleCount),
     makeArray<vtkIntArray>("BundleId", triangleCount), makeArray<vtkIntArray>("Surface", triangleCount) };
   vtkIdType point = 0;
   vtkIdType triangle = 0;
-  for (NamedSurface& named : surfaces)
+  const auto fill = [&](auto& offsets, auto& corners)
   {
-    const auto first = static_cast<std::int32_t>(point);
-    for (const Eigen::Vector3d& p : named.mesh.points)
+    using Index = typename std::decay_t<decltype(corners)>::ValueType;
+    for (NamedSurface& named : surfaces)
     {
-      std::copy(p.data(), p.data() + 3, coordinates + 3 * point++);
-    }
-    for (const auto& t : named.mesh.triangles)
-    {
-      for (int i = 0; i < 3; ++i)
+      const auto first = static_cast<Index>(point);
+      for (const Eigen::Vector3d& p : named.mesh.points)
       {
-        corners->SetValue(3 * triangle + i, first + t[static_cast<std::size_t>(i)]);
+        std::copy(p.data(), p.data() + 3, coordinates + 3 * point++);
       }
-      columns[0]->SetValue(triangle, named.fibreId);
-      columns[1]->SetValue(triangle, named.bundleId);
-      columns[2]->SetValue(triangle, surface);
-      ++triangle;
+      for (const auto& t : named.mesh.triangles)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          corners.SetValue(3 * triangle + i, first + t[static_cast<std::size_t>(i)]);
+        }
+        columns[0]->SetValue(triangle, named.fibreId);
+        columns[1]->SetValue(triangle, named.bundleId);
+        columns[2]->SetValue(triangle, surface);
+        ++triangle;
+      }
+      named.mesh = TriangleMesh();
     }
-    named.mesh = TriangleMesh();
-  }
-  for (vtkIdType i = 0; i <= triangle; ++i)
-  {
-    offsets->SetValue(i, static_cast<std::int32_t>(3 * i));
-  }
+    for (vtkIdType i = 0; i <= triangle; ++i)
+    {
+      offsets.SetValue(i, static_cast<Index>(3 * i));
+    }
+  };
   vtkNew<vtkCellArray> triangles;
-  triangles->SetData(offsets, corners);
+  const auto set = [&](auto offsets, auto corners)
+  {
+    fill(*offsets, *corners);
+    triangles->SetData(offsets, corners);
+  };
+  if (std::max(pointCount, 3 * triangleCount) > mostInShort)
+  {
+    set(makeArray<vtkTypeInt64Array>("", triangleCount + 1), makeArray<vtkTypeInt64Array>("", 3 * triangleCount));
+  }
+  else
+  {
+    set(makeArray<vtkTypeInt32Array>("", triangleCount + 1), makeArray<vtkTypeInt32Array>("", 3 * triangleCount));
+  }
   output->SetPoints(points);
   output->SetPolys(triangles);
   for (const auto& column : columns)

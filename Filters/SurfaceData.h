@@ -6,6 +6,9 @@
 #include "mesh/FibreSurfaces.h"
 #include "mesh/TriangleMesh.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,9 +36,10 @@ struct NamedSurface
 };
 
 /// The reverse: one vtkPolyData of all surfaces in their order, each with points of its own, with cell data `FibreId`, `BundleId`
-/// and `Surface`. Meshes are let go one by one, so that a large substrate is not held twice. Throws OutOfMemory for more points
-/// or triangles than a 32-bit index counts.
-void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output);
+/// and `Surface`. Meshes are let go one by one, so that a large substrate is not held twice. Corners are 32-bit numbers as long
+/// as there are at most `mostInShort` of them and of points, and 64-bit ones beyond.
+void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output,
+  std::size_t mostInShort = std::size_t(std::numeric_limits<std::int32_t>::max()));
 
 /// Throws InvalidInput where `surfaces` has field data Domain, and another one than `domain` to 1e-6 µm. Null is no surfaces.
 void requireSameDomain(const Domain& domain, vtkDataObject* surfaces, const std::string& port);

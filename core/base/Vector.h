@@ -80,20 +80,29 @@ CACTUS_KERNEL_INLINE Floats smaller(const Floats& x, const Floats& y)
   return x < y ? x : y;
 }
 
-CACTUS_KERNEL_INLINE bool any(const DoubleMask& mask)
+/// Writes the lanes of x that are set to `to`, in their order; may write up to a vector. Returns their number.
+CACTUS_KERNEL_INLINE std::size_t compress(const DoubleMask& mask, const Doubles& x, double* to)
 {
 #if CACTUS_DOUBLES == 8
-  return _mm512_movepi64_mask((__m512i)mask) != 0;
-#elif CACTUS_DOUBLES == 4
-  return _mm256_movemask_pd((__m256d)mask) != 0;
+  const __mmask8 set = _mm512_movepi64_mask((__m512i)mask);
+  _mm512_storeu_pd(to, _mm512_maskz_compress_pd(set, (__m512d)x));
+  return static_cast<std::size_t>(__builtin_popcount(set));
 #else
-  long long bits = 0;
+  std::size_t count = 0;
   for (int l = 0; l < width; ++l)
   {
-    bits |= mask[l];
+    to[count] = x[l];
+    count -= static_cast<std::size_t>(mask[l]);
   }
-  return bits != 0;
+  return count;
 #endif
+}
+
+CACTUS_KERNEL_INLINE Doubles load(const double* from)
+{
+  Doubles vector;
+  __builtin_memcpy(&vector, from, sizeof(vector));
+  return vector;
 }
 
 /// Lane l of columns[n] becomes number n of row l. Rows are aligned to 64 bytes.

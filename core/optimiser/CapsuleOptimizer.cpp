@@ -77,7 +77,7 @@ void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const
   double completed = 0.0;
   for (;; ++run.iteration)
   {
-    if (checkpoints.due(run))
+    if (checkpoints.due())
     {
       checkpoints.write(run);
     }

@@ -60,7 +60,6 @@ Descent::Descent(
 
 ConvergenceRow Descent::evaluate(const std::function<Moment()>& now, Moment& moment)
 {
-  this->requireFinite();
   this->refreshNeighbours();
   const Stopwatch watch;
   const OverlapParts overlap = this->Bodies.evaluate(
@@ -151,6 +150,7 @@ void Descent::step()
   {
     this->State.relaxation = std::max(1e-8, this->State.relaxation * this->Options.relaxation);
   }
+  this->requireFinite();
 }
 
 /// Steps are bounded, but quotients by the length of a segment that is next to nothing are not.
@@ -385,13 +385,9 @@ double Descent::changeRadius(std::size_t i, double change)
 
 void Descent::load(SharedCheckpointReader& file)
 {
-  this->State.load(file, this->Shares);
+  this->State.load(file);
   file.require(this->isSound());
   this->Bodies.takeAll(this->State.fibres);
-  if (!this->State.searchDue())
-  {
-    this->Bodies.numberForThis(this->State.fibres, this->State.neighbours.indices);
-  }
 }
 
 bool Descent::couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const
@@ -413,47 +409,19 @@ bool Descent::couldReach(const std::vector<Eigen::Vector3d>& points, const std::
   return good;
 }
 
-/// Whether what was loaded is a state that a descent can be in: no index in it leads out of an array, and no number is infinite
-/// or NaN.
+/// Whether what was loaded is a state that a descent can be in: no number is infinite or NaN.
 bool Descent::isSound() const
 {
   const DescentState& state = this->State;
-  const auto isLength = [](float value) { return value >= 0.0f && std::isfinite(value); };
+  const DescentEffort& effort = state.effort;
   const auto isFinite = [](double value) { return std::isfinite(value); };
   const auto all = [](const auto& values, const auto& good) { return std::all_of(values.begin(), values.end(), good); };
   const bool adagrad = this->Options.method == DescentMethod::Adagrad;
   return this->couldReach(state.fibres.points, state.fibres.radii) &&
          all(state.velocity, [&](const auto& v) { return v.allFinite() && (!adagrad || v.minCoeff() >= 0.0); }) &&
-         all(state.radiusVelocity, [&](double v) { return isFinite(v) && (!adagrad || v >= 0.0); }) &&
-         all(state.speed, isLength) && all(state.push, [](float value) { return value >= 0.0f; }) && state.relaxation > 0.0 &&
-         state.relaxation <= 1.0 && state.leastAllowance >= smallestLeastAllowance &&
-         state.leastAllowance <= largestLeastAllowance && state.stepsSinceSearch >= 0 && state.effort.neighbourSearches >= 0 &&
-         isFinite(state.effort.pairEvaluations) && isFinite(state.effort.evaluationSeconds) &&
-         isFinite(state.effort.searchSeconds) &&
-         (state.exceeded || (all(state.displacement, [](const auto& d) { return d.allFinite(); }) &&
-                              all(state.allowance, isLength) && this->areNeighboursSound()));
-}
-
-/// In the numbers of a file. Where the lists of all processes begin and end, the one that reads it has seen.
-bool Descent::areNeighboursSound() const
-{
-  const std::vector<std::size_t>& offsets = this->State.neighbours.offsets;
-  const std::vector<std::uint32_t>& indices = this->State.neighbours.indices;
-  const std::vector<std::uint32_t>& fibre = this->Bodies.all().fibre; // nothing of others is there yet
-  const std::size_t own = this->Shares.ownCapsule();
-  for (std::size_t k = 0; k < fibre.size(); ++k)
-  {
-    for (std::size_t n = offsets[k]; n < offsets[k + 1]; ++n)
-    {
-      const std::size_t other = indices[n];
-      const bool isOwn = other >= own && other < own + fibre.size();
-      if (other >= this->Shares.capsuleCount() || (isOwn && fibre[other - own] == fibre[k]))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+         all(state.radiusVelocity, [&](double v) { return isFinite(v) && (!adagrad || v >= 0.0); }) && state.relaxation > 0.0 &&
+         state.relaxation <= 1.0 && effort.neighbourSearches >= 0 && isFinite(effort.pairEvaluations) &&
+         isFinite(effort.evaluationSeconds) && isFinite(effort.searchSeconds);
 }
 
 } // namespace cactus

@@ -39,7 +39,7 @@ public:
 
   const DescentState& state() const { return this->State; }
 
-  void save(SharedCheckpointWriter& file) const { this->State.save(file, this->Bodies, this->Shares); }
+  void save(SharedCheckpointWriter& file) const { this->State.save(file); }
   /// Goes on from what was saved. Throws FileError where no descent from the fibres given can be there.
   void load(SharedCheckpointReader& file);
 
@@ -65,7 +65,6 @@ private:
   double stiffnessOfPoint(std::size_t i) const;
   double stiffnessOfThread(std::size_t i) const;
   bool isSound() const;
-  bool areNeighboursSound() const;
 
   DescentState State;
   const FibreShares& Shares;

@@ -4,7 +4,6 @@
 #include "base/SharedCheckpoint.h"
 #include "fibres/Fibres.h"
 #include "optimiser/NeighbourSearch.h"
-#include "optimiser/SharedCapsules.h"
 
 #include <Eigen/Core>
 
@@ -22,8 +21,8 @@ struct DescentEffort
   double searchSeconds = 0.0;
 };
 
-/// All that the further course of a descent depends on. Vectors are indexed by control point. Where processes share a descent,
-/// each has the control points of its own fibres, and all have the numbers.
+/// All that the further course of a descent depends on, and what is known of which capsules may touch. Vectors are indexed by
+/// control point. Where processes share a descent, each has the control points of its own fibres, and all have the numbers.
 struct DescentState
 {
   /// A descent at rest.
@@ -48,15 +47,10 @@ struct DescentState
   /// Whether the next evaluation searches for neighbours, so that the lists of now need not be kept.
   bool searchDue() const { return this->neighbours.offsets.empty() || this->exceeded; }
 
-  /// Writes it down, that of each process beside the others': in the file all is numbered as it is in one process.
-  void save(SharedCheckpointWriter& file, const SharedCapsules& bodies, const FibreShares& shares) const;
-  /// Reads what save() wrote, lists of neighbours as they are numbered there. Whether a descent can be in that state is for the
-  /// caller to look at.
-  void load(SharedCheckpointReader& file, const FibreShares& shares);
-
-private:
-  void saveNeighbours(SharedCheckpointWriter& file, const SharedCapsules& bodies, const FibreShares& shares) const;
-  void loadNeighbours(SharedCheckpointReader& file, const FibreShares& shares);
+  /// Writes it down, that of each process beside the others'. Neighbours are not: no result depends on when they were searched.
+  void save(SharedCheckpointWriter& file) const;
+  /// Reads what save() wrote. Whether a descent can be in that state is for the caller to look at.
+  void load(SharedCheckpointReader& file);
 };
 
 } // namespace cactus

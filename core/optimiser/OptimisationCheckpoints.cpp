@@ -93,15 +93,11 @@ void OptimisationCheckpoints::load(OptimisationRun& run) const
   run.load(this->Path, this->Print);
 }
 
-bool OptimisationCheckpoints::due(const OptimisationRun& run) const
+bool OptimisationCheckpoints::due() const
 {
   if (this->Path.empty() || (!this->found() && !this->Written))
   {
     return !this->Path.empty();
-  }
-  if (!run.descent.state().searchDue())
-  {
-    return false;
   }
   const double sinceLatest = std::chrono::duration<double>(Clock::now() - this->Latest).count();
   return this->Processes.fromFirst(sinceLatest >= this->Interval ? "1" : "0") == "1";

@@ -24,7 +24,7 @@ public:
 
   void load(OptimisationRun& run) const;
 
-  bool due(const OptimisationRun& run) const; ///< by the clock of the first process
+  bool due() const; ///< by the clock of the first process
 
   /// Writes the run down, unless what is there has come further (the same run, from the beginning once more). That a later
   /// checkpoint cannot be written is no reason to give up a long run: it is noted, see failure().

@@ -112,8 +112,9 @@ OverlapParts evaluateOverlap(const Capsules& capsules, const CapsuleRange& of, s
         const std::uint32_t* others = neighbours.indices.data() + neighbours.offsets[k];
         const std::size_t othersCount = neighbours.offsets[k + 1] - neighbours.offsets[k];
         const Capsule& body = capsules.bodies[of.begin + k];
+        const std::size_t known = neighbours.indices.size() - neighbours.offsets[k];
         evaluateCapsule(
-          capsules.bodies.data(), others, othersCount, body, terms.margin, terms.tolerance, terms.tapered, result[k]);
+          capsules.bodies.data(), others, othersCount, known, body, terms.margin, terms.tolerance, terms.tapered, result[k]);
         if (result[k].penetration > 1.0 - 2.0 * meeting)
         {
           partCoincident(capsules, of.begin + k, others, othersCount, terms.margin, result[k]);

@@ -14,47 +14,93 @@ namespace
 constexpr int lanes = 8;
 constexpr int vectors = lanes / width;
 
-/// What the neighbours contribute to one capsule, lane by lane.
-struct LaneSums
+/// What neighbours contribute to a capsule.
+enum Number
 {
-  Doubles gradient0[3];
-  Doubles gradient1[3];
-  Doubles radius0;
-  Doubles radius1;
-  Doubles stiffness0;
-  Doubles stiffness1;
-  Doubles cost;
-  Doubles penetration;
-  DoubleMask overlapping;
+  gradient0,
+  gradient1 = gradient0 + 3,
+  radius0 = gradient1 + 3,
+  radius1,
+  stiffness0,
+  stiffness1,
+  cost,
+  penetration, ///< the largest
+  overlapping, ///< how many
+  numbers = 16 ///< with some that are always zero, so that they are two times eight
 };
 
-/// The segments of p and of as many neighbours q as a vector holds, and where they come closest.
+/// Their sums and the largest, lane by lane.
+struct LaneSums
+{
+  Doubles of[numbers];
+};
+
+/// Adds up the lanes, and finds the largest.
+CACTUS_KERNEL_INLINE void reduce(const LaneSums (&sums)[vectors], double (&totals)[numbers], double (&maxima)[numbers])
+{
+  for (int first = 0; first < numbers; first += width)
+  {
+    alignas(64) double rows[width][lanes];
+    const double* begins[width];
+    for (int number = 0; number < width; ++number)
+    {
+      for (int v = 0; v < vectors; ++v)
+      {
+        __builtin_memcpy(rows[number] + v * width, &sums[v].of[first + number], sizeof(Doubles));
+      }
+      begins[number] = rows[number];
+    }
+    Doubles x[lanes];
+    transpose(begins, x);
+    const Doubles total = ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
+    Doubles largest = x[0];
+    for (int l = 1; l < lanes; ++l)
+    {
+      largest = x[l] > largest ? x[l] : largest;
+    }
+    __builtin_memcpy(totals + first, &total, sizeof(total));
+    __builtin_memcpy(maxima + first, &largest, sizeof(largest));
+  }
+}
+
+/// The segment of p and those of as many neighbours q as a vector holds, and where they come closest.
 struct ClosestPoints
 {
   Doubles u[3];    ///< along p
+  Doubles a;       ///< u·u
   Doubles v[3];    ///< along q
   Doubles w[3];    ///< from q's closest point to p's
-  Doubles a;       ///< u·u
   Doubles b;       ///< u·v
   Doubles e;       ///< v·v
   Doubles s;       ///< p's closest point, from 0 to 1 along u
   Doubles t;       ///< q's, along v
   Doubles squared; ///< w·w
+  Doubles rq;      ///< radius there
+  Doubles taperQ;  ///< by how much q's radius grows along v
 };
 
 /// What depends on p alone is written so that the compiler computes it once for all q.
-CACTUS_KERNEL_INLINE ClosestPoints closestPointsOf(const Capsule& p, const Doubles (&q)[8])
+CACTUS_KERNEL_INLINE void setSegment(const Capsule& p, ClosestPoints& pair)
 {
   const Doubles zero = {};
-  ClosestPoints pair = {};
-  Doubles r[3];
-  Doubles c = zero, f = zero;
+  pair.a = zero;
   for (int axis = 0; axis < 3; ++axis)
   {
     pair.u[axis] = zero + (p.p1[axis] - p.p0[axis]);
+    pair.a += pair.u[axis] * pair.u[axis];
+  }
+}
+
+CACTUS_KERNEL_INLINE ClosestPoints closestPointsOf(const Capsule& p, const Doubles (&q)[8])
+{
+  ClosestPoints pair = {};
+  setSegment(p, pair);
+  Doubles r[3];
+  Doubles c = {}, f = {};
+  for (int axis = 0; axis < 3; ++axis)
+  {
     pair.v[axis] = q[4 + axis] - q[axis];
     r[axis] = p.p0[axis] - q[axis];
-    pair.a += pair.u[axis] * pair.u[axis];
     pair.b += pair.u[axis] * pair.v[axis];
     c += pair.u[axis] * r[axis];
     pair.e += pair.v[axis] * pair.v[axis];
@@ -66,8 +112,100 @@ CACTUS_KERNEL_INLINE ClosestPoints closestPointsOf(const Capsule& p, const Doubl
     pair.w[axis] = r[axis] + pair.s * pair.u[axis] - pair.t * pair.v[axis];
     pair.squared += pair.w[axis] * pair.w[axis];
   }
+  pair.taperQ = q[7] - q[3];
+  pair.rq = q[3] + pair.t * pair.taperQ;
   return pair;
 }
+
+/// The neighbours that touch, gathered from among many that do not: what ClosestPoints knows of each beside what is p's.
+class TouchingPairs
+{
+public:
+  static constexpr std::size_t batch = 4 * lanes; ///< that may be there before append()
+
+  std::size_t size() const { return this->Size; }
+
+  CACTUS_KERNEL_INLINE void append(const DoubleMask& touching, const ClosestPoints& pair, bool tapered)
+  {
+    std::size_t added = 0;
+    const auto put = [&](const Doubles& x, int column) __attribute__((always_inline))
+    {
+      added = compress(touching, x, this->Columns[column] + this->Size);
+    };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      put(pair.w[axis], axis);
+    }
+    put(pair.s, 3);
+    put(pair.squared, 4);
+    put(pair.e, 5);
+    put(pair.rq, 6);
+    if (tapered)
+    {
+      put(pair.t, 7);
+      put(pair.b, 8);
+      put(pair.taperQ, 9);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        put(pair.v[axis], 10 + axis);
+      }
+    }
+    this->Size += added;
+  }
+
+  CACTUS_KERNEL_INLINE void get(std::size_t first, bool tapered, ClosestPoints& pair) const
+  {
+    const auto column = [&](int number) __attribute__((always_inline))
+    {
+      return load(this->Columns[number] + first);
+    };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      pair.w[axis] = column(axis);
+    }
+    pair.s = column(3);
+    pair.squared = column(4);
+    pair.e = column(5);
+    pair.rq = column(6);
+    if (tapered)
+    {
+      pair.t = column(7);
+      pair.b = column(8);
+      pair.taperQ = column(9);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        pair.v[axis] = column(10 + axis);
+      }
+    }
+  }
+
+  /// Fills the lanes that are left over behind the last pair with some that are too far apart to contribute anything.
+  CACTUS_KERNEL_INLINE void fillUp()
+  {
+    const Doubles zero = {};
+    for (int number = 0; number < columns; ++number)
+    {
+      const Doubles filling = zero + (number == 4 ? 1e12 : number == 5 || number == 6 ? 1.0 : 0.0);
+      __builtin_memcpy(this->Columns[number] + this->Size, &filling, sizeof(filling));
+    }
+  }
+
+  /// Leaves out the first batch.
+  CACTUS_KERNEL_INLINE void dropBatch()
+  {
+    this->Size -= batch;
+    for (int number = 0; number < columns; ++number)
+    {
+      const Doubles left = load(this->Columns[number] + batch);
+      __builtin_memcpy(this->Columns[number], &left, sizeof(left));
+    }
+  }
+
+private:
+  static constexpr int columns = 13;
+  std::size_t Size = 0;
+  double Columns[columns][batch + 2 * width];
+};
 
 /// How the cost changes as the closest points slide, given how it changes with the radii there along p and q. The points satisfy
 /// a·s − b·t + c = 0 and −b·s + e·t − f = 0 (whichever is not clamped); the adjoint of that system gives the slide's share.
@@ -85,23 +223,15 @@ CACTUS_KERNEL_INLINE void slide(
   adjointT = (pair.b * alongP + pair.a * alongQ) * inverseDeterminant + select(tFree & ~sFree, alongQ / pair.e, zero);
 }
 
-/// Adds the contributions of as many neighbours q as a vector holds (their eight numbers, transposed) to the sums of p.
+/// Adds what as many touching pairs as a vector holds contribute to the sums of p.
 CACTUS_KERNEL_INLINE void addLanes(
-  const Capsule& p, const Doubles (&q)[8], double margin, double tolerance, bool tapered, LaneSums& sums)
+  const Capsule& p, const ClosestPoints& pair, double margin, double tolerance, bool tapered, LaneSums& sums)
 {
   const Doubles zero = {};
   const Doubles one = zero + 1.0;
-  const ClosestPoints pair = closestPointsOf(p, q);
   const Doubles taperP = zero + (p.r1 - p.r0);
-  const Doubles taperQ = q[7] - q[3];
   const Doubles rp = p.r0 + pair.s * taperP;
-  const Doubles rq = q[3] + pair.t * taperQ;
-  // Lists reach further than contact: many have no pair to add here.
-  const Doubles farthest = margin * (rp + rq);
-  if (!any(pair.squared < farthest * farthest))
-  {
-    return;
-  }
+  const Doubles& rq = pair.rq;
   const Doubles distance = squareRoot(pair.squared);
   const Doubles lengthP = squareRoot(pair.a);
   const Doubles lengthQ = squareRoot(pair.e);
@@ -120,7 +250,7 @@ CACTUS_KERNEL_INLINE void addLanes(
   Doubles adjointT = zero;
   if (tapered)
   {
-    slide(pair, byRp * taperP, byRq * taperQ, adjointS, adjointT);
+    slide(pair, byRp * taperP, byRq * pair.taperQ, adjointS, adjointT);
   }
   const Doubles near0 = one - pair.s;
   const Doubles alongW0 = push * near0 + adjointS;
@@ -131,75 +261,107 @@ CACTUS_KERNEL_INLINE void addLanes(
   const Doubles alongV1 = adjointT * pair.s;
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.gradient0[axis] += alongW0 * pair.w[axis] + alongU0 * pair.u[axis] + alongV0 * pair.v[axis];
-    sums.gradient1[axis] += alongW1 * pair.w[axis] + alongU1 * pair.u[axis] + alongV1 * pair.v[axis];
+    sums.of[gradient0 + axis] += alongW0 * pair.w[axis] + alongU0 * pair.u[axis] + alongV0 * pair.v[axis];
+    sums.of[gradient1 + axis] += alongW1 * pair.w[axis] + alongU1 * pair.u[axis] + alongV1 * pair.v[axis];
   }
-  sums.radius0 += byRp * near0;
-  sums.radius1 += byRp * pair.s;
+  sums.of[radius0] += byRp * near0;
+  sums.of[radius1] += byRp * pair.s;
   const Doubles stiffness = select(depth > zero, 2.0 * scale * inverseSum * inverseSum, zero);
-  sums.stiffness0 += stiffness * near0;
-  sums.stiffness1 += stiffness * pair.s;
-  sums.cost += 0.5 * D * D * scale;
-  const Doubles penetration = one - ratio;
-  sums.penetration = penetration > sums.penetration ? penetration : sums.penetration;
-  sums.overlapping -= penetration > tolerance;
+  sums.of[stiffness0] += stiffness * near0;
+  sums.of[stiffness1] += stiffness * pair.s;
+  sums.of[cost] += 0.5 * D * D * scale;
+  const Doubles deepest = one - ratio;
+  sums.of[penetration] = deepest > sums.of[penetration] ? deepest : sums.of[penetration];
+  sums.of[overlapping] += select(deepest > tolerance, one, zero);
 }
 
-void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std::size_t count, const Capsule& p, double margin,
-  double tolerance, bool tapered, CapsuleOverlap& result)
+/// Adds what the first `count` of the pairs contribute, the n-th of them in the lane n % lanes of all sums.
+CACTUS_KERNEL_INLINE void addTouching(const Capsule& p, const TouchingPairs& pairs, std::size_t count, double margin,
+  double tolerance, bool tapered, LaneSums (&sums)[vectors])
 {
-  // A capsule too far away to contribute anything fills the lanes that are left over.
-  Capsule farAway = p;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    farAway.p0[axis] += 1e6;
-    farAway.p1[axis] = farAway.p0[axis] + 1.0;
-  }
-  LaneSums all[vectors];
+  ClosestPoints pair = {};
+  setSegment(p, pair);
   for (int v = 0; v < vectors; ++v)
   {
-    LaneSums sums = {};
-    sums.penetration -= 1.0;
     for (std::size_t n = std::size_t(v) * width; n < count; n += lanes)
     {
-      const double* others[width];
-      for (std::size_t l = 0; l < width; ++l)
-      {
-        others[l] = reinterpret_cast<const double*>(n + l < count ? bodies + neighbours[n + l] : &farAway);
-      }
-      Doubles q[8];
-      transpose(others, q);
-      addLanes(p, q, margin, tolerance, tapered, sums);
+      pairs.get(n, tapered, pair);
+      addLanes(p, pair, margin, tolerance, tapered, sums[v]);
     }
-    all[v] = sums;
   }
-  const auto sumOf = [&](auto&& member) __attribute__((always_inline))
-  {
-    double x[lanes];
-    for (int l = 0; l < lanes; ++l)
-    {
-      x[l] = member(all[l / width])[l % width];
-    }
-    return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
-  };
+}
+
+/// A capsule too far away to touch, for the lanes that are left over.
+CACTUS_KERNEL_INLINE Capsule farFrom(const Capsule& p)
+{
+  Capsule far = p;
   for (int axis = 0; axis < 3; ++axis)
   {
-    result.gradient0[axis] = sumOf([axis](const LaneSums& sums) -> const Doubles& { return sums.gradient0[axis]; });
-    result.gradient1[axis] = sumOf([axis](const LaneSums& sums) -> const Doubles& { return sums.gradient1[axis]; });
+    far.p0[axis] += 1e6;
+    far.p1[axis] = far.p0[axis] + 1.0;
   }
-  result.radius0 = sumOf([](const LaneSums& sums) -> const Doubles& { return sums.radius0; });
-  result.radius1 = sumOf([](const LaneSums& sums) -> const Doubles& { return sums.radius1; });
-  result.stiffness0 = sumOf([](const LaneSums& sums) -> const Doubles& { return sums.stiffness0; });
-  result.stiffness1 = sumOf([](const LaneSums& sums) -> const Doubles& { return sums.stiffness1; });
-  result.cost = sumOf([](const LaneSums& sums) -> const Doubles& { return sums.cost; });
-  result.penetration = -1.0;
-  result.overlapping = 0;
-  for (int l = 0; l < lanes; ++l)
+  return far;
+}
+
+/// The numbers of as many capsules as a vector holds, or of the `count` that are left.
+CACTUS_KERNEL_INLINE void gather(
+  const Capsule* bodies, const std::uint32_t* indices, std::size_t count, const Capsule& far, Doubles (&q)[8])
+{
+  const double* rows[width];
+  for (std::size_t l = 0; l < width; ++l)
   {
-    const double penetration = all[l / width].penetration[l % width];
-    result.penetration = penetration > result.penetration ? penetration : result.penetration;
-    result.overlapping += static_cast<std::size_t>(all[l / width].overlapping[l % width]);
+    rows[l] = reinterpret_cast<const double*>(l < count ? bodies + indices[l] : &far);
   }
+  transpose(rows, q);
+}
+
+/// Lists reach further than contact: much of what they hold contributes nothing. What does is gathered first and then summed, so
+/// that sums depend on which capsules touch, and not on what else is in the list.
+void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std::size_t count, std::size_t known,
+  const Capsule& p, double margin, double tolerance, bool tapered, CapsuleOverlap& result)
+{
+  constexpr std::size_t ahead = 32; // neighbours that are on their way from memory
+  const Capsule far = farFrom(p);
+  TouchingPairs touching;
+  LaneSums all[vectors] = {};
+  for (LaneSums& sums : all)
+  {
+    sums.of[penetration] -= 1.0;
+  }
+  for (std::size_t n = 0; n < count; n += width)
+  {
+    for (std::size_t next = n + ahead; next < n + ahead + width && next < known; ++next)
+    {
+      __builtin_prefetch(bodies + neighbours[next]);
+    }
+    Doubles q[8];
+    gather(bodies, neighbours + n, count - n, far, q);
+    const ClosestPoints pair = closestPointsOf(p, q);
+    const Doubles farthest = margin * (p.r0 + pair.s * (p.r1 - p.r0) + pair.rq);
+    touching.append(pair.squared < farthest * farthest, pair, tapered);
+    if (touching.size() >= TouchingPairs::batch)
+    {
+      addTouching(p, touching, TouchingPairs::batch, margin, tolerance, tapered, all);
+      touching.dropBatch();
+    }
+  }
+  touching.fillUp();
+  addTouching(p, touching, touching.size(), margin, tolerance, tapered, all);
+  double totals[numbers];
+  double maxima[numbers];
+  reduce(all, totals, maxima);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.gradient0[axis] = totals[gradient0 + axis];
+    result.gradient1[axis] = totals[gradient1 + axis];
+  }
+  result.radius0 = totals[radius0];
+  result.radius1 = totals[radius1];
+  result.stiffness0 = totals[stiffness0];
+  result.stiffness1 = totals[stiffness1];
+  result.cost = totals[cost];
+  result.penetration = maxima[penetration];
+  result.overlapping = static_cast<std::size_t>(totals[overlapping]);
 }
 
 } // namespace

@@ -97,7 +97,7 @@ void SharedCapsules::findNeighbours(const Fibres& fibres, const std::vector<floa
     return;
   }
   this->dropOthers();
-  const std::vector<float> allReaches = this->giveAway(fibres, this->stretchesNearOthers(reach, threads), &reach);
+  const std::vector<float> allReaches = this->giveAway(fibres, this->stretchesNearOthers(reach, threads), reach);
   cactus::findNeighbours(this->All, this->Own, allReaches, threads, list);
 }
 
@@ -183,10 +183,10 @@ void SharedCapsules::getPoints(const std::vector<Stretch>& stretches, bool withR
   }
 }
 
-/// Gives each process the stretches that are for it, and takes those of the others in. Returns the reaches of all() where
-/// those of the own capsules are given. Precondition: no capsules but the own ones are here.
+/// Gives each process the stretches that are for it, and takes those of the others in. Returns the reaches of all().
+/// Precondition: no capsules but the own ones are here.
 std::vector<float> SharedCapsules::giveAway(
-  const Fibres& fibres, std::vector<std::vector<Stretch>> stretches, const std::vector<float>* reach)
+  const Fibres& fibres, std::vector<std::vector<Stretch>> stretches, const std::vector<float>& reach)
 {
   std::vector<std::string> toEach;
   for (const std::vector<Stretch>& given : stretches)
@@ -196,13 +196,12 @@ std::vector<float> SharedCapsules::giveAway(
     put(static_cast<std::uint64_t>(given.size()));
     for (const Stretch& stretch : given)
     {
-      put(static_cast<std::uint32_t>(this->Shares.ownCapsule() + stretch.begin));
       put(this->All.fibre[stretch.begin]);
       put(static_cast<std::uint32_t>(stretch.count));
     }
-    for (std::size_t s = 0; s < given.size() && reach != nullptr; ++s)
+    for (const Stretch& stretch : given)
     {
-      put.addAll(&(*reach)[given[s].begin], given[s].count);
+      put.addAll(&reach[stretch.begin], stretch.count);
     }
     this->putPoints(fibres, given, true, put);
     toEach.push_back(std::move(put.bytes()));
@@ -213,16 +212,16 @@ std::vector<float> SharedCapsules::giveAway(
 
 /// Takes in what each process has given.
 std::vector<float> SharedCapsules::takeIn(
-  const std::vector<std::string>& found, std::size_t ownPoints, const std::vector<float>* reach)
+  const std::vector<std::string>& found, std::size_t ownPoints, const std::vector<float>& reach)
 {
   const auto self = static_cast<std::size_t>(this->Shares.place());
   std::vector<ByteReader> given(found.begin(), found.end());
   Others before;
-  this->readStretches({ 0, self }, given, before, 0, 0, reach != nullptr);
+  this->readStretches({ 0, self }, given, before, 0, 0);
   this->PointsBefore = before.points;
   Others behind;
   this->readStretches({ self + 1, found.size() }, given, behind, before.first.size() + this->Own.size(),
-    static_cast<std::uint32_t>(before.points + ownPoints), reach != nullptr);
+    static_cast<std::uint32_t>(before.points + ownPoints));
 
   for (std::uint32_t& first : this->All.first)
   {
@@ -234,15 +233,9 @@ std::vector<float> SharedCapsules::takeIn(
   this->All.bodies.resize(count);
   surround(before.first, this->All.first, behind.first);
   surround(before.fibre, this->All.fibre, behind.fibre);
-  this->Own = { before.numbers.size(), before.numbers.size() + this->Own.size() };
-  this->Numbers.clear();
-  surround(before.numbers, this->Numbers, behind.numbers);
-  std::vector<float> reaches;
-  if (reach != nullptr)
-  {
-    reaches = *reach;
-    surround(before.reaches, reaches, behind.reaches);
-  }
+  this->Own = { before.first.size(), before.first.size() + this->Own.size() };
+  std::vector<float> reaches = reach;
+  surround(before.reaches, reaches, behind.reaches);
   for (std::size_t process = 0; process < given.size(); ++process)
   {
     if (process != self)
@@ -256,8 +249,8 @@ std::vector<float> SharedCapsules::takeIn(
 
 /// Reads all but the control points of what some processes have given, where the first capsule of these will be the `place`-th
 /// of all(), and its first control point the `point`-th.
-void SharedCapsules::readStretches(const CapsuleRange& processes, std::vector<ByteReader>& given, Others& others,
-  std::size_t place, std::uint32_t point, bool withReach)
+void SharedCapsules::readStretches(
+  const CapsuleRange& processes, std::vector<ByteReader>& given, Others& others, std::size_t place, std::uint32_t point)
 {
   const std::uint32_t firstPoint = point;
   for (std::size_t process = processes.begin; process < processes.end; ++process)
@@ -268,23 +261,18 @@ void SharedCapsules::readStretches(const CapsuleRange& processes, std::vector<By
     taken.resize(get.get<std::uint64_t>());
     for (Stretch& stretch : taken)
     {
-      const auto number = get.get<std::uint32_t>();
       const auto fibre = get.get<std::uint32_t>();
       stretch = { place + others.first.size(), get.get<std::uint32_t>() };
       for (std::uint32_t l = 0; l < stretch.count; ++l)
       {
-        others.numbers.push_back(number + l);
         others.fibre.push_back(fibre);
         others.first.push_back(point++);
       }
       ++point; // the last control point begins no capsule
     }
-    if (withReach)
-    {
-      const std::size_t known = others.reaches.size();
-      others.reaches.resize(others.first.size());
-      get.getAll(others.reaches.data() + known, others.reaches.size() - known);
-    }
+    const std::size_t known = others.reaches.size();
+    others.reaches.resize(others.first.size());
+    get.getAll(others.reaches.data() + known, others.reaches.size() - known);
   }
   others.points = point - firstPoint;
 }
@@ -321,93 +309,6 @@ bool SharedCapsules::update(const Fibres& fibres, bool withRadii, bool flag)
   }
   this->IsTapered = isTapered;
   return flag;
-}
-
-void SharedCapsules::numberForAll(std::uint32_t* indices, std::size_t count) const
-{
-  for (std::size_t n = 0; n < count && this->isShared(); ++n)
-  {
-    const std::size_t k = indices[n];
-    indices[n] = k < this->Own.begin ? this->Numbers[k]
-                 : k < this->Own.end ? static_cast<std::uint32_t>(k - this->Own.begin + this->Shares.ownCapsule())
-                                     : this->Numbers[k - this->Own.size()];
-  }
-}
-
-void SharedCapsules::numberForThis(const Fibres& fibres, std::vector<std::uint32_t>& indices)
-{
-  if (!this->isShared())
-  {
-    return;
-  }
-  this->dropOthers();
-  const std::size_t first = this->Shares.ownCapsule();
-  const auto isOwn = [&](std::uint32_t number) { return number >= first && number < first + this->Own.size(); };
-  std::vector<bool> isWanted(this->Shares.capsuleCount());
-  for (const std::uint32_t number : indices)
-  {
-    isWanted[number] = isWanted[number] || !isOwn(number);
-  }
-  std::vector<std::uint32_t> wanted;
-  for (std::size_t number = 0; number < isWanted.size(); ++number)
-  {
-    if (isWanted[number])
-    {
-      wanted.push_back(static_cast<std::uint32_t>(number));
-    }
-  }
-  this->giveAway(fibres, this->stretchesAskedFor(wanted), nullptr);
-  for (std::uint32_t& number : indices)
-  {
-    const auto found = std::lower_bound(this->Numbers.begin(), this->Numbers.end(), number) - this->Numbers.begin();
-    const auto place = static_cast<std::size_t>(found);
-    number = static_cast<std::uint32_t>(isOwn(number)             ? number - first + this->Own.begin
-                                        : place < this->Own.begin ? place
-                                                                  : place + this->Own.size());
-  }
-}
-
-/// What the others want of this process, which asks them for what it wants itself, in increasing order.
-std::vector<std::vector<SharedCapsules::Stretch>> SharedCapsules::stretchesAskedFor(
-  const std::vector<std::uint32_t>& wanted) const
-{
-  std::vector<ByteWriter> asked(this->Shares.processes());
-  auto next = wanted.begin();
-  for (std::size_t process = 0; process < asked.size(); ++process)
-  {
-    const auto end = std::lower_bound(next, wanted.end(), this->Shares.capsuleBegin(process + 1));
-    asked[process](std::vector<std::uint32_t>(next, end));
-    next = end;
-  }
-  std::vector<std::string> toEach;
-  toEach.reserve(asked.size());
-  for (ByteWriter& put : asked)
-  {
-    toEach.push_back(std::move(put.bytes()));
-  }
-  std::vector<std::vector<Stretch>> stretches(asked.size());
-  const std::vector<std::string> found = this->Shares.sharing().deal(std::move(toEach));
-  for (std::size_t process = 0; process < found.size(); ++process)
-  {
-    std::vector<std::uint32_t> numbers;
-    getAll(found[process], numbers);
-    for (const std::uint32_t number : numbers)
-    {
-      const std::size_t k = number - this->Shares.ownCapsule();
-      std::vector<Stretch>& all = stretches[process];
-      const bool follows =
-        !all.empty() && all.back().begin + all.back().count == k && this->All.first[k] == this->All.first[k - 1] + 1;
-      if (follows)
-      {
-        ++all.back().count;
-      }
-      else
-      {
-        all.push_back({ k, 1 });
-      }
-    }
-  }
-  return stretches;
 }
 
 } // namespace cactus

@@ -49,11 +49,6 @@ public:
   OverlapParts evaluate(
     const NeighbourList& neighbours, double margin, double tolerance, int threads, std::vector<CapsuleOverlap>& result) const;
 
-  /// Numbers among the capsules of all processes for numbers in all(), and the reverse; for the latter, capsules of other
-  /// processes are asked of these.
-  void numberForAll(std::uint32_t* indices, std::size_t count) const;
-  void numberForThis(const Fibres& fibres, std::vector<std::uint32_t>& indices);
-
 private:
   /// Capsules that follow each other in a fibre.
   struct Stretch
@@ -67,7 +62,6 @@ private:
   {
     std::vector<std::uint32_t> first; ///< of each capsule, as in Capsules
     std::vector<std::uint32_t> fibre;
-    std::vector<std::uint32_t> numbers; ///< among the capsules of all processes
     std::vector<float> reaches;
     std::size_t points = 0; ///< their number
     bool isTapered = false;
@@ -76,11 +70,10 @@ private:
   bool isShared() const { return this->Shares.processes() > 1; }
   void dropOthers();
   std::vector<std::vector<Stretch>> stretchesNearOthers(const std::vector<float>& reach, int threads) const;
-  std::vector<std::vector<Stretch>> stretchesAskedFor(const std::vector<std::uint32_t>& wanted) const;
-  std::vector<float> giveAway(const Fibres& fibres, std::vector<std::vector<Stretch>> stretches, const std::vector<float>* reach);
-  std::vector<float> takeIn(const std::vector<std::string>& found, std::size_t ownPoints, const std::vector<float>* reach);
-  void readStretches(const CapsuleRange& processes, std::vector<ByteReader>& given, Others& others, std::size_t place,
-    std::uint32_t point, bool withReach);
+  std::vector<float> giveAway(const Fibres& fibres, std::vector<std::vector<Stretch>> stretches, const std::vector<float>& reach);
+  std::vector<float> takeIn(const std::vector<std::string>& found, std::size_t ownPoints, const std::vector<float>& reach);
+  void readStretches(
+    const CapsuleRange& processes, std::vector<ByteReader>& given, Others& others, std::size_t place, std::uint32_t point);
   void putPoints(const Fibres& fibres, const std::vector<Stretch>& stretches, bool withRadii, ByteWriter& put) const;
   void getPoints(const std::vector<Stretch>& stretches, bool withRadii, ByteReader& get);
 
@@ -93,7 +86,6 @@ private:
   bool IsTapered = false;
   std::vector<std::vector<Stretch>> Given; ///< to each process
   std::vector<std::vector<Stretch>> Taken; ///< from each process
-  std::vector<std::uint32_t> Numbers;      ///< of the others' capsules in all(), those before the own ones first
 };
 
 } // namespace cactus

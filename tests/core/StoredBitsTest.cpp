@@ -83,7 +83,7 @@ TEST(StoredBits, DefaultChain)
   Fibres fibres = initial;
   optimise(fibres, CapsuleOptimizerOptions{}, {});
   fibres = trimToDomain(fibres);
-  EXPECT_EQ(digest(fibres), "ffdbee8a769a1391d6c45c8f7c2b291124b38e4b5fd93e966e4bce0f6dc8b17f");
+  EXPECT_EQ(digest(fibres), "74c3c6e6ad8fdf250229df2e0df06d3cdd057e506dbb89ddc2beae2cf55607ec");
 
   const FibreRadialGrowthOptions growth;
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
