@@ -293,19 +293,26 @@ TEST_F(Production, EndsInAllProcessesWhereOneFails)
 {
   for (const double part : { 0.05, 0.3, 0.6, 0.88 })
   {
-    const auto fails = [part](int place)
+    std::atomic<bool> hasFailed{ false };
+    const auto fails = [part, &hasFailed](int place)
     {
       Context context;
-      context.progress = [place, part](double fraction, const std::string&)
+      context.progress = [place, part, &hasFailed](double fraction, const std::string&)
       {
         if (place == 1 && fraction >= part)
         {
+          hasFailed = true;
           throw FileError("no space left");
         }
       };
       return context;
     };
     const auto told = this->produceInTeam(3, "failed", fails);
+    if (part > 0.6 && !hasFailed)
+    {
+      fs::remove_all(this->folder("failed")); // the others were so quick that nothing was left for rank 1
+      continue;
+    }
     EXPECT_EQ(told, std::vector<std::string>(3, "on rank 1: no space left")) << part;
     for (const auto& entry : fs::directory_iterator(this->Scratch))
     {
