@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <utility>
 
 namespace cactus
@@ -292,7 +293,7 @@ Context Sharing::watching(const Context& context) const
 }
 
 /// Batches by turns.
-std::vector<std::size_t> Sharing::partOf(int process, std::size_t count) const
+std::vector<std::size_t> Sharing::batchesOf(int process, std::size_t count) const
 {
   const auto processes = static_cast<std::size_t>(this->size());
   const std::size_t batch = std::clamp<std::size_t>(count / (batchesOfEach * processes), 1, longestBatch);
@@ -300,6 +301,24 @@ std::vector<std::size_t> Sharing::partOf(int process, std::size_t count) const
   for (std::size_t first = batch * static_cast<std::size_t>(process); first < count; first += batch * processes)
   {
     for (std::size_t i = first; i < std::min(count, first + batch); ++i)
+    {
+      part.push_back(i);
+    }
+  }
+  return part;
+}
+
+/// Those whose middles, on a scale of the weights, lie in the process's part of it.
+std::vector<std::size_t> Sharing::stretchOf(int process, const std::vector<double>& weights) const
+{
+  const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / this->size();
+  std::vector<std::size_t> part;
+  double before = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    const auto owner = static_cast<int>((before + 0.5 * weights[i]) / share);
+    before += weights[i];
+    if (std::min(owner, this->size() - 1) == process)
     {
       part.push_back(i);
     }

@@ -63,12 +63,30 @@ public:
   /// others, one i after the other, with what bytesOf(i) gave.
   template <typename Body, typename BytesOf, typename Take>
   void loop(std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
-    const std::string& message = "", double from = 0.0, double to = 1.0) const;
+    const std::string& message = "", double from = 0.0, double to = 1.0) const
+  {
+    const auto partOf = [&](int process) { return this->batchesOf(process, count); };
+    this->loopInParts(partOf, count, context, body, bytesOf, take, message, from, to);
+  }
+
+  /// The same for each i in [0, weights.size()), of which each process has some that follow one another, so many that the sums of
+  /// their weights, which are positive, are about the same: for work that needs the same things where it is near in this order.
+  template <typename Body, typename BytesOf, typename Take>
+  void loopAlong(const std::vector<double>& weights, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
+    const std::string& message = "", double from = 0.0, double to = 1.0) const
+  {
+    const auto partOf = [&](int process) { return this->stretchOf(process, weights); };
+    this->loopInParts(partOf, weights.size(), context, body, bytesOf, take, message, from, to);
+  }
 
 private:
   struct Ended;
 
-  std::vector<std::size_t> partOf(int process, std::size_t count) const;
+  std::vector<std::size_t> batchesOf(int process, std::size_t count) const;
+  std::vector<std::size_t> stretchOf(int process, const std::vector<double>& weights) const;
+  template <typename PartOf, typename Body, typename BytesOf, typename Take>
+  void loopInParts(const PartOf& partOf, std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
+    const std::string& message, double from, double to) const;
   static std::vector<std::string> whereWell(std::vector<std::string> all);
   void tell(const std::string& failure) const;
   [[noreturn]] void rethrow(const Ended& ended) const;
@@ -77,16 +95,16 @@ private:
   std::string StopFile;
 };
 
-template <typename Body, typename BytesOf, typename Take>
-void Sharing::loop(std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
-  const std::string& message, double from, double to) const
+template <typename PartOf, typename Body, typename BytesOf, typename Take>
+void Sharing::loopInParts(const PartOf& partOf, std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf,
+  Take&& take, const std::string& message, double from, double to) const
 {
   if (this->size() == 1)
   {
     parallelFor(count, context, body, message, from, to);
     return;
   }
-  const std::vector<std::size_t> own = this->partOf(this->place(), count);
+  const std::vector<std::size_t> own = partOf(this->place());
   parallelFor(
     own.size(), context, [&](std::size_t i) { body(own[i]); }, message, from, to);
   ByteWriter made;
@@ -98,7 +116,7 @@ void Sharing::loop(std::size_t count, const Context& context, Body&& body, Bytes
   for (int process = 0; process < this->size(); ++process)
   {
     ByteReader found(all[std::size_t(process)]);
-    for (const std::size_t i : process == this->place() ? std::vector<std::size_t>() : this->partOf(process, count))
+    for (const std::size_t i : process == this->place() ? std::vector<std::size_t>() : partOf(process))
     {
       take(i, found.get<std::string>());
     }

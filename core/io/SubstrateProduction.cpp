@@ -153,6 +153,18 @@ void requireAlike(const std::string& identity, const std::string& folder, const 
   }
 }
 
+/// How many tiles a process keeps: its part of the image with some of what lies around it, of a large image less.
+std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
+{
+  std::size_t tiles = 1;
+  for (const int count : image.count)
+  {
+    tiles *= std::size_t(count) / GrownTiles::edge + 1;
+  }
+  const std::size_t together = std::min(tilesTogether, tiles + tiles / 8);
+  return std::max(together / std::size_t(processes), tilesPerThread * std::size_t(threads));
+}
+
 /// made: the fibres, or a sample of them.
 ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
   const std::string& folder, const Context& context, const Sharing& sharing)
@@ -164,9 +176,8 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const F
   const Context solving = partOf(context, 0.0, growthSolved, pace);
   const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving, sharing);
   const double growth = growthFor(aimed, order.growth, solving, sharing);
-  const std::size_t kept =
-    std::max(tilesTogether / std::size_t(sharing.size()), tilesPerThread * std::size_t(context.threadCount()));
-  auto tiles = std::make_shared<GrownTiles>(aimed, order.growth, growth, kept);
+  auto tiles = std::make_shared<GrownTiles>(
+    aimed, order.growth, growth, keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()));
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();

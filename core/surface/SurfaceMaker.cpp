@@ -187,12 +187,20 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
 {
 }
 
-/// In parallel. What becomes of a fibre has to be in its pair, without meshes.
+/// In parallel, in each process those that are near each other, which share samples. What becomes of a fibre has to be in its
+/// pair, without meshes.
 template <typename Body>
 void SurfaceMaker::forEachFibre(Body&& body, const char* message, double from, double to)
 {
-  this->Shared.loop(
-    this->Order.size(), this->Caller, [&](std::size_t i) { body(this->Order[i]); },
+  std::vector<double> weights;
+  weights.reserve(this->Order.size());
+  for (const std::size_t i : this->Order)
+  {
+    const auto found = this->Mesher.fibres().find(this->Pairs[i].fibreId);
+    weights.push_back(1.0 + (found != this->Mesher.fibres().end() ? static_cast<double>(found->second.blocks.size()) : 0.0));
+  }
+  this->Shared.loopAlong(
+    weights, this->Caller, [&](std::size_t i) { body(this->Order[i]); },
     [&](std::size_t i) { return bytesOf(this->Pairs[this->Order[i]]); },
     [&](std::size_t i, const std::string& bytes) { this->Pairs[this->Order[i]] = pairFrom(bytes); }, message, from, to);
 }
