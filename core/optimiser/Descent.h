@@ -74,6 +74,7 @@ private:
   SharedCapsules Bodies;
   std::vector<double> ReferenceRadii;
   std::vector<CapsuleOverlap> Overlaps;
+  bool IsNearlyApart = false; ///< when it was last evaluated
   std::vector<Eigen::Vector3d> Gradient;
   std::vector<double> RadiusGradient;
   std::vector<double> Stiffness;
