@@ -34,8 +34,8 @@ struct CapsuleOptimizerOptions
   /// move as a whole instead of kinking control point by control point. 0 for none.
   double smoothing = 5.0;
   /// Curvature, length and compactness fade by this factor in every iteration (Momentum only), so that at first they shape the
-  /// fibres and at last cannot hold an overlap open; 1 keeps them. By its 2.5th power once fewer pairs overlap than a twentieth of
-  /// the capsules.
+  /// fibres and at last cannot hold an overlap open; 1 keeps them. By its 2.5th power once fewer pairs overlap than a twentieth
+  /// of the capsules.
   double relaxation = 0.96;
   /// A bundle whose overlapping fibres would fill more than this of its cuboid is widened so far (where compactness has a
   /// weight).

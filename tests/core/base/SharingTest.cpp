@@ -7,12 +7,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace
 {
@@ -92,6 +96,57 @@ TEST(Sharing, DoesEachThingOnceOnAnyNumberOfProcessesAndThreads)
       {
         ASSERT_EQ(number, 1);
       }
+    }
+  }
+}
+
+// Guarantee: each thing is done once, each process has some that follow one another, and about as much to do as the others.
+TEST(Sharing, SharesOutAlongAnOrder)
+{
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < 200; ++i)
+  {
+    weights.push_back(1.0 + double(i % 7) + (i < 50 ? 20.0 : 0.0));
+  }
+  const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (const int size : { 1, 2, 3, 4, 300 })
+  {
+    std::vector<std::atomic<int>> ownerOf(weights.size());
+    std::atomic<int> times{ 0 };
+    inTeam(size,
+      [&](Team& team)
+      {
+        const Sharing sharing(&team);
+        std::vector<std::string> results(weights.size());
+        const auto body = [&](std::size_t i)
+        {
+          ++times;
+          ownerOf[i] = team.place();
+          results[i] = std::to_string(i);
+        };
+        const auto take = [&](std::size_t i, const std::string& bytes) { results[i] = bytes; };
+        sharing.together(
+          [&]
+          {
+            sharing.loopAlong(
+              weights, {}, body, [&](std::size_t i) { return results[i]; }, take);
+          });
+        for (std::size_t i = 0; i < results.size(); ++i)
+        {
+          EXPECT_EQ(results[i], std::to_string(i));
+        }
+        return std::string();
+      });
+    EXPECT_EQ(times, int(weights.size())) << size;
+    EXPECT_TRUE(std::is_sorted(ownerOf.begin(), ownerOf.end())) << size;
+    std::vector<double> loads(std::size_t(size), 0.0);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+    {
+      loads[std::size_t(ownerOf[i].load())] += weights[i];
+    }
+    for (const double load : loads)
+    {
+      EXPECT_NEAR(load, all / size, 28.0) << size;
     }
   }
 }
