@@ -134,20 +134,20 @@ public:
     };
     for (int axis = 0; axis < 3; ++axis)
     {
-      put(pair.w[axis], axis);
+      put(pair.w[axis], columnW + axis);
     }
-    put(pair.s, 3);
-    put(pair.squared, 4);
-    put(pair.e, 5);
-    put(pair.rq, 6);
+    put(pair.s, columnS);
+    put(pair.squared, columnSquared);
+    put(pair.e, columnE);
+    put(pair.rq, columnRq);
     if (tapered)
     {
-      put(pair.t, 7);
-      put(pair.b, 8);
-      put(pair.taperQ, 9);
+      put(pair.t, columnT);
+      put(pair.b, columnB);
+      put(pair.taperQ, columnTaperQ);
       for (int axis = 0; axis < 3; ++axis)
       {
-        put(pair.v[axis], 10 + axis);
+        put(pair.v[axis], columnV + axis);
       }
     }
     this->Size += added;
@@ -161,20 +161,20 @@ public:
     };
     for (int axis = 0; axis < 3; ++axis)
     {
-      pair.w[axis] = column(axis);
+      pair.w[axis] = column(columnW + axis);
     }
-    pair.s = column(3);
-    pair.squared = column(4);
-    pair.e = column(5);
-    pair.rq = column(6);
+    pair.s = column(columnS);
+    pair.squared = column(columnSquared);
+    pair.e = column(columnE);
+    pair.rq = column(columnRq);
     if (tapered)
     {
-      pair.t = column(7);
-      pair.b = column(8);
-      pair.taperQ = column(9);
+      pair.t = column(columnT);
+      pair.b = column(columnB);
+      pair.taperQ = column(columnTaperQ);
       for (int axis = 0; axis < 3; ++axis)
       {
-        pair.v[axis] = column(10 + axis);
+        pair.v[axis] = column(columnV + axis);
       }
     }
   }
@@ -185,7 +185,7 @@ public:
     const Doubles zero = {};
     for (int number = 0; number < columns; ++number)
     {
-      const Doubles filling = zero + (number == 4 ? 1e12 : number == 5 || number == 6 ? 1.0 : 0.0);
+      const Doubles filling = zero + (number == columnSquared ? 1e12 : number == columnE || number == columnRq ? 1.0 : 0.0);
       __builtin_memcpy(this->Columns[number] + this->Size, &filling, sizeof(filling));
     }
   }
@@ -202,7 +202,19 @@ public:
   }
 
 private:
-  static constexpr int columns = 13;
+  enum Column
+  {
+    columnW,
+    columnS = columnW + 3,
+    columnSquared,
+    columnE,
+    columnRq,
+    columnT, // from here on only where radii vary
+    columnB,
+    columnTaperQ,
+    columnV,
+    columns = columnV + 3
+  };
   std::size_t Size = 0;
   double Columns[columns][batch + 2 * width];
 };

@@ -187,17 +187,28 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
 {
 }
 
-/// In parallel, in each process those that are near each other, which share samples. What becomes of a fibre has to be in its
-/// pair, without meshes.
-template <typename Body>
-void SurfaceMaker::forEachFibre(Body&& body, const char* message, double from, double to)
+/// In parallel, in each process those that are near each other, which share samples; `isMade` says of which there is nothing left
+/// to do. What becomes of a fibre has to be in its pair, without meshes.
+template <typename IsMade, typename Body>
+void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to)
 {
-  std::vector<double> weights;
-  weights.reserve(this->Order.size());
-  for (const std::size_t i : this->Order)
+  std::vector<double> weights(this->Order.size(), 1.0);
+  if (this->Shared.size() > 1)
   {
-    const auto found = this->Mesher.fibres().find(this->Pairs[i].fibreId);
-    weights.push_back(1.0 + (found != this->Mesher.fibres().end() ? static_cast<double>(found->second.blocks.size()) : 0.0));
+    std::vector<std::uint64_t> made;
+    for (const std::size_t i : this->Order)
+    {
+      made.push_back(isMade(i) ? 1 : 0);
+    }
+    this->Shared.addUp(made); // a process may know of some that others do not
+    for (std::size_t place = 0; place < weights.size(); ++place)
+    {
+      const auto found = this->Mesher.fibres().find(this->Pairs[this->Order[place]].fibreId);
+      if (made[place] == 0 && found != this->Mesher.fibres().end())
+      {
+        weights[place] += static_cast<double>(found->second.blocks.size());
+      }
+    }
   }
   this->Shared.loopAlong(
     weights, this->Caller, [&](std::size_t i) { body(this->Order[i]); },
@@ -243,7 +254,13 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
 
 void SurfaceMaker::contourOuter(SurfaceStore& outer)
 {
+  const auto isMade = [&](std::size_t i)
+  {
+    FibreSurfacePair known;
+    return this->Journal.recallOuter(i, known);
+  };
   this->forEachFibre(
+    isMade,
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];
@@ -342,11 +359,19 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
 {
   constexpr double anyGRatio = std::numeric_limits<double>::quiet_NaN();
   const bool isCommon = this->Options.model == GRatioModel::TargetAxonVolumeFraction;
+  const auto recall = [&](std::size_t i, FibreSurfacePair& pair)
+  { return this->Journal.recallInner(i, isCommon ? this->Pairs[i].targetGRatio : anyGRatio, pair); };
+  const auto isMade = [&](std::size_t i)
+  {
+    FibreSurfacePair known;
+    return recall(i, known);
+  };
   this->forEachFibre(
+    isMade,
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];
-      if (std::isnan(pair.volumeAsMade) || this->Journal.recallInner(i, isCommon ? pair.targetGRatio : anyGRatio, pair))
+      if (std::isnan(pair.volumeAsMade) || recall(i, pair))
       {
         return;
       }

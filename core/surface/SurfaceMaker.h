@@ -44,8 +44,8 @@ public:
 private:
   using BoundsOfFibres = std::map<std::size_t, std::vector<LocalErrorBound>>;
 
-  template <typename Body>
-  void forEachFibre(Body&& body, const char* message, double from, double to);
+  template <typename IsMade, typename Body>
+  void forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to);
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
   void contourOuter(SurfaceStore& outer);
   void spaceOut(SurfaceStore& outer);
