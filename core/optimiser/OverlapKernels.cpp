@@ -17,28 +17,28 @@ constexpr int vectors = lanes / width;
 /// What neighbours contribute to a capsule.
 enum Number
 {
-  gradient0,
-  gradient1 = gradient0 + 3,
-  radius0 = gradient1 + 3,
-  radius1,
-  stiffness0,
-  stiffness1,
-  cost,
-  penetration, ///< the largest
-  overlapping, ///< how many
-  numbers = 16 ///< with some that are always zero, so that they are two times eight
+  Gradient0,
+  Gradient1 = Gradient0 + 3,
+  Radius0 = Gradient1 + 3,
+  Radius1,
+  Stiffness0,
+  Stiffness1,
+  Cost,
+  Penetration, ///< the largest
+  Overlapping, ///< how many
+  Numbers = 16 ///< with some that are always zero, so that they are two times eight
 };
 
 /// Their sums and the largest, lane by lane.
 struct LaneSums
 {
-  Doubles of[numbers];
+  Doubles of[Numbers];
 };
 
 /// Adds up the lanes, and finds the largest.
-CACTUS_KERNEL_INLINE void reduce(const LaneSums (&sums)[vectors], double (&totals)[numbers], double (&maxima)[numbers])
+CACTUS_KERNEL_INLINE void reduce(const LaneSums (&sums)[vectors], double (&totals)[Numbers], double (&maxima)[Numbers])
 {
-  for (int first = 0; first < numbers; first += width)
+  for (int first = 0; first < Numbers; first += width)
   {
     alignas(64) double rows[width][lanes];
     const double* begins[width];
@@ -134,20 +134,20 @@ public:
     };
     for (int axis = 0; axis < 3; ++axis)
     {
-      put(pair.w[axis], columnW + axis);
+      put(pair.w[axis], ColumnW + axis);
     }
-    put(pair.s, columnS);
-    put(pair.squared, columnSquared);
-    put(pair.e, columnE);
-    put(pair.rq, columnRq);
+    put(pair.s, ColumnS);
+    put(pair.squared, ColumnSquared);
+    put(pair.e, ColumnE);
+    put(pair.rq, ColumnRq);
     if (tapered)
     {
-      put(pair.t, columnT);
-      put(pair.b, columnB);
-      put(pair.taperQ, columnTaperQ);
+      put(pair.t, ColumnT);
+      put(pair.b, ColumnB);
+      put(pair.taperQ, ColumnTaperQ);
       for (int axis = 0; axis < 3; ++axis)
       {
-        put(pair.v[axis], columnV + axis);
+        put(pair.v[axis], ColumnV + axis);
       }
     }
     this->Size += added;
@@ -161,20 +161,20 @@ public:
     };
     for (int axis = 0; axis < 3; ++axis)
     {
-      pair.w[axis] = column(columnW + axis);
+      pair.w[axis] = column(ColumnW + axis);
     }
-    pair.s = column(columnS);
-    pair.squared = column(columnSquared);
-    pair.e = column(columnE);
-    pair.rq = column(columnRq);
+    pair.s = column(ColumnS);
+    pair.squared = column(ColumnSquared);
+    pair.e = column(ColumnE);
+    pair.rq = column(ColumnRq);
     if (tapered)
     {
-      pair.t = column(columnT);
-      pair.b = column(columnB);
-      pair.taperQ = column(columnTaperQ);
+      pair.t = column(ColumnT);
+      pair.b = column(ColumnB);
+      pair.taperQ = column(ColumnTaperQ);
       for (int axis = 0; axis < 3; ++axis)
       {
-        pair.v[axis] = column(columnV + axis);
+        pair.v[axis] = column(ColumnV + axis);
       }
     }
   }
@@ -183,9 +183,9 @@ public:
   CACTUS_KERNEL_INLINE void fillUp()
   {
     const Doubles zero = {};
-    for (int number = 0; number < columns; ++number)
+    for (int number = 0; number < ColumnCount; ++number)
     {
-      const Doubles filling = zero + (number == columnSquared ? 1e12 : number == columnE || number == columnRq ? 1.0 : 0.0);
+      const Doubles filling = zero + (number == ColumnSquared ? 1e12 : number == ColumnE || number == ColumnRq ? 1.0 : 0.0);
       __builtin_memcpy(this->Columns[number] + this->Size, &filling, sizeof(filling));
     }
   }
@@ -194,7 +194,7 @@ public:
   CACTUS_KERNEL_INLINE void dropBatch()
   {
     this->Size -= batch;
-    for (int number = 0; number < columns; ++number)
+    for (int number = 0; number < ColumnCount; ++number)
     {
       const Doubles left = load(this->Columns[number] + batch);
       __builtin_memcpy(this->Columns[number], &left, sizeof(left));
@@ -204,19 +204,19 @@ public:
 private:
   enum Column
   {
-    columnW,
-    columnS = columnW + 3,
-    columnSquared,
-    columnE,
-    columnRq,
-    columnT, // from here on only where radii vary
-    columnB,
-    columnTaperQ,
-    columnV,
-    columns = columnV + 3
+    ColumnW,
+    ColumnS = ColumnW + 3,
+    ColumnSquared,
+    ColumnE,
+    ColumnRq,
+    ColumnT, // from here on only where radii vary
+    ColumnB,
+    ColumnTaperQ,
+    ColumnV,
+    ColumnCount = ColumnV + 3
   };
   std::size_t Size = 0;
-  double Columns[columns][batch + 2 * width];
+  double Columns[ColumnCount][batch + 2 * width];
 };
 
 /// How the cost changes as the closest points slide, given how it changes with the radii there along p and q. The points satisfy
@@ -273,18 +273,18 @@ CACTUS_KERNEL_INLINE void addLanes(
   const Doubles alongV1 = adjointT * pair.s;
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.of[gradient0 + axis] += alongW0 * pair.w[axis] + alongU0 * pair.u[axis] + alongV0 * pair.v[axis];
-    sums.of[gradient1 + axis] += alongW1 * pair.w[axis] + alongU1 * pair.u[axis] + alongV1 * pair.v[axis];
+    sums.of[Gradient0 + axis] += alongW0 * pair.w[axis] + alongU0 * pair.u[axis] + alongV0 * pair.v[axis];
+    sums.of[Gradient1 + axis] += alongW1 * pair.w[axis] + alongU1 * pair.u[axis] + alongV1 * pair.v[axis];
   }
-  sums.of[radius0] += byRp * near0;
-  sums.of[radius1] += byRp * pair.s;
+  sums.of[Radius0] += byRp * near0;
+  sums.of[Radius1] += byRp * pair.s;
   const Doubles stiffness = select(depth > zero, 2.0 * scale * inverseSum * inverseSum, zero);
-  sums.of[stiffness0] += stiffness * near0;
-  sums.of[stiffness1] += stiffness * pair.s;
-  sums.of[cost] += 0.5 * D * D * scale;
+  sums.of[Stiffness0] += stiffness * near0;
+  sums.of[Stiffness1] += stiffness * pair.s;
+  sums.of[Cost] += 0.5 * D * D * scale;
   const Doubles deepest = one - ratio;
-  sums.of[penetration] = deepest > sums.of[penetration] ? deepest : sums.of[penetration];
-  sums.of[overlapping] += select(deepest > tolerance, one, zero);
+  sums.of[Penetration] = deepest > sums.of[Penetration] ? deepest : sums.of[Penetration];
+  sums.of[Overlapping] += select(deepest > tolerance, one, zero);
 }
 
 /// Adds what the first `count` of the pairs contribute, the n-th of them in the lane n % lanes of all sums.
@@ -338,7 +338,7 @@ void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std
   LaneSums all[vectors] = {};
   for (LaneSums& sums : all)
   {
-    sums.of[penetration] -= 1.0;
+    sums.of[Penetration] -= 1.0;
   }
   for (std::size_t n = 0; n < count; n += width)
   {
@@ -359,21 +359,21 @@ void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std
   }
   touching.fillUp();
   addTouching(p, touching, touching.size(), margin, tolerance, tapered, all);
-  double totals[numbers];
-  double maxima[numbers];
+  double totals[Numbers];
+  double maxima[Numbers];
   reduce(all, totals, maxima);
   for (int axis = 0; axis < 3; ++axis)
   {
-    result.gradient0[axis] = totals[gradient0 + axis];
-    result.gradient1[axis] = totals[gradient1 + axis];
+    result.gradient0[axis] = totals[Gradient0 + axis];
+    result.gradient1[axis] = totals[Gradient1 + axis];
   }
-  result.radius0 = totals[radius0];
-  result.radius1 = totals[radius1];
-  result.stiffness0 = totals[stiffness0];
-  result.stiffness1 = totals[stiffness1];
-  result.cost = totals[cost];
-  result.penetration = maxima[penetration];
-  result.overlapping = static_cast<std::size_t>(totals[overlapping]);
+  result.radius0 = totals[Radius0];
+  result.radius1 = totals[Radius1];
+  result.stiffness0 = totals[Stiffness0];
+  result.stiffness1 = totals[Stiffness1];
+  result.cost = totals[Cost];
+  result.penetration = maxima[Penetration];
+  result.overlapping = static_cast<std::size_t>(totals[Overlapping]);
 }
 
 } // namespace

@@ -61,7 +61,7 @@ class ManifestSchema(CactusTestCase):
         SaveData(path, proxy=BundleInitializer(Side=6, FibreVolumeFraction=0.1, MinimumRadius=0.5))
         bundle = BundleInitializer(Side=6, FibreVolumeFraction=0.1, MinimumRadius=0.5, RadiusDistribution="Table", RadiusTable="0.5 0.6")
         fibres = OutputPort(CapsuleOptimizer(Input=GroupDatasets(Input=[StrandReader(FileName=path), bundle])), 0)
-        grown = FibreRadialGrowth(Input=fibres, VoxelSize=0.2, TargetFibreVolumeFraction=0)
+        grown = FibreRadialGrowth(Input=fibres, VoxelSize=0.1, TargetFibreVolumeFraction=0)
         made = MyelinSurface(Input=grown)
         manifest = self.write(Fibres=fibres, Outer=OutputPort(made, 0), Inner=OutputPort(made, 1))
         self.assertValid(manifest)
