@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Sharing.h"
 
+#include "base/EvenParts.h"
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -308,21 +310,12 @@ std::vector<std::size_t> Sharing::batchesOf(int process, std::size_t count) cons
   return part;
 }
 
-/// Those whose middles, on a scale of the weights, lie in the process's part of it.
 std::vector<std::size_t> Sharing::stretchOf(int process, const std::vector<double>& weights) const
 {
-  const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / this->size();
-  std::vector<std::size_t> part;
-  double before = 0.0;
-  for (std::size_t i = 0; i < weights.size(); ++i)
-  {
-    const auto owner = static_cast<int>((before + 0.5 * weights[i]) / share);
-    before += weights[i];
-    if (std::min(owner, this->size() - 1) == process)
-    {
-      part.push_back(i);
-    }
-  }
+  const std::vector<std::size_t> begins = evenParts(weights, static_cast<std::size_t>(this->size()));
+  const auto place = static_cast<std::size_t>(process);
+  std::vector<std::size_t> part(begins[place + 1] - begins[place]);
+  std::iota(part.begin(), part.end(), begins[place]);
   return part;
 }
 

@@ -2,9 +2,9 @@
 #include "optimiser/FibreShares.h"
 
 #include "base/Error.h"
+#include "base/EvenParts.h"
 #include "fibres/SelectFibres.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -19,28 +19,16 @@ FibreShares::FibreShares(const Fibres& fibres, const Sharing& sharing)
 {
   require(fibres.points.size() <= std::numeric_limits<std::uint32_t>::max(),
     "the fibres have more control points than 32 bits count: make the domain smaller, or the points fewer");
-  const auto count = static_cast<std::size_t>(sharing.size());
-  const std::size_t capsules = fibres.points.size() - fibres.size();
-  std::size_t f = 0;
-  for (std::size_t process = 0; process <= count; ++process)
+  std::vector<double> capsules;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    while (f < fibres.size() && (process == count || fibres.offsets[f] - f < capsules * process / count))
-    {
-      ++f;
-    }
-    this->FibreBegin.push_back(f);
+    capsules.push_back(static_cast<double>(fibres.pointCount(f) - 1));
+  }
+  this->FibreBegin = evenParts(capsules, static_cast<std::size_t>(sharing.size()));
+  for (const std::size_t f : this->FibreBegin)
+  {
     this->PointBegin.push_back(fibres.offsets[f]);
   }
-}
-
-std::size_t FibreShares::ownerOf(std::size_t capsule) const
-{
-  std::size_t process = 0;
-  while (capsule >= this->capsuleBegin(process + 1))
-  {
-    ++process;
-  }
-  return process;
 }
 
 Fibres FibreShares::own(Fibres all) const

@@ -41,9 +41,6 @@ public:
   std::size_t ownPoint() const { return this->pointBegin(this->self()); }
   std::size_t ownCapsule() const { return this->capsuleBegin(this->self()); }
 
-  /// The process that has a capsule.
-  std::size_t ownerOf(std::size_t capsule) const;
-
   /// This process's fibres, by themselves.
   Fibres own(Fibres all) const;
 
