@@ -47,6 +47,15 @@ std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double
   return bundles;
 }
 
+/// By how much a fibre that follows a flow differs, within its frame, from the straight line between its ends.
+Eigen::Vector2d bendOf(const Bundle& bundle, std::size_t fibre, double share)
+{
+  const Eigen::Vector2d& from = bundle.bottom.centres[fibre];
+  const Eigen::Vector2d straight = from + (bundle.top.centres[fibre] - from) * share;
+  const Eigen::Vector2d bent = straight + bundle.paths.bend(fibre, share);
+  return bundle.top.frame(fibre).clampCentre(bent, bundle.bottom.radii[fibre]) - straight;
+}
+
 void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options, Fibres& fibres)
 {
   const double sine = std::sin(bundle.angle);
@@ -67,7 +76,8 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
     fibres.addPoint(first, radius);
     for (int k = 1; k < segments; ++k)
     {
-      fibres.addPoint(first + (last - first) * (static_cast<double>(k) / segments), radius);
+      const double share = static_cast<double>(k) / segments;
+      fibres.addPoint(first + (last - first) * share + place(bendOf(bundle, i, share), 0.0), radius);
     }
     fibres.addPoint(last, radius);
   }

@@ -31,8 +31,8 @@ struct BundleInitializerOptions
   /// radii.
   double grownFibreVolumeFraction = 0.9;
   double meanDispersion = 5.0; ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
-  /// Coherent is for one bundle. The layers of two crossing bundles are too thin for a flow; their fibres are then drawn as with
-  /// Watson.
+  /// Fibres follow the flow of Coherent, and are straight with the others. Coherent is for one bundle. The layers of two crossing
+  /// bundles are too thin for a flow; their fibres are then drawn as with Watson.
   DispersionModel dispersionModel = DispersionModel::Coherent;
   /// Distance over which the directions of DispersionModel::Coherent are alike (see CoherentFlow); 0: four times the mean shift
   /// of the fibres from face to face, at least a 32nd of the face.

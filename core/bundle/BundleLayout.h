@@ -3,6 +3,7 @@
 
 #include "bundle/BundleInitializerOptions.h"
 #include "bundle/Circles.h"
+#include "bundle/CoherentFlow.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,7 @@ struct Bundle
   double density = 0.0; ///< wanted of the circles on each face
   Circles bottom;
   Circles top;
+  FlowPaths paths; ///< of the circles' middles from bottom to top, in the flow; no places where fibres are straight
 };
 
 /// Random streams of different bundles and attempts are kept apart by these offsets of the item number.

@@ -142,13 +142,13 @@ bool carryAlong(Bundle& bundle, const BundleInitializerOptions& options, int att
   const double length =
     options.correlationLength > 0.0 ? options.correlationLength : std::max(4.0 * shift, frame.size().maxCoeff() / 32.0);
   RandomEngine engine = randomStream(options.seed, RandomStage::Directions, itemOf(0, bundle.id, attempt));
-  const bool isFarEnough =
-    CoherentFlow(frame, length, engine).carry(top.centres, bundle.length, options.meanDispersion * degree, context);
+  bundle.paths =
+    CoherentFlow(frame, length, engine).carry(bundle.bottom.centres, bundle.length, options.meanDispersion * degree, context);
   for (std::size_t i = 0; i < top.size(); ++i)
   {
-    top.centres[i] = frame.clampCentre(top.centres[i], top.radii[i]);
+    top.centres[i] = frame.clampCentre(bundle.paths.places.back()[i], top.radii[i]);
   }
-  return isFarEnough;
+  return bundle.paths.isFarEnough;
 }
 
 enum class TopFace

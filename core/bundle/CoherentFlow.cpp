@@ -19,6 +19,8 @@ namespace
 constexpr double stepsPerLength = 16.0;
 /// Correlation lengths after which what has not come far enough goes round in circles.
 constexpr double farthest = 6.0;
+/// However short the way.
+constexpr int fewestSteps = 8;
 /// Relative, of the mean angle.
 constexpr double precision = 1e-6;
 
@@ -33,6 +35,30 @@ double meanAngleOf(const std::vector<Eigen::Vector2d>& from, const std::vector<E
 }
 
 } // namespace
+
+Eigen::Vector2d FlowPaths::bend(std::size_t point, double share) const
+{
+  if (this->places.empty())
+  {
+    return Eigen::Vector2d::Zero();
+  }
+  const int last = static_cast<int>(this->places.size()) - 1;
+  const auto bendAt = [&](int i) -> Eigen::Vector2d
+  {
+    const double along = static_cast<double>(i) / last;
+    const auto place = [&](int j) -> const Eigen::Vector2d& { return this->places[static_cast<std::size_t>(j)][point]; };
+    return place(i) - ((1.0 - along) * place(0) + along * place(last));
+  };
+  const int i = std::clamp(static_cast<int>(share * last), 0, last - 1);
+  const double t = share * last - i;
+  const Eigen::Vector2d from = bendAt(i);
+  const Eigen::Vector2d to = bendAt(i + 1);
+  // Beyond the ends the way goes on as straight as it can.
+  const Eigen::Vector2d before = i > 0 ? bendAt(i - 1) : Eigen::Vector2d(3.0 * (from - to) + bendAt(i + 2));
+  const Eigen::Vector2d after = i + 1 < last ? bendAt(i + 2) : Eigen::Vector2d(3.0 * (to - from) + bendAt(i - 1));
+  return from +
+         0.5 * t * (to - before + t * (2.0 * before - 5.0 * from + 4.0 * to - after + t * (3.0 * (from - to) + after - before)));
+}
 
 CoherentFlow::CoherentFlow(const Rectangle& frame, double correlationLength, RandomEngine& engine)
   : Frame(frame)
@@ -110,13 +136,19 @@ void CoherentFlow::advance(std::vector<Eigen::Vector2d>& points, double time, co
     });
 }
 
-bool CoherentFlow::carry(std::vector<Eigen::Vector2d>& points, double height, double meanAngle, const Context& context) const
+double CoherentFlow::stepTime() const
 {
-  const std::vector<Eigen::Vector2d> start = points;
-  std::vector<Eigen::Vector2d> farthestPoints = points;
+  return this->Length / stepsPerLength; // the mean speed is about 1
+}
+
+double CoherentFlow::timeTo(
+  const std::vector<Eigen::Vector2d>& start, double height, double meanAngle, bool& isFarEnough, const Context& context) const
+{
+  const double step = this->stepTime();
+  std::vector<Eigen::Vector2d> points = start;
   double largest = 0.0;
+  double timeOfLargest = 0.0;
   double reached = 0.0;
-  const double step = this->Length / stepsPerLength; // the mean speed is about 1
   for (double time = 0.0; time < farthest * this->Length; time += step)
   {
     const std::vector<Eigen::Vector2d> before = points;
@@ -130,24 +162,43 @@ bool CoherentFlow::carry(std::vector<Eigen::Vector2d>& points, double height, do
       if (reached > largest)
       {
         largest = reached;
-        farthestPoints = points;
+        timeOfLargest = time + step;
       }
       continue;
     }
     // Within a step the mean angle is nearly linear in time.
-    for (double highAngle = reached; std::abs(reached - meanAngle) > precision * meanAngle;)
+    for (double highAngle = reached;;)
     {
       const double between = low + (high - low) * (meanAngle - lowAngle) / (highAngle - lowAngle);
       points = before;
       this->advance(points, between, context);
       reached = meanAngleOf(start, points, height);
+      if (std::abs(reached - meanAngle) <= precision * meanAngle)
+      {
+        isFarEnough = true;
+        return time + between;
+      }
       (reached < meanAngle ? low : high) = between;
       (reached < meanAngle ? lowAngle : highAngle) = reached;
     }
-    return true;
   }
-  points = std::move(farthestPoints);
-  return false;
+  isFarEnough = false;
+  return timeOfLargest;
+}
+
+FlowPaths CoherentFlow::carry(
+  const std::vector<Eigen::Vector2d>& points, double height, double meanAngle, const Context& context) const
+{
+  FlowPaths paths;
+  const double time = this->timeTo(points, height, meanAngle, paths.isFarEnough, context);
+  const int steps = std::max(fewestSteps, static_cast<int>(std::ceil(time / this->stepTime())));
+  paths.places = { points };
+  for (int i = 0; i < steps; ++i)
+  {
+    paths.places.push_back(paths.places.back());
+    this->advance(paths.places.back(), time / steps, context);
+  }
+  return paths;
 }
 
 } // namespace cactus

@@ -7,10 +7,22 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace cactus
 {
+
+/// The ways of points that a flow has carried along.
+struct FlowPaths
+{
+  std::vector<std::vector<Eigen::Vector2d>> places; ///< of all points at evenly spaced times, from the first to the last (µm)
+  bool isFarEnough = false;                         ///< whether they came as far as they should
+
+  /// Where a point is after a share of the time less where it would be on the straight line between its ends (µm), by cubics
+  /// through its places (Catmull and Rom 1974). Zero where there are no places, and at both ends.
+  Eigen::Vector2d bend(std::size_t point, double share) const;
+};
 
 /// A steady random flow within a rectangle that keeps areas and lets nothing through the rim: the curl of a Gaussian random
 /// stream function that is zero there. Points that it carries along are shifted alike where they are near each other, and are
@@ -29,12 +41,16 @@ public:
   CoherentFlow(const Rectangle& frame, double correlationLength, RandomEngine& engine);
 
   /// Carries all points, which lie in the rectangle, until the mean of atan2(shift, height) over them is `meanAngle` (radians).
-  /// Returns false where it never becomes that large, because the flow carries them round and back; points are then those of
-  /// the largest mean. Throws Cancelled. Same bits on any number of threads.
-  bool carry(std::vector<Eigen::Vector2d>& points, double height, double meanAngle, const Context& context = {}) const;
+  /// Where it never becomes that large, because the flow carries them round and back, they stop where it is largest, which is not
+  /// far enough. Throws Cancelled. Same bits on any number of threads.
+  FlowPaths carry(const std::vector<Eigen::Vector2d>& points, double height, double meanAngle, const Context& context = {}) const;
 
 private:
   Eigen::Vector2d velocity(const Eigen::Vector2d& point, std::vector<double>& work) const;
+  double stepTime() const;
+  /// The time after which the mean angle is the one asked, or largest.
+  double timeTo(
+    const std::vector<Eigen::Vector2d>& start, double height, double meanAngle, bool& isFarEnough, const Context& context) const;
   void advance(std::vector<Eigen::Vector2d>& points, double time, const Context& context) const;
 
   Rectangle Frame;

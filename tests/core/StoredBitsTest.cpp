@@ -78,17 +78,17 @@ TEST(StoredBits, DefaultChain)
   wanted.side = 8.0;
   wanted.meanDispersion = 10.0;
   const Fibres initial = initialiseBundles(wanted);
-  EXPECT_EQ(digest(initial), "21567c8b37922ddc7272719cc66d0c47d5503747ca5c8774bad875196810fc14");
+  EXPECT_EQ(digest(initial), "c1032f53505dfff021f4f24f931b7bc283bdf85b9539fff702c2b0e2ad5494dd");
 
   Fibres fibres = initial;
   optimise(fibres, CapsuleOptimizerOptions{}, {});
   fibres = trimToDomain(fibres);
-  EXPECT_EQ(digest(fibres), "0d8d6a1d25ec49963c60d9eae432bf44d5214cdddf723bf79ceec4412c34538d");
+  EXPECT_EQ(digest(fibres), "c8147b3d428fb680e9b0033f90b2aa9a59e6f426b7b8bad381f7aa5d7e92a995");
 
   const FibreRadialGrowthOptions growth;
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
   const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(fibres.domain, growth));
-  EXPECT_EQ(digest(image), "3f8b8fb22af8d3e16786f151cfd1d6cc97858ce42eff95079af4d3589a0f9eca");
+  EXPECT_EQ(digest(image), "7a65893025575a58c6442e64f7dfbba9b7d75dcda628c72cf5964bbd35b1ef90");
 
   const LabelImageFacts facts = labelImageFacts(fibres, growth);
   const auto surfaces = myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, {});
@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "9373447c608687e41de8eb8822093e61319ad8d5cd6290b9372a2148e256f92b",
-           "10c94ba5fb232634c75d7f4fa3a0b5bfe43fe04c2e35ab2a98d87d06467e8d07" },
-         Known{ 20, "52a25bda38718049f2ba069ca8681e13c342dda36af505791b3b195b0a0a4e76",
-           "005ef83f5d930309d0c209e0086894eeada1a5842f475d7d46ce42c52c90b337" },
-         Known{ 38, "28906c204933ca2fa8edd872b553c461660f17dd3e4e286c33d619ea8992bb8f",
-           "f42f8b9c644f7367d555fc64c389206428cd747ef1204e90710a9a2a26ff9a91" },
+         Known{ 1, "318869ff34b75af643a4f59207bceccc5453b3807b330cd3e2000b00681202b9",
+           "b8888f7b32bf5c05c1c80fc902ba82bcc1e58702b77757332d354b05624c06c1" },
+         Known{ 20, "83b096ecfd03b3704a1c842b53a38548b12c132a1dceee521dfbdb074cffcfd7",
+           "c3d5494335ef321f07ec86c867eecf2899eb4e22c4a538ee1ed7da63a642a15c" },
+         Known{ 38, "6ba3db06f58a29e0928bbd8ec2105b8d23536386bbf70022f7ce90d74fb63243",
+           "e5ef4ceb6abb34ba3d7df3ff8e613529e5170fee60ae80d1eb5e966be19543cd" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

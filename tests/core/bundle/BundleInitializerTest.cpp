@@ -217,10 +217,102 @@ TEST(BundleInitializer, WithoutDispersionEndsLieOppositeEachOther)
   }
 }
 
-TEST(BundleInitializer, FibresAreStraightAndEvenlySpaced)
+/// Standard deviation over squares of 10 µm of how much of them the circles fill which fibres leave at places of theirs, by
+/// brute force.
+double unevenness(const Fibres& fibres, double face, const std::function<Eigen::Vector2d(std::size_t)>& placeOf)
+{
+  constexpr double pixel = 0.1;
+  constexpr int squarePixels = 100;
+  const int squares = static_cast<int>(face / (pixel * squarePixels));
+  const int pixels = squares * squarePixels;
+  std::vector<char> isFilled(std::size_t(pixels) * std::size_t(pixels), 0);
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const double r = fibres.targetRadii[f];
+    const Eigen::Vector2d centre = placeOf(f).array() + 0.5 * face;
+    for (int y = std::max(0, int((centre.y() - r) / pixel)); y < std::min(pixels, int((centre.y() + r) / pixel) + 1); ++y)
+    {
+      for (int x = std::max(0, int((centre.x() - r) / pixel)); x < std::min(pixels, int((centre.x() + r) / pixel) + 1); ++x)
+      {
+        const Eigen::Vector2d at(pixel * (x + 0.5), pixel * (y + 0.5));
+        char& filled = isFilled[std::size_t(y) * std::size_t(pixels) + std::size_t(x)];
+        filled = filled != 0 || (at - centre).norm() < r;
+      }
+    }
+  }
+  std::vector<double> densities(std::size_t(squares) * std::size_t(squares), 0.0);
+  for (std::size_t i = 0; i < isFilled.size(); ++i)
+  {
+    const std::size_t row = i / std::size_t(pixels) / squarePixels;
+    const std::size_t column = i % std::size_t(pixels) / squarePixels;
+    densities[row * std::size_t(squares) + column] += isFilled[i] / double(squarePixels * squarePixels);
+  }
+  const Eigen::Map<const Eigen::ArrayXd> all(densities.data(), Eigen::Index(densities.size()));
+  return std::sqrt((all - all.mean()).square().mean());
+}
+
+TEST(BundleInitializer, FibresThatFollowAFlowAreAsDenseAmidAsAtTheFaces)
+{
+  DrawnRadii options;
+  options.side = 80.0;
+  options.meanDispersion = 12.0;
+  options.minimumSpacing = options.maximumSpacing = 40.0;
+  for (const std::uint64_t seed : { 1, 2 })
+  {
+    options.seed = seed;
+    const Fibres fibres = initialiseBundles(options);
+    const auto atFace = [&](std::size_t f) -> Eigen::Vector2d { return endPoint(fibres, f, 0).head<2>(); };
+    const auto amid = [&](std::size_t f) -> Eigen::Vector2d
+    {
+      EXPECT_EQ(fibres.pointCount(f), 3u);
+      EXPECT_EQ(fibres.points[fibres.offsets[f] + 1].z(), 0.0);
+      return fibres.points[fibres.offsets[f] + 1].head<2>();
+    };
+    const auto onStraightLine = [&](std::size_t f) -> Eigen::Vector2d
+    { return 0.5 * (endPoint(fibres, f, 0) + endPoint(fibres, f, 1)).head<2>(); };
+    const double asAtFace = unevenness(fibres, options.side, atFace);
+    const double asStraight = unevenness(fibres, options.side, onStraightLine);
+    EXPECT_GT(asStraight, 2.0 * asAtFace);
+    EXPECT_LT(unevenness(fibres, options.side, amid), asAtFace + 0.25 * (asStraight - asAtFace));
+  }
+}
+
+TEST(BundleInitializer, FibresThatFollowAFlowStayInTheFrameAndBendGently)
+{
+  DrawnRadii options;
+  for (const double length : { 0.0, 10.0 })
+  {
+    options.correlationLength = length;
+    options.meanDispersion = length > 0.0 ? 10.0 : 20.0;
+    const Fibres fibres = initialiseBundles(options);
+    double furthest = 0.0;
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+    {
+      const Eigen::Vector3d* points = fibres.points.data() + fibres.offsets[f];
+      const std::size_t last = fibres.pointCount(f) - 1;
+      for (std::size_t k = 0; k <= last; ++k)
+      {
+        const double share = double(k) / double(last);
+        EXPECT_NEAR(points[k].z(), options.side * (share - 0.5), 1e-9); // evenly apart along the axis
+        EXPECT_LE(points[k].head<2>().cwiseAbs().maxCoeff() + fibres.targetRadii[f], 0.5 * options.side + 1e-9);
+        furthest = std::max(furthest, (points[k] - points[0] - share * (points[last] - points[0])).norm());
+        if (k > 0 && k < last)
+        {
+          const double turn = (points[k + 1] - points[k]).normalized().dot((points[k] - points[k - 1]).normalized());
+          EXPECT_GT(turn, std::cos(20.0 * degree)) << f << " " << k;
+        }
+      }
+    }
+    EXPECT_GT(furthest, 0.3);
+    EXPECT_LT(furthest, 0.15 * options.side);
+  }
+}
+
+TEST(BundleInitializer, OtherFibresAreStraightAndEvenlySpaced)
 {
   DrawnRadii options;
   options.meanDispersion = 10.0;
+  options.dispersionModel = DispersionModel::Watson;
   const Fibres fibres = initialiseBundles(options);
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
