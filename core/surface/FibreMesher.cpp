@@ -97,7 +97,7 @@ void FibreMesher::makeOuter(
   double right = level;
   if (furthest > 0.0)
   {
-    volume = measure(this->Contours.unsmoothed(field)).volume;
+    volume = measure(this->Contours.unsmoothed(field)).volume - deeper * now.freeArea;
     right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
     // The rest is left to the move after coarsening.
     const double rest = restPart * furthest;

@@ -23,7 +23,7 @@ namespace
 
 /// Relative error of the axons' common volume that is good enough.
 constexpr double volumeTolerance = 2e-3;
-/// µm by which those lie deeper each time that are not coarsened, and so cannot be coarsened less.
+/// µm by which those lie deeper each time that are not coarsened, or were coarsened less there in vain.
 constexpr double deeperEachTime = 0.005;
 /// How often outer surfaces that went wrong when they were moved are made again.
 constexpr int remakes = 3;
@@ -280,7 +280,7 @@ void SurfaceMaker::contourOuter(SurfaceStore& outer)
 }
 
 /// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again,
-/// coarsened less there or, if surfaces are not coarsened, deeper.
+/// coarsened less there and, if surfaces are not coarsened or that does not help, deeper: then there is less to move.
 void SurfaceMaker::spaceOut(SurfaceStore& outer)
 {
   const double gap = std::max(this->Facts.minimumGap, leastSeparation);
@@ -299,7 +299,7 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer)
       attempt == 0 ? 0.45 : 0.54, 0.55, this->Shared);
     tooNear = spacing.tooNear;
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);
-    this->makeAgain(made, isCoarsened ? 0.0 : deeperEachTime * (attempt + 1), bounds, outer);
+    this->makeAgain(made, deeperEachTime * (isCoarsened ? attempt : attempt + 1), bounds, outer);
   }
   for (const std::size_t i : tooNear)
   {

@@ -28,26 +28,67 @@ namespace
 
 using namespace cactus;
 
+/// A straight fibre of 0.6 µm along z through a cube of 3 µm, grown as by default.
+struct StraightFibre
+{
+  LabelImageFacts facts;
+  LabelImage image;
+  double gap = 0.0;
+
+  StraightFibre()
+  {
+    const FibreRadialGrowthOptions options;
+    Fibres fibres;
+    fibres.domain = Domain::cube(3.0);
+    fibres.addFibre(1, 1, 0.6);
+    fibres.addPoint({ 0.0, 0.0, -2.0 }, 0.6);
+    fibres.addPoint({ 0.0, 0.0, 2.0 }, 0.6);
+    image = growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
+    gap = options.gap();
+    facts.domain = fibres.domain;
+    facts.fibreIds = facts.bundleIds = { 1 };
+    facts.targetRadii = { 0.6 };
+    facts.minimumGap = options.minimumGap;
+    facts.surfaceTolerance = options.surfaceTolerance;
+  }
+  std::shared_ptr<LabelImageInMemory> source() const
+  {
+    return std::make_shared<LabelImageInMemory>(LabelImageView{ image.grid, image.fibreId.data(), image.depth.data(), gap });
+  }
+};
+
+TEST(FibreMesher, OuterSurfacesLieAsMuchDeeperAsWanted)
+{
+  const StraightFibre fibre;
+  for (const int smoothing : { 0, 3 })
+  {
+    for (const double error : { 0.0, 0.0075 })
+    {
+      MyelinSurfaceOptions options;
+      options.smoothingIterations = smoothing;
+      options.decimationError = error;
+      const FibreMesher mesher(fibre.source(), fibre.facts, options);
+      const SmoothedField field = mesher.smoothed(1);
+      std::vector<double> radii;
+      for (const double deeper : { 0.0, 0.005, 0.01 })
+      {
+        FibreSurfacePair pair;
+        pair.fibreId = 1;
+        mesher.makeOuter(field, pair, {}, deeper);
+        radii.push_back(std::sqrt(pair.outerReport.volume / (pi * 3.0)));
+      }
+      EXPECT_NEAR(radii[0] - radii[1], 0.005, 2e-4) << smoothing << " " << error;
+      EXPECT_NEAR(radii[0] - radii[2], 0.01, 4e-4) << smoothing << " " << error;
+    }
+  }
+}
+
 TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
 {
-  FibreRadialGrowthOptions options;
-  Fibres fibres;
-  fibres.domain = Domain::cube(3.0);
-  fibres.addFibre(1, 1, 0.6);
-  fibres.addPoint({ 0.0, 0.0, -2.0 }, 0.6);
-  fibres.addPoint({ 0.0, 0.0, 2.0 }, 0.6);
-  const LabelImage image = growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
-  LabelImageFacts facts;
-  facts.domain = fibres.domain;
-  facts.fibreIds = facts.bundleIds = { 1 };
-  facts.targetRadii = { 0.6 };
-  facts.minimumGap = options.minimumGap;
-  facts.surfaceTolerance = options.surfaceTolerance;
+  const StraightFibre fibre;
   MyelinSurfaceOptions surfaceOptions;
   surfaceOptions.decimationError = 0.0005; // so that there are points to push
-  const FibreMesher mesher(
-    std::make_shared<LabelImageInMemory>(LabelImageView{ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }),
-    facts, surfaceOptions);
+  const FibreMesher mesher(fibre.source(), fibre.facts, surfaceOptions);
   const SmoothedField field = mesher.smoothed(1);
   FibreSurfacePair pair;
   pair.fibreId = 1;
