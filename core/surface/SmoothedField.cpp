@@ -51,12 +51,12 @@ inline std::array<FourFloats, 4> rowsAt(const float* corner, std::ptrdiff_t step
 
 inline std::array<FourFloats, 4> transposed(const std::array<FourFloats, 4>& rows)
 {
-  const FourFloats low01 = { rows[0][0], rows[1][0], rows[0][1], rows[1][1] };
-  const FourFloats low23 = { rows[2][0], rows[3][0], rows[2][1], rows[3][1] };
-  const FourFloats high01 = { rows[0][2], rows[1][2], rows[0][3], rows[1][3] };
-  const FourFloats high23 = { rows[2][2], rows[3][2], rows[2][3], rows[3][3] };
-  return { { FourFloats{ low01[0], low01[1], low23[0], low23[1] }, FourFloats{ low01[2], low01[3], low23[2], low23[3] },
-    FourFloats{ high01[0], high01[1], high23[0], high23[1] }, FourFloats{ high01[2], high01[3], high23[2], high23[3] } } };
+  const FourFloats low01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 1, 5);
+  const FourFloats low23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 1, 5);
+  const FourFloats high01 = __builtin_shufflevector(rows[0], rows[1], 2, 6, 3, 7);
+  const FourFloats high23 = __builtin_shufflevector(rows[2], rows[3], 2, 6, 3, 7);
+  return { { __builtin_shufflevector(low01, low23, 0, 1, 4, 5), __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
+    __builtin_shufflevector(high01, high23, 0, 1, 4, 5), __builtin_shufflevector(high01, high23, 2, 3, 6, 7) } };
 }
 
 inline FourFloats lesser(const FourFloats& x, const FourFloats& y)
@@ -138,8 +138,10 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCube
   {
     this->Count[axis] = at.empty() ? 0 : last[axis] - this->First[axis] + 1;
     this->Cells[axis] = this->Lattice.cells(int(axis));
+    this->LastSample[axis] = this->Cells[axis] - 1;
+    this->LastCell[axis] = std::max(1, this->Cells[axis] - 2);
   }
-  this->Places.assign(std::size_t(this->Count[0]) * std::size_t(this->Count[1]) * std::size_t(this->Count[2]), -1);
+  this->Places.assign(std::size_t(this->Count[0]) * std::size_t(this->Count[1]) * std::size_t(this->Count[2]), BlockPlace());
   const std::size_t longest = std::size_t(std::max_element(this->Count.begin(), this->Count.end()) - this->Count.begin());
   const auto edge = [&](std::size_t axis) { return inCubes || axis == longest ? blocksTogether : 1; };
   std::map<Index, std::vector<Piece>> groups;
@@ -148,7 +150,8 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCube
   {
     const Piece piece{ nodesOfBlock(this->Lattice, this->Blocks[b]).widened(1), place };
     groups[{ { at[b][0] / edge(0), at[b][1] / edge(1), at[b][2] / edge(2) } }].push_back(piece);
-    this->Places[std::size_t(this->placeOf(at[b]))] = place;
+    this->Places[std::size_t(this->placeOf(at[b]) - this->Places.data())] = { place,
+      { { piece.range.count[0], piece.range.count[0] * piece.range.count[1] } } };
     place += std::ptrdiff_t(piece.range.size());
   }
   this->Values.resize(std::size_t(place));
@@ -224,19 +227,20 @@ void SmoothedField::copyPieces(
   }
 }
 
-std::ptrdiff_t SmoothedField::placeOf(const Index& block) const
+inline const SmoothedField::BlockPlace* SmoothedField::placeOf(const Index& block) const
 {
-  std::ptrdiff_t place = 0;
+  std::size_t place = 0;
   for (std::size_t axis = 3; axis-- > 0;)
   {
-    const int along = block[axis] - this->First[axis];
-    if (along < 0 || along >= this->Count[axis])
+    const auto along = static_cast<unsigned>(block[axis] - this->First[axis]);
+    const auto count = static_cast<unsigned>(this->Count[axis]);
+    if (along >= count)
     {
-      return -1;
+      return nullptr;
     }
-    place = place * this->Count[axis] + along;
+    place = place * count + along;
   }
-  return place;
+  return &this->Places[place];
 }
 
 void SmoothedField::values(double level, double smallest, const NodeRange& around, float* out) const
@@ -257,7 +261,7 @@ void SmoothedField::copyBlock(
   {
     block[axis] = (around.first[axis] + 1) / NodeLattice::blockCells;
   }
-  const float* in = held.data() + this->Places[std::size_t(this->placeOf(block))];
+  const float* in = held.data() + this->placeOf(block)->begin;
   const auto t = static_cast<float>(level);
   const auto least = static_cast<float>(smallest);
   for (std::size_t n = 0; n < around.size(); ++n)
@@ -267,65 +271,62 @@ void SmoothedField::copyBlock(
   }
 }
 
-inline SmoothedField::Place SmoothedField::placeAt(const Eigen::Vector3d& at) const
+inline SmoothedField::CellPlace SmoothedField::placeAt(const Eigen::Vector3d& at) const
 {
-  const Eigen::Vector3d nodes = (at - this->FirstNode) * this->NodesPerLength;
-  Place place;
+  constexpr int blockCells = NodeLattice::blockCells;
+  static_assert((blockCells & (blockCells - 1)) == 0);
+  CellPlace place{};
   Index block;
+  std::array<float, 3> t;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const int last = this->Cells[axis] - 1; // the last node that is a sample
-    const double inside = std::clamp(nodes[Eigen::Index(axis)], 1.0, double(last));
-    place.cell[axis] = std::min(static_cast<int>(inside), std::max(1, last - 1));
-    place.t[axis] = inside - place.cell[axis];
-    block[axis] = place.cell[axis] / NodeLattice::blockCells;
+    const auto a = Eigen::Index(axis);
+    const double node = (at[a] - this->FirstNode[a]) * this->NodesPerLength;
+    const double inside = std::max(std::min(node, this->LastSample[axis]), 1.0);
+    place.cell[axis] = std::min(static_cast<int>(inside), this->LastCell[axis]);
+    t[axis] = static_cast<float>(inside - place.cell[axis]);
+    block[axis] = static_cast<int>(static_cast<unsigned>(place.cell[axis]) / blockCells);
   }
-  const std::ptrdiff_t index = this->placeOf(block);
-  place.corner = nullptr;
-  if (index < 0 || this->Places[std::size_t(index)] < 0)
+  place.t = FourFloats{ t[0], t[1], t[2], 0.0f };
+  const BlockPlace* held = this->placeOf(block);
+  if (held != nullptr && held->begin >= 0)
   {
-    return place;
-  }
-  std::ptrdiff_t step = 1;
-  place.corner = this->Values.data() + this->Places[std::size_t(index)];
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const int first = block[axis] * NodeLattice::blockCells;
-    place.stride[axis] = step;
-    place.corner += step * (place.cell[axis] - first + 1);
-    step *= std::min(NodeLattice::blockCells, this->Cells[axis] - first) + 3;
+    const auto nodeOf = [&](std::size_t axis) { return std::ptrdiff_t(place.cell[axis] & (blockCells - 1)) + 1; };
+    place.stride = held->stride;
+    place.corner = this->Values.data() + held->begin + nodeOf(0) + nodeOf(1) * held->stride[0] + nodeOf(2) * held->stride[1];
   }
   return place;
 }
 
 double SmoothedField::value(const Eigen::Vector3d& at) const
 {
-  const Place place = this->placeAt(at);
+  const CellPlace place = this->placeAt(at);
   if (place.corner == nullptr)
   {
     return -std::numeric_limits<double>::infinity();
   }
   const float* corner = place.corner;
-  const std::ptrdiff_t y = place.stride[1];
-  const std::ptrdiff_t z = place.stride[2];
-  const auto& t = place.t;
-  const float a[2] = { float(1.0 - t[0]), float(t[0]) };
-  const float b[2] = { float(1.0 - t[1]), float(t[1]) };
-  const float c[2] = { float(1.0 - t[2]), float(t[2]) };
+  const std::ptrdiff_t y = place.stride[0];
+  const std::ptrdiff_t z = place.stride[1];
+  const FourFloats t = place.t;
+  const FourFloats u = 1.0f - t;
+  const FourFloats half = 0.5f * u * t;
+  // The weights of both ends of the cell along each axis, by turns or twice, and with them those of its edges.
+  const FourFloats endsXY = __builtin_shufflevector(u, t, 0, 4, 1, 5);
+  const FourFloats endsZ = __builtin_shufflevector(u, t, 2, 2, 6, 6);
+  const FourFloats endsX = __builtin_shufflevector(endsXY, endsXY, 0, 1, 0, 1);
+  const FourFloats weightX = __builtin_shufflevector(endsXY, endsXY, 2, 3, 2, 3) * endsZ;
+  const FourFloats weightY = endsX * endsZ;
+  const FourFloats weightZ = endsX * __builtin_shufflevector(endsXY, endsXY, 2, 2, 3, 3);
   // Of the cell's four edges along an axis, the nodes before them, at their ends, and behind them. Memory holds what is beyond
   // the samples, too.
   std::array<FourFloats, 4> along =
     transposed({ { fourAt(corner - 1), fourAt(corner - 1 + y), fourAt(corner - 1 + z), fourAt(corner - 1 + y + z) } });
-  const FourFloats weightX = FourFloats{ b[0], b[1], b[0], b[1] } * FourFloats{ c[0], c[0], c[1], c[1] };
-  FourFloats sum = weightX * (a[0] * along[1] + a[1] * along[2]);
-  sum -= (0.5f * a[0] * a[1]) * (weightX * this->bends(along, place.cell[0], 0));
-  const FourFloats weightY = FourFloats{ a[0], a[1], a[0], a[1] } * FourFloats{ c[0], c[0], c[1], c[1] };
+  FourFloats sum = weightX * (u[0] * along[1] + t[0] * along[2] - half[0] * this->bends(along, place.cell[0], 0));
   along = rowsAt(corner, y, z);
-  const FourFloats part = (0.5f * b[0] * b[1]) * (weightY * this->bends(along, place.cell[1], 1));
-  sum -= FourFloats{ part[0], part[2], part[1], part[3] };
-  const FourFloats weightZ = FourFloats{ a[0], a[1], a[0], a[1] } * FourFloats{ b[0], b[0], b[1], b[1] };
+  sum -= half[1] * (weightY * this->bends(along, place.cell[1], 1));
   along = rowsAt(corner, z, y);
-  sum -= (0.5f * c[0] * c[1]) * (weightZ * this->bends(along, place.cell[2], 2));
+  sum -= half[2] * (weightZ * this->bends(along, place.cell[2], 2));
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 

@@ -63,19 +63,25 @@ private:
   static void copyPieces(
     const std::vector<float>& from, const NodeRange& range, const std::vector<Piece>& pieces, std::vector<float>& to);
 
+  /// Where the values of a block are.
+  struct BlockPlace
+  {
+    std::ptrdiff_t begin = -1;            ///< in Values; -1: not held
+    std::array<std::int32_t, 2> stride{}; ///< from a node to the next along y and z
+  };
   /// A point by the cell between samples that holds it, or the nearest one.
-  struct Place
+  struct CellPlace
   {
     Index cell;
-    std::array<double, 3> t;              ///< how far into the cell, from 0 to 1
-    std::array<std::ptrdiff_t, 3> stride; ///< of the block's values
-    const float* corner;                  ///< value at the cell's lower corner; null far from the fibre
+    FourFloats t;        ///< how far into the cell along each axis, from 0 to 1
+    const float* corner; ///< value at the cell's lower corner; null far from the fibre
+    std::array<std::int32_t, 2> stride;
   };
-  Place placeAt(const Eigen::Vector3d& at) const;
+  CellPlace placeAt(const Eigen::Vector3d& at) const;
   FourFloats bends(const std::array<FourFloats, 4>& along, int cell, std::size_t axis) const;
 
-  /// Number of a block in Places; none where it lies outside the box of the blocks held.
-  std::ptrdiff_t placeOf(const Index& block) const;
+  /// The place of a block; null where it lies outside the box of the blocks held.
+  const BlockPlace* placeOf(const Index& block) const;
   /// Copies what is held of a block, less `level` and kept off 0.
   void copyBlock(const std::vector<float>& held, double level, double smallest, const NodeRange& around, float* out) const;
 
@@ -89,7 +95,9 @@ private:
   Index First{ { 0, 0, 0 } };         ///< the box of the blocks held: first one
   Index Count{ { 0, 0, 0 } };         ///< and how many
   Index Cells{ { 0, 0, 0 } };         ///< of the lattice
-  std::vector<std::ptrdiff_t> Places; ///< per block of the box, where its values begin; -1: not held
+  std::array<double, 3> LastSample{}; ///< the last node that is a sample
+  Index LastCell{ { 1, 1, 1 } };      ///< the last cell that begins at a sample, and ends at another if there are two
+  std::vector<BlockPlace> Places;     ///< per block of the box
 };
 
 } // namespace cactus
