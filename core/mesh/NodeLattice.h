@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -37,6 +38,18 @@ struct NodeRange
   {
     return { { { first[0] - nodes, first[1] - nodes, first[2] - nodes } },
       { { count[0] + 2 * nodes, count[1] + 2 * nodes, count[2] + 2 * nodes } } };
+  }
+  /// What it has in common with another one; without nodes where that is nothing.
+  NodeRange within(const NodeRange& other) const
+  {
+    NodeRange common;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      common.first[axis] = std::max(first[axis], other.first[axis]);
+      const int end = std::min(first[axis] + count[axis], other.first[axis] + other.count[axis]);
+      common.count[axis] = std::max(0, end - common.first[axis]);
+    }
+    return common;
   }
 };
 

@@ -315,4 +315,49 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
   }
 }
 
+NodeRange FibreField::nodesInside(std::int32_t fibre, const NodeRange& range, const LabelImageView& held) const
+{
+  const SampleRow row = this->Samples.rowOf(range);
+  std::array<int, 3> lower = range.count;
+  std::array<int, 3> upper{ { -1, -1, -1 } };
+  for (int k = 0; k < range.count[2]; ++k)
+  {
+    const int z = this->Samples.sampleOf(2, range.first[2] + k);
+    for (int j = 0; j < range.count[1]; ++j)
+    {
+      const std::int32_t* ids = held.fibreId + held.grid.index(row.first, this->Samples.sampleOf(1, range.first[1] + j), z);
+      int found = 0;
+      for (int i = 0; i < row.count; ++i)
+      {
+        found |= int(ids[i] == fibre);
+      }
+      if (found == 0)
+      {
+        continue;
+      }
+      const std::int32_t* end = ids + row.count;
+      const auto first = int(std::find(ids, end, fibre) - ids);
+      int last = row.count - 1;
+      while (ids[last] != fibre)
+      {
+        --last;
+      }
+      const std::array<int, 3> from{ { first == 0 ? 0 : row.before + first, j, k } };
+      const std::array<int, 3> to{ { last + 1 == row.count ? range.count[0] - 1 : row.before + last, j, k } };
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        lower[axis] = std::min(lower[axis], from[axis]);
+        upper[axis] = std::max(upper[axis], to[axis]);
+      }
+    }
+  }
+  NodeRange inside;
+  for (std::size_t axis = 0; axis < 3 && upper[axis] >= 0; ++axis)
+  {
+    inside.first[axis] = range.first[axis] + lower[axis];
+    inside.count[axis] = upper[axis] - lower[axis] + 1;
+  }
+  return inside;
+}
+
 } // namespace cactus

@@ -18,10 +18,16 @@ namespace cactus
 namespace
 {
 
-/// So many blocks in a row along the fibre are smoothed together, since they share the nodes around them; with more than so many
-/// passes, which need many of these, cubes of so many along each edge are.
+/// Blocks are smoothed together in boxes of so many along each edge, since they share the nodes around them, but of fewer along
+/// the fibre, so that the box around what is the fibre's is narrow, unless many passes need many nodes.
 constexpr int blocksTogether = 4;
+constexpr int blocksAlong = 2;
 constexpr int fewPasses = 8;
+/// Nodes beyond those inside a fibre at which the field counts: contours and value() look at what is two nodes away from the
+/// surface.
+constexpr int nodesBeside = 3;
+/// The field elsewhere, µm: far below what any other one can make up for.
+constexpr float farOutside = -1e6f;
 
 /// Four floats as they lie in memory.
 inline FourFloats fourAt(const float* from)
@@ -85,18 +91,19 @@ inline FourFloats agreedBends(const FourFloats& first, const FourFloats& second)
 }
 
 /// One pass along one axis, whose nodes are `step` apart in memory. Values at the rim become wrong, and are not used.
-void smoothAlong(std::size_t step, std::vector<float>& values, const std::vector<float>& before)
+void smoothAlong(std::size_t step, std::size_t size, std::vector<float>& values, const std::vector<float>& before)
 {
-  for (std::size_t n = step; n + step < values.size(); ++n)
+  for (std::size_t n = step; n + step < size; ++n)
   {
     values[n] = 0.5f * before[n] + 0.25f * (before[n - step] + before[n + step]);
   }
 }
 
 /// Keeps only a part of what a pass has done, which may be another one at each node.
-void keepPart(std::size_t step, std::vector<float>& values, const std::vector<float>& before, const std::vector<float>& part)
+void keepPart(std::size_t step, std::size_t size, std::vector<float>& values, const std::vector<float>& before,
+  const std::vector<float>& part)
 {
-  for (std::size_t n = step; n + step < values.size(); ++n)
+  for (std::size_t n = step; n + step < size; ++n)
   {
     values[n] = (1.0f - part[n]) * before[n] + part[n] * values[n]; // with 1 the very same bits
   }
@@ -143,7 +150,7 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCube
   }
   this->Places.assign(std::size_t(this->Count[0]) * std::size_t(this->Count[1]) * std::size_t(this->Count[2]), BlockPlace());
   const std::size_t longest = std::size_t(std::max_element(this->Count.begin(), this->Count.end()) - this->Count.begin());
-  const auto edge = [&](std::size_t axis) { return inCubes || axis == longest ? blocksTogether : 1; };
+  const auto edge = [&](std::size_t axis) { return inCubes || axis != longest ? blocksTogether : blocksAlong; };
   std::map<Index, std::vector<Piece>> groups;
   std::ptrdiff_t place = 0;
   for (std::size_t b = 0; b < at.size(); ++b)
@@ -167,9 +174,9 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCube
 
 void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin)
 {
-  // How much of a pass the outermost nodes get is not known right (see ThinFibres::smoothingAt()).
-  const int reach = passes > fewPasses ? passes + 1 : passes;
-  NodeRange range;
+  // One node more, since how much of a pass the outermost ones get is not known right (see ThinFibres::smoothingAt()).
+  const int reach = passes > 0 ? passes + 1 : 0;
+  NodeRange whole;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     int first = std::numeric_limits<int>::max();
@@ -179,49 +186,64 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
       first = std::min(first, piece.range.first[axis]);
       end = std::max(end, piece.range.first[axis] + piece.range.count[axis]);
     }
-    range.first[axis] = first - reach;
-    range.count[axis] = end - first + 2 * reach;
+    whole.first[axis] = first;
+    whole.count[axis] = end - first;
   }
-  std::vector<float> buffer(range.size());
   thread_local LabelBuffer samples;
-  const LabelImageView held = field.samplesFor(range, samples);
+  const LabelImageView held = field.samplesFor(whole.widened(reach), samples);
+  // Only what is beside the fibre is smoothed.
+  const NodeRange inside = field.nodesInside(this->Fibre, whole.widened(reach), held);
+  const NodeRange beside = inside.widened(inside.size() > 0 ? nodesBeside : 0).within(whole);
+  const NodeRange range = beside.size() > 0 ? beside.widened(reach) : NodeRange();
+  thread_local std::vector<float> buffer;
+  thread_local std::vector<float> before;
+  thread_local std::vector<float> part;
+  for (std::vector<float>* scratch : { &buffer, &before, &part })
+  {
+    scratch->resize(std::max(scratch->size(), range.size()));
+  }
   field.atNodes(this->Fibre, range, held, buffer.data());
-  copyPieces(buffer, range, pieces, this->Unsmoothed);
-  std::vector<float> part(thin != nullptr && passes > 0 ? range.size() : 0);
-  const bool isUniform = part.empty() || !thin->smoothingAt(range, held, part.data());
+  copyPieces(buffer, range, beside, pieces, this->Unsmoothed);
+  const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
   // Each pass leaves one node less on every side. Strides stay.
   const std::size_t rowLength(range.count[0]);
-  std::vector<float> before(range.size());
   for (int pass = 0; pass < passes; ++pass)
   {
     for (const std::size_t step : { std::size_t(1), rowLength, rowLength * std::size_t(range.count[1]) })
     {
       before.swap(buffer);
-      smoothAlong(step, buffer, before);
+      smoothAlong(step, range.size(), buffer, before);
       if (!isUniform)
       {
-        keepPart(step, buffer, before, part);
+        keepPart(step, range.size(), buffer, before, part);
       }
     }
   }
-  copyPieces(buffer, range, pieces, this->Values);
+  copyPieces(buffer, range, beside, pieces, this->Values);
 }
 
-void SmoothedField::copyPieces(
-  const std::vector<float>& from, const NodeRange& range, const std::vector<Piece>& pieces, std::vector<float>& to)
+void SmoothedField::copyPieces(const std::vector<float>& from, const NodeRange& range, const NodeRange& known,
+  const std::vector<Piece>& pieces, std::vector<float>& to)
 {
   for (const Piece& piece : pieces)
   {
-    float* out = to.data() + piece.place;
-    for (int k = 0; k < piece.range.count[2]; ++k)
+    std::fill_n(to.begin() + piece.place, piece.range.size(), farOutside);
+    const NodeRange common = piece.range.within(known);
+    if (common.size() == 0)
     {
-      for (int j = 0; j < piece.range.count[1]; ++j)
+      continue;
+    }
+    for (int k = common.first[2]; k < common.first[2] + common.count[2]; ++k)
+    {
+      for (int j = common.first[1]; j < common.first[1] + common.count[1]; ++j)
       {
-        const float* row =
-          from.data() + std::size_t(piece.range.first[0] - range.first[0]) +
-          std::size_t(range.count[0]) * (std::size_t(piece.range.first[1] - range.first[1] + j) +
-                                          std::size_t(range.count[1]) * std::size_t(piece.range.first[2] - range.first[2] + k));
-        out = std::copy(row, row + piece.range.count[0], out);
+        const auto rowIn = [&](const NodeRange& of)
+        {
+          return std::ptrdiff_t(common.first[0] - of.first[0]) +
+                 std::ptrdiff_t(of.count[0]) *
+                   (std::ptrdiff_t(j - of.first[1]) + std::ptrdiff_t(of.count[1]) * std::ptrdiff_t(k - of.first[2]));
+        };
+        std::copy_n(from.begin() + rowIn(range), common.count[0], to.begin() + piece.place + rowIn(piece.range));
       }
     }
   }

@@ -36,14 +36,15 @@ public:
   const std::vector<std::uint32_t>& blocks() const { return this->Blocks; }
 
   /// The field less `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0 than
-  /// `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles.
+  /// `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles. Away from the fibre, by three
+  /// nodes or more, they may be far lower than the field.
   void values(double level, double smallest, const NodeRange& around, float* out) const;
   /// The same of the field before it was smoothed, at level 0.
   void unsmoothedValues(double smallest, const NodeRange& around, float* out) const;
 
   /// The field at a point of the blocks: trilinear, and along each axis corrected for the curvature that the samples on either
   /// side agree on, as contour() does. A point beyond the outermost samples has the value of the nearest point among them; far
-  /// from the fibre it is minus infinity.
+  /// from the fibre it is very low, or minus infinity.
   double value(const Eigen::Vector3d& at) const;
 
 private:
@@ -59,9 +60,9 @@ private:
   std::vector<std::vector<Piece>> layOut(bool inCubes);
   /// Fills Values and Unsmoothed for some blocks.
   void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
-  /// Copies what is held of some blocks out of a larger range.
-  static void copyPieces(
-    const std::vector<float>& from, const NodeRange& range, const std::vector<Piece>& pieces, std::vector<float>& to);
+  /// Fills some blocks with the values of a range where they are `known`; elsewhere they are far outside.
+  static void copyPieces(const std::vector<float>& from, const NodeRange& range, const NodeRange& known,
+    const std::vector<Piece>& pieces, std::vector<float>& to);
 
   /// Where the values of a block are.
   struct BlockPlace
