@@ -161,8 +161,9 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCube
       { { piece.range.count[0], piece.range.count[0] * piece.range.count[1] } } };
     place += std::ptrdiff_t(piece.range.size());
   }
-  this->Values.resize(std::size_t(place));
-  this->Unsmoothed.resize(std::size_t(place));
+  // Not filled: copyPieces() does that.
+  this->Values.reset(new float[std::size_t(place)]);
+  this->Unsmoothed.reset(new float[std::size_t(place)]);
   std::vector<std::vector<Piece>> result;
   result.reserve(groups.size());
   for (auto& group : groups)
@@ -203,7 +204,7 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
     scratch->resize(std::max(scratch->size(), range.size()));
   }
   field.atNodes(this->Fibre, range, held, buffer.data());
-  copyPieces(buffer, range, beside, pieces, this->Unsmoothed);
+  copyPieces(buffer, range, beside, pieces, this->Unsmoothed.get());
   const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
   // Each pass leaves one node less on every side. Strides stay.
   const std::size_t rowLength(range.count[0]);
@@ -219,15 +220,15 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
       }
     }
   }
-  copyPieces(buffer, range, beside, pieces, this->Values);
+  copyPieces(buffer, range, beside, pieces, this->Values.get());
 }
 
-void SmoothedField::copyPieces(const std::vector<float>& from, const NodeRange& range, const NodeRange& known,
-  const std::vector<Piece>& pieces, std::vector<float>& to)
+void SmoothedField::copyPieces(
+  const std::vector<float>& from, const NodeRange& range, const NodeRange& known, const std::vector<Piece>& pieces, float* to)
 {
   for (const Piece& piece : pieces)
   {
-    std::fill_n(to.begin() + piece.place, piece.range.size(), farOutside);
+    std::fill_n(to + piece.place, piece.range.size(), farOutside);
     const NodeRange common = piece.range.within(known);
     if (common.size() == 0)
     {
@@ -243,7 +244,7 @@ void SmoothedField::copyPieces(const std::vector<float>& from, const NodeRange& 
                  std::ptrdiff_t(of.count[0]) *
                    (std::ptrdiff_t(j - of.first[1]) + std::ptrdiff_t(of.count[1]) * std::ptrdiff_t(k - of.first[2]));
         };
-        std::copy_n(from.begin() + rowIn(range), common.count[0], to.begin() + piece.place + rowIn(piece.range));
+        std::copy_n(from.begin() + rowIn(range), common.count[0], to + piece.place + rowIn(piece.range));
       }
     }
   }
@@ -267,23 +268,22 @@ inline const SmoothedField::BlockPlace* SmoothedField::placeOf(const Index& bloc
 
 void SmoothedField::values(double level, double smallest, const NodeRange& around, float* out) const
 {
-  this->copyBlock(this->Values, level, smallest, around, out);
+  this->copyBlock(this->Values.get(), level, smallest, around, out);
 }
 
 void SmoothedField::unsmoothedValues(double smallest, const NodeRange& around, float* out) const
 {
-  this->copyBlock(this->Unsmoothed, 0.0, smallest, around, out);
+  this->copyBlock(this->Unsmoothed.get(), 0.0, smallest, around, out);
 }
 
-void SmoothedField::copyBlock(
-  const std::vector<float>& held, double level, double smallest, const NodeRange& around, float* out) const
+void SmoothedField::copyBlock(const float* held, double level, double smallest, const NodeRange& around, float* out) const
 {
   Index block;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     block[axis] = (around.first[axis] + 1) / NodeLattice::blockCells;
   }
-  const float* in = held.data() + this->placeOf(block)->begin;
+  const float* in = held + this->placeOf(block)->begin;
   const auto t = static_cast<float>(level);
   const auto least = static_cast<float>(smallest);
   for (std::size_t n = 0; n < around.size(); ++n)
@@ -315,7 +315,7 @@ inline SmoothedField::CellPlace SmoothedField::placeAt(const Eigen::Vector3d& at
   {
     const auto nodeOf = [&](std::size_t axis) { return std::ptrdiff_t(place.cell[axis] & (blockCells - 1)) + 1; };
     place.stride = held->stride;
-    place.corner = this->Values.data() + held->begin + nodeOf(0) + nodeOf(1) * held->stride[0] + nodeOf(2) * held->stride[1];
+    place.corner = this->Values.get() + held->begin + nodeOf(0) + nodeOf(1) * held->stride[0] + nodeOf(2) * held->stride[1];
   }
   return place;
 }

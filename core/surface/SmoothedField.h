@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace cactus
@@ -61,8 +62,8 @@ private:
   /// Fills Values and Unsmoothed for some blocks.
   void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
   /// Fills some blocks with the values of a range where they are `known`; elsewhere they are far outside.
-  static void copyPieces(const std::vector<float>& from, const NodeRange& range, const NodeRange& known,
-    const std::vector<Piece>& pieces, std::vector<float>& to);
+  static void copyPieces(
+    const std::vector<float>& from, const NodeRange& range, const NodeRange& known, const std::vector<Piece>& pieces, float* to);
 
   /// Where the values of a block are.
   struct BlockPlace
@@ -84,21 +85,21 @@ private:
   /// The place of a block; null where it lies outside the box of the blocks held.
   const BlockPlace* placeOf(const Index& block) const;
   /// Copies what is held of a block, less `level` and kept off 0.
-  void copyBlock(const std::vector<float>& held, double level, double smallest, const NodeRange& around, float* out) const;
+  void copyBlock(const float* held, double level, double smallest, const NodeRange& around, float* out) const;
 
   std::int32_t Fibre;
   NodeLattice Lattice;
   std::vector<std::uint32_t> Blocks;
-  Eigen::Vector3d FirstNode;          ///< µm
-  double NodesPerLength;              ///< per µm
-  std::vector<float> Values;          ///< of each block held, and one node beyond on every side
-  std::vector<float> Unsmoothed;      ///< the same before smoothing
-  Index First{ { 0, 0, 0 } };         ///< the box of the blocks held: first one
-  Index Count{ { 0, 0, 0 } };         ///< and how many
-  Index Cells{ { 0, 0, 0 } };         ///< of the lattice
-  std::array<double, 3> LastSample{}; ///< the last node that is a sample
-  Index LastCell{ { 1, 1, 1 } };      ///< the last cell that begins at a sample, and ends at another if there are two
-  std::vector<BlockPlace> Places;     ///< per block of the box
+  Eigen::Vector3d FirstNode;           ///< µm
+  double NodesPerLength;               ///< per µm
+  std::unique_ptr<float[]> Values;     ///< of each block held, and one node beyond on every side
+  std::unique_ptr<float[]> Unsmoothed; ///< the same before smoothing
+  Index First{ { 0, 0, 0 } };          ///< the box of the blocks held: first one
+  Index Count{ { 0, 0, 0 } };          ///< and how many
+  Index Cells{ { 0, 0, 0 } };          ///< of the lattice
+  std::array<double, 3> LastSample{};  ///< the last node that is a sample
+  Index LastCell{ { 1, 1, 1 } };       ///< the last cell that begins at a sample, and ends at another if there are two
+  std::vector<BlockPlace> Places;      ///< per block of the box
 };
 
 } // namespace cactus

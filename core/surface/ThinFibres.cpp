@@ -64,14 +64,16 @@ bool ThinFibres::smoothingInside(const NodeRange& range, const LabelImageView& h
 
 bool ThinFibres::smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const
 {
-  std::vector<float> inside(this->Smoothing.empty() ? 0 : range.size());
-  if (inside.empty() || !this->smoothingInside(range, held, inside.data()))
+  thread_local std::vector<float> inside;
+  inside.resize(std::max(inside.size(), range.size()));
+  if (this->Smoothing.empty() || range.size() == 0 || !this->smoothingInside(range, held, inside.data()))
   {
     return false;
   }
   const std::size_t rows(range.count[0]);
   const std::size_t slices = rows * std::size_t(range.count[1]);
-  std::transform(inside.begin(), inside.end(), out, [](float own) { return std::min(own, 1.0f); });
+  std::transform(
+    inside.begin(), inside.begin() + std::ptrdiff_t(range.size()), out, [](float own) { return std::min(own, 1.0f); });
   for (std::size_t n = slices; n + slices < range.size(); ++n)
   {
     // Beside a fibre as in it.

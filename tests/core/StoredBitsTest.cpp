@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "318869ff34b75af643a4f59207bceccc5453b3807b330cd3e2000b00681202b9",
-           "b8888f7b32bf5c05c1c80fc902ba82bcc1e58702b77757332d354b05624c06c1" },
-         Known{ 20, "83b096ecfd03b3704a1c842b53a38548b12c132a1dceee521dfbdb074cffcfd7",
-           "c3d5494335ef321f07ec86c867eecf2899eb4e22c4a538ee1ed7da63a642a15c" },
-         Known{ 38, "6ba3db06f58a29e0928bbd8ec2105b8d23536386bbf70022f7ce90d74fb63243",
-           "e5ef4ceb6abb34ba3d7df3ff8e613529e5170fee60ae80d1eb5e966be19543cd" },
+         Known{ 1, "713f9cc5d77d63ff1061e435d4849838ac942779bff70f4be71e0510108b204a",
+           "0d0ce1589e5da9b9a2e71c6cdcb2d3cf42f5524aca00bd02d35d51cd6df06854" },
+         Known{ 20, "81d114e6724e0c01c0fdd312029e060b2e3d4d5feff11258493533b2d1fa699e",
+           "58a671e1e1946d8d927ae919036019c052ffe7f498fc0abaae44267f07e782b7" },
+         Known{ 38, "2274ac5617c4f83954a090f2c4cf5138edce7e6e843e3073ae553632353199b5",
+           "5f9989affdfca0e38d91dee2324a9aef28698402e7d669ac61a375e9301574b4" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
