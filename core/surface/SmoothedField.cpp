@@ -21,7 +21,7 @@ namespace
 /// Blocks are smoothed together in boxes of so many along each edge, since they share the nodes around them, but of fewer along
 /// the fibre, so that the box around what is the fibre's is narrow, unless many passes need many nodes.
 constexpr int blocksTogether = 4;
-constexpr int blocksAlong = 2;
+constexpr int blocksAlongFibre = 2;
 constexpr int fewPasses = 8;
 /// Nodes beyond those inside a fibre at which the field counts: contours and value() look at what is two nodes away from the
 /// surface.
@@ -150,7 +150,7 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCube
   }
   this->Places.assign(std::size_t(this->Count[0]) * std::size_t(this->Count[1]) * std::size_t(this->Count[2]), BlockPlace());
   const std::size_t longest = std::size_t(std::max_element(this->Count.begin(), this->Count.end()) - this->Count.begin());
-  const auto edge = [&](std::size_t axis) { return inCubes || axis != longest ? blocksTogether : blocksAlong; };
+  const auto edge = [&](std::size_t axis) { return inCubes || axis != longest ? blocksTogether : blocksAlongFibre; };
   std::map<Index, std::vector<Piece>> groups;
   std::ptrdiff_t place = 0;
   for (std::size_t b = 0; b < at.size(); ++b)
