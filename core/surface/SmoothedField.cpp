@@ -195,7 +195,13 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   // Only what is beside the fibre is smoothed.
   const NodeRange inside = field.nodesInside(this->Fibre, whole.widened(reach), held);
   const NodeRange beside = inside.widened(inside.size() > 0 ? nodesBeside : 0).within(whole);
-  const NodeRange range = beside.size() > 0 ? beside.widened(reach) : NodeRange();
+  if (beside.size() == 0)
+  {
+    copyPieces({}, {}, beside, pieces, this->Unsmoothed.get());
+    copyPieces({}, {}, beside, pieces, this->Values.get());
+    return;
+  }
+  const NodeRange range = beside.widened(reach);
   thread_local std::vector<float> buffer;
   thread_local std::vector<float> before;
   thread_local std::vector<float> part;

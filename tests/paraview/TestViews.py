@@ -83,7 +83,8 @@ class Views(CactusTestCase):
         view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [10, 0, 0], [1, 0, 0], [0, 1, 0]
         simple.Show(self.bundle(), view)
         simple.Render(view)
-        self.assertEqual(list(view.CameraPosition)[1:], [0, 0])  # ParaView itself may move it nearer
+        for across in list(view.CameraPosition)[1:]:  # ParaView itself may move it nearer, and to the middle of the tubes
+            self.assertAlmostEqual(across, 0, delta=0.1)
 
     def test_growth_is_a_section(self):
         grown, view = simple.FibreRadialGrowth(Input=self.bundle(), TargetFibreVolumeFraction=0.8, VoxelSize=0.2), self.view()
