@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/LoopStitching.h"
 
-#include "mesh/ShapeBounds.h"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -125,7 +123,7 @@ bool LoopStitching::stitchLines(Line lower, Line upper, const Demand& demand, St
     const Vector3d& p = this->placeOf(triangle[0]);
     const Vector3d normal = (this->placeOf(triangle[1]) - p).cross(this->placeOf(triangle[2]) - p);
     const double inMiddle = this->Surface.isCap(triangle) ? 0.0 : this->errorIn(triangle);
-    if (normal.dot(before) < 0.0 || std::abs(inMiddle) > demand.furthest || this->isFlat(triangle, normal))
+    if (normal.dot(before) < 0.0 || std::abs(inMiddle) > demand.furthest)
     {
       return false;
     }
@@ -160,22 +158,6 @@ bool LoopStitching::goesBelow(const Line& lower, const Line& upper, const Demand
     }
   }
   return isShorter;
-}
-
-/// Whether a triangle is so flat that its altitude is next to nothing beside its longest edge, though none is short.
-bool LoopStitching::isFlat(const std::array<std::int32_t, 3>& t, const Vector3d& normal) const
-{
-  constexpr double shortPart = 4.0; // of the altitude: shorter edges will be collapsed
-  double longest = 0.0;             // squared, as all of them
-  double shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const double length = (this->placeOf(t[(i + 1) % 3]) - this->placeOf(t[i])).squaredNorm();
-    longest = std::max(longest, length);
-    shortest = std::min(shortest, length);
-  }
-  const double altitude = normal.squaredNorm() / longest;
-  return altitude < flattestTriangle * flattestTriangle * longest && shortPart * shortPart * altitude < shortest;
 }
 
 /// By how much the field exceeds its level where it does so most, or falls below it, at the points that cut an edge into

@@ -39,8 +39,8 @@ public:
 
   /// Fills the ring between a loop and one above it. The shorter of two edges goes across, unless only the other one is within
   /// maximumError of the level. Returns false where the field is farther than `furthest` (µm) from its level in the middle of a
-  /// triangle or at those points of an edge across that cut it into `parts`; where triangles would fold or be too flat; and where
-  /// the two loops do not come to the same faces of the box, one after the other. On faces of the box the field may be larger.
+  /// triangle or at those points of an edge across that cut it into `parts`; where triangles would fold; and where the two loops
+  /// do not come to the same faces of the box, one after the other. On faces of the box the field may be larger.
   bool stitch(const PlaneLoop& lower, const PlaneLoop& upper, int parts, double furthest, StitchedLoops& result) const;
 
 private:
@@ -73,7 +73,6 @@ private:
   bool matchAnchors(const PlaneLoop& lower, const PlaneLoop& upper, const Eigen::Vector3d& offset, std::size_t& found) const;
   bool stitchLines(Line lower, Line upper, const Demand& demand, StitchedLoops& result) const;
   bool goesBelow(const Line& lower, const Line& upper, const Demand& demand, double& error) const;
-  bool isFlat(const std::array<std::int32_t, 3>& triangle, const Eigen::Vector3d& normal) const;
   double errorAlong(std::int32_t lower, std::int32_t upper, int parts) const;
   double errorIn(const std::array<std::int32_t, 3>& triangle) const;
   double errorAt(const Eigen::Vector3d& p) const { return this->Options.field(p) - this->Options.level; }

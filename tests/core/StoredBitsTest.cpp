@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "713f9cc5d77d63ff1061e435d4849838ac942779bff70f4be71e0510108b204a",
-           "0d0ce1589e5da9b9a2e71c6cdcb2d3cf42f5524aca00bd02d35d51cd6df06854" },
-         Known{ 20, "81d114e6724e0c01c0fdd312029e060b2e3d4d5feff11258493533b2d1fa699e",
-           "58a671e1e1946d8d927ae919036019c052ffe7f498fc0abaae44267f07e782b7" },
-         Known{ 38, "2274ac5617c4f83954a090f2c4cf5138edce7e6e843e3073ae553632353199b5",
-           "5f9989affdfca0e38d91dee2324a9aef28698402e7d669ac61a375e9301574b4" },
+         Known{ 1, "c91103f7405cc9bfd4a4d9f086d48515c9c576e7506e43e6b4aec72d24072e05",
+           "81fe95a9ae5086c1328da3347f6188aae446e256327247ef18fb05d3196cbf8e" },
+         Known{ 20, "35bd724341c6e0b73a168a0d4c74403aa69e2b5d7ce7c7151fb43242c94a67d1",
+           "ac9deafa36347d9afab5a39e3a42d6673071de1b1daca51ae9d4ad842732d5b3" },
+         Known{ 38, "f1894cff0c8961cfc6014170ccd0f9caaa244e12369070a6ceab99f5801a88ac",
+           "1b29f8c45de38af90cbfc2274f868318dfe8e2cf8faed33da25e2c723a3828f5" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
