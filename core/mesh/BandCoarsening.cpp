@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 /// How far apart, across a chord, points may be that it replaces: it goes amid them.
 constexpr double chordPart = 1.2;
 /// How far the field may be from its level along a strip, before its points settle.
-constexpr double slack = 1.0;
+constexpr double slack = 1.2;
 /// The same where the strip replaces one band, or is next to bands that stay.
 constexpr double looseSlack = 2.0;
 
@@ -34,7 +34,7 @@ constexpr double looseSlack = 2.0;
 constexpr double movePart = 0.8;
 
 /// Loops of fewer points are of fibres so thin that there is little to gain, and an axon's room to lose.
-constexpr std::size_t fewestPoints = 24;
+constexpr std::size_t fewestPoints = 16;
 
 /// Bands that one strip replaces at most, and those that are tried first.
 constexpr std::size_t mostBands = 16;
