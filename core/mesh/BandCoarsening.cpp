@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 /// How far apart, across a chord, points may be that it replaces: it goes amid them.
 constexpr double chordPart = 1.2;
 /// How far the field may be from its level along a strip, before its points settle.
-constexpr double slack = 1.2;
+constexpr double slack = 1.1;
 /// The same where the strip replaces one band, or is next to bands that stay.
 constexpr double looseSlack = 2.0;
 

@@ -48,6 +48,20 @@ std::vector<Vector3d> normals(const CappedSurface& surface)
 
 } // namespace
 
+std::vector<std::uint8_t> facesOf(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box)
+{
+  std::vector<std::uint8_t> faces(mesh.points.size(), 0);
+  for (std::size_t p = 0; p < faces.size(); ++p)
+  {
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      const double x = mesh.points[p][axis];
+      faces[p] |= static_cast<std::uint8_t>((x == box.min()[axis] ? 1 : x == box.max()[axis] ? 2 : 0) << (2 * axis));
+    }
+  }
+  return faces;
+}
+
 void dropUnusedPoints(TriangleMesh& mesh, std::vector<std::uint8_t>* faces)
 {
   std::vector<std::int32_t> number(mesh.points.size(), -1);

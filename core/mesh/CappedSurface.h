@@ -25,6 +25,9 @@ struct CappedSurface
   }
 };
 
+/// The faces of the box that each point of a mesh lies on, as CappedSurface has them: by its very coordinates.
+std::vector<std::uint8_t> facesOf(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
+
 /// Where a point goes that is to move from one place of the box to another: no nearer to a face than `margin` (µm) or, if that is
 /// less, than it was. So what is not cut off by a face keeps off it.
 inline Eigen::Vector3d keptInside(

@@ -68,6 +68,11 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   }
 }
 
+Eigen::AlignedBox3d FibreMesher::box() const
+{
+  return { this->Field.box().lower, this->Field.box().upper };
+}
+
 bool FibreMesher::movesContours() const
 {
   return this->Filters == nullptr && this->Options.decimationError > 0.0;
@@ -123,6 +128,11 @@ void FibreMesher::makeOuter(
 
 std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) const
 {
+  const Eigen::AlignedBox3d box = this->box();
+  std::vector<std::uint8_t> faces = facesOf(pair.outer, box);
+  CappedSurface surface{ std::move(pair.outer), std::move(faces), box };
+  this->Finishing.finishMoved(surface);
+  pair.outer = std::move(surface.mesh);
   pair.outerReport = keepSoundPieces(pair.outer, pair.droppedVolume);
   if (pair.outer.triangles.empty())
   {
@@ -274,21 +284,12 @@ void FibreMesher::finishByFilters(const AxonSearch& search, MyelinState state, A
 /// The triangles of an outer surface that are no caps on the faces of the box.
 std::vector<std::uint32_t> FibreMesher::wallOf(const TriangleMesh& outer) const
 {
-  const Domain& box = this->Field.box();
+  const std::vector<std::uint8_t> faces = facesOf(outer, this->box());
   std::vector<std::uint32_t> wall;
   for (std::size_t i = 0; i < outer.triangles.size(); ++i)
   {
-    bool isCap = false;
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-    {
-      const auto isOn = [&](double face)
-      {
-        return std::all_of(outer.triangles[i].begin(), outer.triangles[i].end(),
-          [&](std::int32_t p) { return outer.points[std::size_t(p)][axis] == face; });
-      };
-      isCap = isCap || isOn(box.lower[axis]) || isOn(box.upper[axis]);
-    }
-    if (!isCap)
+    const auto& t = outer.triangles[i];
+    if ((faces[std::size_t(t[0])] & faces[std::size_t(t[1])] & faces[std::size_t(t[2])]) == 0)
     {
       wall.push_back(static_cast<std::uint32_t>(i));
     }

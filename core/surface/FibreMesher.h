@@ -44,8 +44,8 @@ public:
   void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds = {},
     double deeper = 0.0) const;
 
-  /// Measures the outer surface again after it has been changed, and says where it now meets itself. Pieces that have been turned
-  /// inside out go; where nothing is left, the pair's state is NoFibre.
+  /// Measures the outer surface again after it has been moved, and says where it now meets itself. Needles that moving has left
+  /// are split, and pieces that have been turned inside out go; where nothing is left, the pair's state is NoFibre.
   std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
 
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
@@ -56,6 +56,7 @@ public:
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
 private:
+  Eigen::AlignedBox3d box() const;
   /// Whether contours that lie a little beside where they are to be are moved there, rather than made again.
   bool movesContours() const;
   AxonLevels axonLevels(const SmoothedField& field, double gRatio) const;

@@ -113,6 +113,14 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
   return placesThatMeet(surface.mesh, target.container).empty();
 }
 
+void SurfaceFinishing::finishMoved(CappedSurface& surface) const
+{
+  if (this->DecimationError > 0.0)
+  {
+    splitNeedles(surface, largestSquaredEdgeRatio);
+  }
+}
+
 /// Leaves the surface as it is, and returns false, if it cannot be coarsened.
 bool SurfaceFinishing::coarsen(
   const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report) const

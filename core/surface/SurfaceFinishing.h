@@ -44,6 +44,9 @@ public:
   bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
     FibreSurfacePair& pair) const;
 
+  /// Sees to it that moving has left no needles in a coarsened surface.
+  void finishMoved(CappedSurface& surface) const;
+
 private:
   bool coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;

@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "c91103f7405cc9bfd4a4d9f086d48515c9c576e7506e43e6b4aec72d24072e05",
-           "81fe95a9ae5086c1328da3347f6188aae446e256327247ef18fb05d3196cbf8e" },
-         Known{ 20, "35bd724341c6e0b73a168a0d4c74403aa69e2b5d7ce7c7151fb43242c94a67d1",
-           "ac9deafa36347d9afab5a39e3a42d6673071de1b1daca51ae9d4ad842732d5b3" },
-         Known{ 38, "f1894cff0c8961cfc6014170ccd0f9caaa244e12369070a6ceab99f5801a88ac",
-           "1b29f8c45de38af90cbfc2274f868318dfe8e2cf8faed33da25e2c723a3828f5" },
+         Known{ 1, "3ac93d76f232a1f1969b8a97d814203a425e31397c34077ffc92d8490cdae761",
+           "9ddec05a7eccdab647c6674a7c7fe9b639da6b92bfece4666ee2ac06bf2e9445" },
+         Known{ 20, "c44ff0cffb3536357ee33af8da3ef3f556baa60f2858a6a1a4f4609e6428ea3b",
+           "9fc809a4ef65967ba789081d20fb39d5afada17e74291385257718eb38071410" },
+         Known{ 38, "8e3a3e19ffa88dd6c18101999f43e4bc61905d80297e274c062e1954e8c33ce6",
+           "19095693137309f98867a49ed356c032f867a00a56258507490a707096bbc125" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

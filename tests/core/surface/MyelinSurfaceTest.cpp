@@ -21,6 +21,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace
@@ -119,6 +120,30 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   mesher.makeInner(field, pair);
   EXPECT_EQ(pair.state, MyelinState::NoAxon);
   EXPECT_TRUE(pair.inner.triangles.empty());
+}
+
+TEST(FibreMesher, SplitsNeedlesThatMovingHasMade)
+{
+  const StraightFibre fibre;
+  MyelinSurfaceOptions surfaceOptions;
+  surfaceOptions.decimationError = 0.0005; // so that there are points between the caps
+  const FibreMesher mesher(fibre.source(), fibre.facts, surfaceOptions);
+  FibreSurfacePair pair;
+  pair.fibreId = 1;
+  mesher.makeOuter(mesher.smoothed(1), pair);
+  // A point away from the caps comes to lie next to another one.
+  const auto isInside = [&](std::int32_t p) { return std::abs(pair.outer.points[std::size_t(p)].z()) < 0.5; };
+  const auto found = std::find_if(pair.outer.triangles.begin(), pair.outer.triangles.end(),
+    [&](const auto& t) { return std::all_of(t.begin(), t.end(), isInside); });
+  ASSERT_NE(found, pair.outer.triangles.end());
+  const Eigen::Vector3d& target = pair.outer.points[std::size_t((*found)[1])];
+  Eigen::Vector3d& moved = pair.outer.points[std::size_t((*found)[0])];
+  moved = target + 0.005 * (moved - target).normalized();
+  EXPECT_GT(checkSurface(pair.outer).largestSquaredEdgeRatio, 1000.0);
+  mesher.checkOuter(pair);
+  EXPECT_LE(pair.outerReport.largestSquaredEdgeRatio, 800.0);
+  EXPECT_LE(checkSurface(pair.outer).largestSquaredEdgeRatio, 800.0);
+  EXPECT_TRUE(pair.outerReport.closedManifold() && pair.outerReport.outward());
 }
 
 TEST(GRatio, LogLinearSolvesItsRelation)
