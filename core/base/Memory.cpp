@@ -13,6 +13,10 @@
 #include <limits>
 #include <string>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace cactus
 {
 
@@ -125,6 +129,16 @@ std::uint64_t leftByControlGroups(const std::string& root)
 }
 
 } // namespace
+
+void keepFreedMemory()
+{
+#ifdef __GLIBC__
+  // What glibc itself comes to once it has freed a block of the largest size for which it does.
+  constexpr int largestBlock = 32 << 20;
+  mallopt(M_MMAP_THRESHOLD, largestBlock);
+  mallopt(M_TRIM_THRESHOLD, 2 * largestBlock);
+#endif
+}
 
 std::uint64_t availableAddressSpace()
 {

@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/Memory.h"
 #include "base/Parallel.h"
 #include "mesh/SurfaceSpacing.h"
 #include "surface/SurfaceNumbers.h"
@@ -185,6 +186,7 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   , Pairs(fibresOf(facts, Mesher.fibres()))
   , Order(orderByPlace(Pairs, Mesher.fibres(), Mesher.field().lattice()))
 {
+  keepFreedMemory();
 }
 
 /// In parallel, in each process those that are near each other, which share samples; `isMade` says of which there is nothing left
