@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 /// How far apart, across a chord, points may be that it replaces: it goes amid them.
 constexpr double chordPart = 1.2;
 /// How far the field may be from its level along a strip, before its points settle.
-constexpr double slack = 1.1;
+constexpr double slack = 1.5;
 /// The same where the strip replaces one band, or is next to bands that stay.
 constexpr double looseSlack = 2.0;
 
@@ -41,6 +41,8 @@ constexpr std::size_t mostBands = 16;
 constexpr std::size_t firstBands = 4;
 /// From so many on the field is looked at in more points of edges.
 constexpr std::size_t longBands = 4;
+/// Of a contour's triangles, one of so many is looked at.
+constexpr std::size_t lookEvery = 3;
 
 /// Triangles between two planes, in the place of the bands between them.
 struct Strip
@@ -50,20 +52,6 @@ struct Strip
   bool hasAllBelow = false;
   bool hasAllAbove = false; ///< all points of the loop there, since the band behind stays as it is
   StitchedLoops stitched;
-};
-
-/// Errors around a point.
-struct ErrorRange
-{
-  double lowest = 0.0;
-  double highest = 0.0;
-
-  void add(double error)
-  {
-    lowest = std::min(lowest, error);
-    highest = std::max(highest, error);
-  }
-  double middle() const { return 0.5 * (lowest + highest); }
 };
 
 Eigen::Index longestAxis(const TriangleMesh& mesh)
@@ -89,11 +77,13 @@ public:
     , Loops(surface, axis, planes)
     , Places(surface.mesh.points)
     , Moves(surface.mesh.points.size(), 0.0)
+    , Excesses(Loops.bandCount(), 0.0)
   {
   }
 
   void run()
   {
+    this->findExcesses();
     this->simplify();
     this->chooseStrips();
     this->joinStrips();
@@ -275,7 +265,8 @@ private:
     }
   }
 
-  /// Fills a strip between its planes, and says whether it is near enough to the field's level.
+  /// Fills a strip between its planes, and says whether it is near enough to the field's level: where the contour that it
+  /// replaces is not, no farther inside the body than that.
   bool make(Strip& strip) const
   {
     const std::size_t bands = strip.end - strip.begin;
@@ -283,8 +274,30 @@ private:
     const double furthest = (isLoose ? looseSlack : slack) * this->Options.maximumError;
     const PlaneLoop& lower = strip.hasAllBelow ? this->Loops.loop(strip.begin) : this->Few[strip.begin];
     const PlaneLoop& upper = strip.hasAllAbove ? this->Loops.loop(strip.end) : this->Few[strip.end];
-    return LoopStitching(this->Surface, this->Places, this->Options)
-      .stitch(lower, upper, bands < longBands ? 2 : 4, furthest, strip.stitched);
+    const int parts = bands < longBands ? 2 : 4;
+    const LoopStitching stitching(this->Surface, this->Places, this->Options);
+    ErrorRange allowed{ -furthest, furthest };
+    for (std::size_t band = strip.begin; band < strip.end; ++band)
+    {
+      allowed.add(this->Excesses[band]);
+    }
+    return stitching.stitch(lower, upper, parts, allowed, strip.stitched);
+  }
+
+  /// Finds by how much the field exceeds its level in the contour itself, as it does at creases that voxels do not resolve.
+  void findExcesses()
+  {
+    const auto& triangles = this->Surface.mesh.triangles;
+    for (std::size_t t = 0; t < triangles.size(); t += lookEvery)
+    {
+      const auto& corners = triangles[t];
+      if (!this->Surface.isCap(corners))
+      {
+        const Vector3d middle = (this->at(corners[0]) + this->at(corners[1]) + this->at(corners[2])) / 3.0;
+        double& excess = this->Excesses[this->Loops.bandOf(t)];
+        excess = std::max(excess, this->Options.field(middle) - this->Options.level);
+      }
+    }
   }
 
   /// Moves points of strips so that the surface around each lies amid where the field is too large and too small.
@@ -351,6 +364,7 @@ private:
   std::vector<PlaneLoop> Few;   ///< per plane, its loop with few points
   std::vector<Vector3d> Places; ///< per point, where it is to go
   std::vector<double> Moves;    ///< per point, how far it has moved outwards, µm
+  std::vector<double> Excesses; ///< per band, µm
   std::vector<Strip> Strips;    ///< from below
 };
 

@@ -13,11 +13,11 @@ namespace cactus
 using Eigen::Vector3d;
 
 bool LoopStitching::stitch(
-  const PlaneLoop& lower, const PlaneLoop& upper, int parts, double furthest, StitchedLoops& result) const
+  const PlaneLoop& lower, const PlaneLoop& upper, int parts, const ErrorRange& allowed, StitchedLoops& result) const
 {
   result.triangles.clear();
   result.errors.clear();
-  const Demand demand{ this->middleOf(upper) - this->middleOf(lower), parts, furthest };
+  const Demand demand{ this->middleOf(upper) - this->middleOf(lower), parts, allowed };
   if (lower.anchors.empty() && upper.anchors.empty())
   {
     const auto [i, j] = this->nearestPair(lower, upper, demand.offset);
@@ -115,7 +115,7 @@ bool LoopStitching::stitchLines(Line lower, Line upper, const Demand& demand, St
 {
   double error = this->errorAlong(lower.here(), upper.here(), demand.parts);
   Vector3d before = Vector3d::Zero();
-  while (std::abs(error) <= demand.furthest && !(lower.isAtEnd() && upper.isAtEnd()))
+  while (demand.allowed.holds(error) && !(lower.isAtEnd() && upper.isAtEnd()))
   {
     const bool goesBelow = this->goesBelow(lower, upper, demand, error);
     const std::array<std::int32_t, 3> triangle{ { lower.here(), goesBelow ? lower.next() : upper.next(), upper.here() } };
@@ -123,7 +123,7 @@ bool LoopStitching::stitchLines(Line lower, Line upper, const Demand& demand, St
     const Vector3d& p = this->placeOf(triangle[0]);
     const Vector3d normal = (this->placeOf(triangle[1]) - p).cross(this->placeOf(triangle[2]) - p);
     const double inMiddle = this->Surface.isCap(triangle) ? 0.0 : this->errorIn(triangle);
-    if (normal.dot(before) < 0.0 || std::abs(inMiddle) > demand.furthest)
+    if (normal.dot(before) < 0.0 || !demand.allowed.holds(inMiddle))
     {
       return false;
     }
@@ -131,7 +131,7 @@ bool LoopStitching::stitchLines(Line lower, Line upper, const Demand& demand, St
     result.triangles.push_back(triangle);
     result.errors.push_back({ { inMiddle, error } });
   }
-  return std::abs(error) <= demand.furthest;
+  return demand.allowed.holds(error);
 }
 
 /// Whether the next triangle has an edge of the lower loop, and what the error is on its edge to the one behind. That is the

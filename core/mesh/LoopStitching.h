@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,21 @@
 
 namespace cactus
 {
+
+/// By how much a field may exceed its level, or does so, µm.
+struct ErrorRange
+{
+  double lowest = 0.0;
+  double highest = 0.0;
+
+  void add(double error)
+  {
+    lowest = std::min(lowest, error);
+    highest = std::max(highest, error);
+  }
+  bool holds(double error) const { return error >= this->lowest && error <= this->highest; }
+  double middle() const { return 0.5 * (lowest + highest); }
+};
 
 /// Triangles between two loops, all around.
 struct StitchedLoops
@@ -38,10 +54,10 @@ public:
   }
 
   /// Fills the ring between a loop and one above it. The shorter of two edges goes across, unless only the other one is within
-  /// maximumError of the level. Returns false where the field is farther than `furthest` (µm) from its level in the middle of a
+  /// maximumError of the level. Returns false where what the field is more than its level is not `allowed` in the middle of a
   /// triangle or at those points of an edge across that cut it into `parts`; where triangles would fold; and where the two loops
   /// do not come to the same faces of the box, one after the other. On faces of the box the field may be larger.
-  bool stitch(const PlaneLoop& lower, const PlaneLoop& upper, int parts, double furthest, StitchedLoops& result) const;
+  bool stitch(const PlaneLoop& lower, const PlaneLoop& upper, int parts, const ErrorRange& allowed, StitchedLoops& result) const;
 
 private:
   /// A part of a loop, from one of its points to another, counted on past its end.
@@ -60,7 +76,7 @@ private:
   {
     Eigen::Vector3d offset;
     int parts;
-    double furthest;
+    ErrorRange allowed;
   };
 
   const Eigen::Vector3d& placeOf(std::int32_t point) const { return this->Places[std::size_t(point)]; }
