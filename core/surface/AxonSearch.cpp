@@ -16,7 +16,7 @@ constexpr int mostSteps = 40;
 /// Levels nearer to each other than this part of a voxel are not told apart.
 constexpr double levelTolerance = 1e-3;
 /// Distance from where an inner surface has the right volume that is good enough before coarsening, as a part of a voxel.
-constexpr double nearEnough = 0.01;
+constexpr double nearEnough = 0.02;
 
 } // namespace
 

@@ -62,4 +62,9 @@ CappedSurface FibreContours::unsmoothed(const SmoothedField& field) const
   return surface;
 }
 
+SampledVolume FibreContours::innerVolumes(const SmoothedField& field, double lowest) const
+{
+  return SampledVolume(field, this->InnerLattice, lowest);
+}
+
 } // namespace cactus

@@ -3,6 +3,7 @@
 
 #include "mesh/TriangleTree.h"
 #include "surface/FibreField.h"
+#include "surface/SampledVolume.h"
 #include "surface/SmoothedField.h"
 #include "surface/SurfaceFilters.h"
 
@@ -26,6 +27,8 @@ public:
   CappedSurface innerAt(const SmoothedField& field, double level, const TriangleTree* within, double& dropped) const;
   /// The outer surface at level 0 of the field before it was smoothed, always by contour().
   CappedSurface unsmoothed(const SmoothedField& field) const;
+  /// What inner surfaces at levels from `lowest` (µm) on hold.
+  SampledVolume innerVolumes(const SmoothedField& field, double lowest) const;
 
 private:
   CappedSurface contourAt(double inset, const SmoothedField& field, double level) const;

@@ -91,13 +91,6 @@ SampleMoments momentsOf(const SmoothedField& field)
 
 } // namespace
 
-std::vector<float> depthsOf(const SmoothedField& field)
-{
-  std::vector<float> result;
-  forEachSample(field, [&](const std::array<int, 3>&, float depth) { result.push_back(depth); });
-  return result;
-}
-
 double lengthOf(const SmoothedField& field, double spacing)
 {
   const SampleMoments moments = momentsOf(field);

@@ -148,19 +148,13 @@ double FibreMesher::equivalentDiameter(const SmoothedField& field, double outerV
 }
 
 /// From the thinnest myelin to the middle of the fibre; the latter is no more than the former if there is no room for an axon.
-AxonLevels FibreMesher::axonLevels(const SmoothedField& field, double gRatio) const
+AxonLevels FibreMesher::axonLevels(const SmoothedField& field, double volume) const
 {
   AxonLevels levels;
   levels.lowest = this->ThinnestMyelin;
-  std::vector<float> depths = depthsOf(field);
-  if (!depths.empty())
-  {
-    levels.highest = *std::max_element(depths.begin(), depths.end());
-    // As many samples as the axon is to have of the volume lie deeper than a first guess.
-    const auto rank = static_cast<std::size_t>((1.0 - gRatio * gRatio) * double(depths.size() - 1));
-    std::nth_element(depths.begin(), depths.begin() + std::ptrdiff_t(rank), depths.end());
-    levels.guess = std::max(double(depths[rank]), levels.lowest);
-  }
+  const SampledVolume sampled = this->Contours.innerVolumes(field, levels.lowest);
+  levels.highest = sampled.deepest();
+  levels.guess = sampled.levelOf(volume, levels.lowest, levels.highest);
   return levels;
 }
 
@@ -176,7 +170,7 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
   {
     return; // an outer surface, not made here, that encloses no volume
   }
-  const AxonLevels levels = this->axonLevels(field, pair.targetGRatio);
+  const AxonLevels levels = this->axonLevels(field, wanted);
   if (levels.highest <= levels.lowest)
   {
     return;

@@ -59,7 +59,7 @@ private:
   Eigen::AlignedBox3d box() const;
   /// Whether contours that lie a little beside where they are to be are moved there, rather than made again.
   bool movesContours() const;
-  AxonLevels axonLevels(const SmoothedField& field, double gRatio) const;
+  AxonLevels axonLevels(const SmoothedField& field, double volume) const;
   void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   void finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;

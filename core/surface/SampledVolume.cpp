@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/SampledVolume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr int mostSteps = 40;
+/// µm, far below what coarsening moves surfaces by.
+constexpr double levelTolerance = 1e-4;
+
+/// How long the boxes of an axis's samples are, by node, µm: those beside the faces reach up to them, whose own nodes have none.
+std::vector<float> lengthsAlong(const std::vector<double>& planes)
+{
+  std::vector<float> lengths(planes.size(), 0.0f);
+  const std::size_t last = planes.size() - 1;
+  for (std::size_t i = 1; i < last; ++i)
+  {
+    const double below = i == 1 ? planes[0] : 0.5 * (planes[i - 1] + planes[i]);
+    const double above = i + 1 == last ? planes[last] : 0.5 * (planes[i] + planes[i + 1]);
+    lengths[i] = static_cast<float>(above - below);
+  }
+  return lengths;
+}
+
+/// Between samples; of an axis with one sample alone, between the faces.
+double spacingOf(const NodeLattice& lattice)
+{
+  double spacing = lattice.planes[0].back() - lattice.planes[0].front();
+  for (const std::vector<double>& planes : lattice.planes)
+  {
+    spacing = planes.size() > 3 ? std::min(spacing, planes[2] - planes[1]) : spacing;
+  }
+  return spacing;
+}
+
+} // namespace
+
+SampledVolume::SampledVolume(const SmoothedField& field, const NodeLattice& lattice, double lowest)
+  : Spacing(spacingOf(lattice))
+  , Deepest(lowest)
+{
+  const std::array<std::vector<float>, 3> lengths{ { lengthsAlong(lattice.planes[0]), lengthsAlong(lattice.planes[1]),
+    lengthsAlong(lattice.planes[2]) } };
+  const auto least = static_cast<float>(lowest - this->Spacing);
+  std::vector<float> values;
+  for (const std::uint32_t block : field.blocks())
+  {
+    const NodeRange nodes = nodesOfBlock(lattice, block);
+    const NodeRange around = nodes.widened(1);
+    values.resize(around.size());
+    field.values(0.0, 0.0, around, values.data());
+    // Blocks share their outermost nodes: the last ones count for the next block.
+    const auto end = [&](std::size_t axis) { return std::min(nodes.count[axis], NodeLattice::blockCells); };
+    for (int k = 0; k < end(2); ++k)
+    {
+      for (int j = 0; j < end(1); ++j)
+      {
+        const float area = lengths[1][std::size_t(nodes.first[1] + j)] * lengths[2][std::size_t(nodes.first[2] + k)];
+        const float* row = values.data() + 1 + around.count[0] * (j + 1 + around.count[1] * (k + 1));
+        const float* along = lengths[0].data() + nodes.first[0];
+        for (int i = 0; i < end(0); ++i)
+        {
+          if (row[i] > least && area * along[i] > 0.0f)
+          {
+            this->Samples.push_back({ row[i], area * along[i] });
+            this->Deepest = std::max(this->Deepest, double(row[i]));
+          }
+        }
+      }
+    }
+  }
+}
+
+/// A box counts in part where its sample is nearer to the level than a voxel: by a polynomial that begins and ends flat, so that
+/// it hardly matters how the surface lies between the samples. Two things make the sum larger than what a contour holds: around a
+/// convex surface more lies outside than inside, by its curvature times the variance of that ramp, a seventh of a square voxel;
+/// and a contour cuts the curve short in each cell.
+SampledVolume::Measure SampledVolume::measureAt(double level) const
+{
+  const double perWidth = 1.0 / this->Spacing;
+  Measure result;
+  double slope = 0.0;
+  double bend = 0.0;
+  for (const Sample& sample : this->Samples)
+  {
+    const double t = std::clamp((sample.depth - level) * perWidth, -1.0, 1.0);
+    const double square = t * t;
+    const double rest = 1.0 - square;
+    result.volume += sample.volume * (0.5 + t * (15.0 - square * (10.0 - 3.0 * square)) / 16.0);
+    slope += sample.volume * rest * rest;
+    bend -= sample.volume * t * rest;
+  }
+  result.area = 15.0 / 16.0 * perWidth * slope;
+  const double curvature = 15.0 / 4.0 * perWidth * perWidth * bend; // over the surface, µm
+  result.volume -= (1.0 / 14.0 + 1.0 / 12.0) * this->Spacing * this->Spacing * curvature;
+  return result;
+}
+
+double SampledVolume::levelOf(double volume, double lower, double upper) const
+{
+  double level = 0.5 * (lower + upper);
+  for (int step = 0; step < mostSteps && upper - lower > levelTolerance; ++step)
+  {
+    const Measure now = this->measureAt(level);
+    const double error = now.volume - volume;
+    (error > 0.0 ? lower : upper) = level;
+    const double newton = now.area > 0.0 ? level + error / now.area : level;
+    if (now.area > 0.0 && std::abs(newton - level) < levelTolerance)
+    {
+      break;
+    }
+    level = newton > lower && newton < upper ? newton : 0.5 * (lower + upper);
+  }
+  return level;
+}
+
+} // namespace cactus
