@@ -17,7 +17,7 @@ namespace
 
 /// Every format starts so; its number and a line feed follow.
 const std::string title = "CACTUS checkpoint ";
-const std::string version = "4\n";
+const std::string version = "5\n";
 /// Reads otherwise where bytes have another order.
 constexpr std::uint64_t byteOrder = 0x0102030405060708u;
 constexpr std::size_t headerBytes = 24;

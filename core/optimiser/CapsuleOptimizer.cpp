@@ -7,6 +7,7 @@
 #include "base/Sharing.h"
 #include "fibres/FibreOrder.h"
 #include "optimiser/BundleBox.h"
+#include "optimiser/CoarseFibres.h"
 #include "optimiser/FibreShares.h"
 #include "optimiser/OptimisationCheckpoints.h"
 #include "optimiser/OptimisationRun.h"
@@ -14,6 +15,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -67,55 +70,154 @@ void requireSegmentsToSearch(const Fibres& fibres)
   }
 }
 
-/// Called with each state that a run measures.
-using Observe = std::function<void(const ConvergenceRow&)>;
-
-/// Runs the descent to its end, and leaves in `result` why it ended and what it did.
-void descend(OptimisationRun& run, const CapsuleOptimizerOptions& options, const Context& context, Clock::time_point start,
-  OptimisationCheckpoints& checkpoints, const Observe& observe, OptimisationResult& result)
+/// What the runs of an optimisation have in common.
+struct Surroundings
 {
-  double completed = 0.0;
+  const CapsuleOptimizerOptions& options;
+  const Context& context;
+  Clock::time_point start;
+  OptimisationCheckpoints& checkpoints;
+  /// Called with each state that a run measures: control points and radii of the fibres that came in.
+  /// Empty where nobody looks.
+  std::function<void(const ConvergenceRow&, const std::vector<Eigen::Vector3d>&, const std::vector<double>&)> observe;
+  double completed = 0.0; ///< what was reported last
+};
+
+/// Whether a run with fewer control points is to be followed by one with all of them.
+bool isToBeRefined(const OptimisationRun& run, const std::optional<StopReason>& reason)
+{
+  const bool ended = reason && *reason != StopReason::Converged && *reason != StopReason::Stagnated;
+  return run.level == OptimisationRun::Coarse && !ended && (reason || run.descent.isLaidOut());
+}
+
+/// Runs the descent to its end, and returns why it ended; nothing where it is to go on with more control points.
+std::optional<StopReason> descend(
+  OptimisationRun& run, Surroundings& around, const std::function<void(const ConvergenceRow&)>& show)
+{
   for (;; ++run.iteration)
   {
-    if (checkpoints.due())
+    if (around.checkpoints.due())
     {
-      checkpoints.write(run);
+      around.checkpoints.write(run);
     }
     Moment moment;
-    ConvergenceRow row = run.descent.evaluate([&] { return Moment{ secondsSince(start), context.stopRequested() }; }, moment);
+    ConvergenceRow row = run.descent.evaluate(
+      [&] {
+        return Moment{ secondsSince(around.start), around.context.stopRequested() };
+      },
+      moment);
     row.iteration = run.iteration;
     row.seconds = run.seconds + moment.seconds;
-    run.note(row, options.overlapTolerance);
-    if (observe)
+    run.note(row, around.options.overlapTolerance);
+    if (around.observe)
     {
-      observe(row);
+      show(row);
     }
     if (run.iteration % 10 == 0)
     {
       const double first = run.rows.empty() ? row.maximumPenetration : run.rows.front().maximumPenetration;
-      completed = std::max(completed, completedFraction(row, first, options));
-      context.report(completed, describe(row));
+      around.completed = std::max(around.completed, completedFraction(row, first, around.options));
+      around.context.report(around.completed, describe(row));
     }
-    const auto reason = reasonToStop(row, run.progress, options, moment);
+    const auto reason = reasonToStop(row, run.progress, around.options, moment);
+    if (isToBeRefined(run, reason))
+    {
+      run.rows.push_back(row);
+      ++run.iteration;
+      return std::nullopt;
+    }
     if (reason)
     {
       // Before this row is added: a run that goes on from here measures this state again.
       run.seconds = row.seconds;
-      checkpoints.write(run);
+      around.checkpoints.write(run);
       run.rows.push_back(row);
-      result.reason = *reason;
-      break;
+      return reason;
     }
     run.rows.push_back(row);
     run.descent.step();
   }
+}
+
+/// What a run did, and how it went.
+void tell(OptimisationRun& run, StopReason reason, OptimisationResult& result)
+{
+  result.reason = reason;
   const DescentEffort& effort = run.descent.state().effort;
   result.pairEvaluations = effort.pairEvaluations;
   result.neighbourSearches = effort.neighbourSearches;
   result.evaluationSeconds = effort.evaluationSeconds;
   result.searchSeconds = effort.searchSeconds;
-  result.checkpointFailure = checkpoints.failure();
   result.convergence = std::move(run.rows);
+}
+
+/// Which of the fibres with fewer control points each process moves; nothing where these would not be of use: most control points
+/// have to stay, radii change, which belong to single control points, or the method is the published one.
+std::optional<FibreShares> sharesOfFewer(const Fibres& fibres, const FibreShares& shares, const CapsuleOptimizerOptions& options)
+{
+  constexpr double most = 0.75; // of the control points
+  if (options.method != DescentMethod::Momentum || options.radiusTolerance > 0.0)
+  {
+    return std::nullopt;
+  }
+  const CoarseFibres fewer(fibres);
+  if (static_cast<double>(fewer.fibres().points.size()) > most * static_cast<double>(fibres.points.size()))
+  {
+    return std::nullopt;
+  }
+  return FibreShares(fewer.fibres(), shares);
+}
+
+/// The options with which fibres of half as many control points take much the same shape: the costs of a bend or a stretch that
+/// is as long as before grow with a power of the distance between control points, while that of an overlap does not.
+CapsuleOptimizerOptions optionsForFewer(CapsuleOptimizerOptions options)
+{
+  options.weights.curvature /= 8.0;
+  options.weights.length /= 2.0;
+  return options;
+}
+
+/// Moves the fibres with fewer control points first, where there are shares of these, and then with all. Leaves the best state in
+/// `state`, and what was done in `result`.
+void descendThroughLevels(Fibres& state, const FibreShares& shares, const std::optional<FibreShares>& coarseShares,
+  const std::vector<BundleBox>& boxes, Surroundings& around, OptimisationResult& result)
+{
+  const int threads = around.context.threadCount();
+  const bool resumes = around.options.resume && around.checkpoints.found();
+  const CapsuleOptimizerOptions coarseOptions = optionsForFewer(around.options);
+  const CoarseFibres fewer(coarseShares ? state : Fibres());
+  Fibres moved = fewer.fibres();
+  std::optional<OptimisationRun> coarse;
+  if (coarseShares && !(resumes && around.checkpoints.level() == OptimisationRun::Fine))
+  {
+    coarse.emplace(OptimisationRun::Coarse, moved, *coarseShares, boxes, coarseOptions, threads);
+    if (resumes)
+    {
+      around.checkpoints.load(*coarse);
+    }
+    const auto reason = descend(*coarse, around,
+      [&](const ConvergenceRow& row) { around.observe(row, fewer.refine(moved.points, state.points), state.radii); });
+    if (reason)
+    {
+      state.points = fewer.refine(coarse->bestPoints, state.points);
+      tell(*coarse, *reason, result);
+      return;
+    }
+  }
+  OptimisationRun run(OptimisationRun::Fine, state, shares, boxes, around.options, threads);
+  if (coarse)
+  {
+    run.takeOver(*coarse, fewer);
+    coarse.reset();
+  }
+  else if (resumes)
+  {
+    around.checkpoints.load(run);
+  }
+  const auto reason = descend(run, around, [&](const ConvergenceRow& row) { around.observe(row, state.points, state.radii); });
+  state.points = std::move(run.bestPoints);
+  state.radii = std::move(run.bestRadii);
+  tell(run, *reason, result);
 }
 
 /// Puts values of all control points, of which each process has its own, where they belong in the fibres that came in.
@@ -181,41 +283,34 @@ OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOption
   {
     spreadBundles(all, options.packingLimit);
   }
-  std::vector<BundleBox> boxes = shares.ownOf(bundleBoxes(all, options.packingLimit));
+  const std::optional<FibreShares> coarseShares = apart ? std::nullopt : sharesOfFewer(all, shares, options);
+  const std::vector<BundleBox> boxes = shares.ownOf(bundleBoxes(all, options.packingLimit));
   Fibres state = shares.own(std::move(all));
-  const auto handBack = [&]
+  const auto handBack = [&](const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii)
   {
-    bringTogether(state.points, shares, order, fibres.points);
-    bringTogether(state.radii, shares, order, fibres.radii);
+    bringTogether(points, shares, order, fibres.points);
+    bringTogether(radii, shares, order, fibres.radii);
   };
+  Surroundings around{ options, context, start, checkpoints, {} };
+  if (hasAny(static_cast<bool>(observe), sharing))
   {
-    OptimisationRun run(state, shares, std::move(boxes), options, threads);
-    if (options.resume && checkpoints.found())
+    around.observe = [&](const ConvergenceRow& row, const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii)
     {
-      checkpoints.load(run);
-    }
-    Observe handOver;
-    if (hasAny(static_cast<bool>(observe), sharing))
-    {
-      handOver = [&](const ConvergenceRow& row)
+      handBack(points, radii);
+      if (observe)
       {
-        handBack();
-        if (observe)
-        {
-          observe(row, fibres);
-        }
-      };
-    }
-    descend(run, options, context, start, checkpoints, handOver, result);
-    state.points = std::move(run.bestPoints);
-    state.radii = std::move(run.bestRadii);
+        observe(row, fibres);
+      }
+    };
   }
+  descendThroughLevels(state, shares, coarseShares, boxes, around, result);
+  result.checkpointFailure = checkpoints.failure();
   // The lists above reach only as far as the descent needs: what is handed back is measured afresh.
   const OverlapReport report = measureOverlap(state, shares, options.overlapTolerance, threads);
   result.maximumPenetration = std::max(0.0, report.largestPenetration);
   result.overlappingPairs = report.overlappingPairs;
   bringTogether(report.perPoint, shares, order, result.overlap);
-  handBack();
+  handBack(state.points, state.radii);
   return result;
 }
 

@@ -39,6 +39,13 @@ public:
 
   const DescentState& state() const { return this->State; }
 
+  /// Whether fibres with fewer control points than asked for, as they were last evaluated, have come as far as these serve: few
+  /// pairs overlap, or the costs that shape fibres have nearly faded.
+  bool isLaidOut() const;
+
+  /// Goes on from where a descent of fewer control points has come, whose points and velocities are given for all.
+  void takeOver(const DescentState& coarse, std::vector<Eigen::Vector3d> points, std::vector<Eigen::Vector3d> velocity);
+
   void save(SharedCheckpointWriter& file) const { this->State.save(file); }
   /// Goes on from what was saved. Throws FileError where no descent from the fibres given can be there.
   void load(SharedCheckpointReader& file);
@@ -74,7 +81,7 @@ private:
   SharedCapsules Bodies;
   std::vector<double> ReferenceRadii;
   std::vector<CapsuleOverlap> Overlaps;
-  bool IsNearlyApart = false; ///< when it was last evaluated
+  double OverlappingShare = 1.0; ///< pairs, relative to the capsules, when it was last evaluated
   std::vector<Eigen::Vector3d> Gradient;
   std::vector<double> RadiusGradient;
   std::vector<double> Stiffness;

@@ -31,6 +31,17 @@ FibreShares::FibreShares(const Fibres& fibres, const Sharing& sharing)
   }
 }
 
+FibreShares::FibreShares(const Fibres& coarser, const FibreShares& alike)
+  : Processes(alike.Processes)
+  , FibreBegin(alike.FibreBegin)
+  , FibreIds(alike.FibreIds)
+{
+  for (const std::size_t f : this->FibreBegin)
+  {
+    this->PointBegin.push_back(coarser.offsets[f]);
+  }
+}
+
 Fibres FibreShares::own(Fibres all) const
 {
   if (this->processes() == 1)

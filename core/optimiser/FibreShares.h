@@ -20,6 +20,8 @@ public:
   /// All fibres, which are the same in every process; `sharing` has to outlive the object. Throws InvalidInput where there are
   /// more control points than 32 bits count.
   FibreShares(const Fibres& fibres, const Sharing& sharing);
+  /// The same fibres with fewer control points: each process has those that it has in `alike`.
+  FibreShares(const Fibres& coarser, const FibreShares& alike);
 
   const Sharing& sharing() const { return this->Processes; }
   int place() const { return this->Processes.place(); }

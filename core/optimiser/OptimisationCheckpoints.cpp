@@ -57,14 +57,20 @@ OptimisationCheckpoints::OptimisationCheckpoints(
   {
     const auto found = findCheckpoint(this->Path, this->Print);
     this->Reached = found ? found->iteration : -1;
+    if (found && options.resume)
+    {
+      this->Level = OptimisationRun::levelOf(this->Path, this->Print);
+    }
     // Goes away again unless it is committed.
     const CheckpointWriter attempt(this->Path, { this->Print, 0 });
   }
   ByteWriter reached;
   reached(this->Reached);
+  reached(static_cast<std::uint8_t>(this->Level));
   const std::string told = sharing.fromFirst(reached.bytes());
   ByteReader get(told);
   get(this->Reached);
+  this->Level = get.get<std::uint8_t>() == OptimisationRun::Coarse ? OptimisationRun::Coarse : OptimisationRun::Fine;
 }
 
 /// Processes that were given different runs could not go through them together.

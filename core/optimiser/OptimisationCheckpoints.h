@@ -22,6 +22,10 @@ public:
   /// Whether there was a checkpoint of this run.
   bool found() const { return this->Reached >= 0; }
 
+  /// On which level the run was that is in it.
+  OptimisationRun::Level level() const { return this->Level; }
+
+  /// Precondition: the run is on that level.
   void load(OptimisationRun& run) const;
 
   bool due() const; ///< by the clock of the first process
@@ -44,6 +48,7 @@ private:
   Clock::time_point Latest;
   std::uint64_t Print = 0;
   std::int64_t Reached = -1; ///< iteration of the checkpoint that was there; −1 for none
+  OptimisationRun::Level Level = OptimisationRun::Fine;
   bool Written = false;
   std::string Failure;
 };

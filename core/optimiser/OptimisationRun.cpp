@@ -30,14 +30,25 @@ void visit(Row& row, Visitor&& visitor)
 
 } // namespace
 
-OptimisationRun::OptimisationRun(
-  Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes, const CapsuleOptimizerOptions& options, int threads)
-  : sharing(shares.sharing())
+OptimisationRun::OptimisationRun(Level which, Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes,
+  const CapsuleOptimizerOptions& options, int threads)
+  : level(which)
+  , sharing(shares.sharing())
   , state(fibres)
   , descent(fibres, shares, std::move(boxes), options, threads)
   , bestPoints(fibres.points)
   , bestRadii(fibres.radii)
 {
+}
+
+void OptimisationRun::takeOver(OptimisationRun& coarse, const CoarseFibres& fewer)
+{
+  const DescentState& from = coarse.descent.state();
+  this->descent.takeOver(from, fewer.refine(from.fibres.points, this->state.points), fewer.interpolate(from.velocity));
+  this->bestPoints = this->state.points;
+  this->iteration = coarse.iteration;
+  this->seconds = coarse.seconds;
+  this->rows = std::move(coarse.rows);
 }
 
 void OptimisationRun::note(const ConvergenceRow& row, double tolerance)
@@ -54,6 +65,7 @@ void OptimisationRun::note(const ConvergenceRow& row, double tolerance)
 void OptimisationRun::save(const std::string& path, std::uint64_t fingerprint) const
 {
   SharedCheckpointWriter file(path, { fingerprint, this->iteration }, this->sharing);
+  file.put(static_cast<std::uint8_t>(this->level));
   file.put(this->seconds);
   file.put(this->bestCost);
   file.put(this->progress.lowestCost);
@@ -69,10 +81,19 @@ void OptimisationRun::save(const std::string& path, std::uint64_t fingerprint) c
   file.commit();
 }
 
+OptimisationRun::Level OptimisationRun::levelOf(const std::string& path, std::uint64_t fingerprint)
+{
+  CheckpointReader file(path, fingerprint);
+  std::uint8_t level = 0;
+  file.get(level);
+  return level == Coarse ? Coarse : Fine;
+}
+
 void OptimisationRun::load(const std::string& path, std::uint64_t fingerprint)
 {
   SharedCheckpointReader file(path, fingerprint, this->sharing);
-  const std::string numbers = file.fromFile(loadNumbers);
+  const std::string numbers =
+    file.fromFile([this](CheckpointReader& from, ByteWriter& put) { loadNumbers(from, put, this->level); });
   ByteReader get(numbers);
   get(this->iteration);
   get(this->seconds);
@@ -94,8 +115,11 @@ void OptimisationRun::load(const std::string& path, std::uint64_t fingerprint)
 }
 
 /// What is the same in all processes.
-void OptimisationRun::loadNumbers(CheckpointReader& file, ByteWriter& put)
+void OptimisationRun::loadNumbers(CheckpointReader& file, ByteWriter& put, Level expected)
 {
+  std::uint8_t level = 0;
+  file.get(level);
+  file.require(level == expected);
   file.require(file.header().iteration >= 0 && file.header().iteration <= std::numeric_limits<int>::max());
   const int next = static_cast<int>(file.header().iteration);
   double before = 0.0;
