@@ -41,7 +41,7 @@ constexpr double flipGain = 0.95;
 constexpr double flipNeed = 0.2;
 constexpr int mostSweeps = 10;
 /// In the place of an excess.
-constexpr double unknown = -1.0;
+constexpr double unknownExcess = -1.0;
 constexpr int repairRounds = 4;
 
 class Decimation
@@ -57,7 +57,7 @@ public:
     , Locked(Mesh.pointCount(), 0)
     , Changed(Mesh.pointCount(), 0)
     , Part(Mesh.pointCount(), 1.0f)
-    , Excesses(Mesh.pointCount(), unknown)
+    , Excesses(Mesh.pointCount(), unknownExcess)
     , Refusals(3 * Mesh.triangleCount())
   {
     for (const LocalErrorBound& bound : options.localBounds)
@@ -232,7 +232,7 @@ private:
       {
         const double noticed = unnoticed * this->Options.maximumError;
         const bool isUnnoticed = error <= noticed * noticed && !thorough && this->isSmallAround(u, v);
-        double excess = unknown;
+        double excess = unknownExcess;
         if (isUnnoticed || this->keepsField(u, v, place, isInside && !thorough, excess))
         {
           this->collapse(u, v, place, excess);
@@ -262,7 +262,7 @@ private:
   bool keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove, double& excess)
   {
     excess = 0.0;
-    const double known = this->Excesses[std::size_t(u)] == unknown || this->Excesses[std::size_t(v)] == unknown
+    const double known = this->Excesses[std::size_t(u)] == unknownExcess || this->Excesses[std::size_t(v)] == unknownExcess
                            ? std::numeric_limits<double>::infinity()
                            : this->excessAt(u, v);
     const FieldFit after = this->Fits.fitAfterCollapse(
@@ -295,7 +295,7 @@ private:
     for (const std::int32_t point : { u, v })
     {
       double& excess = this->Excesses[std::size_t(point)];
-      excess = excess == unknown ? this->Fits.excessAt(point) : excess;
+      excess = excess == unknownExcess ? this->Fits.excessAt(point) : excess;
     }
     return std::max(this->Excesses[std::size_t(u)], this->Excesses[std::size_t(v)]);
   }
@@ -320,7 +320,7 @@ private:
     {
       this->Changed[std::size_t(corner)] = this->Sweep;
       double& there = this->Excesses[std::size_t(corner)];
-      there = excess == unknown ? unknown : there;
+      there = excess == unknownExcess ? unknownExcess : there;
     }
   }
 
@@ -401,8 +401,8 @@ private:
       return false;
     }
     this->Mesh.flip(one, other, a, b);
-    this->markChanged(one, unknown);
-    this->markChanged(other, unknown);
+    this->markChanged(one, unknownExcess);
+    this->markChanged(other, unknownExcess);
     return true;
   }
 

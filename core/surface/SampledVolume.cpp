@@ -13,9 +13,9 @@ namespace cactus
 namespace
 {
 
-constexpr int mostSteps = 40;
+constexpr int mostNewtonSteps = 40;
 /// µm, far below what coarsening moves surfaces by.
-constexpr double levelTolerance = 1e-4;
+constexpr double sampledTolerance = 1e-4;
 
 /// How long the boxes of an axis's samples are, by node, µm: those beside the faces reach up to them, whose own nodes have none.
 std::vector<float> lengthsAlong(const std::vector<double>& planes)
@@ -108,13 +108,13 @@ SampledVolume::Measure SampledVolume::measureAt(double level) const
 double SampledVolume::levelOf(double volume, double lower, double upper) const
 {
   double level = 0.5 * (lower + upper);
-  for (int step = 0; step < mostSteps && upper - lower > levelTolerance; ++step)
+  for (int step = 0; step < mostNewtonSteps && upper - lower > sampledTolerance; ++step)
   {
     const Measure now = this->measureAt(level);
     const double error = now.volume - volume;
     (error > 0.0 ? lower : upper) = level;
     const double newton = now.area > 0.0 ? level + error / now.area : level;
-    if (now.area > 0.0 && std::abs(newton - level) < levelTolerance)
+    if (now.area > 0.0 && std::abs(newton - level) < sampledTolerance)
     {
       break;
     }
