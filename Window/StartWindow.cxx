@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "NarrowChoices.h"
 #include "QuickLaunch.h"
 
+#include <pqInterfaceTracker.h>
 #include <pqPVApplicationCore.h>
 
 #include <QCoreApplication>
@@ -15,6 +17,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
       if (pqPVApplicationCore* core = pqPVApplicationCore::instance())
       {
         new cactus::QuickLaunch(core);
+        core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
       }
     });
 }
