@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FirstLook.h"
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
 
@@ -17,6 +18,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
       if (pqPVApplicationCore* core = pqPVApplicationCore::instance())
       {
         new cactus::QuickLaunch(core);
+        new cactus::FirstLook(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
       }
     });
