@@ -18,6 +18,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 
 vtkStandardNewMacro(vtkSubstrateCertificate);
@@ -41,13 +42,20 @@ void fill(vtkTable* table, const std::vector<cactus::CertificateColumn>& columns
   }
 }
 
+/// A row per line: ParaView's spreadsheets sort columns by name, rows not.
+void fill(vtkTable* table, const std::vector<cactus::CertificateLine>& lines)
+{
+  cactus::addColumn<vtkStringArray>(table, "Finding", lines.size(), [&](std::size_t row) { return lines[row].finding; });
+  cactus::addColumn<vtkStringArray>(table, "Value", lines.size(), [&](std::size_t row) { return lines[row].value; });
+}
+
 } // namespace
 
 vtkSubstrateCertificate::vtkSubstrateCertificate()
   : Properties(cactus::makeProperties<cactus::SubstrateCertificateStage>())
 {
   this->SetNumberOfInputPorts(3);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 int vtkSubstrateCertificate::FillInputPortInformation(int port, vtkInformation* info)
@@ -93,8 +101,9 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       }
       fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
       fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
+      fill(vtkTable::GetData(outputs, 2), cactus::certificateLines(certificate));
       const auto provenance = cactus::recordOf(this, "SubstrateCertificate", stage, { "Outer", "Inner", "Fibres" });
-      for (int port = 0; port < 2; ++port)
+      for (int port = 0; port < 3; ++port)
       {
         cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
       }

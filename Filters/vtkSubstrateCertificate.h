@@ -8,7 +8,8 @@
  *
  * Output 0 `Certificate`: one row; the verdict `Certified` (0 or 1), how many surfaces or pairs have each fault, the smallest gap
  * between two fibres, the thinnest myelin, the worst triangles, and volume fractions. Output 1 `Fibres`: one row per fibre. What
- * cannot be measured is NaN. A warning says why a substrate is not certified.
+ * cannot be measured is NaN. Output 2 `Verdict`: output 0 as text to be read, a row per column (`Finding`, `Value`), the verdict
+ * in words first. A warning says why a substrate is not certified.
  *
  * Certified is a substrate in which every surface is a closed, outward 2-manifold that does not meet itself, no two outer
  * surfaces meet or lie inside one another, every inner surface lies strictly inside its outer one, and no two fibres are nearer

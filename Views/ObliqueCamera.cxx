@@ -37,8 +37,8 @@ void lookObliquely(vtkView* view)
   if (agree(camera, untouched) || agree(camera, ofNewView))
   {
     camera->SetFocalPoint(0.0, 0.0, 0.0);
-    camera->SetViewUp(0.0, 1.0, 0.0);   // as before, so that scripts which place the camera on the z axis find what they expect
-    camera->SetPosition(1.5, 1.1, 2.0); // a cube shows three of its faces, the one across the fibres widest
+    camera->SetViewUp(0.0, 1.0, 0.0); // as before, so that scripts which place the camera on the z axis find what they expect
+    camera->SetPosition(obliquePosition);
   }
 }
 

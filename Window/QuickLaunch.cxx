@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QuickLaunch.h"
 
+#include "PluginProxies.h"
+
 #include <pqPVApplicationCore.h>
 #include <pqProxyGroupMenuManager.h>
-#include <vtkPVXMLElement.h>
-#include <vtkSMProxy.h>
 #include <vtkSMProxyManager.h>
 #include <vtkSMSessionProxyManager.h>
 
@@ -14,14 +14,11 @@
 #include <QStringList>
 
 #include <algorithm>
-#include <cstring>
 
 namespace cactus
 {
 namespace
 {
-
-constexpr char category[] = "CACTUS";
 
 /// The menus whose actions the search shows.
 QList<pqProxyGroupMenuManager*> searchedMenus()
@@ -41,20 +38,13 @@ QList<pqProxyGroupMenuManager*> searchedMenus()
   return menus;
 }
 
-/// Whether what an action of ParaView's menus makes is in the submenu of this plugin, by the hint ShowInMenu in its XML.
-bool isOfThisPlugin(const QAction* action)
+/// Whether an action of ParaView's menus makes something of this plugin.
+bool makesOneOfThisPlugin(const QAction* action)
 {
   vtkSMSessionProxyManager* manager = vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
   const QStringList groupAndName = action->data().toStringList();
-  if (manager == nullptr || groupAndName.size() != 2)
-  {
-    return false;
-  }
-  vtkSMProxy* prototype = manager->GetPrototypeProxy(groupAndName[0].toUtf8().data(), groupAndName[1].toUtf8().data());
-  vtkPVXMLElement* hints = prototype != nullptr ? prototype->GetHints() : nullptr;
-  vtkPVXMLElement* shown = hints != nullptr ? hints->FindNestedElementByName("ShowInMenu") : nullptr;
-  const char* shownIn = shown != nullptr ? shown->GetAttribute("category") : nullptr;
-  return shownIn != nullptr && std::strcmp(shownIn, category) == 0;
+  return manager != nullptr && groupAndName.size() == 2 &&
+         isOfThisPlugin(manager->GetPrototypeProxy(groupAndName[0].toUtf8().data(), groupAndName[1].toUtf8().data()));
 }
 
 } // namespace
@@ -73,7 +63,7 @@ void QuickLaunch::makeEntries()
   {
     for (QAction* action : menu->actions())
     {
-      if (isOfThisPlugin(action))
+      if (makesOneOfThisPlugin(action))
       {
         this->addEntry(action);
       }
@@ -83,10 +73,10 @@ void QuickLaunch::makeEntries()
 
 void QuickLaunch::addEntry(QAction* menuAction)
 {
-  QAction* entry = new QAction(menuAction->icon(), QString("%1 %2").arg(category, menuAction->text()), &this->entries);
+  QAction* entry = new QAction(menuAction->icon(), QString("%1 %2").arg(menuCategory, menuAction->text()), &this->entries);
   // The search of 5.11 tells actions apart by their names; that of 5.13 takes help and requirements from group and name of the
   // proxy.
-  entry->setObjectName(QString("%1 %2").arg(category, menuAction->objectName()));
+  entry->setObjectName(QString("%1 %2").arg(menuCategory, menuAction->objectName()));
   entry->setData(menuAction->data());
   const auto follow = [entry, menuAction]
   {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "FirstLook.h"
+#include "NarrowChoices.h"
 #include "QuickLaunch.h"
 
+#include <pqInterfaceTracker.h>
 #include <pqPVApplicationCore.h>
 
 #include <QCoreApplication>
@@ -15,6 +18,8 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
       if (pqPVApplicationCore* core = pqPVApplicationCore::instance())
       {
         new cactus::QuickLaunch(core);
+        new cactus::FirstLook(core);
+        core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
       }
     });
 }

@@ -20,6 +20,7 @@ import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
 from preview import SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, surface_files, tubes
 from report_page import page
+from report_profiles import profiles
 from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -154,6 +155,18 @@ def charts(manifest, fibres, lines):
     return drawn, notes
 
 
+def profile_charts(folder, manifest, fibres, lines):
+    """SVG texts of the diameters along some fibres, on the same axes, with room for the names above the curves."""
+    if lines is None or manifest.get("simulator") in ("Camino", "Disimpy"):
+        return []
+    found = profiles(folder, manifest, fibres, lines)
+    right = max([length for _, cuts in found for length, _, _ in cuts], default=1.0)
+    top = 1.4 * max([diameter for _, cuts in found for _, *both in cuts for diameter in both if math.isfinite(diameter)], default=1.0)
+    return [report_charts.curves(f"Fibre {fibre}", "length along it, diameter (µm)",
+                                 [("outer", [(length, outer) for length, outer, _ in cuts], OUTER), ("inner", [(length, inner) for length, _, inner in cuts], INNER)],
+                                 right, top) for fibre, cuts in found]
+
+
 def citation():
     """What CITATION.cff prefers, as a line and a link."""
     with open(os.path.join(ROOT, "CITATION.cff"), encoding="utf-8") as file:
@@ -181,7 +194,7 @@ def gathered(folder, manifest_file, with_pictures):
         "title": f"Substrate {name}", "certified": bool(manifest["certified"]), "sample_of": manifest.get("sample_of_fibres"), "judged": manifest["judged"], "faults": manifest["faults"],
         "changed": changed_files(folder, manifest),
         "rows": asked_and_reached(manifest, certificate, fibres, mean_dispersion(lines) if lines is not None else None),
-        "picture": shown, "no_picture": why, "charts": drawn, "notes": notes, "stages": manifest["provenance"],
+        "picture": shown, "no_picture": why, "charts": drawn, "profiles": profile_charts(folder, manifest, fibres, lines) if with_pictures else [], "notes": notes, "stages": manifest["provenance"],
         "again": [f"./cactus rerun {name}/manifest.json", "(the same to the bit, with CACTUS " + manifest["version"] + ")"],
         "manifest": data_uri("application/json", content), "citation": citation(),
         "versions": f"Substrate: CACTUS {manifest['version']}. Report: ParaView {servermanager.vtkSMProxyManager.GetVersionMajor()}."

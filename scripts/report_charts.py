@@ -63,6 +63,30 @@ def histograms(title, label, series, low, high, bins=25, curve=None):
     return _frame(title, parts)
 
 
+def curves(title, label, series, right, top):
+    """Lines over [0, right] and [0, top]. `series` = [(name, [(x, y)], colour)]; a y of NaN is a gap."""
+    wide, tall = WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM
+    parts = []
+    step = nice_step(top, 4)
+    for k in range(math.floor(top / step + 1e-9) + 1):
+        y = TOP + tall * (1 - k * step / top)
+        parts.append(f'<line x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{y:.1f}" y2="{y:.1f}" stroke="{GRID}"/>' + _text(LEFT - 4, y + 3, f"{k * step:.10g}", "end"))
+    step = nice_step(right)
+    for k in range(math.floor(right / step + 1e-9) + 1):
+        parts.append(_text(LEFT + wide * k * step / right, HEIGHT - BOTTOM + 12, f"{k * step:.10g}"))
+    for i, (name, points, colour) in enumerate(series):
+        pieces = [[]]
+        for x, y in points:
+            if math.isfinite(y):
+                pieces[-1].append(f"{LEFT + wide * x / right:.1f},{TOP + tall * (1 - y / top):.1f}")
+            elif pieces[-1]:
+                pieces.append([])
+        parts += [f'<polyline points="{" ".join(piece)}" fill="none" stroke="{colour}" stroke-width="1.5"/>' for piece in pieces if piece]
+        parts.append(_text(WIDTH - RIGHT - 2, TOP + 10 + 11 * i, name, "end", f'style="fill:{colour}" font-weight="bold"'))
+    parts.append(_text(LEFT + wide / 2, HEIGHT - 6, label))
+    return _frame(title, parts)
+
+
 def rose(title, directions, note):
     """Directions (unit vectors) as points by their angle from the z axis and around it, each axis once, with rings in degrees."""
     middle, reach = (WIDTH / 2, TOP + 68), 56

@@ -53,7 +53,7 @@ def _stage(stage):
 
 def page(report):
     """The HTML of a report: title, certified, judged, faults, changed, rows, picture (a data URI, or None with no_picture saying why), charts
-    (SVG texts), sample_of (fibres, or None), stages, versions, again (commands), manifest (a data URI), citation (text and link)."""
+    and profiles (SVG texts), sample_of (fibres, or None), stages, versions, again (commands), manifest (a data URI), citation (text and link)."""
     kind, verdict = _verdict(report)
     picture = (f'<img alt="Left: a cut across the substrate. Right: the fibres, with axons that stand out of their myelin." src="{report["picture"]}">'
                if report["picture"] else f"<p>{html.escape(report['no_picture'])}</p>")
@@ -66,6 +66,7 @@ def page(report):
         f'<h2>Asked and reached</h2>{_table(report["rows"])}<h2>The substrate</h2>{picture}',
         f'<div class="second"><h2>Distributions</h2><div class="charts">{"".join(report["charts"])}</div>',
         "".join(f'<p class="small">{html.escape(note)}</p>' for note in report["notes"]),
+        f'<h2>Along a thin fibre, a middle one and a thick one</h2><div class="charts">{"".join(report["profiles"])}</div>' if report["profiles"] else "",
         f'<h2>Parameters</h2><div class="small">{"".join(_stage(stage) for stage in report["stages"])}</div>',
         "<h2>To make it again</h2><p>" + "<br>".join(f"<code>{html.escape(line)}</code>" for line in report["again"]) + "</p>",
         f'<p class="noprint"><a download="manifest.json" href="{report["manifest"]}">manifest.json</a> is in this page, too.</p>',

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/CertificateTables.h"
 
+#include "base/Numbers.h"
+
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -126,6 +128,27 @@ std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certific
   columns.number("LargestSquaredEdgeRatio",
     [](const Fibre& f) { return std::fmax(f.outer.largestSquaredEdgeRatio, f.inner.largestSquaredEdgeRatio); });
   return columns.take();
+}
+
+std::vector<CertificateLine> certificateLines(const SubstrateCertificate& certificate)
+{
+  std::string verdict = (certificate.certified() ? "" : "not certified: ") + certificate.verdict();
+  if (certificate.certified() && !certificate.scope().empty())
+  {
+    verdict += " " + certificate.scope();
+  }
+  std::vector<CertificateLine> lines{ { "Verdict", std::move(verdict) } };
+  for (const CertificateColumn& column : substrateColumns(certificate))
+  {
+    const double value = column.values.front();
+    CertificateLine line{ column.name, std::isnan(value) ? "-" : "" };
+    if (!std::isnan(value))
+    {
+      appendNumber(line.value, value, column.whole ? 15 : 6);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 } // namespace cactus

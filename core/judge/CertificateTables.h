@@ -23,4 +23,15 @@ std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& cert
 /// A row for each fibre.
 std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certificate);
 
+/// One thing that the certificate says, to be read.
+struct CertificateLine
+{
+  std::string finding; ///< what it is about: "Verdict", else a column of the substrate's table
+  std::string value;
+};
+
+/// The certificate to be read line by line: the verdict in words with what it is of, then the columns of the substrate's table.
+/// Numbers have six digits; what was not measured is "-".
+std::vector<CertificateLine> certificateLines(const SubstrateCertificate& certificate);
+
 } // namespace cactus

@@ -36,6 +36,19 @@ class ConvergenceChart(CactusTestCase):
             self.assertLessEqual(axis.GetUnscaledMinimum(), first)
             self.assertGreaterEqual(axis.GetUnscaledMaximum(), first)
 
+    def test_stays_logarithmic_when_its_ranges_are_reset(self):
+        """The window does so for the first data that a view shows. They end at no overlapping pairs, which have no logarithm."""
+        simple.Show(simple.OutputPort(self.optimizer, 1), self.view)
+        self.view.SMProxy.ResetDisplay()
+        simple.Render(self.view)
+        table = fetch(self.optimizer, 1)
+        self.assertEqual(table.GetValueByName(table.GetNumberOfRows() - 1, "OverlappingPairs").ToDouble(), 0)
+        chart = self.view.GetClientSideObject().GetChart()
+        for place in (vtkAxis.LEFT, vtkAxis.RIGHT):
+            axis = chart.GetAxis(place)
+            self.assertTrue(axis.GetLogScaleActive())
+            self.assertGreater(axis.GetUnscaledMinimum(), 0)
+
     def test_each_curve_is_drawn(self):
         shown = simple.Show(simple.OutputPort(self.optimizer, 1), self.view)
         both = pixels(self.view)

@@ -56,7 +56,7 @@ CHOICES = {
 }
 PORTS = {
     "CapsuleOptimizer": ["Fibres", "Convergence"],
-    "SubstrateCertificate": ["Certificate", "Fibres"],
+    "SubstrateCertificate": ["Certificate", "Fibres", "Verdict"],
     "SubstrateStatistics": ["Substrate", "Fibres", "Histograms", "Profiles"],
 }
 

@@ -107,10 +107,11 @@ class Report(CactusTestCase):
         self.check_numbers(page)
         self.check_picture(next(address for tag, address in page.addresses if tag == "img"))
         charts = re.findall(r"<svg .*?</svg>", text, re.S)
-        self.assertEqual(len(charts), 3)
+        self.assertEqual(len(charts), 6)
         for chart in charts:
             ElementTree.fromstring(chart)
         self.assertEqual(len(re.findall(r'r="1.6"', charts[2])), self.quantities()["Fibres"])
+        self.check_profiles(charts[3:])
         for words in ("GammaShape\xa02.4", "TargetFibreVolumeFraction\xa0-1.0", "./cactus rerun substrate/manifest.json", "Villarreal-Haro", "10.3389/fninf.2023.1208073"):
             self.assertIn(words, page.words)
         address = next(address for tag, address in page.addresses if address.startswith("data:application/json"))
@@ -133,6 +134,20 @@ class Report(CactusTestCase):
         weights = [(r, r**1.4 * 2.718281828459045 ** (-r / 0.25)) for r in (0.3 + 1.7 * (i + 0.5) / 10000 for i in range(10000))]
         mean = sum(r * w for r, w in weights) / sum(w for _, w in weights)
         self.assertAlmostEqual(float(rows["mean outer radius (µm)"][0]), mean, places=3)
+
+    def check_profiles(self, charts):
+        """Of three fibres from thin to thick, each with a curve of its outer diameter above that of its axon."""
+        with open(os.path.join(self.substrate, "certificate_fibres.csv"), encoding="utf-8") as file:
+            radii = {row["FibreId"]: float(row["OuterRadius_um"] or "nan") for row in csv.DictReader(file)}
+        shown = [radii[re.search(r"Fibre (\d+)", chart).group(1)] for chart in charts]
+        self.assertEqual(shown, sorted(shown))
+        heights = []
+        for chart in charts:
+            outer, inner = ([float(point.split(",")[1]) for point in points.split()] for points in re.findall(r'<polyline points="([^"]+)"', chart))
+            self.assertGreater(len(outer), 10)
+            self.assertLess(max(outer), min(inner))  # downwards, as SVG has it
+            heights.append(sum(outer) / len(outer))
+        self.assertEqual(heights, sorted(heights, reverse=True))
 
     def check_picture(self, address):
         self.assertTrue(address.startswith("data:image/png;base64,"))

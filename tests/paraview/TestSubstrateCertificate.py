@@ -77,6 +77,25 @@ class Certificate(CactusTestCase):
         with self.assertError(r"not certified: 2 inner surfaces leave their outer ones \(fibre 3 first\)"):
             self.certify(self.outer, two_tubes()[2])  # caps in one plane
 
+    def test_is_read_line_by_line_from_the_verdict_on(self):
+        """ParaView's spreadsheets sort columns by name, so what they show has rows."""
+
+        def lines(outer, **inputs):
+            table = fetch(SubstrateCertificate(Outer=produce(outer), **inputs), 2)
+            return [(table.GetValueByName(row, "Finding").ToString(), table.GetValueByName(row, "Value").ToString()) for row in range(table.GetNumberOfRows())]
+
+        read = lines(self.outer, Inner=produce(self.inner))
+        self.assertEqual(read[:2], [("Verdict", "certified"), ("Certified", "1")])
+        whole, _ = self.certify(self.outer, self.inner)
+        self.assertEqual([name for name, _ in read[1:]], list(whole))
+        self.assertEqual(dict(read)["SmallestGap_um"], "1.5")
+        self.assertEqual(dict(read)["OuterSurfaces"], "2")
+        alone = lines(self.outer)
+        self.assertEqual(alone[0][1], "certified for its outer surfaces alone, as there are no inner ones")
+        self.assertEqual(dict(alone)["AVF"], "-")
+        with self.assertError("not certified"):
+            self.assertRegex(lines(self.outer, Inner=produce(self.inner), MinimumGap=1.6)[0][1], r"^not certified: fibres 3 and 5 come as near as 1\.5")
+
     def test_triangles_in_any_order(self):
         """Surfaces may be mixed with each other in the array of cells."""
         expected, expected_fibres = self.certify(self.outer, self.inner)

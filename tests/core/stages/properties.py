@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""properties.py TABLE XML DOCS: fails where the server-manager XML says other than the stages' descriptions, as the program TABLE
+"""properties.py TABLE XML DOCS: fails where a panel does not tell the unit of a property in the title of its group; where the server-manager XML says other than the stages' descriptions, as the program TABLE
 prints them, of a property's name, type, default, range, choices or of what it depends on, or where DOCS is not what TABLE makes."""
 
 import glob
 import json
 import os
+import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -32,6 +33,28 @@ def is_preset(proxy, one):
         assert domain.get("stage") == proxy.get("name"), "a preset of another stage"
         assert one.get("name") == "Preset" and one.get("command") is None
     return domain is not None
+
+
+UNITS = {"µm": "µm", "mm": "mm", "°": "degrees", "s": "seconds"}
+
+
+def unit_faults(folder, made):
+    """Each property with a unit in the table whose group in the panel has another in its title, or that has no group."""
+    units = {}
+    for line in made.splitlines():
+        if line.startswith("## "):
+            stage = line[3:]
+        found = re.match(r"\| (\w+) \| [^|]* \| [^|]*[ \d](µm|mm|°|s) \|", line)
+        if found:
+            units[stage, found.group(1)] = UNITS[found.group(2)]
+    assert len(units) > 30, units
+    for path in sorted(glob.glob(os.path.join(folder, "*.xml"))):
+        for proxy in ElementTree.parse(path).getroot().findall("ProxyGroup/SourceProxy"):
+            titles = {one.get("name"): group.get("label") for group in proxy.findall("PropertyGroup") for one in group}
+            for one in proxy:
+                unit = units.get((proxy.get("name"), one.get("name")))
+                if unit is not None and one.get("panel_visibility") != "never" and unit not in titles.get(one.get("name"), ""):
+                    yield f"{proxy.get('name')}.{one.get('name')} is in {unit}, which the title of its group in the panel does not say"
 
 
 def default(one):
@@ -95,6 +118,7 @@ def main():
         for name in sorted(set(facts) & set(shown[stage])):
             faults += [f"{stage}.{name} {fault}" for fault in differences(facts[name], shown[stage][name])]
     made = subprocess.run([table], check=True, capture_output=True, text=True).stdout
+    faults += unit_faults(folder, made)
     with open(docs, encoding="utf-8") as file:
         if file.read() != made:
             faults.append(f"{docs} is not what is described: {table} > {docs}")

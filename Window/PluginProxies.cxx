@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PluginProxies.h"
+
+#include <vtkPVXMLElement.h>
+#include <vtkSMProxy.h>
+
+#include <cstring>
+
+namespace cactus
+{
+
+bool isOfThisPlugin(vtkSMProxy* proxy)
+{
+  vtkPVXMLElement* hints = proxy != nullptr ? proxy->GetHints() : nullptr;
+  vtkPVXMLElement* shown = hints != nullptr ? hints->FindNestedElementByName("ShowInMenu") : nullptr;
+  const char* shownIn = shown != nullptr ? shown->GetAttribute("category") : nullptr;
+  return shownIn != nullptr && std::strcmp(shownIn, menuCategory) == 0;
+}
+
+} // namespace cactus

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How thick some fibres of a substrate folder are along themselves: the cuts of Substrate Statistics across their surfaces, which alone are read."""
+
+import math
+
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData
+from vtkmodules.vtkIOPLY import vtkPLYReader
+
+from preview import surface_files, with_numbers
+
+CUTS = 80  # along the side of the domain
+
+
+def chosen(fibres, parts=(0.1, 0.5, 0.9)):
+    """Ids of a thin fibre, a middle one and a thick one, by rows of the certificate's table; of as many as there are."""
+    measured = sorted((row["OuterRadius_um"], int(row["FibreId"])) for row in fibres if math.isfinite(row["OuterRadius_um"]))
+    places = sorted({round(part * (len(measured) - 1)) for part in parts}) if measured else []
+    return [measured[place][1] for place in places]
+
+
+def _source(data):
+    """Data as an input for ParaView's filters."""
+    producer = simple.TrivialProducer()
+    producer.GetClientSideObject().SetOutput(data)
+    return producer
+
+
+def _lines(everything, places):
+    """Those centre lines out of all that are at `places` = {id: place}, with these ids."""
+    some = vtkPolyData()
+    some.SetPoints(everything.GetPoints())
+    some.GetPointData().AddArray(everything.GetPointData().GetArray("Radius"))
+    cells = vtkCellArray()
+    for place in places.values():
+        cells.InsertNextCell(everything.GetCell(place))
+    some.SetLines(cells)
+    with_numbers(some, FibreId=0, BundleId=1)
+    for cell, fibre in enumerate(places):
+        some.GetCellData().GetArray("FibreId").SetValue(cell, fibre)
+    some.GetFieldData().AddArray(everything.GetFieldData().GetArray("Domain"))
+    return some
+
+
+def _surfaces(folder, manifest, kind, wanted):
+    """The surfaces of a kind of these fibres, or None where there are none."""
+    together = vtkAppendPolyData()
+    for entry, path in surface_files(folder, manifest):
+        if entry["surface"] == kind and entry["fibre"] in wanted:
+            reader = vtkPLYReader()
+            reader.SetFileName(path)
+            reader.Update()
+            together.AddInputData(with_numbers(reader.GetOutput(), FibreId=entry["fibre"], BundleId=entry["bundle"]))
+    if together.GetNumberOfInputConnections(0) == 0:
+        return None
+    together.Update()
+    return together.GetOutput()
+
+
+def profiles(folder, manifest, fibres, lines):
+    """[(id, [(arc length, outer diameter, inner diameter)])] of some fibres, in µm, inner ones NaN where there is no axon. `fibres` = rows of
+    the certificate's table, `lines` = a source of all centre lines. None of a folder whose lines are not those of its surfaces."""
+    everything = servermanager.Fetch(lines)
+    ids = sorted(int(row["FibreId"]) for row in fibres)
+    if everything.GetNumberOfCells() != len(ids):
+        return []
+    wanted = chosen(fibres)
+    outer, inner = (_surfaces(folder, manifest, kind, wanted) for kind in ("outer", "inner"))
+    if outer is None:
+        return []
+    side = max(manifest["domain"][2 * axis + 1] - manifest["domain"][2 * axis] for axis in range(3))
+    inputs = {"Inner": _source(inner)} if inner is not None else {}
+    statistics = simple.SubstrateStatistics(
+        Fibres=_source(_lines(everything, {fibre: ids.index(fibre) for fibre in wanted})), Outer=_source(outer), CutSpacing=max(0.01, side / CUTS), **inputs)
+    statistics.UpdatePipeline()
+    table = servermanager.Fetch(statistics, idx=3)
+    columns = [vtk_to_numpy(table.GetColumnByName(name)) for name in ("FibreId", "ArcLength_um", "OuterDiameter_um", "InnerDiameter_um")]
+    found = {fibre: [] for fibre in wanted}
+    for fibre, *cut in zip(*columns):
+        found[int(fibre)].append(tuple(float(value) for value in cut))
+    return [(fibre, cuts) for fibre, cuts in found.items() if len(cuts) > 1]
