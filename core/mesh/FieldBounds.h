@@ -48,6 +48,14 @@ public:
   template <typename IsEnough>
   FieldFit fitAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, IsEnough&& isEnough) const;
 
+  /// Whether the field is in its range at the place of a point that is u and v in one.
+  bool holdAt(const Eigen::Vector3d& place, std::int32_t u, std::int32_t v) const
+  {
+    FieldFit fit;
+    this->add(fit, place, this->Surface.facesOf(u) | this->Surface.facesOf(v), 1.0);
+    return !fit.isOut();
+  }
+
   /// Whether the field is in its range all over a triangle, at points at most `sampling` apart besides those of the fits. A bit
   /// of `faces` says that a corner is on that face of the box.
   bool holdWithin(const std::array<Eigen::Vector3d, 3>& corners, const std::array<std::uint8_t, 3>& faces) const;

@@ -29,8 +29,8 @@ constexpr double leastFlipTurn = 0.5;
 constexpr double quadricPart = 2.0;
 /// Error of the first sweeps, as a part of that of the last ones.
 constexpr double firstError = 0.5;
-/// Collapses of less than this part of the largest error are made without a look at the field, where no edge is longer than that
-/// part of the sampling distance.
+/// Collapses of less than this part of the largest error are made without a look at the field but at the point itself, where no
+/// edge is longer than that part of the sampling distance.
 constexpr double unnoticed = 0.15;
 constexpr double smallPart = 0.5;
 /// How often edges are flipped, after which comes a sweep of the largest error.
@@ -231,8 +231,9 @@ private:
       if (this->Shapes.allowCollapse(u, v, place, thorough))
       {
         const double noticed = unnoticed * this->Options.maximumError;
-        const bool isUnnoticed = error <= noticed * noticed && !thorough && this->isSmallAround(u, v);
-        double excess = unknownExcess;
+        const bool isUnnoticed =
+          error <= noticed * noticed && !thorough && this->isSmallAround(u, v) && this->Fits.holdAt(place, u, v);
+        double excess = this->isExcessKnown(u, v) ? this->excessAt(u, v) : unknownExcess;
         if (isUnnoticed || this->keepsField(u, v, place, isInside && !thorough, excess))
         {
           this->collapse(u, v, place, excess);
@@ -262,9 +263,7 @@ private:
   bool keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove, double& excess)
   {
     excess = 0.0;
-    const double known = this->Excesses[std::size_t(u)] == unknownExcess || this->Excesses[std::size_t(v)] == unknownExcess
-                           ? std::numeric_limits<double>::infinity()
-                           : this->excessAt(u, v);
+    const double known = this->isExcessKnown(u, v) ? this->excessAt(u, v) : std::numeric_limits<double>::infinity();
     const FieldFit after = this->Fits.fitAfterCollapse(
       u, v, place, [&](const FieldFit& fit) { return fit.excess > known && !(mayMove && fit.canBeMoved()); });
     if (!after.isOut())
@@ -288,8 +287,7 @@ private:
     return excess <= this->excessAt(u, v);
   }
 
-  /// By how much the field may be out of its range at two points: as much as it was when that was first asked, or when the point
-  /// was moved.
+  /// By how much the field may be out of its range at two points: as much as it was when that was first asked.
   double excessAt(std::int32_t u, std::int32_t v)
   {
     for (const std::int32_t point : { u, v })
@@ -299,28 +297,29 @@ private:
     }
     return std::max(this->Excesses[std::size_t(u)], this->Excesses[std::size_t(v)]);
   }
+  /// Whether there is no need to look.
+  bool isExcessKnown(std::int32_t u, std::int32_t v) const
+  {
+    return this->Excesses[std::size_t(u)] != unknownExcess && this->Excesses[std::size_t(v)] != unknownExcess;
+  }
 
   void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, double excess)
   {
     this->Mesh.collapse(u, v, place);
     this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
     this->Locked[std::size_t(u)] = this->Sweep;
+    this->Excesses[std::size_t(u)] = excess;
     for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0; c = this->Mesh.nextCorner(c))
     {
-      this->markChanged(std::size_t(c) / 3, excess);
+      this->markChanged(std::size_t(c) / 3);
     }
-    this->Excesses[std::size_t(u)] = excess;
   }
 
-  /// What is known of a triangle's corners from before it was new goes on to hold, unless it was made without a look at the
-  /// field.
-  void markChanged(std::size_t triangle, double excess)
+  void markChanged(std::size_t triangle)
   {
     for (const std::int32_t corner : this->Mesh.cornersOf(triangle))
     {
       this->Changed[std::size_t(corner)] = this->Sweep;
-      double& there = this->Excesses[std::size_t(corner)];
-      there = excess == unknownExcess ? unknownExcess : there;
     }
   }
 
@@ -401,8 +400,8 @@ private:
       return false;
     }
     this->Mesh.flip(one, other, a, b);
-    this->markChanged(one, unknownExcess);
-    this->markChanged(other, unknownExcess);
+    this->markChanged(one);
+    this->markChanged(other);
     return true;
   }
 

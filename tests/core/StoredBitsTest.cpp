@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "98ea8fe053ed77ba5aca908f1bc65183004224997877f9c038ddcd3fa2682d4d",
-           "db4964d1e7037b4b9b87a4a612cadeba499152f26b7a2e160aacfd69613400dc" },
-         Known{ 20, "dbc672cde56099ea79d5b4890a4b6c3eaed4b3a40fc8602d637169661185fce4",
-           "bdebd0eec43aa99a0e47ce510cb848a67b25e708f9595eadb5e98f4f57b9b01c" },
-         Known{ 38, "7d7fbf84df79d94a000ece46642888dbca5a4c021f814fb63fd6fc7b7f68c4b4",
-           "484f5808ccbfc55df24aa236d8f3bfe376dda60e5c4a0839da1453e04130e9e5" },
+         Known{ 1, "6296b763450d2ad83dad73bd9047d3515ad6d1ce6d011ebaf07932f3180ac11a",
+           "f91dcf4770c54ac013f8418fb8003b9ce6c1addc00f50dcfbe024496450cb4c8" },
+         Known{ 20, "741596f08fbfe142508a2cdfb78a0ac5e05154a652befa684ff1da78a1686e48",
+           "a4e2cd437b9d2d2e59b7142c9851ba9a3f245b6eea6896772d3fdc36ed37184e" },
+         Known{ 38, "52b5e09be943881e7d3873a4d59b455f9f5f7a0313d130bdaa2754f112dae4bd",
+           "7aa65062cf5a414ec8b80ebde5368cd08539feb9774241c3cc8035d2d351f6c6" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
