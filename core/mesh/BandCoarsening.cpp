@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 /// How far apart, across a chord, points may be that it replaces: it goes amid them.
 constexpr double chordPart = 1.2;
 /// How far the field may be from its level along a strip, before its points settle.
-constexpr double slack = 1.5;
+constexpr double slack = 1.15;
 /// The same where the strip replaces one band, or is next to bands that stay.
 constexpr double looseSlack = 2.0;
 
@@ -36,8 +36,9 @@ constexpr double movePart = 0.8;
 /// Loops of fewer points are of fibres so thin that there is little to gain, and an axon's room to lose.
 constexpr std::size_t fewestPoints = 16;
 
-/// Bands that one strip replaces at most, and those that are tried first.
-constexpr std::size_t mostBands = 16;
+/// Bands that one strip replaces at most, since longer ones end in triangles too thin to be mended, and those that are tried
+/// first.
+constexpr std::size_t mostBands = 12;
 constexpr std::size_t firstBands = 4;
 /// From so many on the field is looked at in more points of edges.
 constexpr std::size_t longBands = 4;

@@ -8,16 +8,21 @@ namespace cactus
 
 using Eigen::Vector3d;
 
-double FieldBounds::excessAt(std::int32_t point) const
+bool FieldBounds::holdAt(const std::array<std::int32_t, 3>& triangle) const
 {
   FieldFit fit;
-  const std::uint8_t faces = this->Surface.facesOf(point);
-  this->add(fit, this->Surface.at(point), faces, 1.0);
-  for (std::int32_t c = this->Surface.firstCorner(point); c >= 0; c = this->Surface.nextCorner(c))
+  for (std::size_t i = 0; i < 3 && !fit.isOut(); ++i)
   {
-    this->addTriangle(fit, this->Surface.at(point), faces, this->Surface.oppositeEdge(c));
+    const std::int32_t a = triangle[i];
+    const std::int32_t b = triangle[(i + 1) % 3];
+    this->add(fit, this->Surface.at(a), this->Surface.facesOf(a), 1.0);
+    this->add(fit, 0.5 * (this->Surface.at(a) + this->Surface.at(b)), this->Surface.facesOf(a) & this->Surface.facesOf(b), 1.0);
   }
-  return fit.excess;
+  const std::uint8_t faces =
+    this->Surface.facesOf(triangle[0]) & this->Surface.facesOf(triangle[1]) & this->Surface.facesOf(triangle[2]);
+  this->add(
+    fit, (this->Surface.at(triangle[0]) + this->Surface.at(triangle[1]) + this->Surface.at(triangle[2])) / 3.0, faces, 1.0);
+  return !fit.isOut();
 }
 
 bool FieldBounds::holdWithin(const std::array<Vector3d, 3>& corners, const std::array<std::uint8_t, 3>& faces) const

@@ -41,20 +41,16 @@ public:
   {
   }
 
-  /// By how much the field is out of its range at a point, or at the middles of its edges and the centroids of its triangles.
-  double excessAt(std::int32_t point) const;
-  /// The fit at the same points of what is left when u and v move to `place`. Once `isEnough(fit so far)` is true, that is what
-  /// is returned.
+  /// The fit at u and v and at the middles of edges and the centroids of the triangles at them. Once `isEnough(fit so far)` is
+  /// true, that is what is returned.
+  template <typename IsEnough>
+  FieldFit fitAround(std::int32_t u, std::int32_t v, IsEnough&& isEnough) const;
+  /// The same of the triangles that are left when u and v move to `place`.
   template <typename IsEnough>
   FieldFit fitAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, IsEnough&& isEnough) const;
 
-  /// Whether the field is in its range at the place of a point that is u and v in one.
-  bool holdAt(const Eigen::Vector3d& place, std::int32_t u, std::int32_t v) const
-  {
-    FieldFit fit;
-    this->add(fit, place, this->Surface.facesOf(u) | this->Surface.facesOf(v), 1.0);
-    return !fit.isOut();
-  }
+  /// Whether the field is in its range at the points of a triangle that fits look at: corners, middles of edges and centroid.
+  bool holdAt(const std::array<std::int32_t, 3>& triangle) const;
 
   /// Whether the field is in its range all over a triangle, at points at most `sampling` apart besides those of the fits. A bit
   /// of `faces` says that a corner is on that face of the box.
@@ -101,6 +97,26 @@ private:
   double Largest;
   double Sampling;
 };
+
+template <typename IsEnough>
+FieldFit FieldBounds::fitAround(std::int32_t u, std::int32_t v, IsEnough&& isEnough) const
+{
+  FieldFit fit;
+  for (const std::int32_t point : { u, v })
+  {
+    const std::uint8_t faces = this->Surface.facesOf(point);
+    this->add(fit, this->Surface.at(point), faces, 1.0);
+    for (std::int32_t c = this->Surface.firstCorner(point); c >= 0; c = this->Surface.nextCorner(c))
+    {
+      this->addTriangle(fit, this->Surface.at(point), faces, this->Surface.oppositeEdge(c));
+      if (isEnough(fit))
+      {
+        return fit;
+      }
+    }
+  }
+  return fit;
+}
 
 template <typename IsEnough>
 FieldFit FieldBounds::fitAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, IsEnough&& isEnough) const

@@ -27,21 +27,19 @@ constexpr double leastFlipTurn = 0.5;
 /// Quadrics tell a mean of distances to the planes of triangles at an edge: up to so many times the largest error, the field
 /// decides.
 constexpr double quadricPart = 2.0;
-/// Error of the first sweeps, as a part of that of the last ones.
-constexpr double firstError = 0.5;
-/// Collapses of less than this part of the largest error are made without a look at the field but at the point itself, where no
-/// edge is longer than that part of the sampling distance.
+/// Errors of the sweeps before the last ones, as parts of that of the last ones.
+constexpr double sweepErrors[] = { 0.25, 0.5 };
+/// Collapses of less than this part of the largest error are made without a look at the field, where no edge is longer than that
+/// part of the sampling distance.
 constexpr double unnoticed = 0.15;
 constexpr double smallPart = 0.5;
-/// How often edges are flipped, after which comes a sweep of the largest error.
+/// How often edges are flipped, after which come sweeps of the largest error.
 constexpr int flipRounds = 2;
 /// An edge is flipped if that reduces the largest distance of the field from its level to this part, unless it is below that part
 /// of the largest error anyway.
 constexpr double flipGain = 0.95;
 constexpr double flipNeed = 0.2;
-constexpr int mostSweeps = 10;
-/// In the place of an excess.
-constexpr double unknownExcess = -1.0;
+constexpr int sweepsPerError = 10;
 constexpr int repairRounds = 4;
 
 class Decimation
@@ -57,7 +55,7 @@ public:
     , Locked(Mesh.pointCount(), 0)
     , Changed(Mesh.pointCount(), 0)
     , Part(Mesh.pointCount(), 1.0f)
-    , Excesses(Mesh.pointCount(), unknownExcess)
+    , Looks(Mesh.triangleCount(), unknown)
     , Refusals(3 * Mesh.triangleCount())
   {
     for (const LocalErrorBound& bound : options.localBounds)
@@ -74,17 +72,34 @@ public:
 
   void run()
   {
-    this->sweeps(firstError * this->Reach);
+    for (const double part : sweepErrors)
+    {
+      this->sweeps(part * this->Reach, true);
+    }
     for (int round = 0; round < flipRounds; ++round)
     {
       this->flipEdges();
-      this->sweep(this->Reach * this->Reach, round == 0);
+      this->sweeps(this->Reach, round == 0);
     }
     this->repairShapes();
     this->Mesh.compact();
   }
 
 private:
+  enum class Verdict
+  {
+    Worse,
+    NoWorse, ///< than before, or not looked at
+    Kept     ///< the field is in its range
+  };
+
+  /// What is known of a triangle from looks at the field; bits.
+  using Look = std::uint8_t;
+  static constexpr Look unknown = 0;
+  static constexpr Look kept = 1; ///< it was made by a collapse that keeps the field in its range
+  static constexpr Look fine = 2; ///< the field is in its range at the points of fits
+  static constexpr Look out = 4;  ///< it is not
+
   /// What is known of an edge that was not collapsed.
   struct Refusal
   {
@@ -92,20 +107,20 @@ private:
     int sweep = -1;     ///< when that was
   };
 
-  /// Sweeps until one removes little.
-  void sweeps(double error)
+  /// Sweeps until one removes little. The error is a new one, or that of the sweeps before: what was too much then still is.
+  void sweeps(double error, bool isNew)
   {
-    for (int sweep = 0; sweep < mostSweeps; ++sweep)
+    for (int sweep = 0; sweep < sweepsPerError; ++sweep)
     {
-      if (this->sweep(error * error, sweep == 0) * 10 < this->Mesh.aliveCount())
+      if (this->sweep(error * error, isNew && sweep == 0) * 10 < this->Mesh.aliveCount())
       {
         return;
       }
     }
   }
 
-  /// Tries every edge once (`all`), or only those near which something has changed since they were tried: what was too much for
-  /// the same error then still is. Returns the number of triangles removed.
+  /// Tries every edge once (`all`), or only those near which something has changed since they were tried. Returns the number of
+  /// triangles removed.
   std::size_t sweep(double limit, bool all)
   {
     const std::size_t before = this->Mesh.aliveCount();
@@ -231,12 +246,11 @@ private:
       if (this->Shapes.allowCollapse(u, v, place, thorough))
       {
         const double noticed = unnoticed * this->Options.maximumError;
-        const bool isUnnoticed =
-          error <= noticed * noticed && !thorough && this->isSmallAround(u, v) && this->Fits.holdAt(place, u, v);
-        double excess = this->isExcessKnown(u, v) ? this->excessAt(u, v) : unknownExcess;
-        if (isUnnoticed || this->keepsField(u, v, place, isInside && !thorough, excess))
+        const bool isUnnoticed = error <= noticed * noticed && !thorough && this->isSmallAround(u, v);
+        const Verdict verdict = isUnnoticed ? Verdict::NoWorse : this->keepsField(u, v, place, isInside && !thorough);
+        if (verdict != Verdict::Worse)
         {
-          this->collapse(u, v, place, excess);
+          this->collapse(u, v, place, verdict == Verdict::Kept);
           return 0.0;
         }
       }
@@ -258,17 +272,16 @@ private:
       { return (this->Mesh.at(this->Mesh.oppositeEdge(c)[0]) - this->Mesh.at(point)).squaredNorm() > longest * longest; });
   }
 
-  /// Whether the new triangles keep the field in its range, or exceed it (by `excess`) no more than the old ones do. With
-  /// `mayMove`, `place` is moved outwards or inwards if that brings the field into its range.
-  bool keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove, double& excess)
+  /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. With `mayMove`, `place` is
+  /// moved outwards or inwards if that brings the field into its range.
+  Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove)
   {
-    excess = 0.0;
-    const double known = this->isExcessKnown(u, v) ? this->excessAt(u, v) : std::numeric_limits<double>::infinity();
-    const FieldFit after = this->Fits.fitAfterCollapse(
-      u, v, place, [&](const FieldFit& fit) { return fit.excess > known && !(mayMove && fit.canBeMoved()); });
+    const bool mustFit = this->all(u, v, kept) || this->all(u, v, fine);
+    const FieldFit after = this->Fits.fitAfterCollapse(u, v, place,
+      [&](const FieldFit& fit) { return fit.isOut() && !(mayMove && fit.canBeMoved()) && (mustFit || this->areFine(u, v)); });
     if (!after.isOut())
     {
-      return this->Fits.holdAfterCollapse(u, v, place);
+      return this->Fits.holdAfterCollapse(u, v, place) ? Verdict::Kept : Verdict::Worse;
     }
     if (mayMove && after.canBeMoved())
     {
@@ -280,37 +293,47 @@ private:
           !this->Fits.fitAfterCollapse(u, v, moved, [](const FieldFit& fit) { return fit.isOut(); }).isOut())
       {
         place = moved;
-        return this->Fits.holdAfterCollapse(u, v, moved);
+        return this->Fits.holdAfterCollapse(u, v, moved) ? Verdict::Kept : Verdict::Worse;
       }
     }
-    excess = after.excess;
-    return excess <= this->excessAt(u, v);
-  }
-
-  /// By how much the field may be out of its range at two points: as much as it was when that was first asked.
-  double excessAt(std::int32_t u, std::int32_t v)
-  {
-    for (const std::int32_t point : { u, v })
+    if (mustFit || this->areFine(u, v))
     {
-      double& excess = this->Excesses[std::size_t(point)];
-      excess = excess == unknownExcess ? this->Fits.excessAt(point) : excess;
+      return Verdict::Worse;
     }
-    return std::max(this->Excesses[std::size_t(u)], this->Excesses[std::size_t(v)]);
-  }
-  /// Whether there is no need to look.
-  bool isExcessKnown(std::int32_t u, std::int32_t v) const
-  {
-    return this->Excesses[std::size_t(u)] != unknownExcess && this->Excesses[std::size_t(v)] != unknownExcess;
+    const FieldFit before = this->Fits.fitAround(u, v, [&](const FieldFit& fit) { return fit.excess >= after.excess; });
+    return after.excess <= before.excess ? Verdict::NoWorse : Verdict::Worse;
   }
 
-  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, double excess)
+  /// Whether the same is known of all triangles at u and v.
+  bool all(std::int32_t u, std::int32_t v, Look look) const
+  {
+    return !this->Mesh.visitCornersAt(
+      u, v, [&](std::int32_t c, std::int32_t) { return (this->Looks[std::size_t(c) / 3] & look) == 0; });
+  }
+
+  /// Whether the field is in its range at the triangles at u and v as they are. Each is looked at once.
+  bool areFine(std::int32_t u, std::int32_t v)
+  {
+    return !this->Mesh.visitCornersAt(u, v,
+      [&](std::int32_t c, std::int32_t)
+      {
+        Look& look = this->Looks[std::size_t(c) / 3];
+        if ((look & (fine | out)) == 0)
+        {
+          look |= this->Fits.holdAt(this->Mesh.cornersOf(std::size_t(c) / 3)) ? fine : out;
+        }
+        return (look & out) != 0;
+      });
+  }
+
+  void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, bool isKept)
   {
     this->Mesh.collapse(u, v, place);
     this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
     this->Locked[std::size_t(u)] = this->Sweep;
-    this->Excesses[std::size_t(u)] = excess;
     for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0; c = this->Mesh.nextCorner(c))
     {
+      this->Looks[std::size_t(c) / 3] = isKept ? kept : unknown;
       this->markChanged(std::size_t(c) / 3);
     }
   }
@@ -400,6 +423,7 @@ private:
       return false;
     }
     this->Mesh.flip(one, other, a, b);
+    this->Looks[one] = this->Looks[other] = this->Looks[one] & this->Looks[other] & kept;
     this->markChanged(one);
     this->markChanged(other);
     return true;
@@ -428,7 +452,7 @@ private:
   std::vector<int> Locked;       ///< per point, the sweep in which it was moved
   std::vector<int> Changed;      ///< per point, the sweep in which a triangle at it changed
   std::vector<float> Part;       ///< per point, of the largest error
-  std::vector<double> Excesses;  ///< per point, see excessAt()
+  std::vector<Look> Looks;       ///< per triangle
   std::vector<Refusal> Refusals; ///< per corner, of the edge from it
   int Sweep = 0;
   int LastFlips = 0; ///< the sweep after which edges were flipped last

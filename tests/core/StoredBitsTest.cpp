@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "6296b763450d2ad83dad73bd9047d3515ad6d1ce6d011ebaf07932f3180ac11a",
-           "f91dcf4770c54ac013f8418fb8003b9ce6c1addc00f50dcfbe024496450cb4c8" },
-         Known{ 20, "741596f08fbfe142508a2cdfb78a0ac5e05154a652befa684ff1da78a1686e48",
-           "a4e2cd437b9d2d2e59b7142c9851ba9a3f245b6eea6896772d3fdc36ed37184e" },
-         Known{ 38, "52b5e09be943881e7d3873a4d59b455f9f5f7a0313d130bdaa2754f112dae4bd",
-           "7aa65062cf5a414ec8b80ebde5368cd08539feb9774241c3cc8035d2d351f6c6" },
+         Known{ 1, "aeae87231df2259d2ae40c2c5302abc646c4dc9744927b77cfcf33f0eeb72077",
+           "d43776d5890ceb4ce90e1ee8c4004ba9db6aab17e24a66afc85647c67f108e73" },
+         Known{ 20, "6a76b06e3fbadc78f91e0b5276cdb530a30fd038b801349039bbe337c0a2f080",
+           "243c569bbfad1b78d85328ae565970f7c6342ca04cdad2c156d0d08b230f860e" },
+         Known{ 38, "68511c7a7074090c6abe8c7f06b046eb8a6510312068bccaf6567d0ca81835e8",
+           "98b4ab67638d2f19c747929c8e4e849e81b7aedb9cf0df8a0d5bb79a5f49b09a" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
