@@ -4,6 +4,7 @@ Debian's ParaView; lintian, where it is installed, is content; and the plugin th
 
 import glob
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -49,6 +50,11 @@ class Package(unittest.TestCase):
         for package in ("python3-paraview", "libzip", "libgomp1", "libstdc\\+\\+6"):
             self.assertRegex(depends, rf"(^|, ){package}")
         self.assertNotIn("cactus", depends)
+
+    def test_recommends_icons_for_this_window(self):
+        icons = {"5": "libqt5svg5", "6": "qt6-svg-plugins"}
+        for qt in re.findall(r"libqt(\d)core", output("dpkg-deb", "--field", PACKAGE, "Depends")):  # none without Qt's development files
+            self.assertEqual(output("dpkg-deb", "--field", PACKAGE, "Recommends").strip(), icons[qt])
 
     def test_paraview_finds_the_plugin(self):
         configuration = self.one(f"usr/lib/*/{PARAVIEW}/plugins/cactus.plugins.xml")
