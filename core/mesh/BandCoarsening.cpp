@@ -3,6 +3,7 @@
 
 #include "mesh/LoopStitching.h"
 #include "mesh/PlaneLoops.h"
+#include "mesh/PolygonTriangulation.h"
 
 #include <Eigen/Geometry>
 
@@ -25,11 +26,6 @@ using Eigen::Vector3d;
 
 /// How far apart, across a chord, points may be that it replaces: it goes amid them.
 constexpr double chordPart = 1.2;
-/// How far the field may be from its level along a strip, before its points settle.
-constexpr double slack = 1.15;
-/// The same where the strip replaces one band, or is next to bands that stay.
-constexpr double looseSlack = 2.0;
-
 /// How far a point may move altogether.
 constexpr double movePart = 0.8;
 
@@ -38,10 +34,12 @@ constexpr std::size_t fewestPoints = 16;
 
 /// Bands that one strip replaces at most, since longer ones end in triangles too thin to be mended, and those that are tried
 /// first.
-constexpr std::size_t mostBands = 12;
-constexpr std::size_t firstBands = 4;
-/// From so many on the field is looked at in more points of edges.
-constexpr std::size_t longBands = 4;
+constexpr std::size_t mostBands = 8;
+constexpr std::size_t firstBands = 8;
+/// A strip with so many times as many triangles as its loops have points is followed by one half as long, and one with less than
+/// that by one twice as long.
+constexpr double tooMany = 1.7;
+constexpr double fewEnough = 1.25;
 /// Of a contour's triangles, one of so many is looked at.
 constexpr std::size_t lookEvery = 3;
 
@@ -86,6 +84,8 @@ public:
   {
     this->findExcesses();
     this->simplify();
+    this->cutCaps(0);
+    this->cutCaps(this->Loops.planeCount() - 1);
     this->chooseStrips();
     this->joinStrips();
     this->settle();
@@ -195,6 +195,27 @@ private:
     }
   }
 
+  /// Makes the caps in an outermost plane, as its loop with few points has them.
+  void cutCaps(std::size_t plane)
+  {
+    const std::vector<std::int32_t>& points = this->Few[plane].points;
+    std::vector<Eigen::Vector2d> polygon;
+    for (const std::int32_t p : points)
+    {
+      const Vector3d& place = this->Places[std::size_t(p)];
+      polygon.emplace_back(place[(this->Axis + 1) % 3], place[(this->Axis + 2) % 3]);
+    }
+    std::vector<std::array<std::int32_t, 3>>& caps = this->Caps[plane == 0 ? 0 : 1];
+    for (const std::array<std::int32_t, 3>& t : trianglesOf(polygon))
+    {
+      caps.push_back({ { points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])] } });
+      if (plane == 0)
+      {
+        std::swap(caps.back()[1], caps.back()[2]); // downwards
+      }
+    }
+  }
+
   /// Lays strips from band to band, each as long as the field lets it be.
   void chooseStrips()
   {
@@ -212,7 +233,12 @@ private:
         strip.end = band + (strip.end - band) / 2;
       }
       const std::size_t made = strip.end - band;
-      length = made == 0 ? 1 : std::min(mostBands, 2 * made);
+      const double points = made == 0 ? 1.0 : double(this->Few[band].points.size() + this->Few[strip.end].points.size());
+      const double triangles(strip.stitched.triangles.size());
+      length = made == 0                        ? 1
+               : triangles > tooMany * points   ? std::max<std::size_t>(1, made / 2)
+               : triangles < fewEnough * points ? std::min(mostBands, 2 * made)
+                                                : made;
       band += std::max<std::size_t>(1, made);
       if (made > 0)
       {
@@ -224,7 +250,8 @@ private:
   /// Whether a band may be part of a strip.
   bool canGo(std::size_t band) const
   {
-    return this->Loops.isRing(band) && this->Loops.loop(band).points.size() >= fewestPoints &&
+    const bool hasCaps = (band > 0 || !this->Caps[0].empty()) && (band + 1 < this->Loops.bandCount() || !this->Caps[1].empty());
+    return hasCaps && this->Loops.isRing(band) && this->Loops.loop(band).points.size() >= fewestPoints &&
            this->Loops.loop(band + 1).points.size() >= fewestPoints;
   }
 
@@ -237,8 +264,9 @@ private:
       for (std::size_t i = 0; i < this->Strips.size(); ++i)
       {
         Strip& strip = this->Strips[i];
-        const bool hasAllBelow = i == 0 || this->Strips[i - 1].end != strip.begin;
-        const bool hasAllAbove = i + 1 == this->Strips.size() || this->Strips[i + 1].begin != strip.end;
+        const bool hasAllBelow = strip.begin > 0 && (i == 0 || this->Strips[i - 1].end != strip.begin);
+        const bool hasAllAbove =
+          strip.end < this->Loops.bandCount() && (i + 1 == this->Strips.size() || this->Strips[i + 1].begin != strip.end);
         if (hasAllBelow != strip.hasAllBelow || hasAllAbove != strip.hasAllAbove)
         {
           strip.hasAllBelow = hasAllBelow;
@@ -270,19 +298,11 @@ private:
   /// replaces is not, no farther inside the body than that.
   bool make(Strip& strip) const
   {
-    const std::size_t bands = strip.end - strip.begin;
-    const bool isLoose = bands == 1 || strip.hasAllBelow || strip.hasAllAbove;
-    const double furthest = (isLoose ? looseSlack : slack) * this->Options.maximumError;
     const PlaneLoop& lower = strip.hasAllBelow ? this->Loops.loop(strip.begin) : this->Few[strip.begin];
     const PlaneLoop& upper = strip.hasAllAbove ? this->Loops.loop(strip.end) : this->Few[strip.end];
-    const int parts = bands < longBands ? 2 : 4;
-    const LoopStitching stitching(this->Surface, this->Places, this->Options);
-    ErrorRange allowed{ -furthest, furthest };
-    for (std::size_t band = strip.begin; band < strip.end; ++band)
-    {
-      allowed.add(this->Excesses[band]);
-    }
-    return stitching.stitch(lower, upper, parts, allowed, strip.stitched);
+    const LoopStack stack{ this->Surface, this->Places, this->Axis, this->Loops, this->Few, this->Excesses };
+    return LoopStitching(stack, this->Options)
+      .stitch(lower, upper, strip.begin, strip.end, strip.hasAllBelow || strip.hasAllAbove, strip.stitched);
   }
 
   /// Finds by how much the field exceeds its level in the contour itself, as it does at creases that voxels do not resolve.
@@ -323,11 +343,14 @@ private:
     const double furthest = movePart * this->Options.maximumError;
     for (const Strip& strip : this->Strips)
     {
-      const PlaneLoop& loop = this->Few[strip.begin];
-      for (std::size_t i = 0; !strip.hasAllBelow && i < loop.points.size(); ++i)
+      for (std::size_t plane = strip.begin + (strip.hasAllBelow ? 1 : 0); plane < strip.end; ++plane)
       {
-        const auto p = std::size_t(loop.points[i]);
-        this->move(loop, i, std::clamp(this->Moves[p] + around[p].middle(), -furthest, furthest));
+        const PlaneLoop& loop = this->Few[plane];
+        for (std::size_t i = 0; i < loop.points.size(); ++i)
+        {
+          const auto p = std::size_t(loop.points[i]);
+          this->move(loop, i, std::clamp(this->Moves[p] + around[p].middle(), -furthest, furthest));
+        }
       }
     }
   }
@@ -355,6 +378,13 @@ private:
     {
       triangles.insert(triangles.end(), strip.stitched.triangles.begin(), strip.stitched.triangles.end());
     }
+    for (std::size_t end = 0; end < 2; ++end)
+    {
+      if (isReplaced[end == 0 ? 0 : isReplaced.size() - 1])
+      {
+        triangles.insert(triangles.end(), this->Caps[end].begin(), this->Caps[end].end());
+      }
+    }
     dropUnusedPoints(this->Surface.mesh, &this->Surface.faces);
   }
 
@@ -362,11 +392,12 @@ private:
   const SurfaceDecimationOptions& Options;
   Eigen::Index Axis;
   PlaneLoops Loops;
-  std::vector<PlaneLoop> Few;   ///< per plane, its loop with few points
-  std::vector<Vector3d> Places; ///< per point, where it is to go
-  std::vector<double> Moves;    ///< per point, how far it has moved outwards, µm
-  std::vector<double> Excesses; ///< per band, µm
-  std::vector<Strip> Strips;    ///< from below
+  std::vector<PlaneLoop> Few;                                   ///< per plane, its loop with few points
+  std::vector<Vector3d> Places;                                 ///< per point, where it is to go
+  std::vector<double> Moves;                                    ///< per point, how far it has moved outwards, µm
+  std::vector<double> Excesses;                                 ///< per band, µm
+  std::vector<Strip> Strips;                                    ///< from below
+  std::array<std::vector<std::array<std::int32_t, 3>>, 2> Caps; ///< in the first plane and the last one
 };
 
 } // namespace
@@ -375,7 +406,12 @@ void coarsenBands(CappedSurface& surface, const NodeLattice& lattice, const Surf
 {
   constexpr std::size_t fewestPlanes = 4; // so that there is a band between two inner ones
   const Eigen::Index axis = longestAxis(surface.mesh);
-  const std::vector<double>& planes = lattice.planes[std::size_t(axis)];
+  std::vector<double> planes = lattice.planes[std::size_t(axis)];
+  if (!surface.box.isEmpty())
+  {
+    planes.front() = surface.box.min()[axis];
+    planes.back() = surface.box.max()[axis];
+  }
   if (options.maximumError > 0.0 && !surface.mesh.triangles.empty() && planes.size() >= fewestPlanes)
   {
     BandCoarsening(surface, axis, planes, options).run();

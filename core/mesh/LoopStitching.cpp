@@ -12,26 +12,45 @@ namespace cactus
 
 using Eigen::Vector3d;
 
+namespace
+{
+
+/// How far the field may be from its level along triangles, before points settle, as a part of the largest error.
+constexpr double slack = 1.2;
+/// The same of triangles across one band, or next to bands that stay.
+constexpr double looseSlack = 4.0;
+/// Across so many bands the field may exceed its level by as much as it does in the contour itself.
+constexpr std::size_t fewBands = 4;
+
+/// How far a place on an edge across may be from the loop in its plane, as a part of the largest error.
+constexpr double farthestFromLoop = 6.0;
+/// How often it is tried to refine more around what is not as demanded.
+constexpr int widenings = 3;
+/// What is refined is so many chords wide, at least.
+constexpr double leastWidth = 1.0;
+
+} // namespace
+
 bool LoopStitching::stitch(
-  const PlaneLoop& lower, const PlaneLoop& upper, int parts, const ErrorRange& allowed, StitchedLoops& result) const
+  const PlaneLoop& lower, const PlaneLoop& upper, std::size_t begin, std::size_t end, bool isLoose, StitchedLoops& result) const
 {
   result.triangles.clear();
   result.errors.clear();
-  const Demand demand{ this->middleOf(upper) - this->middleOf(lower), parts, allowed };
+  const Span span{ begin, end, isLoose };
+  const Vector3d offset = this->middleOf(upper) - this->middleOf(lower);
   if (lower.anchors.empty() && upper.anchors.empty())
   {
-    const auto [i, j] = this->nearestPair(lower, upper, demand.offset);
-    return this->stitchLines({ lower, i, i + lower.points.size() }, { upper, j, j + upper.points.size() }, demand, result);
+    return this->stitchRing(lower, upper, span, offset, result);
   }
   std::size_t turn = 0;
-  if (lower.anchors.size() != upper.anchors.size() || !this->matchAnchors(lower, upper, demand.offset, turn))
+  if (lower.anchors.size() != upper.anchors.size() || !this->matchAnchors(lower, upper, offset, turn))
   {
     return false;
   }
   for (std::size_t part = 0; part < lower.anchors.size(); ++part)
   {
-    const std::size_t other = (turn + part) % upper.anchors.size();
-    if (!this->stitchLines(behindAnchor(lower, part), behindAnchor(upper, other), demand, result))
+    const LoopLine above = behindAnchor(upper, (turn + part) % upper.anchors.size());
+    if (!this->fill(this->cross(behindAnchor(lower, part), above, span, offset), result))
     {
       return false;
     }
@@ -39,12 +58,42 @@ bool LoopStitching::stitch(
   return true;
 }
 
+/// Begins where the loops are nearest to each other or, if the edge there cannot stay, at one that can.
+bool LoopStitching::stitchRing(
+  const PlaneLoop& lower, const PlaneLoop& upper, const Span& span, const Vector3d& offset, StitchedLoops& result) const
+{
+  const auto from = [&](std::size_t i, std::size_t j) {
+    return this->cross({ &lower, i, i + lower.points.size() }, { &upper, j, j + upper.points.size() }, span, offset);
+  };
+  const auto [i, j] = this->nearestPair(lower, upper, offset);
+  const Crossed crossed = from(i, j);
+  std::size_t good = 0;
+  while (good < crossed.triangles() && !crossed.isGoodEdge(good))
+  {
+    ++good;
+  }
+  return good == 0
+           ? this->fill(crossed, result)
+           : good < crossed.triangles() && this->fill(from(crossed.crossings[good].lower, crossed.crossings[good].upper), result);
+}
+
+ErrorRange LoopStitching::allowedIn(const Span& span) const
+{
+  const double furthest = (span.isLoose || span.bands() == 1 ? looseSlack : slack) * this->Options.maximumError;
+  ErrorRange allowed{ -furthest, furthest };
+  for (std::size_t band = span.begin; span.bands() <= fewBands && band < span.end; ++band)
+  {
+    allowed.add(this->Stack.excesses[band]);
+  }
+  return allowed;
+}
+
 Vector3d LoopStitching::middleOf(const PlaneLoop& loop) const
 {
   Vector3d sum = Vector3d::Zero();
   for (const std::int32_t p : loop.points)
   {
-    sum += this->placeOf(p);
+    sum += this->Stack.placeOf(p);
   }
   return sum / double(loop.points.size());
 }
@@ -57,10 +106,10 @@ std::pair<std::size_t, std::size_t> LoopStitching::nearestPair(
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < lower.points.size(); ++i)
   {
-    const Vector3d from = this->placeOf(lower.points[i]) + offset;
+    const Vector3d from = this->Stack.placeOf(lower.points[i]) + offset;
     for (std::size_t j = 0; j < upper.points.size(); ++j)
     {
-      const double distance = (this->placeOf(upper.points[j]) - from).squaredNorm();
+      const double distance = (this->Stack.placeOf(upper.points[j]) - from).squaredNorm();
       if (distance < least)
       {
         least = distance;
@@ -86,8 +135,8 @@ bool LoopStitching::matchAnchors(const PlaneLoop& lower, const PlaneLoop& upper,
       const std::size_t j = (turn + i) % count;
       const std::int32_t p = lower.points[lower.anchors[i]];
       const std::int32_t q = upper.points[upper.anchors[j]];
-      fits = this->facesOf(p) == this->facesOf(q) && this->isInFace(lower, i) == this->isInFace(upper, j);
-      distance += (this->placeOf(q) - this->placeOf(p) - offset).squaredNorm();
+      fits = this->Stack.facesOf(p) == this->Stack.facesOf(q) && this->isInFace(lower, i) == this->isInFace(upper, j);
+      distance += (this->Stack.placeOf(q) - this->Stack.placeOf(p) - offset).squaredNorm();
     }
     if (fits && distance < least)
     {
@@ -102,41 +151,180 @@ bool LoopStitching::matchAnchors(const PlaneLoop& lower, const PlaneLoop& upper,
 bool LoopStitching::isInFace(const PlaneLoop& loop, std::size_t anchor) const
 {
   const std::size_t i = loop.anchors[anchor];
-  return (this->facesOf(loop.points[i]) & this->facesOf(loop.points[(i + 1) % loop.points.size()])) != 0;
+  return (this->Stack.facesOf(loop.points[i]) & this->Stack.facesOf(loop.points[(i + 1) % loop.points.size()])) != 0;
 }
 
-LoopStitching::Line LoopStitching::behindAnchor(const PlaneLoop& loop, std::size_t anchor)
+LoopLine LoopStitching::behindAnchor(const PlaneLoop& loop, std::size_t anchor)
 {
-  return { loop, loop.anchors[anchor], anchor + 1 < loop.anchors.size() ? loop.anchors[anchor + 1] : loop.points.size() };
+  return { &loop, loop.anchors[anchor], anchor + 1 < loop.anchors.size() ? loop.anchors[anchor + 1] : loop.points.size() };
 }
 
-/// Adds the triangles between two lines.
-bool LoopStitching::stitchLines(Line lower, Line upper, const Demand& demand, StitchedLoops& result) const
+/// The edges between two lines, with the triangles behind them. `before` is the normal of what lies before the first one, or 0.
+LoopStitching::Crossed LoopStitching::cross(
+  const LoopLine& lower, const LoopLine& upper, const Span& span, const Vector3d& offset, Vector3d before) const
 {
-  double error = this->errorAlong(lower.here(), upper.here(), demand.parts);
-  Vector3d before = Vector3d::Zero();
-  while (demand.allowed.holds(error) && !(lower.isAtEnd() && upper.isAtEnd()))
+  Crossed all{ lower, upper, span, offset, span.bands() < fewBands ? 2 : 4, this->allowedIn(span), {} };
+  LoopLine below = lower;
+  LoopLine above = upper;
+  double error = this->errorAlong(below.here(), above.here(), all.parts);
+  for (;;)
   {
-    const bool goesBelow = this->goesBelow(lower, upper, demand, error);
-    const std::array<std::int32_t, 3> triangle{ { lower.here(), goesBelow ? lower.next() : upper.next(), upper.here() } };
-    ++(goesBelow ? lower : upper).at;
-    const Vector3d& p = this->placeOf(triangle[0]);
-    const Vector3d normal = (this->placeOf(triangle[1]) - p).cross(this->placeOf(triangle[2]) - p);
-    const double inMiddle = this->Surface.isCap(triangle) ? 0.0 : this->errorIn(triangle);
-    if (normal.dot(before) < 0.0 || !demand.allowed.holds(inMiddle))
+    Crossing& now = all.crossings.emplace_back(Crossing{ below.at, above.at, error });
+    if (below.isAtEnd() && above.isAtEnd())
+    {
+      return all;
+    }
+    const bool goesBelow = this->goesBelow(below, above, all, error);
+    now.tip = goesBelow ? below.next() : above.next();
+    const std::array<std::int32_t, 3> triangle{ { below.here(), now.tip, above.here() } };
+    ++(goesBelow ? below : above).at;
+    now.normal = this->normalOf(triangle);
+    now.isFolded = now.normal.dot(before) < 0.0;
+    now.inMiddle = this->errorIn(triangle);
+    before = now.normal;
+  }
+}
+
+/// Adds the triangles between two lines, others in the place of those that cannot stay.
+bool LoopStitching::fill(const Crossed& crossed, StitchedLoops& result) const
+{
+  const std::size_t count = crossed.triangles();
+  if (!crossed.isGoodEdge(0) || !crossed.isGoodEdge(count))
+  {
+    return false;
+  }
+  std::size_t done = 0; // so many triangles are added, or have been replaced
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (i >= done && !(crossed.isGood(i) && crossed.isGoodEdge(i + 1)) && !this->mend(crossed, i, done, result))
     {
       return false;
     }
-    before = normal;
-    result.triangles.push_back(triangle);
-    result.errors.push_back({ { inMiddle, error } });
   }
-  return demand.allowed.holds(error);
+  keep(crossed, done, count, result);
+  return true;
+}
+
+/// Adds triangles up to one that cannot stay, and what replaces it and those beside it, as few as will do.
+bool LoopStitching::mend(const Crossed& crossed, std::size_t bad, std::size_t& done, StitchedLoops& result) const
+{
+  const std::size_t before = result.triangles.size();
+  Part part{ bad, bad + 1 };
+  for (int tries = 0; crossed.span.bands() > 1 && tries <= widenings; ++tries)
+  {
+    this->widen(crossed, done, part);
+    keep(crossed, done, part.begin, result);
+    if (this->refine(crossed, part, result))
+    {
+      done = part.end;
+      return true;
+    }
+    result.triangles.resize(before);
+    result.errors.resize(before);
+    if (part.begin == done && part.end == crossed.triangles())
+    {
+      break;
+    }
+    part.begin -= part.begin > done ? 1 : 0;
+    part.end += part.end < crossed.triangles() ? 1 : 0;
+  }
+  return false;
+}
+
+/// Makes a part wide enough for a point to lie between its ends, and lets it end where a triangle can stay.
+void LoopStitching::widen(const Crossed& crossed, std::size_t done, Part& part) const
+{
+  const std::size_t count = crossed.triangles();
+  const auto middle = [&](std::size_t i) -> Vector3d
+  {
+    return 0.5 * (this->Stack.placeOf(crossed.lower.point(crossed.crossings[i].lower)) +
+                   this->Stack.placeOf(crossed.upper.point(crossed.crossings[i].upper)));
+  };
+  const PlaneLoop& loop = this->Stack.few[crossed.span.middle()];
+  const double chord = lengthOf(this->Stack, { &loop, 0, loop.points.size() }) / double(loop.points.size());
+  for (;;)
+  {
+    while (part.end < count && !(crossed.isGoodEdge(part.end) && crossed.isGood(part.end)))
+    {
+      ++part.end;
+    }
+    const bool isWhole = part.begin == done && part.end == count;
+    if (isWhole || (middle(part.end) - middle(part.begin)).norm() >= leastWidth * chord)
+    {
+      return;
+    }
+    part.begin -= part.begin > done ? 1 : 0;
+    part.end += part.end < count ? 1 : 0;
+  }
+}
+
+/// Fills a part between two edges by a part of the loop midway.
+bool LoopStitching::refine(const Crossed& crossed, const Part& part, StitchedLoops& result) const
+{
+  const Crossing& first = crossed.crossings[part.begin];
+  const Crossing& last = crossed.crossings[part.end];
+  const LoopLine lower = crossed.lower.part(first.lower, last.lower);
+  const LoopLine upper = crossed.upper.part(first.upper, last.upper);
+  const Span& span = crossed.span;
+  LoopLine line;
+  if (!lineBetween(this->Stack, lower, upper, span.middle(), farthestFromLoop * this->Options.maximumError, line))
+  {
+    return false;
+  }
+  Vector3d outwards = Vector3d::Zero();
+  for (std::size_t i = part.begin; i < part.end; ++i)
+  {
+    outwards += crossed.crossings[i].normal;
+  }
+  return this->addTriangle({ { lower.here(), line.here(), upper.here() } }, outwards, crossed.allowed, result) &&
+         this->addTriangle({ { line.last(), lower.last(), upper.last() } }, outwards, crossed.allowed, result) &&
+         this->fillBetween(lower, line, { span.begin, span.middle(), span.isLoose }, outwards, result) &&
+         this->fillBetween(line, upper, { span.middle(), span.end, span.isLoose }, outwards, result);
+}
+
+bool LoopStitching::fillBetween(
+  const LoopLine& lower, const LoopLine& upper, const Span& span, const Vector3d& outwards, StitchedLoops& result) const
+{
+  // As far apart as their ends, in the mean.
+  const Vector3d offset = 0.5 * (this->Stack.placeOf(upper.here()) - this->Stack.placeOf(lower.here()) +
+                                  this->Stack.placeOf(upper.last()) - this->Stack.placeOf(lower.last()));
+  return this->fill(this->cross(lower, upper, span, offset, outwards), result);
+}
+
+/// Adds the triangles behind some crossings.
+void LoopStitching::keep(const Crossed& crossed, std::size_t begin, std::size_t end, StitchedLoops& result)
+{
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const Crossing& now = crossed.crossings[i];
+    result.triangles.push_back({ { crossed.lower.point(now.lower), now.tip, crossed.upper.point(now.upper) } });
+    result.errors.push_back({ { now.inMiddle, crossed.crossings[i + 1].error } });
+  }
+}
+
+/// Adds a triangle, if it is as demanded and looks outwards.
+bool LoopStitching::addTriangle(
+  const std::array<std::int32_t, 3>& triangle, const Vector3d& outwards, const ErrorRange& allowed, StitchedLoops& result) const
+{
+  const double error = this->errorIn(triangle);
+  if (!allowed.holds(error) || !(this->normalOf(triangle).dot(outwards) > 0.0))
+  {
+    return false;
+  }
+  result.triangles.push_back(triangle);
+  result.errors.push_back({ { error, error } });
+  return true;
+}
+
+Vector3d LoopStitching::normalOf(const std::array<std::int32_t, 3>& t) const
+{
+  const Vector3d& p = this->Stack.placeOf(t[0]);
+  return (this->Stack.placeOf(t[1]) - p).cross(this->Stack.placeOf(t[2]) - p);
 }
 
 /// Whether the next triangle has an edge of the lower loop, and what the error is on its edge to the one behind. That is the
 /// shorter one of the two in question, unless only the other one is near enough to the level.
-bool LoopStitching::goesBelow(const Line& lower, const Line& upper, const Demand& demand, double& error) const
+bool LoopStitching::goesBelow(const LoopLine& lower, const LoopLine& upper, const Crossed& demand, double& error) const
 {
   const auto errorIf = [&](bool below)
   { return this->errorAlong(below ? lower.next() : lower.here(), below ? upper.here() : upper.next(), demand.parts); };
@@ -145,8 +333,8 @@ bool LoopStitching::goesBelow(const Line& lower, const Line& upper, const Demand
     error = errorIf(upper.isAtEnd());
     return upper.isAtEnd();
   }
-  const bool isShorter = (this->placeOf(lower.next()) + demand.offset - this->placeOf(upper.here())).squaredNorm() <
-                         (this->placeOf(upper.next()) - this->placeOf(lower.here()) - demand.offset).squaredNorm();
+  const bool isShorter = (this->Stack.placeOf(lower.next()) + demand.offset - this->Stack.placeOf(upper.here())).squaredNorm() <
+                         (this->Stack.placeOf(upper.next()) - this->Stack.placeOf(lower.here()) - demand.offset).squaredNorm();
   error = errorIf(isShorter);
   if (std::abs(error) > this->Options.maximumError)
   {
@@ -164,9 +352,9 @@ bool LoopStitching::goesBelow(const Line& lower, const Line& upper, const Demand
 /// parts; in a face of the box it may be larger.
 double LoopStitching::errorAlong(std::int32_t lower, std::int32_t upper, int parts) const
 {
-  const Vector3d& a = this->placeOf(lower);
-  const Vector3d along = this->placeOf(upper) - a;
-  const bool isInFace = (this->facesOf(lower) & this->facesOf(upper)) != 0;
+  const Vector3d& a = this->Stack.placeOf(lower);
+  const Vector3d along = this->Stack.placeOf(upper) - a;
+  const bool isInFace = (this->Stack.facesOf(lower) & this->Stack.facesOf(upper)) != 0;
   double largest = 0.0;
   for (int i = 1; i < parts; ++i)
   {
@@ -177,9 +365,12 @@ double LoopStitching::errorAlong(std::int32_t lower, std::int32_t upper, int par
   return largest;
 }
 
+/// The same in the middle of a triangle; 0 of a cap.
 double LoopStitching::errorIn(const std::array<std::int32_t, 3>& t) const
 {
-  return this->errorAt((this->placeOf(t[0]) + this->placeOf(t[1]) + this->placeOf(t[2])) / 3.0);
+  return this->Stack.surface.isCap(t)
+           ? 0.0
+           : this->errorAt((this->Stack.placeOf(t[0]) + this->Stack.placeOf(t[1]) + this->Stack.placeOf(t[2])) / 3.0);
 }
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/CappedSurface.h"
+#include "mesh/LoopLines.h"
 #include "mesh/PlaneLoops.h"
 #include "mesh/SurfaceDecimation.h"
 
@@ -44,57 +45,96 @@ struct StitchedLoops
 class LoopStitching
 {
 public:
-  /// `places` are where points of the surface are (µm); of the options field, level and maximumError count. What is given has to
-  /// outlive the object.
-  LoopStitching(const CappedSurface& surface, const std::vector<Eigen::Vector3d>& places, const SurfaceDecimationOptions& options)
-    : Surface(surface)
-    , Places(places)
+  /// Of the options field, level and maximumError count. What is given has to outlive the object.
+  LoopStitching(const LoopStack& stack, const SurfaceDecimationOptions& options)
+    : Stack(stack)
     , Options(options)
   {
   }
 
-  /// Fills the ring between a loop and one above it. The shorter of two edges goes across, unless only the other one is within
-  /// maximumError of the level. Returns false where what the field is more than its level is not `allowed` in the middle of a
-  /// triangle or at those points of an edge across that cut it into `parts`; where triangles would fold; and where the two loops
-  /// do not come to the same faces of the box, one after the other. On faces of the box the field may be larger.
-  bool stitch(const PlaneLoop& lower, const PlaneLoop& upper, int parts, const ErrorRange& allowed, StitchedLoops& result) const;
+  /// Fills the ring between a loop in plane `begin` and one above it in plane `end`. The shorter of two edges goes across, unless
+  /// only the other one is within maximumError of the level.
+  ///
+  /// Where the field is farther from its level than it may be, in the middle of a triangle or at points along an edge across, or
+  /// triangles fold, a part of the loop midway goes between, of the stack's loops with few points; and so on down to single
+  /// bands. There, and all over where `isLoose`, the field may be farther off. On faces of the box it may be larger.
+  ///
+  /// Returns false where that does not help, and where the two loops do not come to the same faces of the box, one after the
+  /// other.
+  bool stitch(const PlaneLoop& lower, const PlaneLoop& upper, std::size_t begin, std::size_t end, bool isLoose,
+    StitchedLoops& result) const;
 
 private:
-  /// A part of a loop, from one of its points to another, counted on past its end.
-  struct Line
+  /// Planes that lines are in, and whether errors may be larger between them.
+  struct Span
   {
-    const PlaneLoop& loop;
-    std::size_t at;
+    std::size_t begin;
     std::size_t end;
+    bool isLoose;
 
-    bool isAtEnd() const { return at == end; }
-    std::int32_t here() const { return loop.points[at % loop.points.size()]; }
-    std::int32_t next() const { return loop.points[(at + 1) % loop.points.size()]; }
+    std::size_t bands() const { return this->end - this->begin; }
+    std::size_t middle() const { return (this->begin + this->end) / 2; }
   };
-  /// What is asked of triangles between two loops, the upper of which is so far (µm) from the lower one.
-  struct Demand
+  /// An edge across, from these places of two lines, and the triangle behind it.
+  struct Crossing
   {
-    Eigen::Vector3d offset;
-    int parts;
+    std::size_t lower;
+    std::size_t upper;
+    double error;          ///< along the edge, µm
+    double inMiddle = 0.0; ///< of the triangle, µm
+    bool isFolded = false; ///< against the one before it
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    std::int32_t tip = -1; ///< the triangle's corner that is not on the edge
+  };
+  /// Two lines, and all triangles between them.
+  struct Crossed
+  {
+    LoopLine lower;
+    LoopLine upper;
+    Span span;
+    Eigen::Vector3d offset; ///< of the upper line from the lower one, µm
+    int parts;              ///< that points cut an edge across into, at which the field is looked at
     ErrorRange allowed;
+    std::vector<Crossing> crossings; ///< one more than triangles
+
+    std::size_t triangles() const { return this->crossings.size() - 1; }
+    bool isGoodEdge(std::size_t i) const { return this->allowed.holds(this->crossings[i].error); }
+    bool isGood(std::size_t i) const { return this->allowed.holds(this->crossings[i].inMiddle) && !this->crossings[i].isFolded; }
+  };
+  /// Crossings of triangles that are to be replaced, between edges that stay.
+  struct Part
+  {
+    std::size_t begin;
+    std::size_t end;
   };
 
-  const Eigen::Vector3d& placeOf(std::int32_t point) const { return this->Places[std::size_t(point)]; }
-  std::uint8_t facesOf(std::int32_t point) const { return this->Surface.faces[std::size_t(point)]; }
   Eigen::Vector3d middleOf(const PlaneLoop& loop) const;
   bool isInFace(const PlaneLoop& loop, std::size_t anchor) const;
-  static Line behindAnchor(const PlaneLoop& loop, std::size_t anchor);
+  static LoopLine behindAnchor(const PlaneLoop& loop, std::size_t anchor);
   std::pair<std::size_t, std::size_t> nearestPair(
     const PlaneLoop& lower, const PlaneLoop& upper, const Eigen::Vector3d& offset) const;
   bool matchAnchors(const PlaneLoop& lower, const PlaneLoop& upper, const Eigen::Vector3d& offset, std::size_t& found) const;
-  bool stitchLines(Line lower, Line upper, const Demand& demand, StitchedLoops& result) const;
-  bool goesBelow(const Line& lower, const Line& upper, const Demand& demand, double& error) const;
+  bool stitchRing(
+    const PlaneLoop& lower, const PlaneLoop& upper, const Span& span, const Eigen::Vector3d& offset, StitchedLoops& result) const;
+  ErrorRange allowedIn(const Span& span) const;
+  Crossed cross(const LoopLine& lower, const LoopLine& upper, const Span& span, const Eigen::Vector3d& offset,
+    Eigen::Vector3d before = Eigen::Vector3d::Zero()) const;
+  bool goesBelow(const LoopLine& lower, const LoopLine& upper, const Crossed& demand, double& error) const;
+  bool fill(const Crossed& crossed, StitchedLoops& result) const;
+  bool mend(const Crossed& crossed, std::size_t bad, std::size_t& done, StitchedLoops& result) const;
+  void widen(const Crossed& crossed, std::size_t done, Part& part) const;
+  bool refine(const Crossed& crossed, const Part& part, StitchedLoops& result) const;
+  bool fillBetween(
+    const LoopLine& lower, const LoopLine& upper, const Span& span, const Eigen::Vector3d& outwards, StitchedLoops& result) const;
+  static void keep(const Crossed& crossed, std::size_t begin, std::size_t end, StitchedLoops& result);
+  bool addTriangle(const std::array<std::int32_t, 3>& triangle, const Eigen::Vector3d& outwards, const ErrorRange& allowed,
+    StitchedLoops& result) const;
+  Eigen::Vector3d normalOf(const std::array<std::int32_t, 3>& triangle) const;
   double errorAlong(std::int32_t lower, std::int32_t upper, int parts) const;
   double errorIn(const std::array<std::int32_t, 3>& triangle) const;
   double errorAt(const Eigen::Vector3d& p) const { return this->Options.field(p) - this->Options.level; }
 
-  const CappedSurface& Surface;
-  const std::vector<Eigen::Vector3d>& Places;
+  const LoopStack& Stack;
   const SurfaceDecimationOptions& Options;
 };
 

@@ -105,24 +105,41 @@ void PlaneLoops::placePoints(const CappedSurface& surface, Eigen::Index axis, co
   }
 }
 
-/// Sorts triangles by bands, and chains the edges in planes: each has one triangle in the band above.
+/// Sorts triangles by bands, and chains the edges in planes: each has one triangle in the band above or, in the last plane,
+/// below.
 void PlaneLoops::sortTriangles(const CappedSurface& surface)
 {
+  const int last = static_cast<int>(2 * this->bandCount());
   this->Next.assign(this->Levels.size(), -1);
   this->Bands.reserve(surface.mesh.triangles.size());
   for (const auto& corners : surface.mesh.triangles)
   {
     std::array<int, 3> levels;
     std::transform(corners.begin(), corners.end(), levels.begin(), [&](std::int32_t p) { return this->Levels[std::size_t(p)]; });
-    const int lowest = *std::min_element(levels.begin(), levels.end());
+    const auto [lowest, highest] = std::minmax({ levels[0], levels[1], levels[2] });
     this->Bands.push_back(std::min(std::size_t(lowest) / 2, this->bandCount() - 1));
-    ++this->Triangles[this->Bands.back()];
-    for (std::size_t i = 0; i < 3 && lowest % 2 == 0; ++i)
+    if (lowest == highest && lowest % 2 == 0)
     {
-      if (levels[i] == lowest && levels[(i + 1) % 3] == lowest)
+      continue;
+    }
+    ++this->Triangles[this->Bands.back()];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::size_t j = (i + 1) % 3;
+      if (levels[i] == levels[j] && levels[i] % 2 == 0 && (levels[i] == lowest || levels[i] == last))
       {
-        this->Next[std::size_t(corners[i])] = corners[(i + 1) % 3];
+        const bool isAbove = levels[i] == lowest;
+        this->Next[std::size_t(corners[isAbove ? i : j])] = corners[isAbove ? j : i];
       }
+    }
+  }
+  for (const int outermost : { 0, last })
+  {
+    std::size_t& count = this->Counts[std::size_t(outermost)];
+    count = 0;
+    for (std::size_t p = 0; p < this->Levels.size(); ++p)
+    {
+      count += this->Levels[p] == outermost && this->Next[p] >= 0 ? 1 : 0;
     }
   }
 }
@@ -132,12 +149,12 @@ void PlaneLoops::findLoops(const CappedSurface& surface)
   std::vector<std::int32_t> any(this->planeCount(), -1);
   for (std::size_t p = 0; p < this->Levels.size(); ++p)
   {
-    if (this->Levels[p] % 2 == 0)
+    if (this->Levels[p] % 2 == 0 && this->Next[p] >= 0)
     {
       any[std::size_t(this->Levels[p]) / 2] = static_cast<std::int32_t>(p);
     }
   }
-  for (std::size_t plane = 1; plane + 1 < this->planeCount(); ++plane)
+  for (std::size_t plane = 0; plane < this->planeCount(); ++plane)
   {
     if (any[plane] >= 0)
     {
@@ -148,7 +165,7 @@ void PlaneLoops::findLoops(const CappedSurface& surface)
 
 void PlaneLoops::findRings()
 {
-  for (std::size_t band = 1; band + 1 < this->bandCount(); ++band)
+  for (std::size_t band = 0; band < this->bandCount(); ++band)
   {
     // Points less edges plus triangles are 0, where each edge but those of the two loops has a triangle on either side.
     const std::size_t onLoops = this->Counts[2 * band] + this->Counts[2 * band + 2];

@@ -29,17 +29,17 @@ class PlaneLoops
 {
 public:
   /// `planes` (µm, increasing, at least four) are those of contour()'s lattice across the axis, of which all but the outermost
-  /// two are evenly spaced.
+  /// two are evenly spaced. In these lie caps, which belong to the first and the last band.
   PlaneLoops(const CappedSurface& surface, Eigen::Index axis, const std::vector<double>& planes);
 
   std::size_t planeCount() const { return this->Loops.size(); }
   std::size_t bandCount() const { return this->IsRing.size(); }
-  /// The loop in a plane; empty where there is none or more than one, and in the outermost planes.
+  /// The loop in a plane, which in the outermost ones is the rim of the caps; empty where there is none or more than one.
   const PlaneLoop& loop(std::size_t plane) const { return this->Loops[plane]; }
-  /// Whether a band is a ring from a loop() to the next one: of Euler characteristic 0, in one plane or the other nowhere else.
+  /// Whether a band, without caps, is a ring from a loop() to the next one: of Euler characteristic 0, in one plane or the other
+  /// nowhere else.
   bool isRing(std::size_t band) const { return this->IsRing[band]; }
   std::size_t bandOf(std::size_t triangle) const { return this->Bands[triangle]; }
-  std::size_t trianglesIn(std::size_t band) const { return this->Triangles[band]; }
 
 private:
   void placePoints(const CappedSurface& surface, Eigen::Index axis, const std::vector<double>& planes);
@@ -48,10 +48,10 @@ private:
   void findRings();
 
   std::vector<int> Levels;            ///< per point: 2 p in plane p, 2 p + 1 between that and the next one
-  std::vector<std::size_t> Counts;    ///< of points, per level
+  std::vector<std::size_t> Counts;    ///< of points, per level; in the outermost planes only those of rims
   std::vector<std::int32_t> Next;     ///< per point, the one behind it in its plane, or -1
   std::vector<std::size_t> Bands;     ///< per triangle
-  std::vector<std::size_t> Triangles; ///< per band, how many
+  std::vector<std::size_t> Triangles; ///< per band, how many are no caps in its planes
   std::vector<PlaneLoop> Loops;       ///< per plane
   std::vector<bool> IsRing;           ///< per band
 };

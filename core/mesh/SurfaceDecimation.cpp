@@ -40,6 +40,10 @@ constexpr int flipRounds = 2;
 constexpr double flipGain = 0.95;
 constexpr double flipNeed = 0.2;
 constexpr int sweepsPerError = 10;
+/// An edge is not tried again in the sweeps of an error where its squared error was so many times what is allowed, or the field
+/// would be out of its range by this part of the largest error: what changes around it hardly changes that.
+constexpr double farError = 1.5;
+constexpr double farExcess = 0.2;
 constexpr int repairRounds = 4;
 
 class Decimation
@@ -105,11 +109,19 @@ private:
   {
     double limit = 0.0; ///< up to which it was not collapsed
     int sweep = -1;     ///< when that was
+    int farRound = -1;  ///< the round in which it was far from being collapsed
+  };
+  /// Up to which limit an edge stays as it is while no triangle at its ends changes, and whether it was far from being collapsed.
+  struct Outcome
+  {
+    double limit;
+    bool isFar = false;
   };
 
   /// Sweeps until one removes little. The error is a new one, or that of the sweeps before: what was too much then still is.
   void sweeps(double error, bool isNew)
   {
+    ++this->Round;
     for (int sweep = 0; sweep < sweepsPerError; ++sweep)
     {
       if (this->sweep(error * error, isNew && sweep == 0) * 10 < this->Mesh.aliveCount())
@@ -138,9 +150,10 @@ private:
           const double part = this->partOf(u, v);
           Refusal& refusal = this->Refusals[3 * t + i];
           const bool isAsBefore = std::max(this->Changed[std::size_t(u)], this->Changed[std::size_t(v)]) < refusal.sweep;
-          if (!isAsBefore || refusal.limit <= part * part * limit)
+          if (refusal.farRound != this->Round && (!isAsBefore || refusal.limit <= part * part * limit))
           {
-            refusal = { this->tryCollapse(u, v, part * part * limit), this->Sweep };
+            const Outcome outcome = this->tryCollapse(u, v, part * part * limit);
+            refusal = { outcome.limit, this->Sweep, outcome.isFar ? this->Round : -1 };
           }
         }
       }
@@ -223,13 +236,13 @@ private:
   }
 
   /// Collapses an edge if the surface keeps its topology, the shape of its triangles and its distance from the level of the
-  /// field. `thorough` tries all places that come into question, and allows flat triangles. Returns up to which limit the edge
-  /// stays as it is while no triangle at its ends changes.
-  double tryCollapse(std::int32_t u, std::int32_t v, double limit, bool thorough = false)
+  /// field. `thorough` tries all places that come into question, and allows flat triangles.
+  Outcome tryCollapse(std::int32_t u, std::int32_t v, double limit, bool thorough = false)
   {
     constexpr double any = std::numeric_limits<double>::infinity();
     CollapseCandidates candidates = collapseCandidates(this->Mesh, u, v, this->Box, this->Reach);
     const bool isInside = this->Mesh.facesOf(u) == 0 && this->Mesh.facesOf(v) == 0;
+    double excess = 0.0;
     for (std::size_t tried = 0; tried < candidates.count; ++tried)
     {
       const std::size_t p = candidates.cheapest();
@@ -237,30 +250,30 @@ private:
       Vector3d& place = candidates.places[p];
       if (error > limit)
       {
-        return error;
+        return { error, error > farError * limit };
       }
       if (tried == 0 && !this->Mesh.isCollapsible(u, v))
       {
-        return any;
+        return { any };
       }
       if (this->Shapes.allowCollapse(u, v, place, thorough))
       {
         const double noticed = unnoticed * this->Options.maximumError;
         const bool isUnnoticed = error <= noticed * noticed && !thorough && this->isSmallAround(u, v);
-        const Verdict verdict = isUnnoticed ? Verdict::NoWorse : this->keepsField(u, v, place, isInside && !thorough);
+        const Verdict verdict = isUnnoticed ? Verdict::NoWorse : this->keepsField(u, v, place, isInside && !thorough, excess);
         if (verdict != Verdict::Worse)
         {
           this->collapse(u, v, place, verdict == Verdict::Kept);
-          return 0.0;
+          return { 0.0 };
         }
       }
       if (isInside && !thorough)
       {
-        return any; // the other places are little better
+        break; // the other places are little better
       }
       candidates.errors[p] = any;
     }
-    return any;
+    return { any, excess > farExcess * this->Options.maximumError };
   }
 
   /// Whether the triangles at u and v are so small that their planes tell what a collapse does.
@@ -273,12 +286,14 @@ private:
   }
 
   /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. With `mayMove`, `place` is
-  /// moved outwards or inwards if that brings the field into its range.
-  Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove)
+  /// moved outwards or inwards if that brings the field into its range. `excess` (µm) is by how much the field is out of it at
+  /// least, at `place` as it was.
+  Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove, double& excess)
   {
     const bool mustFit = this->all(u, v, kept) || this->all(u, v, fine);
     const FieldFit after = this->Fits.fitAfterCollapse(u, v, place,
       [&](const FieldFit& fit) { return fit.isOut() && !(mayMove && fit.canBeMoved()) && (mustFit || this->areFine(u, v)); });
+    excess = after.excess;
     if (!after.isOut())
     {
       return this->Fits.holdAfterCollapse(u, v, place) ? Verdict::Kept : Verdict::Worse;
@@ -455,6 +470,7 @@ private:
   std::vector<Look> Looks;       ///< per triangle
   std::vector<Refusal> Refusals; ///< per corner, of the edge from it
   int Sweep = 0;
+  int Round = 0;     ///< of sweeps of one error
   int LastFlips = 0; ///< the sweep after which edges were flipped last
 };
 

@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "aeae87231df2259d2ae40c2c5302abc646c4dc9744927b77cfcf33f0eeb72077",
-           "d43776d5890ceb4ce90e1ee8c4004ba9db6aab17e24a66afc85647c67f108e73" },
-         Known{ 20, "6a76b06e3fbadc78f91e0b5276cdb530a30fd038b801349039bbe337c0a2f080",
-           "243c569bbfad1b78d85328ae565970f7c6342ca04cdad2c156d0d08b230f860e" },
-         Known{ 38, "68511c7a7074090c6abe8c7f06b046eb8a6510312068bccaf6567d0ca81835e8",
-           "98b4ab67638d2f19c747929c8e4e849e81b7aedb9cf0df8a0d5bb79a5f49b09a" },
+         Known{ 1, "972620304cfb6d2f9c7f889106dfb4be7d34cfdff7af3929a79f4cd019011219",
+           "2e57334acdad0a046a2c6436bac3af6f314fa16d214bf35621c8d6fe69f6d2e5" },
+         Known{ 20, "91bfcd66635a5f4fc09f6b7bb315dddfbfb2beb1b0438c76229d560f2e257ee4",
+           "3b6111c730f5da1fc783597332d6369b6f9ae337c4c441b4649ce4e38e44d262" },
+         Known{ 38, "bf84ae2aeda4600699f04c3b8c1649a4af8ea7b07f8cff090e4e83421d28db7a",
+           "3bffd06df900899db30229313eb02fb81cd53db81dad71860072fb41fc1b59d6" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/CappedSurface.h"
+#include "mesh/PlaneLoops.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace cactus
+{
+
+/// What planes across a surface make of it. What it refers to has to outlive it.
+struct LoopStack
+{
+  const CappedSurface& surface;
+  const std::vector<Eigen::Vector3d>& places; ///< where the surface's points are now, µm
+  Eigen::Index axis;                          ///< across which the planes are
+  const PlaneLoops& all;                      ///< the loops as they are
+  const std::vector<PlaneLoop>& few;          ///< per plane, its loop with fewer points
+  const std::vector<double>& excesses;        ///< per band, by how much a field exceeds its level in the surface there, µm
+
+  const Eigen::Vector3d& placeOf(std::int32_t point) const { return this->places[std::size_t(point)]; }
+  std::uint8_t facesOf(std::int32_t point) const { return this->surface.faces[std::size_t(point)]; }
+};
+
+/// A part of a loop, from one of its points to another, counted on past its end.
+struct LoopLine
+{
+  const PlaneLoop* loop = nullptr;
+  std::size_t at = 0;
+  std::size_t end = 0;
+
+  bool isAtEnd() const { return this->at == this->end; }
+  std::int32_t point(std::size_t i) const { return this->loop->points[i % this->loop->points.size()]; }
+  std::int32_t here() const { return this->point(this->at); }
+  std::int32_t next() const { return this->point(this->at + 1); }
+  std::int32_t last() const { return this->point(this->end); }
+  LoopLine part(std::size_t from, std::size_t to) const { return { this->loop, from, to }; }
+};
+
+/// µm.
+double lengthOf(const LoopStack& stack, const LoopLine& line);
+
+/// Finds the part of the loop in a plane that lies between two edges: from the beginning of `lower` to that of `upper`, lines in
+/// planes below and above, and from end to end. It has at least one point, and keeps off both edges by a part of the loop's
+/// chords; where the loop with few points has none there, it is a point of the loop as it is. Returns false where there is none
+/// either, where an edge meets the plane more than `farthest` (µm) away from the loop, or an anchor lies between.
+bool lineBetween(
+  const LoopStack& stack, const LoopLine& lower, const LoopLine& upper, std::size_t plane, double farthest, LoopLine& found);
+
+} // namespace cactus
