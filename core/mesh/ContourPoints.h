@@ -19,7 +19,7 @@ namespace cactus
 /// side does not predict the other.
 inline double agreedBend(double a, double b)
 {
-  return a * b <= 0.0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b;
+  return std::max(std::min(a, b), 0.0) + std::min(std::max(a, b), 0.0);
 }
 
 /// A node, counted within a block.
@@ -76,34 +76,47 @@ public:
     }
     this->Used.clear();
     this->Local.resize(std::max(this->Local.size(), pointsPerNode * block.range.size()), -1);
+    for (int one = 0; one < 8; ++one)
+    {
+      for (const int step : { 0, 1, 2, 4 })
+      {
+        const std::size_t place =
+          pointsPerNode * this->localIndex(cornerOfCell({ { 0, 0, 0 } }, one & ~step)) + std::size_t(step == 0 ? 0 : 1 + step / 2);
+        this->Places[std::size_t(one)][std::size_t(one ^ step)] = place;
+      }
+    }
   }
 
   /// The point where the field is 0 between two corners of a cell, or the corner itself if both are the same.
   std::int32_t between(const LatticeNode& cell, int one, int other)
   {
-    const int lowerCorner = one & other;
-    const int direction = one == other ? 0 : 1 + (one ^ other) / 2;
-    const LatticeNode lower = cornerOfCell(cell, lowerCorner);
+    const std::int32_t known = this->Local[this->placeOf(cell, one, other)];
+    return known >= 0 ? known : this->add(cell, one, other);
+  }
+
+  /// The same of a point that no cell of the block has asked for.
+  std::int32_t add(const LatticeNode& cell, int one, int other)
+  {
+    const std::size_t place = this->placeOf(cell, one, other);
+    this->Used.push_back(place);
+    std::int32_t& known = this->Local[place];
+    const LatticeNode lower = cornerOfCell(cell, one & other);
     const LatticeNode upper = cornerOfCell(cell, one | other);
-    const std::size_t local = pointsPerNode * this->localIndex(lower) + std::size_t(direction);
-    std::int32_t& known = this->Local[local];
-    if (known >= 0)
-    {
-      return known;
-    }
-    this->Used.push_back(local);
     bool shared = false; // with a block beside this one
-    std::uint64_t node = 0;
-    for (std::size_t axis = 3; axis-- > 0;)
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
       shared = shared || (lower[axis] == upper[axis] && (lower[axis] == 0 || lower[axis] + 1 == this->Block.range.count[axis]));
-      node = node * std::uint64_t(this->Lattice.nodes(int(axis))) + std::uint64_t(this->Block.range.first[axis] + lower[axis]);
     }
     if (!shared)
     {
       return known = this->addPoint(lower, upper);
     }
-    const auto entry = this->Shared.emplace(pointsPerNode * node + std::uint64_t(direction), -1).first;
+    std::uint64_t node = 0;
+    for (std::size_t axis = 3; axis-- > 0;)
+    {
+      node = node * std::uint64_t(this->Lattice.nodes(int(axis))) + std::uint64_t(this->Block.range.first[axis] + lower[axis]);
+    }
+    const auto entry = this->Shared.emplace(pointsPerNode * node + place % pointsPerNode, -1).first;
     if (entry->second < 0)
     {
       entry->second = this->addPoint(lower, upper);
@@ -115,7 +128,12 @@ private:
   /// Points that a block shares with others, where a surface goes right through it.
   static constexpr std::size_t sharedPerBlock = 128;
   /// Points of a node: the node itself, and one on the edge that leads up from it along each axis.
-  static constexpr int pointsPerNode = 4;
+  static constexpr std::size_t pointsPerNode = 4;
+
+  std::size_t placeOf(const LatticeNode& cell, int one, int other) const
+  {
+    return pointsPerNode * this->localIndex(cell) + this->Places[std::size_t(one)][std::size_t(other)];
+  }
 
   std::size_t localIndex(const LatticeNode& node) const
   {
@@ -184,6 +202,7 @@ private:
   BlockValues Block;
   std::vector<std::int32_t> Local;                        ///< points of the block, by lower node and direction, or -1
   std::vector<std::size_t> Used;                          ///< which of them are not -1
+  std::array<std::array<std::size_t, 8>, 8> Places;       ///< in Local, by two corners of the first cell
   std::unordered_map<std::uint64_t, std::int32_t> Shared; ///< points on planes between blocks
 };
 

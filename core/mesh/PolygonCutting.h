@@ -11,11 +11,13 @@
 namespace cactus
 {
 
-/// Cuts a polygon of a surface's points into triangles between its corners, by the shortest diagonals. Leaves three corners of
-/// it.
+/// Cuts a polygon of a surface's points into triangles between its corners, by the shortest diagonals. Leaves at most four
+/// corners of it.
 inline void cutByDiagonals(std::vector<std::int32_t>& p, TriangleMesh& mesh)
 {
-  while (p.size() > 3)
+  const auto squaredLength = [&](std::int32_t a, std::int32_t b)
+  { return (mesh.points[std::size_t(a)] - mesh.points[std::size_t(b)]).squaredNorm(); };
+  while (p.size() > 4)
   {
     std::size_t best = 0;
     double shortest = std::numeric_limits<double>::infinity();
@@ -23,7 +25,7 @@ inline void cutByDiagonals(std::vector<std::int32_t>& p, TriangleMesh& mesh)
     {
       const std::int32_t before = p[(i + p.size() - 1) % p.size()];
       const std::int32_t behind = p[(i + 1) % p.size()];
-      const double length = (mesh.points[std::size_t(before)] - mesh.points[std::size_t(behind)]).squaredNorm();
+      const double length = squaredLength(before, behind);
       if (length < shortest)
       {
         shortest = length;
@@ -33,7 +35,15 @@ inline void cutByDiagonals(std::vector<std::int32_t>& p, TriangleMesh& mesh)
     mesh.triangles.push_back({ { p[(best + p.size() - 1) % p.size()], p[best], p[(best + 1) % p.size()] } });
     p.erase(p.begin() + std::ptrdiff_t(best));
   }
-  mesh.triangles.push_back({ { p[0], p[1], p[2] } });
+  if (p.size() == 3)
+  {
+    mesh.triangles.push_back({ { p[0], p[1], p[2] } });
+    return;
+  }
+  // Of two diagonals, without branches: it cannot be foretold which is the shorter one.
+  const std::size_t cut = squaredLength(p[0], p[2]) < squaredLength(p[3], p[1]) ? 1 : 0;
+  mesh.triangles.push_back({ { p[(cut + 3) % 4], p[cut], p[cut + 1] } });
+  mesh.triangles.push_back({ { p[1 - cut], p[2], p[3] } });
 }
 
 /// Cuts a polygon of more than three corners into triangles around a point in its middle, which lies on no face of the box.

@@ -295,7 +295,8 @@ void SmoothedField::copyBlock(const float* held, double level, double smallest, 
   for (std::size_t n = 0; n < around.size(); ++n)
   {
     const float field = in[n] - t;
-    out[n] = field > 0.0f ? std::max(field, least) : std::min(field, -least);
+    const float kept = std::max(std::abs(field), least);
+    out[n] = field > 0.0f ? kept : -kept;
   }
 }
 
