@@ -80,8 +80,8 @@ public:
     {
       for (const int step : { 0, 1, 2, 4 })
       {
-        const std::size_t place =
-          pointsPerNode * this->localIndex(cornerOfCell({ { 0, 0, 0 } }, one & ~step)) + std::size_t(step == 0 ? 0 : 1 + step / 2);
+        const std::size_t place = pointsPerNode * this->localIndex(cornerOfCell({ { 0, 0, 0 } }, one & ~step)) +
+                                  std::size_t(step == 0 ? 0 : 1 + step / 2);
         this->Places[std::size_t(one)][std::size_t(one ^ step)] = place;
       }
     }
