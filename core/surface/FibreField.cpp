@@ -90,6 +90,7 @@ FibreField::FibreField(std::shared_ptr<const LabelSource> image, const Domain& d
   {
     throw InvalidInput("the gap between the fibres of the label image must be 0 or more");
   }
+  this->All = { grid.lower, grid.count };
   const Eigen::Vector3d firstSample = grid.position(grid.lower[0], grid.lower[1], grid.lower[2]);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -148,6 +149,14 @@ Eigen::Vector3d FibreField::firstNode() const
   const VoxelGrid& grid = this->grid();
   return grid.origin +
          grid.spacing * Eigen::Vector3d(this->Samples.first[0] - 1, this->Samples.first[1] - 1, this->Samples.first[2] - 1);
+}
+
+inline bool FibreField::holds(int i, int j, int k) const
+{
+  const auto& first = this->All.first;
+  const auto& count = this->All.count;
+  return i >= first[0] && j >= first[1] && k >= first[2] && i < first[0] + count[0] && j < first[1] + count[1] &&
+         k < first[2] + count[2];
 }
 
 std::int32_t FibreField::nearest(const LabelImageView& held, int i, int j, int k) const
@@ -223,13 +232,6 @@ bool FibreField::isNearest(const LabelImageView& held, std::int32_t fibre, int i
     }
   }
   return this->nearest(held, i, j, k) == fibre;
-}
-
-bool FibreField::holds(int i, int j, int k) const
-{
-  const VoxelGrid& grid = this->grid();
-  return i >= grid.lower[0] && j >= grid.lower[1] && k >= grid.lower[2] && i < grid.lower[0] + grid.count[0] &&
-         j < grid.lower[1] + grid.count[1] && k < grid.lower[2] + grid.count[2];
 }
 
 float FibreField::field(const LabelImageView& held, std::int32_t fibre, std::size_t index, int i, int j, int k) const
@@ -325,9 +327,9 @@ NodeRange FibreField::nodesInside(std::int32_t fibre, const NodeRange& range, co
       const std::int32_t* ids = held.fibreId + held.grid.index(row.first, this->Samples.sampleOf(1, range.first[1] + j), z);
       // Amid those found only what makes the box larger counts.
       const bool isAmid = k <= upper[2] && j >= lower[1] && j <= upper[1];
-      const bool isFound = isAmid ? kernels.holds(ids, lower[0], fibre) ||
-                                      kernels.holds(ids + upper[0] + 1, row.count - upper[0] - 1, fibre)
-                                  : kernels.holds(ids, row.count, fibre);
+      const bool isFound =
+        isAmid ? kernels.holds(ids, lower[0], fibre) || kernels.holds(ids + upper[0] + 1, row.count - upper[0] - 1, fibre)
+               : kernels.holds(ids, row.count, fibre);
       if (!isFound)
       {
         continue;
