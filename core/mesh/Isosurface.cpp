@@ -305,12 +305,12 @@ private:
     std::size_t edge = 0;
     for (std::size_t loop = 0; loop < loops.count; ++loop)
     {
-      this->Polygon.clear();
+      Polygon polygon;
       for (; edge < loops.ends[loop]; ++edge)
       {
-        this->Polygon.push_back(this->Points.between(cell, loops.edges[edge].from, loops.edges[edge].to));
+        polygon.add(this->Points.between(cell, loops.edges[edge].from, loops.edges[edge].to));
       }
-      isPlain ? cutByDiagonals(this->Polygon, this->Surface.mesh) : cutAroundMiddle(this->Polygon, this->Surface);
+      isPlain ? cutByDiagonals(polygon, this->Surface.mesh) : cutAroundMiddle(polygon, this->Surface);
     }
   }
 
@@ -330,7 +330,7 @@ private:
   /// The part of a face of the box in which the field is positive.
   void addCaps(const LatticeNode& cell, const std::array<int, 4>& corners, int mask, bool isJoined)
   {
-    this->Polygon.clear();
+    Polygon polygon;
     for (std::size_t i = 0; i < 4; ++i)
     {
       const int from = corners[i];
@@ -338,31 +338,30 @@ private:
       const bool isInside = ((mask >> from) & 1) != 0;
       if (isInside)
       {
-        this->Polygon.push_back(this->Points.between(cell, from, from));
+        polygon.add(this->Points.between(cell, from, from));
       }
       if (isInside != (((mask >> to) & 1) != 0))
       {
-        this->Polygon.push_back(this->Points.between(cell, from, to));
+        polygon.add(this->Points.between(cell, from, to));
       }
     }
-    if (this->Polygon.empty())
+    if (polygon.count == 0)
     {
       return;
     }
-    const bool isAmbiguous = this->Polygon.size() == 6;
+    const bool isAmbiguous = polygon.count == 6;
     if (!isAmbiguous || isJoined)
     {
-      cutByDiagonals(this->Polygon, this->Surface.mesh);
+      cutByDiagonals(polygon, this->Surface.mesh);
       return;
     }
     // Two corners: from the crossing before each to the one behind.
-    const std::vector<std::int32_t> all = this->Polygon;
     const std::size_t first = ((mask >> corners[0]) & 1) != 0 ? 5 : 0;
     for (std::size_t corner = 0; corner < 2; ++corner)
     {
       const std::size_t at = first + 3 * corner;
-      this->Polygon = { all[at % 6], all[(at + 1) % 6], all[(at + 2) % 6] };
-      cutByDiagonals(this->Polygon, this->Surface.mesh);
+      const auto& all = polygon.corners;
+      this->Surface.mesh.triangles.push_back({ { all[at % 6], all[(at + 1) % 6], all[(at + 2) % 6] } });
     }
   }
 
@@ -371,7 +370,6 @@ private:
   ContourPoints Points;
   BlockValues Block;
   std::array<std::array<std::uint32_t, NodeLattice::blockCells + 1>, NodeLattice::blockCells + 1> Signs; ///< see findSigns()
-  std::vector<std::int32_t> Polygon; ///< that is being cut into triangles
 };
 
 } // namespace
