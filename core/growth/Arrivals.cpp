@@ -4,6 +4,7 @@
 #include "growth/CapsuleField.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -43,7 +44,8 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   const double first = -largestRadius(fibres) - growthClass;
   const auto classes = std::size_t(std::ceil((reach - first) / growthClass)) + 1;
   const int threads = context.threadCount();
-  std::vector<std::vector<std::uint64_t>> perThread(std::size_t(threads), std::vector<std::uint64_t>(classes, 0));
+  std::vector<std::vector<std::uint64_t>> perThread(std::size_t(threads), std::vector<std::uint64_t>(classes + 1, 0));
+  const auto never = static_cast<int>(classes);
   FieldRelevance relevance;
   relevance.bestReach = reach;
   relevance.secondReach = reach;
@@ -53,16 +55,16 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   field.sweep(partOf(grid, sharing), relevance, context, 0.3, 0.5, "finding the growth that reaches the target",
     [&](const FieldCell& cell, int thread)
     {
+      // First the class of each sample, without branches, where those that never arrive have one of their own.
+      std::array<int, FieldCell::size> classOf;
+      for (std::size_t n = 0; n < classOf.size(); ++n)
+      {
+        const double arrival = -static_cast<double>(cell.best[n]);
+        const int reached = static_cast<int>((std::min(arrival, reach) - first) / growthClass);
+        classOf[n] = (arrival < reach) & (cell.best[n] - cell.second[n] > gap) ? reached : never;
+      }
       auto& counts = perThread[std::size_t(thread)];
-      cell.forEachSample(
-        [&](int n)
-        {
-          const double arrival = -static_cast<double>(cell.best[n]);
-          if (arrival < reach && cell.best[n] - cell.second[n] > gap)
-          {
-            ++counts[std::size_t((arrival - first) / growthClass)];
-          }
-        });
+      cell.forEachSample([&](int n) { ++counts[std::size_t(classOf[std::size_t(n)])]; });
     });
   Arrivals arrivals;
   arrivals.first = first;

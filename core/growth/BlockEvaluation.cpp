@@ -40,6 +40,19 @@ BlockEvaluation::BlockEvaluation(const CapsuleSeeds& seeds, const SeedBins& bins
 {
   this->Samples.extent =
     float(slackened(0.5 * grid.spacing * Eigen::Vector3d(cellSize[0] - 1, cellSize[1] - 1, cellSize[2] - 1).norm()));
+  const int strides[3] = { 1, FieldCell::sizeX, FieldCell::sizeX * FieldCell::sizeY };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int at = 0; at < blockSize; at += cellSize[axis])
+    {
+      this->Positions[axis].emplace_back();
+      for (int n = 0; n < FieldCell::size; ++n)
+      {
+        const int place = n / strides[axis] % cellSize[axis];
+        this->Positions[axis].back()[std::size_t(n)] = float((at + place - blockHalf) * grid.spacing);
+      }
+    }
+  }
 }
 
 void BlockEvaluation::evaluate(const Eigen::Array3i& lower)
@@ -91,15 +104,8 @@ void BlockEvaluation::placeSamples(const Eigen::Array3i& at)
   for (int axis = 0; axis < 3; ++axis)
   {
     this->Samples.centre[axis] = float((at[axis] + 0.5 * (cellSize[axis] - 1) - blockHalf) * h);
-  }
-  for (int n = 0; n < FieldCell::size; ++n)
-  {
-    const int inRow = n % FieldCell::sizeX;
-    const int row = n / FieldCell::sizeX % FieldCell::sizeY;
-    const int plane = n / (FieldCell::sizeX * FieldCell::sizeY);
-    this->Samples.position[0][n] = float((at[0] + inRow - blockHalf) * h);
-    this->Samples.position[1][n] = float((at[1] + row - blockHalf) * h);
-    this->Samples.position[2][n] = float((at[2] + plane - blockHalf) * h);
+    const auto& positions = this->Positions[axis][std::size_t(at[axis] / cellSize[axis])];
+    std::copy(positions.begin(), positions.end(), this->Samples.position[axis]);
   }
 }
 

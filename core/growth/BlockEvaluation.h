@@ -11,6 +11,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <vector>
+
 namespace cactus
 {
 
@@ -39,6 +42,8 @@ private:
   const FieldSink& HandOver;
   int Thread;
   CellSamples Samples;
+  /// Relative to a block's centre along each axis, the samples of cells that begin at one place of a block after the other.
+  std::vector<std::array<float, FieldCell::size>> Positions[3];
 };
 
 } // namespace cactus

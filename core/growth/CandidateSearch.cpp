@@ -59,13 +59,14 @@ ConeColumns Candidates::columns()
 CandidateSearch::CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins)
   : Seeds(seeds)
   , Bins(bins)
-  , SeenIn(seeds.pieces.size(), 0)
+  , SeenPieces(seeds.pieces.size())
   , Fields(seeds.fibreOfRank.size(), -infinity)
 {
 }
 
 Candidates& CandidateSearch::find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance)
 {
+  ++this->Search;
   double reach = extent + std::min(relevance.bestReach, extent);
   for (;;)
   {
@@ -96,13 +97,19 @@ void CandidateSearch::collect(const Eigen::Vector3d& centre, double reach)
   this->Bins.forEachNear(centre.array() - half, centre.array() + half,
     [&](std::uint32_t p)
     {
-      if (this->SeenIn[p] == this->Collection)
+      Seen& seen = this->SeenPieces[p];
+      if (seen.collection == this->Collection)
       {
         return;
       }
-      this->SeenIn[p] = this->Collection;
+      seen.collection = this->Collection;
       const SeedPiece& piece = this->Seeds.pieces[p];
-      const double value = coneValue(piece.cone, centre);
+      if (seen.search != this->Search)
+      {
+        seen.search = this->Search;
+        seen.value = coneValue(piece.cone, centre);
+      }
+      const double value = seen.value;
       if (value <= -reach)
       {
         return;
@@ -113,7 +120,7 @@ void CandidateSearch::collect(const Eigen::Vector3d& centre, double reach)
         this->Ranks.push_back(piece.rank);
       }
       field = std::max(field, value);
-      this->Pieces.push_back({ piece.rank, p });
+      this->Pieces.push_back({ piece.rank, p, value });
     });
 }
 
@@ -156,10 +163,9 @@ void CandidateSearch::keep(const Eigen::Vector3d& centre, double extent)
       this->Kept.beginGroup(rank);
       for (auto found = begin; found != end; ++found)
       {
-        const Cone& cone = this->Seeds.pieces[found->piece].cone;
-        if (coneValue(cone, centre) >= value - 2.0 * extent)
+        if (found->value >= value - 2.0 * extent)
         {
-          this->Kept.add(cone, centre);
+          this->Kept.add(this->Seeds.pieces[found->piece].cone, centre);
         }
       }
     }

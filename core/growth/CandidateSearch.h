@@ -51,6 +51,14 @@ private:
   {
     int rank;
     std::uint32_t piece;
+    double value; ///< at the centre
+  };
+  /// What is known of a piece.
+  struct Seen
+  {
+    std::uint32_t collection = 0; ///< the last one that met it
+    std::uint32_t search = 0;     ///< the last one that evaluated it
+    double value = 0.0;           ///< then, at the centre
   };
 
   void collect(const Eigen::Vector3d& centre, double reach);
@@ -60,8 +68,9 @@ private:
 
   const CapsuleSeeds& Seeds;
   const SeedBins& Bins;
-  std::vector<std::uint32_t> SeenIn; ///< per piece: the last collection that met it
+  std::vector<Seen> SeenPieces; ///< per piece
   std::uint32_t Collection = 0;
+  std::uint32_t Search = 0;
   std::vector<Found> Pieces;  ///< those with a field above the reach at the centre
   std::vector<double> Fields; ///< per rank: the largest field at the centre
   std::vector<int> Ranks;     ///< of the fibres found

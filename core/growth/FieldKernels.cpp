@@ -23,8 +23,8 @@ struct ConeNumbers
   Number lean;
 };
 
-/// The field of cones at positions, lane by lane; see coneValue().
-template <typename Position, typename Number>
+/// The field of cones at positions, lane by lane; see coneValue(). What is everywhere as thick (`isEven`) takes a root less.
+template <bool isEven, typename Position, typename Number>
 CACTUS_KERNEL_INLINE Floats fieldOf(const ConeNumbers<Number>& cone, const Position (&at)[3])
 {
   const Floats zero = {};
@@ -36,7 +36,8 @@ CACTUS_KERNEL_INLINE Floats fieldOf(const ConeNumbers<Number>& cone, const Posit
   const Floats ey = dy - foot * cone.axis[1];
   const Floats ez = dz - foot * cone.axis[2];
   const Floats distance2 = ex * ex + (ey * ey + ez * ez);
-  const Floats along = smaller(larger(foot + cone.lean * squareRoot(distance2), zero), zero + cone.length);
+  const Floats centre = isEven ? foot : foot + cone.lean * squareRoot(distance2);
+  const Floats along = smaller(larger(centre, zero), zero + cone.length);
   const Floats rest = along - foot;
   return cone.radius + cone.slope * along - squareRoot(distance2 + rest * rest);
 }
@@ -56,7 +57,19 @@ CACTUS_KERNEL_INLINE void evaluateCentre(const ConeColumns& cones, const float (
     cone.radius = load(cones.radius + c);
     cone.slope = load(cones.slope + c);
     cone.lean = load(cones.lean + c);
-    store(cones.atCentre + c, fieldOf(cone, centre));
+    store(cones.atCentre + c, fieldOf<false>(cone, centre));
+  }
+}
+
+/// Takes one cone's field into that of its fibre.
+template <bool isEven>
+CACTUS_KERNEL_INLINE void evaluateCone(
+  const ConeNumbers<float>& cone, const CellSamples& samples, float (&field)[FieldCell::size])
+{
+  for (int i = 0; i < FieldCell::size; i += floats)
+  {
+    const Floats at[3] = { load(samples.position[0] + i), load(samples.position[1] + i), load(samples.position[2] + i) };
+    store(field + i, larger(fieldOf<isEven>(cone, at), load(field + i)));
   }
 }
 
@@ -77,10 +90,13 @@ CACTUS_KERNEL_INLINE void evaluateGroup(
     }
     const ConeNumbers<float> cone = { { cones.start[0][c], cones.start[1][c], cones.start[2][c] },
       { cones.axis[0][c], cones.axis[1][c], cones.axis[2][c] }, cones.length[c], cones.radius[c], cones.slope[c], cones.lean[c] };
-    for (int i = 0; i < FieldCell::size; i += floats)
+    if (cone.slope == 0.0f && cone.lean == 0.0f)
     {
-      const Floats at[3] = { load(samples.position[0] + i), load(samples.position[1] + i), load(samples.position[2] + i) };
-      store(field + i, larger(fieldOf(cone, at), load(field + i)));
+      evaluateCone<true>(cone, samples, field);
+    }
+    else
+    {
+      evaluateCone<false>(cone, samples, field);
     }
   }
 }

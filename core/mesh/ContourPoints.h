@@ -19,7 +19,7 @@ namespace cactus
 /// side does not predict the other.
 inline double agreedBend(double a, double b)
 {
-  return a * b <= 0.0 ? 0.0 : std::abs(a) < std::abs(b) ? a : b;
+  return std::max(std::min(a, b), 0.0) + std::min(std::max(a, b), 0.0);
 }
 
 /// A node, counted within a block.
@@ -76,37 +76,50 @@ public:
     }
     this->Used.clear();
     this->Local.resize(std::max(this->Local.size(), pointsPerNode * block.range.size()), -1);
+    for (int one = 0; one < 8; ++one)
+    {
+      for (const int step : { 0, 1, 2, 4 })
+      {
+        const std::size_t place = pointsPerNode * this->localIndex(cornerOfCell({ { 0, 0, 0 } }, one & ~step)) +
+                                  std::size_t(step == 0 ? 0 : 1 + step / 2);
+        this->Places[std::size_t(one)][std::size_t(one ^ step)] = place;
+      }
+    }
   }
 
   /// The point where the field is 0 between two corners of a cell, or the corner itself if both are the same.
   std::int32_t between(const LatticeNode& cell, int one, int other)
   {
-    const int lowerCorner = one & other;
-    const int direction = one == other ? 0 : 1 + (one ^ other) / 2;
-    const LatticeNode lower = cornerOfCell(cell, lowerCorner);
-    const LatticeNode upper = cornerOfCell(cell, one | other);
-    const std::size_t local = pointsPerNode * this->localIndex(lower) + std::size_t(direction);
-    std::int32_t& known = this->Local[local];
-    if (known >= 0)
-    {
-      return known;
-    }
-    this->Used.push_back(local);
+    const std::int32_t known = this->Local[this->placeOf(cell, one, other)];
+    return known >= 0 ? known : this->add(cell, one, other);
+  }
+
+  /// The same of a point that no cell of the block has asked for.
+  std::int32_t add(const LatticeNode& cell, int one, int other)
+  {
+    const std::size_t place = this->placeOf(cell, one, other);
+    this->Used.push_back(place);
+    std::int32_t& known = this->Local[place];
+    const LatticeNode lower = cornerOfCell(cell, one & other);
+    const auto direction = place % pointsPerNode;
     bool shared = false; // with a block beside this one
-    std::uint64_t node = 0;
-    for (std::size_t axis = 3; axis-- > 0;)
+    for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      shared = shared || (lower[axis] == upper[axis] && (lower[axis] == 0 || lower[axis] + 1 == this->Block.range.count[axis]));
-      node = node * std::uint64_t(this->Lattice.nodes(int(axis))) + std::uint64_t(this->Block.range.first[axis] + lower[axis]);
+      shared = shared || (axis + 1 != direction && (lower[axis] == 0 || lower[axis] + 1 == this->Block.range.count[axis]));
     }
     if (!shared)
     {
-      return known = this->addPoint(lower, upper);
+      return known = this->addPoint(lower, direction, 0);
     }
-    const auto entry = this->Shared.emplace(pointsPerNode * node + std::uint64_t(direction), -1).first;
+    std::uint64_t node = 0;
+    for (std::size_t axis = 3; axis-- > 0;)
+    {
+      node = node * std::uint64_t(this->Lattice.nodes(int(axis))) + std::uint64_t(this->Block.range.first[axis] + lower[axis]);
+    }
+    const auto entry = this->Shared.emplace(pointsPerNode * node + direction, -1).first;
     if (entry->second < 0)
     {
-      entry->second = this->addPoint(lower, upper);
+      entry->second = this->addPoint(lower, direction, this->facesAt(lower, direction));
     }
     return known = entry->second;
   }
@@ -115,7 +128,12 @@ private:
   /// Points that a block shares with others, where a surface goes right through it.
   static constexpr std::size_t sharedPerBlock = 128;
   /// Points of a node: the node itself, and one on the edge that leads up from it along each axis.
-  static constexpr int pointsPerNode = 4;
+  static constexpr std::size_t pointsPerNode = 4;
+
+  std::size_t placeOf(const LatticeNode& cell, int one, int other) const
+  {
+    return pointsPerNode * this->localIndex(cell) + this->Places[std::size_t(one)][std::size_t(other)];
+  }
 
   std::size_t localIndex(const LatticeNode& node) const
   {
@@ -123,47 +141,45 @@ private:
     return std::size_t(node[0]) + std::size_t(count[0]) * (std::size_t(node[1]) + std::size_t(count[1]) * std::size_t(node[2]));
   }
 
-  std::int32_t addPoint(const LatticeNode& lower, const LatticeNode& upper)
+  /// The faces of the lattice on which all of an edge lies, or a node: see CappedSurface.
+  int facesAt(const LatticeNode& lower, std::size_t direction) const
   {
-    const double t = this->crossing(lower, upper);
-    Eigen::Vector3d point;
     int faces = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const auto& planes = this->Lattice.planes[axis];
-      const int first = this->Block.range.first[axis] + lower[axis];
-      const int last = this->Block.range.first[axis] + upper[axis];
-      const double from = planes[std::size_t(first)];
-      point[Eigen::Index(axis)] = from + t * (planes[std::size_t(last)] - from);
-      if (first == last && first == 0)
-      {
-        faces |= 1 << (2 * axis);
-      }
-      if (first == last && std::size_t(last) + 1 == planes.size())
-      {
-        faces |= 2 << (2 * axis);
-      }
+      const int node = this->Block.range.first[axis] + lower[axis];
+      const int ends = (node == 0 ? 1 : 0) | (node == this->Lattice.cells(int(axis)) ? 2 : 0);
+      faces |= axis + 1 != direction ? ends << (2 * axis) : 0;
+    }
+    return faces;
+  }
+
+  std::int32_t addPoint(const LatticeNode& lower, std::size_t direction, int faces)
+  {
+    const auto plane = [&](std::size_t axis, int step)
+    { return this->Lattice.planes[axis][std::size_t(this->Block.range.first[axis] + lower[axis] + step)]; };
+    Eigen::Vector3d point(plane(0, 0), plane(1, 0), plane(2, 0));
+    if (direction > 0)
+    {
+      const std::size_t axis = direction - 1;
+      const double from = plane(axis, 0);
+      point[Eigen::Index(axis)] = from + this->crossing(lower, axis) * (plane(axis, 1) - from);
     }
     this->Surface.mesh.points.push_back(point);
     this->Surface.faces.push_back(static_cast<std::uint8_t>(faces));
     return static_cast<std::int32_t>(this->Surface.mesh.points.size() - 1);
   }
 
-  /// Where on an edge the field is 0, as a part of it.
-  double crossing(const LatticeNode& lower, const LatticeNode& upper) const
+  /// Where on the edge that leads up from a node the field is 0, as a part of it.
+  double crossing(const LatticeNode& lower, std::size_t axis) const
   {
-    if (lower == upper)
-    {
-      return 0.0;
-    }
     const float* first = this->Block.at(lower);
-    const float* last = this->Block.at(upper);
+    const std::size_t step = this->Block.stride[axis];
+    const float* last = first + step;
     const double a = *first;
     const double b = *last;
     // The nodes before and behind in line. A cell at a face is flat, and the field the same on both sides of it: nothing bends
     // there.
-    const std::size_t axis = lower[0] != upper[0] ? 0 : lower[1] != upper[1] ? 1 : 2;
-    const std::size_t step = this->Block.stride[axis];
     const int node = this->Block.range.first[axis] + lower[axis];
     const int end = this->Lattice.nodes(int(axis)) - 1;
     const bool before = node > 1 && node + 1 < end;
@@ -184,6 +200,7 @@ private:
   BlockValues Block;
   std::vector<std::int32_t> Local;                        ///< points of the block, by lower node and direction, or -1
   std::vector<std::size_t> Used;                          ///< which of them are not -1
+  std::array<std::array<std::size_t, 8>, 8> Places;       ///< in Local, by two corners of the first cell
   std::unordered_map<std::uint64_t, std::int32_t> Shared; ///< points on planes between blocks
 };
 

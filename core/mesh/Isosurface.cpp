@@ -11,6 +11,10 @@
 #include <utility>
 #include <vector>
 
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
 namespace cactus
 {
 
@@ -90,6 +94,8 @@ struct CellLoops
   std::array<std::uint8_t, 12> ends; ///< of each line, where the next one begins
   std::size_t count = 0;             ///< of lines
 
+  std::size_t allEdges() const { return count > 0 ? ends[count - 1] : 0; }
+
   /// A bit of `joined` says of an ambiguous face that its positive corners hang together.
   CellLoops(int mask, int joined)
   {
@@ -135,6 +141,23 @@ struct CellCase
 {
   int ambiguous;
   CellLoops loops; ///< where no face is ambiguous
+  /// The edges of the loops, a bit each, that no cell before has, by the axes along which the cell is the block's first.
+  std::array<std::uint16_t, cornerCount> fresh{};
+
+  explicit CellCase(int mask)
+    : ambiguous(ambiguousFaces(mask))
+    , loops(mask, 0)
+  {
+    for (int first = 0; first < cornerCount; ++first)
+    {
+      for (std::size_t e = 0; e < this->loops.allEdges(); ++e)
+      {
+        const CellEdge& edge = this->loops.edges[e];
+        const bool isFresh = (edge.from | edge.to | first) == cornerCount - 1;
+        this->fresh[std::size_t(first)] |= static_cast<std::uint16_t>(isFresh ? 1 << e : 0);
+      }
+    }
+  }
 };
 
 std::vector<CellCase> allCases()
@@ -143,9 +166,27 @@ std::vector<CellCase> allCases()
   cases.reserve(std::size_t(1) << cornerCount);
   for (int mask = 0; mask < 1 << cornerCount; ++mask)
   {
-    cases.push_back({ ambiguousFaces(mask), CellLoops(mask, 0) });
+    cases.emplace_back(mask);
   }
   return cases;
+}
+
+/// Which of a row's values are positive, a bit each.
+std::uint32_t positives(const float* row, int count)
+{
+  std::uint32_t bits = 0;
+  int i = 0;
+#ifdef __SSE__
+  for (; i + 4 <= count; i += 4) // what compilers do not make of the loop below
+  {
+    bits |= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpgt_ps(_mm_loadu_ps(row + i), _mm_setzero_ps()))) << i;
+  }
+#endif
+  for (; i < count; ++i)
+  {
+    bits |= (row[i] > 0.0f ? 1u : 0u) << i;
+  }
+  return bits;
 }
 
 class Contourer
@@ -186,13 +227,7 @@ private:
     {
       for (int j = 0; j < n[1]; ++j)
       {
-        const float* row = this->Block.at({ { 0, j, k } });
-        std::uint32_t bits = 0;
-        for (int i = 0; i < n[0]; ++i)
-        {
-          bits |= (row[i] > 0.0f ? 1u : 0u) << i;
-        }
-        this->Signs[std::size_t(k)][std::size_t(j)] = bits;
+        this->Signs[std::size_t(k)][std::size_t(j)] = positives(this->Block.at({ { 0, j, k } }), n[0]);
       }
     }
   }
@@ -250,14 +285,19 @@ private:
         this->addCaps(cell, facesOfCell[std::size_t(face)], mask, ((joined >> face) & 1) != 0);
       }
     }
-    if (now.ambiguous == 0)
-    {
-      this->addLoops(cell, now.loops, true);
-    }
-    else
+    if (now.ambiguous != 0)
     {
       this->addLoops(cell, CellLoops(mask, joined), false);
+      return;
     }
+    const CellLoops& loops = now.loops;
+    const int first = (cell[0] == 0 ? 1 : 0) | (cell[1] == 0 ? 2 : 0) | (cell[2] == 0 ? 4 : 0);
+    for (unsigned left = sides == 0 ? now.fresh[std::size_t(first)] : 0; left != 0; left &= left - 1)
+    {
+      const CellEdge& edge = loops.edges[std::size_t(__builtin_ctz(left))];
+      this->Points.add(cell, edge.from, edge.to);
+    }
+    this->addLoops(cell, loops, true);
   }
 
   void addLoops(const LatticeNode& cell, const CellLoops& loops, bool isPlain)
@@ -265,12 +305,12 @@ private:
     std::size_t edge = 0;
     for (std::size_t loop = 0; loop < loops.count; ++loop)
     {
-      this->Polygon.clear();
+      Polygon polygon;
       for (; edge < loops.ends[loop]; ++edge)
       {
-        this->Polygon.push_back(this->Points.between(cell, loops.edges[edge].from, loops.edges[edge].to));
+        polygon.add(this->Points.between(cell, loops.edges[edge].from, loops.edges[edge].to));
       }
-      isPlain ? cutByDiagonals(this->Polygon, this->Surface.mesh) : cutAroundMiddle(this->Polygon, this->Surface);
+      isPlain ? cutByDiagonals(polygon, this->Surface.mesh) : cutAroundMiddle(polygon, this->Surface);
     }
   }
 
@@ -290,7 +330,7 @@ private:
   /// The part of a face of the box in which the field is positive.
   void addCaps(const LatticeNode& cell, const std::array<int, 4>& corners, int mask, bool isJoined)
   {
-    this->Polygon.clear();
+    Polygon polygon;
     for (std::size_t i = 0; i < 4; ++i)
     {
       const int from = corners[i];
@@ -298,31 +338,30 @@ private:
       const bool isInside = ((mask >> from) & 1) != 0;
       if (isInside)
       {
-        this->Polygon.push_back(this->Points.between(cell, from, from));
+        polygon.add(this->Points.between(cell, from, from));
       }
       if (isInside != (((mask >> to) & 1) != 0))
       {
-        this->Polygon.push_back(this->Points.between(cell, from, to));
+        polygon.add(this->Points.between(cell, from, to));
       }
     }
-    if (this->Polygon.empty())
+    if (polygon.count == 0)
     {
       return;
     }
-    const bool isAmbiguous = this->Polygon.size() == 6;
+    const bool isAmbiguous = polygon.count == 6;
     if (!isAmbiguous || isJoined)
     {
-      cutByDiagonals(this->Polygon, this->Surface.mesh);
+      cutByDiagonals(polygon, this->Surface.mesh);
       return;
     }
     // Two corners: from the crossing before each to the one behind.
-    const std::vector<std::int32_t> all = this->Polygon;
     const std::size_t first = ((mask >> corners[0]) & 1) != 0 ? 5 : 0;
     for (std::size_t corner = 0; corner < 2; ++corner)
     {
       const std::size_t at = first + 3 * corner;
-      this->Polygon = { all[at % 6], all[(at + 1) % 6], all[(at + 2) % 6] };
-      cutByDiagonals(this->Polygon, this->Surface.mesh);
+      const auto& all = polygon.corners;
+      this->Surface.mesh.triangles.push_back({ { all[at % 6], all[(at + 1) % 6], all[(at + 2) % 6] } });
     }
   }
 
@@ -331,7 +370,6 @@ private:
   ContourPoints Points;
   BlockValues Block;
   std::array<std::array<std::uint32_t, NodeLattice::blockCells + 1>, NodeLattice::blockCells + 1> Signs; ///< see findSigns()
-  std::vector<std::int32_t> Polygon; ///< that is being cut into triangles
 };
 
 } // namespace

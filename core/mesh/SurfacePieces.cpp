@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,27 @@ void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std:
   }
   mesh.triangles = std::move(kept);
   dropUnusedPoints(mesh, faces);
+}
+
+/// Of each point one of the same piece that has no neighbour before it: where one comes to from neighbour to neighbour, each
+/// before the last. Most points of a contour come to the same few, which are then quickly joined.
+std::vector<std::int32_t> pointsTowardsFirst(const TriangleMesh& mesh)
+{
+  std::vector<std::int32_t> towards(mesh.points.size());
+  std::iota(towards.begin(), towards.end(), 0);
+  for (const auto& t : mesh.triangles)
+  {
+    const std::int32_t first = std::min(t[0], std::min(t[1], t[2]));
+    for (const std::int32_t p : t)
+    {
+      towards[std::size_t(p)] = std::min(towards[std::size_t(p)], first);
+    }
+  }
+  for (std::int32_t& point : towards)
+  {
+    point = towards[std::size_t(point)];
+  }
+  return towards;
 }
 
 /// By the first point of each piece, its signed volume.
@@ -97,22 +119,32 @@ double keepMainPart(CappedSurface& surface, double smallest)
 {
   const auto& triangles = surface.mesh.triangles;
   const std::size_t count = surface.mesh.points.size();
+  std::vector<std::int32_t> pieceOf = pointsTowardsFirst(surface.mesh);
   DisjointSets<std::int32_t> sets(count);
   for (const auto& t : triangles)
   {
-    sets.join(t[0], t[1]);
-    sets.join(t[0], t[2]);
+    const std::int32_t piece = pieceOf[std::size_t(t[0])];
+    for (const std::int32_t other : { pieceOf[std::size_t(t[1])], pieceOf[std::size_t(t[2])] })
+    {
+      if (other != piece)
+      {
+        sets.join(piece, other);
+      }
+    }
   }
-  std::vector<std::int32_t> pieceOf(count);
-  for (std::size_t p = 0; p < count; ++p)
+  for (std::int32_t& piece : pieceOf)
   {
-    pieceOf[p] = sets.find(static_cast<std::int32_t>(p));
+    piece = sets.find(piece);
   }
   if (triangles.empty() || std::count(pieceOf.begin(), pieceOf.end(), pieceOf.front()) == std::ptrdiff_t(count))
   {
     return 0.0;
   }
   const std::vector<double> volumes = volumesOf(surface.mesh, pieceOf);
+  for (std::size_t p = 0; p < count; ++p)
+  {
+    sets.join(pieceOf[p], static_cast<std::int32_t>(p));
+  }
   joinAcrossFaces(surface, sets); // from here on a set is a part, not a piece
   const std::vector<char> isKept = piecesOfMainPart(volumes, sets, smallest);
   double dropped = 0.0;

@@ -2,6 +2,7 @@
 #include "surface/FibreField.h"
 
 #include "base/Error.h"
+#include "surface/SmoothingKernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,7 @@ FibreField::FibreField(std::shared_ptr<const LabelSource> image, const Domain& d
   {
     throw InvalidInput("the gap between the fibres of the label image must be 0 or more");
   }
+  this->All = { grid.lower, grid.count };
   const Eigen::Vector3d firstSample = grid.position(grid.lower[0], grid.lower[1], grid.lower[2]);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -147,6 +149,14 @@ Eigen::Vector3d FibreField::firstNode() const
   const VoxelGrid& grid = this->grid();
   return grid.origin +
          grid.spacing * Eigen::Vector3d(this->Samples.first[0] - 1, this->Samples.first[1] - 1, this->Samples.first[2] - 1);
+}
+
+inline bool FibreField::holds(int i, int j, int k) const
+{
+  const auto& first = this->All.first;
+  const auto& count = this->All.count;
+  return i >= first[0] && j >= first[1] && k >= first[2] && i < first[0] + count[0] && j < first[1] + count[1] &&
+         k < first[2] + count[2];
 }
 
 std::int32_t FibreField::nearest(const LabelImageView& held, int i, int j, int k) const
@@ -224,13 +234,6 @@ bool FibreField::isNearest(const LabelImageView& held, std::int32_t fibre, int i
   return this->nearest(held, i, j, k) == fibre;
 }
 
-bool FibreField::holds(int i, int j, int k) const
-{
-  const VoxelGrid& grid = this->grid();
-  return i >= grid.lower[0] && j >= grid.lower[1] && k >= grid.lower[2] && i < grid.lower[0] + grid.count[0] &&
-         j < grid.lower[1] + grid.count[1] && k < grid.lower[2] + grid.count[2];
-}
-
 float FibreField::field(const LabelImageView& held, std::int32_t fibre, std::size_t index, int i, int j, int k) const
 {
   const std::int32_t id = held.fibreId[index];
@@ -284,6 +287,7 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
   const SampleRow row = this->Samples.rowOf(range);
   const auto gap = static_cast<float>(held.gap);
   const float outside = -0.5f * gap;
+  const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
   for (int k = 0; k < range.count[2]; ++k)
   {
     const int z = this->Samples.sampleOf(2, range.first[2] + k);
@@ -295,15 +299,8 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
       const float* depths = held.depth + first;
       float* values = out + row.before;
       // Most samples are plainly in a fibre or outside all.
-      int doubtful = 0;
-      for (int i = 0; i < row.count; ++i)
-      {
-        const float depth = depths[i];
-        const float other = -(depth + gap);
-        values[i] = ids[i] == fibre || ids[i] == 0 ? depth : other;
-        doubtful |= int(ids[i] == 0) & int(depth > outside);
-      }
-      for (int i = 0; doubtful != 0 && i < row.count; ++i)
+      const bool isDoubtful = kernels.field(ids, depths, row.count, fibre, gap, outside, values);
+      for (int i = 0; isDoubtful && i < row.count; ++i)
       {
         if (ids[i] == 0 && depths[i] > outside && !this->isNearest(held, fibre, row.first + i, y, z))
         {
@@ -317,8 +314,10 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
 
 NodeRange FibreField::nodesInside(std::int32_t fibre, const NodeRange& range, const LabelImageView& held) const
 {
+  const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
   const SampleRow row = this->Samples.rowOf(range);
-  std::array<int, 3> lower = range.count;
+  // Along x in samples of the row, else in nodes.
+  std::array<int, 3> lower{ { row.count, range.count[1], range.count[2] } };
   std::array<int, 3> upper{ { -1, -1, -1 } };
   for (int k = 0; k < range.count[2]; ++k)
   {
@@ -326,30 +325,28 @@ NodeRange FibreField::nodesInside(std::int32_t fibre, const NodeRange& range, co
     for (int j = 0; j < range.count[1]; ++j)
     {
       const std::int32_t* ids = held.fibreId + held.grid.index(row.first, this->Samples.sampleOf(1, range.first[1] + j), z);
-      int found = 0;
-      for (int i = 0; i < row.count; ++i)
-      {
-        found |= int(ids[i] == fibre);
-      }
-      if (found == 0)
+      // Amid those found only what makes the box larger counts.
+      const bool isAmid = k <= upper[2] && j >= lower[1] && j <= upper[1];
+      const bool isFound =
+        isAmid ? kernels.holds(ids, lower[0], fibre) || kernels.holds(ids + upper[0] + 1, row.count - upper[0] - 1, fibre)
+               : kernels.holds(ids, row.count, fibre);
+      if (!isFound)
       {
         continue;
       }
-      const std::int32_t* end = ids + row.count;
-      const auto first = int(std::find(ids, end, fibre) - ids);
+      lower = { { int(std::find(ids, ids + lower[0], fibre) - ids), std::min(lower[1], j), std::min(lower[2], k) } };
       int last = row.count - 1;
-      while (ids[last] != fibre)
+      while (last > upper[0] && ids[last] != fibre)
       {
         --last;
       }
-      const std::array<int, 3> from{ { first == 0 ? 0 : row.before + first, j, k } };
-      const std::array<int, 3> to{ { last + 1 == row.count ? range.count[0] - 1 : row.before + last, j, k } };
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        lower[axis] = std::min(lower[axis], from[axis]);
-        upper[axis] = std::max(upper[axis], to[axis]);
-      }
+      upper = { { last, std::max(upper[1], j), k } };
     }
+  }
+  if (upper[0] >= 0)
+  {
+    lower[0] = lower[0] == 0 ? 0 : row.before + lower[0];
+    upper[0] = upper[0] + 1 == row.count ? range.count[0] - 1 : row.before + upper[0];
   }
   NodeRange inside;
   for (std::size_t axis = 0; axis < 3 && upper[axis] >= 0; ++axis)

@@ -92,6 +92,7 @@ private:
 
   std::shared_ptr<const LabelSource> Image;
   Domain Box;
+  SampleRange All; ///< samples of the image
   SampleBox Samples;
 };
 

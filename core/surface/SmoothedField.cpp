@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/SmoothedField.h"
 
+#include "surface/SmoothingKernels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -88,25 +90,6 @@ inline FourFloats agreedBends(const FourFloats& first, const FourFloats& second)
 {
   const FourFloats zero{};
   return larger(lesser(first, second), zero) + lesser(larger(first, second), zero);
-}
-
-/// One pass along one axis, whose nodes are `step` apart in memory. Values at the rim become wrong, and are not used.
-void smoothAlong(std::size_t step, std::size_t size, std::vector<float>& values, const std::vector<float>& before)
-{
-  for (std::size_t n = step; n + step < size; ++n)
-  {
-    values[n] = 0.5f * before[n] + 0.25f * (before[n - step] + before[n + step]);
-  }
-}
-
-/// Keeps only a part of what a pass has done, which may be another one at each node.
-void keepPart(std::size_t step, std::size_t size, std::vector<float>& values, const std::vector<float>& before,
-  const std::vector<float>& part)
-{
-  for (std::size_t n = step; n + step < size; ++n)
-  {
-    values[n] = (1.0f - part[n]) * before[n] + part[n] * values[n]; // with 1 the very same bits
-  }
 }
 
 } // namespace
@@ -212,18 +195,15 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   field.atNodes(this->Fibre, range, held, buffer.data());
   copyPieces(buffer, range, beside, pieces, this->Unsmoothed.get());
   const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
-  // Each pass leaves one node less on every side. Strides stay.
+  // Each pass leaves one node less on every side: values at the rim become wrong, and are not used. Strides stay.
+  const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
   const std::size_t rowLength(range.count[0]);
   for (int pass = 0; pass < passes; ++pass)
   {
     for (const std::size_t step : { std::size_t(1), rowLength, rowLength * std::size_t(range.count[1]) })
     {
       before.swap(buffer);
-      smoothAlong(step, range.size(), buffer, before);
-      if (!isUniform)
-      {
-        keepPart(step, range.size(), buffer, before, part);
-      }
+      kernels.smooth(step, range.size(), before.data(), isUniform ? nullptr : part.data(), buffer.data());
     }
   }
   copyPieces(buffer, range, beside, pieces, this->Values.get());
@@ -295,7 +275,8 @@ void SmoothedField::copyBlock(const float* held, double level, double smallest, 
   for (std::size_t n = 0; n < around.size(); ++n)
   {
     const float field = in[n] - t;
-    out[n] = field > 0.0f ? std::max(field, least) : std::min(field, -least);
+    const float kept = std::max(std::abs(field), least);
+    out[n] = field > 0.0f ? kept : -kept;
   }
 }
 

@@ -2,6 +2,7 @@
 #include "surface/ThinFibres.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -36,9 +37,14 @@ bool ThinFibres::smoothingInside(const NodeRange& range, const LabelImageView& h
 {
   const SampleBox& samples = this->Field.samples();
   const SampleRow row = samples.rowOf(range);
+  // What was looked up last, by the last bits of ids: there are few fibres in a range.
+  struct Known
+  {
+    std::int32_t id = 0;
+    float part = outsideFibres;
+  };
+  std::array<Known, 256> known{};
   bool any = false;
-  std::int32_t last = 0;
-  float part = outsideFibres;
   for (int k = 0; k < range.count[2]; ++k)
   {
     const int z = samples.sampleOf(2, range.first[2] + k);
@@ -47,14 +53,14 @@ bool ThinFibres::smoothingInside(const NodeRange& range, const LabelImageView& h
       const std::int32_t* ids = held.fibreId + held.grid.index(row.first, samples.sampleOf(1, range.first[1] + j), z);
       for (int i = 0; i < row.count; ++i)
       {
-        if (ids[i] != last)
+        Known& here = known[std::size_t(ids[i]) % known.size()];
+        if (here.id != ids[i])
         {
-          last = ids[i];
-          const auto found = this->Smoothing.find(last);
-          part = last == 0 ? outsideFibres : found == this->Smoothing.end() ? 1.0f : found->second;
-          any = any || part < 1.0f;
+          const auto found = this->Smoothing.find(ids[i]);
+          here = { ids[i], ids[i] == 0 ? outsideFibres : found == this->Smoothing.end() ? 1.0f : found->second };
+          any = any || here.part < 1.0f;
         }
-        out[row.before + i] = part;
+        out[row.before + i] = here.part;
       }
       row.fillRim(out);
     }

@@ -19,7 +19,8 @@ using cactus::FieldCell;
 
 constexpr double spacing = 0.1;
 
-/// Cones of `fibres` fibres in and around a cell about the origin, three each; some are balls.
+/// Cones of `fibres` fibres in and around a cell about the origin, three each; some are balls, and some
+/// everywhere as thick.
 std::vector<cactus::Cone> randomCones(int fibres)
 {
   std::mt19937 engine(7);
@@ -29,8 +30,9 @@ std::vector<cactus::Cone> randomCones(int fibres)
   for (int n = 0; n < 3 * fibres; ++n)
   {
     const Eigen::Vector3d start = point();
-    cones.push_back(cactus::coneBetween(
-      start, start + (n % 5 == 0 ? 0.05 : 1.0) * point(), 0.3 + 0.2 * uniform(engine), 0.3 + 0.2 * uniform(engine)));
+    const Eigen::Vector3d end = start + (n % 5 == 0 ? 0.05 : 1.0) * point();
+    const double radius = 0.3 + 0.2 * uniform(engine);
+    cones.push_back(cactus::coneBetween(start, end, radius, n % 4 == 1 ? radius : 0.3 + 0.2 * uniform(engine)));
   }
   return cones;
 }
