@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/FieldBounds.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace cactus
@@ -8,37 +10,50 @@ namespace cactus
 
 using Eigen::Vector3d;
 
-bool FieldBounds::holdAt(const std::array<std::int32_t, 3>& triangle) const
+TriangleExcess FieldBounds::excessOf(const std::array<std::int32_t, 3>& triangle) const
 {
-  FieldFit fit;
-  for (std::size_t i = 0; i < 3 && !fit.isOut(); ++i)
+  TriangleExcess excess;
+  Vector3d sum = Vector3d::Zero();
+  std::uint8_t common = 0xff;
+  for (std::size_t i = 0; i < 3; ++i)
   {
-    const std::int32_t a = triangle[i];
-    const std::int32_t b = triangle[(i + 1) % 3];
-    this->add(fit, this->Surface.at(a), this->Surface.facesOf(a), 1.0);
-    this->add(fit, 0.5 * (this->Surface.at(a) + this->Surface.at(b)), this->Surface.facesOf(a) & this->Surface.facesOf(b), 1.0);
+    const Vector3d& a = this->Surface.at(triangle[i]);
+    const std::int32_t next = triangle[(i + 1) % 3];
+    const std::uint8_t faces = this->Surface.facesOf(triangle[i]);
+    excess.inMiddles[i] =
+      static_cast<float>(this->excessAt(0.5 * (a + this->Surface.at(next)), faces & this->Surface.facesOf(next)));
+    sum += a;
+    common &= faces;
   }
-  const std::uint8_t faces =
-    this->Surface.facesOf(triangle[0]) & this->Surface.facesOf(triangle[1]) & this->Surface.facesOf(triangle[2]);
-  this->add(
-    fit, (this->Surface.at(triangle[0]) + this->Surface.at(triangle[1]) + this->Surface.at(triangle[2])) / 3.0, faces, 1.0);
-  return !fit.isOut();
+  excess.inCentroid = static_cast<float>(this->excessAt(sum / 3.0, common));
+  return excess;
 }
 
-bool FieldBounds::holdWithin(const std::array<Vector3d, 3>& corners, const std::array<std::uint8_t, 3>& faces) const
+bool FieldBounds::holdAlong(const Vector3d& a, const Vector3d& b, std::uint8_t faces) const
+{
+  const int n = 2 + static_cast<int>((b - a).norm() / this->Sampling);
+  for (int i = 1; n > 2 && i < n; ++i)
+  {
+    if (2 * i != n && this->excessAt(a + (double(i) / n) * (b - a), faces) > 0.0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool FieldBounds::holdWithin(const std::array<Vector3d, 3>& corners, std::uint8_t faces) const
 {
   const double longest = std::sqrt(std::max({ (corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
     (corners[0] - corners[2]).squaredNorm() }));
+  const double height = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / longest;
   const int n = 2 + static_cast<int>(longest / this->Sampling);
-  for (int i = 0; n > 2 && i < n; ++i)
+  for (int i = 1; 2.0 * height > this->Sampling && i < n; ++i)
   {
-    for (int j = i == 0 ? 1 : 0; i + j <= n && j < n; ++j)
+    for (int j = 1; i + j < n; ++j)
     {
       const int k = n - i - j;
-      const std::uint8_t on = (i > 0 ? faces[0] : 0xff) & (j > 0 ? faces[1] : 0xff) & (k > 0 ? faces[2] : 0xff);
-      FieldFit one;
-      this->add(one, (double(i) / n) * corners[0] + (double(j) / n) * corners[1] + (double(k) / n) * corners[2], on, 1.0);
-      if (one.isOut())
+      if (this->excessAt((double(i) / n) * corners[0] + (double(j) / n) * corners[1] + (double(k) / n) * corners[2], faces) > 0.0)
       {
         return false;
       }
@@ -54,9 +69,15 @@ bool FieldBounds::holdAfterCollapse(std::int32_t u, std::int32_t v, const Vector
     [&](std::int32_t c, std::int32_t)
     {
       const std::array<std::int32_t, 2> edge = this->Surface.oppositeEdge(c);
-      return EditableSurface::outlivesCollapse(edge, u, v) &&
-             !this->holdWithin({ { place, this->Surface.at(edge[0]), this->Surface.at(edge[1]) } },
-               { { facesOfBoth, this->Surface.facesOf(edge[0]), this->Surface.facesOf(edge[1]) } });
+      if (!EditableSurface::outlivesCollapse(edge, u, v))
+      {
+        return false;
+      }
+      const Vector3d& a = this->Surface.at(edge[0]);
+      const Vector3d& b = this->Surface.at(edge[1]);
+      const std::uint8_t facesOfEdge = facesOfBoth & this->Surface.facesOf(edge[0]);
+      return !this->holdAlong(place, a, facesOfEdge) ||
+             !this->holdWithin({ { place, a, b } }, facesOfEdge & this->Surface.facesOf(edge[1]));
     });
 }
 

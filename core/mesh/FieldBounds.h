@@ -23,6 +23,13 @@ struct FieldFit
   bool canBeMoved() const { return this->lower <= this->upper; }
 };
 
+/// By how much the field is out of its range in a triangle, µm, 0 where it is within.
+struct TriangleExcess
+{
+  std::array<float, 3> inMiddles; ///< of edges, that behind each corner
+  float inCentroid;
+};
+
 /// Keeps a surface where a field, which rises by about 1 per µm into the body, is within an error of a level. On faces of the box
 /// the field may be larger.
 class FieldBounds
@@ -41,21 +48,25 @@ public:
   {
   }
 
-  /// The fit at u and v and at the middles of edges and the centroids of the triangles at them. Once `isEnough(fit so far)` is
-  /// true, that is what is returned.
-  template <typename IsEnough>
-  FieldFit fitAround(std::int32_t u, std::int32_t v, IsEnough&& isEnough) const;
-  /// The same of the triangles that are left when u and v move to `place`.
+  /// By how much the field is out of its range at a place (µm, 0 or more), of which a bit of `faces` says on which faces of the
+  /// box it lies.
+  double excessAt(const Eigen::Vector3d& place, std::uint8_t faces) const
+  {
+    const double value = this->Value(place);
+    return std::max({ 0.0, this->Smallest - value, faces == 0 ? value - this->Largest : 0.0 });
+  }
+  TriangleExcess excessOf(const std::array<std::int32_t, 3>& triangle) const;
+
+  /// The fit at u and v when both move to `place`, and in the middles of edges and the centroids of the triangles that are left
+  /// at them then. Once `isEnough(fit so far)` is true, that is what is returned.
   template <typename IsEnough>
   FieldFit fitAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, IsEnough&& isEnough) const;
 
-  /// Whether the field is in its range at the points of a triangle that fits look at: corners, middles of edges and centroid.
-  bool holdAt(const std::array<std::int32_t, 3>& triangle) const;
-
-  /// Whether the field is in its range all over a triangle, at points at most `sampling` apart besides those of the fits. A bit
-  /// of `faces` says that a corner is on that face of the box.
-  bool holdWithin(const std::array<Eigen::Vector3d, 3>& corners, const std::array<std::uint8_t, 3>& faces) const;
-  /// The same for all triangles that are left at u and v when these move to `place`.
+  /// Whether the field is in its range along an edge at points at most `sampling` apart, its middle left out.
+  bool holdAlong(const Eigen::Vector3d& a, const Eigen::Vector3d& b, std::uint8_t faces) const;
+  /// The same of what lies between the edges of a triangle, if that is wide.
+  bool holdWithin(const std::array<Eigen::Vector3d, 3>& corners, std::uint8_t faces) const;
+  /// Both of all triangles that are left at u and v when these move to `place`; edges that do not change are not looked at.
   bool holdAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place) const;
 
   /// The largest distance of the field from its level in the middle of the edge a b and of the triangles that it makes with c and
@@ -97,26 +108,6 @@ private:
   double Largest;
   double Sampling;
 };
-
-template <typename IsEnough>
-FieldFit FieldBounds::fitAround(std::int32_t u, std::int32_t v, IsEnough&& isEnough) const
-{
-  FieldFit fit;
-  for (const std::int32_t point : { u, v })
-  {
-    const std::uint8_t faces = this->Surface.facesOf(point);
-    this->add(fit, this->Surface.at(point), faces, 1.0);
-    for (std::int32_t c = this->Surface.firstCorner(point); c >= 0; c = this->Surface.nextCorner(c))
-    {
-      this->addTriangle(fit, this->Surface.at(point), faces, this->Surface.oppositeEdge(c));
-      if (isEnough(fit))
-      {
-        return fit;
-      }
-    }
-  }
-  return fit;
-}
 
 template <typename IsEnough>
 FieldFit FieldBounds::fitAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, IsEnough&& isEnough) const

@@ -26,15 +26,13 @@ using Eigen::Vector3d;
 constexpr double leastFlipTurn = 0.5;
 /// Quadrics tell a mean of distances to the planes of triangles at an edge: up to so many times the largest error, the field
 /// decides.
-constexpr double quadricPart = 2.0;
+constexpr double quadricPart = 1.8;
 /// Errors of the sweeps before the last ones, as parts of that of the last ones.
-constexpr double sweepErrors[] = { 0.25, 0.5 };
+constexpr double sweepErrors[] = { 0.28, 0.56 };
 /// Collapses of less than this part of the largest error are made without a look at the field, where no edge is longer than that
 /// part of the sampling distance.
 constexpr double unnoticed = 0.15;
 constexpr double smallPart = 0.5;
-/// How often edges are flipped, after which come sweeps of the largest error.
-constexpr int flipRounds = 2;
 /// An edge is flipped if that reduces the largest distance of the field from its level to this part, unless it is below that part
 /// of the largest error anyway.
 constexpr double flipGain = 0.95;
@@ -59,7 +57,10 @@ public:
     , Locked(Mesh.pointCount(), 0)
     , Changed(Mesh.pointCount(), 0)
     , Part(Mesh.pointCount(), 1.0f)
-    , Looks(Mesh.triangleCount(), unknown)
+    , PointExcess(Mesh.pointCount(), unknown)
+    , Excesses(Mesh.triangleCount())
+    , IsKnown(Mesh.triangleCount(), 0)
+    , IsKept(Mesh.triangleCount(), 0)
     , Refusals(3 * Mesh.triangleCount())
   {
     for (const LocalErrorBound& bound : options.localBounds)
@@ -78,13 +79,10 @@ public:
   {
     for (const double part : sweepErrors)
     {
-      this->sweeps(part * this->Reach, true);
+      this->sweeps(part * this->Reach);
     }
-    for (int round = 0; round < flipRounds; ++round)
-    {
-      this->flipEdges();
-      this->sweeps(this->Reach, round == 0);
-    }
+    this->flipEdges();
+    this->sweeps(this->Reach);
     this->repairShapes();
     this->Mesh.compact();
   }
@@ -97,12 +95,7 @@ private:
     Kept     ///< the field is in its range
   };
 
-  /// What is known of a triangle from looks at the field; bits.
-  using Look = std::uint8_t;
-  static constexpr Look unknown = 0;
-  static constexpr Look kept = 1; ///< it was made by a collapse that keeps the field in its range
-  static constexpr Look fine = 2; ///< the field is in its range at the points of fits
-  static constexpr Look out = 4;  ///< it is not
+  static constexpr float unknown = -1.0f;
 
   /// What is known of an edge that was not collapsed.
   struct Refusal
@@ -118,13 +111,13 @@ private:
     bool isFar = false;
   };
 
-  /// Sweeps until one removes little. The error is a new one, or that of the sweeps before: what was too much then still is.
-  void sweeps(double error, bool isNew)
+  /// Sweeps until one removes little.
+  void sweeps(double error)
   {
     ++this->Round;
     for (int sweep = 0; sweep < sweepsPerError; ++sweep)
     {
-      if (this->sweep(error * error, isNew && sweep == 0) * 10 < this->Mesh.aliveCount())
+      if (this->sweep(error * error, sweep == 0) * 10 < this->Mesh.aliveCount())
       {
         return;
       }
@@ -290,7 +283,7 @@ private:
   /// least, at `place` as it was.
   Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove, double& excess)
   {
-    const bool mustFit = this->all(u, v, kept) || this->all(u, v, fine);
+    const bool mustFit = this->areKept(u, v);
     const FieldFit after = this->Fits.fitAfterCollapse(u, v, place,
       [&](const FieldFit& fit) { return fit.isOut() && !(mayMove && fit.canBeMoved()) && (mustFit || this->areFine(u, v)); });
     excess = after.excess;
@@ -315,30 +308,60 @@ private:
     {
       return Verdict::Worse;
     }
-    const FieldFit before = this->Fits.fitAround(u, v, [&](const FieldFit& fit) { return fit.excess >= after.excess; });
-    return after.excess <= before.excess ? Verdict::NoWorse : Verdict::Worse;
+    return after.excess <= this->excessAround(u, v) ? Verdict::NoWorse : Verdict::Worse;
   }
 
-  /// Whether the same is known of all triangles at u and v.
-  bool all(std::int32_t u, std::int32_t v, Look look) const
+  /// Whether all triangles at u and v were made by collapses that keep the field in its range.
+  bool areKept(std::int32_t u, std::int32_t v) const
   {
-    return !this->Mesh.visitCornersAt(
-      u, v, [&](std::int32_t c, std::int32_t) { return (this->Looks[std::size_t(c) / 3] & look) == 0; });
+    return !this->Mesh.visitCornersAt(u, v, [&](std::int32_t c, std::int32_t) { return this->IsKept[std::size_t(c) / 3] == 0; });
   }
 
-  /// Whether the field is in its range at the triangles at u and v as they are. Each is looked at once.
+  /// Whether the field is in its range at the triangles at u and v as they are.
   bool areFine(std::int32_t u, std::int32_t v)
   {
     return !this->Mesh.visitCornersAt(u, v,
       [&](std::int32_t c, std::int32_t)
       {
-        Look& look = this->Looks[std::size_t(c) / 3];
-        if ((look & (fine | out)) == 0)
-        {
-          look |= this->Fits.holdAt(this->Mesh.cornersOf(std::size_t(c) / 3)) ? fine : out;
-        }
-        return (look & out) != 0;
+        const TriangleExcess& excess = this->excessOf(std::size_t(c) / 3);
+        const auto& corners = this->Mesh.cornersOf(std::size_t(c) / 3);
+        return excess.inCentroid > 0.0f || std::max({ excess.inMiddles[0], excess.inMiddles[1], excess.inMiddles[2] }) > 0.0f ||
+               std::max({ this->excessAt(corners[0]), this->excessAt(corners[1]), this->excessAt(corners[2]) }) > 0.0f;
       });
+  }
+
+  /// By how much the field is out of its range at u and v and at the middles of edges and the centroids of the triangles at them.
+  double excessAround(std::int32_t u, std::int32_t v)
+  {
+    float largest = std::max(this->excessAt(u), this->excessAt(v));
+    this->Mesh.visitCornersAt(u, v,
+      [&](std::int32_t c, std::int32_t)
+      {
+        const TriangleExcess& excess = this->excessOf(std::size_t(c) / 3);
+        largest = std::max({ largest, excess.inMiddles[std::size_t(c) % 3], excess.inCentroid });
+        return false;
+      });
+    return largest;
+  }
+
+  // Each place is looked at once.
+  float excessAt(std::int32_t point)
+  {
+    float& excess = this->PointExcess[std::size_t(point)];
+    if (excess == unknown)
+    {
+      excess = static_cast<float>(this->Fits.excessAt(this->Mesh.at(point), this->Mesh.facesOf(point)));
+    }
+    return excess;
+  }
+  const TriangleExcess& excessOf(std::size_t triangle)
+  {
+    if (this->IsKnown[triangle] == 0)
+    {
+      this->Excesses[triangle] = this->Fits.excessOf(this->Mesh.cornersOf(triangle));
+      this->IsKnown[triangle] = 1;
+    }
+    return this->Excesses[triangle];
   }
 
   void collapse(std::int32_t u, std::int32_t v, const Vector3d& place, bool isKept)
@@ -346,9 +369,11 @@ private:
     this->Mesh.collapse(u, v, place);
     this->Part[std::size_t(u)] = std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]);
     this->Locked[std::size_t(u)] = this->Sweep;
+    this->PointExcess[std::size_t(u)] = unknown;
     for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0; c = this->Mesh.nextCorner(c))
     {
-      this->Looks[std::size_t(c) / 3] = isKept ? kept : unknown;
+      this->IsKept[std::size_t(c) / 3] = isKept ? 1 : 0;
+      this->IsKnown[std::size_t(c) / 3] = 0;
       this->markChanged(std::size_t(c) / 3);
     }
   }
@@ -377,18 +402,6 @@ private:
         }
       }
     }
-    this->LastFlips = this->Sweep;
-  }
-
-  /// The last sweep in which a triangle at one of some points changed.
-  int lastChange(const std::array<std::int32_t, 4>& points) const
-  {
-    int last = 0;
-    for (const std::int32_t p : points)
-    {
-      last = std::max(last, this->Changed[std::size_t(p)]);
-    }
-    return last;
   }
 
   enum class Flip
@@ -404,10 +417,6 @@ private:
     const std::int32_t d = this->Mesh.thirdCorner(other, a, b);
     const float part = std::min(
       { this->Part[std::size_t(a)], this->Part[std::size_t(b)], this->Part[std::size_t(c)], this->Part[std::size_t(d)] });
-    if (kind == Flip::ToFit && this->lastChange({ { a, b, c, d } }) < this->LastFlips)
-    {
-      return false; // as it was when this was tried last
-    }
     const bool isAtFace =
       (this->Mesh.facesOf(a) & this->Mesh.facesOf(b)) != 0 || (this->Mesh.facesOf(c) & this->Mesh.facesOf(d)) != 0;
     if (part < 1.0f || isAtFace)
@@ -431,14 +440,15 @@ private:
       return false;
     }
     const double furthest = kind == Flip::ToFit ? flipGain * before : std::max(before, this->Options.maximumError);
-    constexpr std::array<std::uint8_t, 3> inside{ { 0, 0, 0 } };
     if (this->Mesh.areLinked(c, d) || this->Fits.largestError(pc, pd, pa, pb, furthest) > furthest ||
-        !this->Fits.holdWithin({ { pa, pd, pc } }, inside) || !this->Fits.holdWithin({ { pd, pb, pc } }, inside))
+        !this->Fits.holdAlong(pc, pd, 0) || !this->Fits.holdWithin({ { pa, pd, pc } }, 0) ||
+        !this->Fits.holdWithin({ { pd, pb, pc } }, 0))
     {
       return false;
     }
     this->Mesh.flip(one, other, a, b);
-    this->Looks[one] = this->Looks[other] = this->Looks[one] & this->Looks[other] & kept;
+    this->IsKept[one] = this->IsKept[other] = this->IsKept[one] & this->IsKept[other];
+    this->IsKnown[one] = this->IsKnown[other] = 0;
     this->markChanged(one);
     this->markChanged(other);
     return true;
@@ -464,14 +474,16 @@ private:
   double Reach; ///< µm, largest error of a quadric
   ShapeBounds Shapes;
   FieldBounds Fits;
-  std::vector<int> Locked;       ///< per point, the sweep in which it was moved
-  std::vector<int> Changed;      ///< per point, the sweep in which a triangle at it changed
-  std::vector<float> Part;       ///< per point, of the largest error
-  std::vector<Look> Looks;       ///< per triangle
-  std::vector<Refusal> Refusals; ///< per corner, of the edge from it
+  std::vector<int> Locked;              ///< per point, the sweep in which it was moved
+  std::vector<int> Changed;             ///< per point, the sweep in which a triangle at it changed
+  std::vector<float> Part;              ///< per point, of the largest error
+  std::vector<float> PointExcess;       ///< per point, by how much the field is out of its range there, µm, or unknown
+  std::vector<TriangleExcess> Excesses; ///< per triangle
+  std::vector<std::uint8_t> IsKnown;    ///< per triangle, whether that is of the triangle as it is
+  std::vector<std::uint8_t> IsKept;     ///< per triangle, whether a collapse made it that keeps the field in its range
+  std::vector<Refusal> Refusals;        ///< per corner, of the edge from it
   int Sweep = 0;
-  int Round = 0;     ///< of sweeps of one error
-  int LastFlips = 0; ///< the sweep after which edges were flipped last
+  int Round = 0; ///< of sweeps of one error
 };
 
 } // namespace
