@@ -77,8 +77,8 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("ExtraAxonalDiffusivityErrorZ", s.outside.standardError[2]);
 }
 
-/// The table of one row to be read line by line: ParaView's spreadsheets sort columns by name, rows not. Numbers have six digits, counts all; what
-/// was not measured is "-".
+/// The table of one row to be read line by line: ParaView's spreadsheets sort columns by name, rows not. Numbers have six digits,
+/// counts all; what was not measured is "-".
 void fillSummary(vtkTable* table, vtkTable* whole)
 {
   const auto columns = static_cast<std::size_t>(whole->GetNumberOfColumns());

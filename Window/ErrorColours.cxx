@@ -27,9 +27,9 @@ namespace cactus
 namespace
 {
 
-constexpr char errorName[] = "Error";           ///< field data array of what could not be made (Filters/FilterSupport.cxx)
+constexpr char errorName[] = "Error";             ///< field data array of what could not be made (Filters/FilterSupport.cxx)
 constexpr char wantedLook[] = "cactusWantedLook"; ///< dynamic property of a representation that was coloured by it: Slice, say
-constexpr char plainLook[] = "Outline";         ///< which needs no colours
+constexpr char plainLook[] = "Outline";           ///< which needs no colours
 
 /// The array by which something is coloured; empty where there is none.
 std::string colouredBy(vtkSMProxy* representation, int& association)
@@ -64,7 +64,8 @@ void mendColours(pqDataRepresentation* shown, pqView* view, bool isEmpty)
     return;
   }
   shown->setProperty(wantedLook, QVariant());
-  if (colouredBy(proxy, association).empty() && vtkSMPropertyHelper(proxy, "Representation").GetAsString() == std::string(plainLook))
+  if (colouredBy(proxy, association).empty() &&
+      vtkSMPropertyHelper(proxy, "Representation").GetAsString() == std::string(plainLook))
   {
     vtkSMRepresentationProxy::SetRepresentationType(proxy, look.c_str()); // which chooses an array, too
     view->render();

@@ -17,7 +17,8 @@ namespace cactus
 namespace
 {
 
-/// µm. An outline nearer to the domain's boundary, or to a cap of its surface before that, has been cut off by it; above the rounding of single-precision coordinates.
+/// µm. An outline nearer to the domain's boundary, or to a cap of its surface before that, has been cut off by it; above the
+/// rounding of single-precision coordinates.
 constexpr double boundaryTolerance = 1e-3;
 
 /// The position (µm) at arc length `s` along a fibre's centre line, whose cumulative lengths are `arc`.

@@ -19,7 +19,8 @@ constexpr double largestInset = 0.5;
 /// do. Coordinates have to be finite.
 std::vector<std::uint32_t> wallTriangles(const TriangleMesh& mesh, const Domain& box, double inset = 0.0);
 
-/// The part of the domain between the caps of a surface: the domain itself, but for sides at which caps lie at most `inset` µm before the face.
+/// The part of the domain between the caps of a surface: the domain itself, but for sides at which caps lie at most `inset` µm
+/// before the face.
 Domain betweenCaps(const TriangleMesh& mesh, const Domain& box, double inset);
 
 /// The area (µm²) of some triangles.

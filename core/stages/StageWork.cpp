@@ -306,10 +306,9 @@ std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result,
   }
   if (result.maximumPenetration > overlapTolerance)
   {
-    remarks.push_back(
-      text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration, " iterations with ",
-        result.overlappingPairs, " capsule pairs above OverlapTolerance ", overlapTolerance, ", the largest penetration being ",
-        result.maximumPenetration, ". The best state is kept.", adviceOn(result.reason)));
+    remarks.push_back(text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration,
+      " iterations with ", result.overlappingPairs, " capsule pairs above OverlapTolerance ", overlapTolerance,
+      ", the largest penetration being ", result.maximumPenetration, ". The best state is kept.", adviceOn(result.reason)));
   }
   return remarks;
 }

@@ -74,7 +74,8 @@ TEST(AxonShape, OfAStraightTube)
   EXPECT_NEAR(shape.effectiveRadius, std::sqrt(area / pi), 1e-9);
 }
 
-// Inner surfaces end a little before the domain's faces: a cut that their caps have cut off counts as little as one that the faces have.
+// Inner surfaces end a little before the domain's faces: a cut that their caps have cut off counts as little as one that the
+// faces have.
 TEST(FibreProfile, LeavesOutCutsOfCapsBeforeTheFaces)
 {
   constexpr double slope = 0.5;
