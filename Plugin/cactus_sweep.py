@@ -67,7 +67,7 @@ def sweep(make, folder, reached=REACHED, **values):
         rows = [header, *([*map(str, case.values()), *_certificate(_place(folder, case), reached)] for case in made)]
         with open(table, "w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows(rows)
-        print("\n".join("".join(f"{value[:15]:>16}" for value in row) for row in rows))
+        print("\n".join("".join(f"{_short(value):>16}" for value in row) for row in rows))
         print(f"{len(made)} of {len(cases)} cases are in {os.path.abspath(folder)}", flush=True)
     if len(made) < len(cases):
         _refuse("not every case came out, as the errors above say")
@@ -104,6 +104,14 @@ def _certificate(place, reached):
     with open(os.path.join(place, "certificate.csv"), newline="", encoding="utf-8") as file:
         values = {line["quantity"]: line["value"] for line in csv.DictReader(file)}
     return [values.get(name, "") for name in reached]
+
+
+def _short(value):
+    """What is printed of a value: numbers with six digits, words as far as there is room."""
+    try:
+        return f"{float(value):.6g}"
+    except ValueError:
+        return value[:15]
 
 
 def _is_ours(table, reached):
