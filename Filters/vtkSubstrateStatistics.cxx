@@ -21,10 +21,12 @@
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
 #include <vtkObjectFactory.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 vtkStandardNewMacro(vtkSubstrateStatistics);
 
@@ -73,6 +75,26 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("ExtraAxonalDiffusivityErrorX", s.outside.standardError[0]);
   number("ExtraAxonalDiffusivityErrorY", s.outside.standardError[1]);
   number("ExtraAxonalDiffusivityErrorZ", s.outside.standardError[2]);
+}
+
+/// The table of one row to be read line by line: ParaView's spreadsheets sort columns by name, rows not. Numbers have six digits,
+/// counts all; what was not measured is "-".
+void fillSummary(vtkTable* table, vtkTable* whole)
+{
+  const auto columns = static_cast<std::size_t>(whole->GetNumberOfColumns());
+  const auto column = [whole](std::size_t row) { return whole->GetColumn(static_cast<vtkIdType>(row)); };
+  const auto valueOf = [&](std::size_t row)
+  {
+    const double value = whole->GetValue(0, static_cast<vtkIdType>(row)).ToDouble();
+    std::string text = std::isnan(value) ? "-" : "";
+    if (!std::isnan(value))
+    {
+      cactus::appendNumber(text, value, column(row)->IsA("vtkIdTypeArray") != 0 ? 15 : 6);
+    }
+    return text;
+  };
+  addColumn<vtkStringArray>(table, "Quantity", columns, [&](std::size_t row) { return std::string(column(row)->GetName()); });
+  addColumn<vtkStringArray>(table, "Value", columns, valueOf);
 }
 
 void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fibres)
@@ -175,7 +197,7 @@ vtkSubstrateStatistics::vtkSubstrateStatistics()
   : Properties(cactus::makeProperties<cactus::SubstrateStatisticsStage>())
 {
   this->SetNumberOfInputPorts(3);
-  this->SetNumberOfOutputPorts(4);
+  this->SetNumberOfOutputPorts(5);
 }
 
 int vtkSubstrateStatistics::FillInputPortInformation(int port, vtkInformation* info)
@@ -225,6 +247,7 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       fillFibres(vtkTable::GetData(outputs, 1), statistics.fibres);
       fillHistograms(vtkTable::GetData(outputs, 2), statistics.fibres, static_cast<std::size_t>(stage.bins));
       fillProfiles(vtkTable::GetData(outputs, 3), cactus::profilesOf(statistics.fibres, stage.options.cutSpacing));
+      fillSummary(vtkTable::GetData(outputs, 4), vtkTable::GetData(outputs, 0));
       const auto provenance = cactus::recordOf(this, "SubstrateStatistics", stage, { "Fibres", "Outer", "Inner" });
       for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
       {

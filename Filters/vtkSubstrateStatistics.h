@@ -9,8 +9,9 @@
  *
  * Output 0 `Substrate`: one row; volume fractions, aggregate g-ratio sqrt(1 - MVF / FVF) (Stikov 2015), dispersion, mean radii,
  * and how many surfaces are closed, outward 2-manifolds. Output 1 `Fibres`: one row per fibre. Output 2 `Histograms`: one row per
- * bin of radius and of g-ratio. Output 3 `Profiles`: one row per cut of a fibre, with its diameters there. Columns, formulas and
- * their sources are in docs/statistics.md. Lengths are in µm and angles in degrees, as the columns' names say.
+ * bin of radius and of g-ratio. Output 3 `Profiles`: one row per cut of a fibre, with its diameters there. Output 4 `Summary`:
+ * output 0 as text to be read, a row per column (`Quantity`, `Value`). Columns, formulas and their sources are in
+ * docs/statistics.md. Lengths are in µm and angles in degrees, as the columns' names say.
  *
  * Volumes are those that the meshes enclose. Radii are those of circles with the area of the mesh's cross-section orthogonal to
  * the centre line, every CutSpacing µm (CACTUS 2023, "Experiments"), of cuts that lie wholly inside the domain. What cannot be

@@ -4,16 +4,21 @@
 #include "ObliqueCamera.h"
 #include "PluginProxies.h"
 
+#include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <vtkBoundingBox.h>
 #include <vtkCamera.h>
 #include <vtkMath.h>
+#include <vtkPVDataInformation.h>
 #include <vtkSMRenderViewProxy.h>
 
 #include <QPointer>
 #include <QTimer>
+#include <QVariant>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +27,16 @@ namespace cactus
 {
 namespace
 {
+
+constexpr double sameDirection = 1e-4; ///< radians
+
+/// Angle (radians) between where a camera looks from and where lookObliquely() puts it.
+double acrossFromPut(vtkCamera* camera)
+{
+  double from[3];
+  vtkMath::Subtract(camera->GetPosition(), camera->GetFocalPoint(), from);
+  return std::acos(std::min(1.0, vtkMath::Dot(from, obliquePosition) / (vtkMath::Norm(from) * vtkMath::Norm(obliquePosition))));
+}
 
 /// Whether a camera looks from where lookObliquely() has put it, as it was put or fitted to a view with nothing in it.
 bool wasFittedToNothing(vtkCamera* camera)
@@ -36,8 +51,65 @@ bool wasFittedToNothing(vtkCamera* camera)
   const double put = vtkMath::Norm(obliquePosition);
   const double fitted =
     std::sqrt(3.0) / std::sin(vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle())); // to a cube from -1 to 1
-  const double across = std::acos(std::min(1.0, vtkMath::Dot(position, obliquePosition) / (distance * put)));
-  return across < 1e-4 && std::min(std::abs(distance - put), std::abs(distance - fitted)) < 1e-3;
+  return acrossFromPut(camera) < sameDirection && std::min(std::abs(distance - put), std::abs(distance - fitted)) < 1e-3;
+}
+
+// Dynamic properties: of a view where its camera was when it was last fitted, of a representation how large its data were then.
+constexpr char lastCamera[] = "cactusLastCamera";
+constexpr char lastSize[] = "cactusLastSize";
+
+/// Another size by less than this part is no other size: fibres that the optimiser has bent reach a little further.
+constexpr double sameSize = 0.1;
+
+QVariant placeOf(vtkCamera* camera)
+{
+  QVariantList place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place << camera->GetPosition()[axis] << camera->GetFocalPoint()[axis] << camera->GetViewUp()[axis];
+  }
+  return place << camera->GetParallelScale();
+}
+
+/// Diagonal of what an output has; 0 of nothing.
+double sizeOf(pqOutputPort* port)
+{
+  const vtkBoundingBox box(port->getDataInformation()->GetBounds());
+  return box.IsValid() ? box.GetDiagonalLength() : 0.0;
+}
+
+/// Whether what a representation shows has another size than when this was last asked.
+bool hasAnotherSize(pqDataRepresentation* shown, double size)
+{
+  const double before = shown->property(lastSize).toDouble();
+  if (size > 0.0)
+  {
+    shown->setProperty(lastSize, size);
+  }
+  return size > 0.0 && before > 0.0 && std::fabs(size - before) > sameSize * before;
+}
+
+void fitIn(pqRenderView* view, pqPipelineSource* source)
+{
+  bool isNew = false;
+  for (pqOutputPort* port : source->getOutputPorts())
+  {
+    for (pqDataRepresentation* shown : port->getRepresentations(view))
+    {
+      isNew = (shown->isVisible() && hasAnotherSize(shown, sizeOf(port))) || isNew;
+    }
+  }
+  vtkCamera* camera = view->getRenderViewProxy()->GetActiveCamera();
+  const QVariant last = view->property(lastCamera);
+  if (wasFittedToNothing(camera) || (isNew && last == placeOf(camera)))
+  {
+    view->resetCamera();
+  }
+  else if (last.isValid() || acrossFromPut(camera) > sameDirection)
+  {
+    return; // somebody has moved it, or nothing has changed
+  }
+  view->setProperty(lastCamera, placeOf(camera));
 }
 
 } // namespace
@@ -61,10 +133,9 @@ void FirstLook::fit(pqPipelineSource* source)
   }
   for (pqView* view : source->getViews())
   {
-    pqRenderView* renderView = qobject_cast<pqRenderView*>(view);
-    if (renderView != nullptr && wasFittedToNothing(renderView->getRenderViewProxy()->GetActiveCamera()))
+    if (pqRenderView* renderView = qobject_cast<pqRenderView*>(view))
     {
-      renderView->resetCamera();
+      fitIn(renderView, source);
     }
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "ErrorColours.h"
 #include "FirstLook.h"
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
@@ -19,6 +20,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
       {
         new cactus::QuickLaunch(core);
         new cactus::FirstLook(core);
+        new cactus::ErrorColours(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
       }
     });

@@ -2,6 +2,7 @@
 """Pictures of substrates: cuts across them, filled in the colours asked for, and views in three dimensions."""
 
 from paraview import servermanager, simple
+from vtkmodules.vtkCommonCore import vtkLogger
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkContourTriangulator, vtkTransformPolyDataFilter
 
@@ -26,6 +27,7 @@ def moved(algorithm, offset):
 
 def _filled_cut(surface, normal, lift):
     """The cross-section of closed surfaces through the origin, as filled polygons, moved along the normal by `lift` (µm)."""
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)  # VTK's cutter says that it cuts, each time
     cut = simple.Slice(Input=surface)
     cut.SliceType.Origin = [0.0, 0.0, 0.0]
     cut.SliceType.Normal = list(normal)

@@ -14,11 +14,22 @@ from preview import surface_files, with_numbers
 CUTS = 80  # along the side of the domain
 
 
-def chosen(fibres, parts=(0.1, 0.5, 0.9)):
-    """Ids of a thin fibre, a middle one and a thick one, by rows of the certificate's table; of as many as there are."""
+def candidates(fibres, parts=(0.1, 0.5, 0.9), count=5):
+    """[ids of some thin fibres], of middle ones and of thick ones, by rows of the certificate's table, those at their place first; of as many as there
+    are."""
     measured = sorted((row["OuterRadius_um"], int(row["FibreId"])) for row in fibres if math.isfinite(row["OuterRadius_um"]))
     places = sorted({round(part * (len(measured) - 1)) for part in parts}) if measured else []
-    return [measured[place][1] for place in places]
+
+    def around(place):
+        nearest = sorted(range(len(measured)), key=lambda index: abs(index - place))[:count]
+        return [index for index in nearest if min(places, key=lambda other: abs(other - index)) == place]
+
+    return [[measured[index][1] for index in around(place)] for place in places]
+
+
+def chosen(groups, cuts):
+    """Of each group the fibre with the most cuts across its outer surface: of one that leaves the domain at its side little is to be seen."""
+    return [max(group, key=lambda fibre: sum(math.isfinite(outer) for _, outer, _ in cuts[fibre])) for group in groups]
 
 
 def _source(data):
@@ -66,7 +77,8 @@ def profiles(folder, manifest, fibres, lines):
     ids = sorted(int(row["FibreId"]) for row in fibres)
     if everything.GetNumberOfCells() != len(ids):
         return []
-    wanted = chosen(fibres)
+    groups = candidates(fibres)
+    wanted = [fibre for group in groups for fibre in group]
     outer, inner = (_surfaces(folder, manifest, kind, wanted) for kind in ("outer", "inner"))
     if outer is None:
         return []
@@ -80,4 +92,4 @@ def profiles(folder, manifest, fibres, lines):
     found = {fibre: [] for fibre in wanted}
     for fibre, *cut in zip(*columns):
         found[int(fibre)].append(tuple(float(value) for value in cut))
-    return [(fibre, cuts) for fibre, cuts in found.items() if len(cuts) > 1]
+    return [(fibre, found[fibre]) for fibre in chosen(groups, found) if len(found[fibre]) > 1]

@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "mesh/CrossSection.h"
+#include "mesh/SurfaceWall.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,8 @@ namespace cactus
 namespace
 {
 
-/// µm. An outline nearer to the domain's boundary has been cut off by it; above the rounding of single-precision coordinates.
+/// µm. An outline nearer to the domain's boundary, or to a cap of its surface before that, has been cut off by it; above the
+/// rounding of single-precision coordinates.
 constexpr double boundaryTolerance = 1e-3;
 
 /// The position (µm) at arc length `s` along a fibre's centre line, whose cumulative lengths are `arc`.
@@ -52,6 +54,7 @@ std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, co
       fibres.fibreIds[fibre], ", whose centre line is ", arc.back(), " µm long: choose a larger CutSpacing"));
   }
   const CrossSections sections(surface);
+  const Domain whole = betweenCaps(surface, fibres.domain, largestInset);
   std::vector<FibreCut> cuts;
   for (std::size_t number = 0; (static_cast<double>(number) + 0.5) * spacing < arc.back(); ++number)
   {
@@ -66,9 +69,9 @@ std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, co
     }
     const Eigen::Vector3d normal = chord.normalized();
     const auto outline = sections.outlineAround(point, normal, 3.0 * fibres.targetRadii[fibre]);
-    const bool whole = std::all_of(outline.begin(), outline.end(),
-      [&](const Eigen::Vector3d& corner) { return fibres.domain.depth(corner) > boundaryTolerance; });
-    if (!outline.empty() && whole)
+    const bool isWhole = std::all_of(
+      outline.begin(), outline.end(), [&](const Eigen::Vector3d& corner) { return whole.depth(corner) > boundaryTolerance; });
+    if (!outline.empty() && isWhole)
     {
       const double area = polygonArea(outline, normal);
       const double perimeter = polygonPerimeter(outline);

@@ -20,8 +20,9 @@ struct FibreCut
 };
 
 /// The surface at every `spacing` µm along fibre number `fibre`'s centre line, from cuts orthogonal to it, in their order. Cuts
-/// that reach the domain's boundary, or around a point that lies outside the surface, do not count. Throws InvalidInput for a
-/// spacing out of range, or with which there would be more than limits::cuts cuts.
+/// that reach the domain's boundary or a cap of the surface (inner surfaces end before the boundary), or around a point that lies
+/// outside the surface, do not count. Throws InvalidInput for a spacing out of range, or with which there would be more than
+/// limits::cuts cuts.
 std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing);
 
 /// The radius (µm) of the circle with a cut's area.

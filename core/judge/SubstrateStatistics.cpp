@@ -21,9 +21,6 @@ namespace cactus
 namespace
 {
 
-/// µm. How far before a face of the domain a surface's cap may lie: MyelinSurface ends axons a quarter of a voxel before it at
-/// most.
-constexpr double largestInset = 0.5;
 /// What is kept of a cut, and what its row in a table takes, with room to grow.
 constexpr double bytesPerCut = 3.0 * sizeof(FibreCut) + 2.0 * sizeof(ProfilePoint);
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,6 +52,32 @@ std::vector<std::uint32_t> wallTriangles(const TriangleMesh& mesh, const Domain&
     }
   }
   return wall;
+}
+
+Domain betweenCaps(const TriangleMesh& mesh, const Domain& box, double inset)
+{
+  Domain between = box;
+  const std::vector<std::uint32_t> wall = wallTriangles(mesh, box, inset);
+  auto next = wall.begin();
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    if (next != wall.end() && *next == i)
+    {
+      ++next;
+      continue;
+    }
+    const auto& t = mesh.triangles[i];
+    const Eigen::Vector3d& a = mesh.points[std::size_t(t[0])];
+    const Eigen::Vector3d& b = mesh.points[std::size_t(t[1])];
+    const Eigen::Vector3d& c = mesh.points[std::size_t(t[2])];
+    // The axis that it is orthogonal to.
+    int axis = 0;
+    (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).minCoeff(&axis);
+    const bool isLow = a[axis] - box.lower[axis] < box.upper[axis] - a[axis];
+    double& side = isLow ? between.lower[axis] : between.upper[axis];
+    side = isLow ? std::max(side, a[axis]) : std::min(side, a[axis]);
+  }
+  return between;
 }
 
 double areaOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles)

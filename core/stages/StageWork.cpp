@@ -59,6 +59,22 @@ const char* reasonText(StopReason reason)
   }
 }
 
+/// What to do about overlaps that a run has left; nothing where it was the user who ended it.
+const char* adviceOn(StopReason reason)
+{
+  switch (reason)
+  {
+  case StopReason::MaximumIterations:
+    return " Allow more MaximumIterations, or ask for a lower density.";
+  case StopReason::TimeBudget:
+    return " Allow a longer TimeBudget, or go on from a CheckpointFile by Resume.";
+  case StopReason::Stopped:
+    return "";
+  default:
+    return " Ask for a lower density, or for less dispersion.";
+  }
+}
+
 /// Notes the table of radii that was drawn from: the numbers, or of a file its name and checksum.
 void keepRadiusTable(const RadiusDistributionOptions& radius, const std::string& path, StageRecord& record)
 {
@@ -290,10 +306,9 @@ std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result,
   }
   if (result.maximumPenetration > overlapTolerance)
   {
-    remarks.push_back(
-      text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration, " iterations with ",
-        result.overlappingPairs, " capsule pairs above OverlapTolerance ", overlapTolerance, ", the largest penetration being ",
-        result.maximumPenetration, ". The best state is kept. Allow more iterations or time, or ask for a lower density."));
+    remarks.push_back(text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration,
+      " iterations with ", result.overlappingPairs, " capsule pairs above OverlapTolerance ", overlapTolerance,
+      ", the largest penetration being ", result.maximumPenetration, ". The best state is kept.", adviceOn(result.reason)));
   }
   return remarks;
 }

@@ -93,7 +93,7 @@ class Package(unittest.TestCase):
                     self.assertIn(os.path.dirname(plugin), line)
         script = os.path.join(self.root, "script.py")
         with open(script, "w", encoding="utf-8") as file:
-            file.write("from paraview.simple import *\nb = BundleInitializer(Side=5)\nb.UpdatePipeline()\nprint('fibres', b.GetDataInformation().GetNumberOfCells())\n")
+            file.write("from paraview.simple import *\nimport cactus_sweep\nb = BundleInitializer(Side=5)\nb.UpdatePipeline()\nprint('fibres', b.GetDataInformation().GetNumberOfCells())\n")
         self.addCleanup(os.remove, script)
         environment = {**os.environ, "PV_PLUGIN_CONFIG_FILE": self.one(f"usr/lib/*/{PARAVIEW}/plugins/cactus.plugins.xml"), "PV_PLUGIN_PATH": ""}
         self.assertRegex(output("pvpython", script, env=environment), r"fibres [1-9]")

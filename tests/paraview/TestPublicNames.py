@@ -57,7 +57,7 @@ CHOICES = {
 PORTS = {
     "CapsuleOptimizer": ["Fibres", "Convergence"],
     "SubstrateCertificate": ["Certificate", "Fibres", "Verdict"],
-    "SubstrateStatistics": ["Substrate", "Fibres", "Histograms", "Profiles"],
+    "SubstrateStatistics": ["Substrate", "Fibres", "Histograms", "Profiles", "Summary"],
 }
 
 

@@ -44,6 +44,25 @@ class Statistics(CactusTestCase):
         self.assertEqual([row[n] for n in ("OuterClosed", "OuterOpen", "InnerClosed", "InnerOpen")], [2, 0, 2, 0])
         self.assertEqual(row["Triangles"], self.outer.GetNumberOfCells() + self.inner.GetNumberOfCells())
 
+    def test_summary_is_read_line_by_line(self):
+        """What the window shows: the columns of the whole as rows, in their order, and "-" for what there is not."""
+
+        def lines(statistics):
+            table = fetch(statistics, 4)
+            return [(table.GetValueByName(row, "Quantity").ToString(), table.GetValueByName(row, "Value").ToString()) for row in range(table.GetNumberOfRows())]
+
+        whole = fetch(self.measure())
+        read = lines(self.measure())
+        self.assertEqual([name for name, _ in read], [whole.GetColumnName(i) for i in range(whole.GetNumberOfColumns())])
+        for name, value in read:
+            exact = whole.GetValueByName(0, name).ToDouble()
+            self.assertEqual(value, "-" if math.isnan(exact) else f"{exact:.6g}", name)
+        self.assertEqual(dict(read)["Fibres"], "2")
+        self.assertEqual(dict(read)["ExtraAxonalDiffusivityRatioX"], "-")
+        alone = dict(lines(SubstrateStatistics(Fibres=produce(self.fibres), Outer=produce(self.outer))))
+        self.assertEqual(alone["MeanInnerRadius_um"], "-")
+        self.assertEqual(alone["FVF"], dict(read)["FVF"])
+
     def test_per_fibre(self):
         table = columns(fetch(self.measure(), 1))
         self.assertEqual(table["FibreId"], [3, 5])

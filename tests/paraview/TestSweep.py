@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 300
 # ctest-processors: 2
-"""examples/sweep.py makes every case once, by one rank or shared by several with the same bits, makes nothing again that is there, and its
-table says what the folders say."""
+"""examples/sweep.py, by the module that the plugin holds, makes every case once, by one rank or shared by several with the same bits, makes nothing
+again that is there, and its table says what the folders say. A script of one's own can do so from any folder."""
 
 import csv
 import hashlib
@@ -14,6 +14,21 @@ from cactus_testing import CactusTestCase, environment_of_its_own, main
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "sweep.py")
 TINY = ("--side", "5", "--voxel-size", "0.2", "--dispersions", "0", "8", "--fractions", "0.5", "--seeds", "1")
+OWN = """
+from paraview import simple
+from cactus_sweep import sweep
+
+def make(folder, style, seed, angle):
+    if seed == 2:
+        raise ValueError("no such seed")
+    bundle = simple.BundleInitializer(Side=6, MaximumRadius=0.8, NumberOfBundles=2, CrossingAngle=angle, CrossingStyle=style, Seed=seed, GrownFibreVolumeFraction=0.5, FibreVolumeFraction=0.4)
+    fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
+    grown = simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.2)
+    simple.SubstrateWriter(Outer=simple.OutputPort(simple.MyelinSurface(Input=grown), 0), FolderName=folder).UpdatePipeline()
+
+kept = simple.Sphere()
+sweep(make, "mine", reached=("FVF", "MeanFancy", "Certified"), style="Sheets", seed=(seed for seed in (1, 2, 3)), angle=60)
+"""
 RANKS = ("mpiexec", "-n", "2", "pvbatch")
 
 
@@ -45,7 +60,7 @@ class Sweep(CactusTestCase):
         rows = self.rows("alone")
         self.assertEqual([float(row["dispersion_deg"]) for row in rows], [0.0, 8.0])
         for row in rows:
-            folder = os.path.join(self.folder, "alone", f"dispersion-{row['dispersion_deg']}_fraction-0.5_seed-1_side-5.0_voxel-0.2")
+            folder = os.path.join(self.folder, "alone", f"dispersion_deg-{row['dispersion_deg']}_fraction-0.5_seed-1_side_um-5.0_voxel_um-0.2")
             with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
                 stages = {stage["filter"]: stage["properties"] for stage in json.load(file)["provenance"]}
             self.assertEqual(stages["BundleInitializer"]["MeanDispersion"], float(row["dispersion_deg"]))
@@ -73,6 +88,24 @@ class Sweep(CactusTestCase):
         again = self.rows("alone")
         self.assertEqual([row["seed"] for row in again], ["1", "2"])
         self.assertEqual(again[0], rows[1])
+
+    def test_a_script_of_ones_own(self):
+        """It lies anywhere; a case that fails keeps none of the others from being made; unknown quantities are empty; nothing but its own is deleted."""
+        script = os.path.join(self.folder, "own.py")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(OWN.replace("\nsweep(", "\ntry:\n    sweep(") + "finally:\n    print('left', [name for name, _ in simple.GetSources()], len(simple.GetSources()))\n")
+        done = subprocess.run(["pvpython", script], capture_output=True, text=True, env=environment_of_its_own(), cwd=self.folder)
+        said = done.stdout + done.stderr.replace("ERR|", "")
+        self.assertNotEqual(done.returncode, 0, said)
+        self.assertIn("ValueError: no such seed", said)
+        self.assertIn("2 of 3 cases are in", said)
+        self.assertIn("not every case came out", said)
+        self.assertRegex(said, r"left \['Sphere1'\] 1")
+        rows = self.rows("mine")
+        self.assertEqual([(row["style"], row["seed"], row["angle"], row["MeanFancy"]) for row in rows], [("Sheets", "1", "60", ""), ("Sheets", "3", "60", "")])
+        for row in rows:
+            self.assertAlmostEqual(float(row["FVF"]), 0.5, delta=0.01)
+            self.assertTrue(os.path.exists(os.path.join(self.folder, "mine", f"style-Sheets_seed-{row['seed']}_angle-60", "manifest.json")))
 
     def test_refusals(self):
         """Ranks that would all make everything, and a table that is somebody's own."""

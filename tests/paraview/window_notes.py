@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by the ParaView window when it starts: writes down, for every update of a stage, its name and how many points it has then, and the
-preset that it shows in its panel."""
+"""Run by the ParaView window when it starts: writes down, for every update of a stage, its name and how many points it has then, how deep
+fibres lie in each other where it says so, and the preset that it shows in its panel."""
 
 import os
 
@@ -25,6 +25,9 @@ def watch(*_):
                     preset = proxy.GetProperty("Preset")
                     if preset is not None:
                         file.write(f"{proxy.GetXMLName()} has {preset.FindDomain('vtkSMEnumerationDomain').GetEntryTextForValue(preset.GetElement(0))}\n")
+                    penetration = algorithm.GetOutputDataObject(0).GetFieldData().GetArray("MaximumPenetration")
+                    if penetration:
+                        file.write(f"{proxy.GetXMLName()} penetration {penetration.GetValue(0):.4g}\n")
 
         proxy.AddObserver("UpdateDataEvent", note)
 

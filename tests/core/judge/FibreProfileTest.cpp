@@ -74,6 +74,45 @@ TEST(AxonShape, OfAStraightTube)
   EXPECT_NEAR(shape.effectiveRadius, std::sqrt(area / pi), 1e-9);
 }
 
+// Inner surfaces end a little before the domain's faces: a cut that their caps have cut off counts as little as one that the
+// faces have.
+TEST(FibreProfile, LeavesOutCutsOfCapsBeforeTheFaces)
+{
+  constexpr double slope = 0.5;
+  constexpr double inset = 0.02;
+  cactus::Fibres fibres;
+  fibres.domain = cactus::Domain::cube(length);
+  fibres.addFibre(7, 1, 1.0);
+  fibres.addPoint({ -0.5 * slope * length, 0, -0.5 * length }, 1.0);
+  fibres.addPoint({ 0.5 * slope * length, 0, 0.5 * length }, 1.0);
+  auto mesh = example::tube(0, 0, 0.8, -0.5 * length + inset, 0.5 * length - inset, sides, 400);
+  for (auto& point : mesh.points)
+  {
+    point[0] += slope * point[2];
+  }
+  const auto cuts = cactus::cutsAlongFibre(fibres, 0, mesh, 0.1);
+  const double middle = cuts[cuts.size() / 2].area;
+  for (const auto& cut : cuts)
+  {
+    EXPECT_NEAR(cut.area, middle, 1e-3 * middle) << cut.number;
+  }
+  // Caps cut off some 0.4 µm at each end, no more.
+  EXPECT_GT(cuts.size(), 210u);
+  EXPECT_LT(cuts.size(), 220u);
+}
+
+// A side of a surface that comes as near to a face as a cap would is none.
+TEST(FibreProfile, KeepsCutsBesideAFace)
+{
+  cactus::Fibres fibres;
+  fibres.domain = cactus::Domain::cube(length + 0.04);
+  fibres.addFibre(7, 1, 1.0);
+  fibres.addPoint({ 0.5 * length - 0.8, 0, -0.5 * length }, 1.0);
+  fibres.addPoint({ 0.5 * length - 0.8, 0, 0.5 * length }, 1.0);
+  const auto mesh = example::tube(0.5 * length - 0.8, 0, 0.8, -0.5 * length, 0.5 * length, sides, 400);
+  EXPECT_EQ(cactus::cutsAlongFibre(fibres, 0, mesh, 1.0).size(), 20u);
+}
+
 // Means over whole waves of r = R (1 + e cos x): of 1/r² (1 - e²)^(-3/2) / R², of powers of r by the binomial theorem.
 TEST(AxonShape, OfARadiusThatVariesAsACosine)
 {

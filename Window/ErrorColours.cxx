@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ErrorColours.h"
+
+#include "PluginProxies.h"
+
+#include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
+#include <pqPVApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+#include <pqView.h>
+#include <vtkDataObject.h>
+#include <vtkNew.h>
+#include <vtkPVDataInformation.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRepresentationProxy.h>
+#include <vtkSMTransferFunctionManager.h>
+
+#include <QPointer>
+#include <QTimer>
+#include <QVariant>
+
+#include <string>
+
+namespace cactus
+{
+namespace
+{
+
+constexpr char errorName[] = "Error";             ///< field data array of what could not be made (Filters/FilterSupport.cxx)
+constexpr char wantedLook[] = "cactusWantedLook"; ///< dynamic property of a representation that was coloured by it: Slice, say
+constexpr char plainLook[] = "Outline";           ///< which needs no colours
+
+/// The array by which something is coloured; empty where there is none.
+std::string colouredBy(vtkSMProxy* representation, int& association)
+{
+  const vtkSMPropertyHelper array(representation, "ColorArrayName", true);
+  association = array.GetInputArrayAssociation();
+  const char* name = array.GetInputArrayNameToProcess();
+  return name != nullptr ? name : "";
+}
+
+void mendColours(pqDataRepresentation* shown, pqView* view, bool isEmpty)
+{
+  vtkSMProxy* proxy = shown->getProxy();
+  if (proxy->GetProperty("ColorArrayName") == nullptr || proxy->GetProperty("Representation") == nullptr)
+  {
+    return;
+  }
+  int association = 0;
+  const std::string name = colouredBy(proxy, association);
+  if (association == vtkDataObject::FIELD && name == errorName)
+  {
+    shown->setProperty(wantedLook, vtkSMPropertyHelper(proxy, "Representation").GetAsString());
+    vtkSMPropertyHelper(proxy, "ColorArrayName").SetInputArrayToProcess(vtkDataObject::POINT, "");
+    vtkSMRepresentationProxy::SetRepresentationType(proxy, plainLook);
+    proxy->UpdateVTKObjects();
+    vtkNew<vtkSMTransferFunctionManager> colours;
+    colours->UpdateScalarBars(view->getProxy(), vtkSMTransferFunctionManager::HIDE_UNUSED_SCALAR_BARS);
+  }
+  const std::string look = shown->property(wantedLook).toString().toStdString();
+  if (isEmpty || look.empty())
+  {
+    return;
+  }
+  shown->setProperty(wantedLook, QVariant());
+  if (colouredBy(proxy, association).empty() &&
+      vtkSMPropertyHelper(proxy, "Representation").GetAsString() == std::string(plainLook))
+  {
+    vtkSMRepresentationProxy::SetRepresentationType(proxy, look.c_str()); // which chooses an array, too
+    view->render();
+  }
+}
+
+} // namespace
+
+ErrorColours::ErrorColours(pqPVApplicationCore* core)
+  : QObject(core)
+{
+  connect(core->getServerManagerModel(), &pqServerManagerModel::dataUpdated, this,
+    [this](pqPipelineSource* source)
+    {
+      // It is shown only after this.
+      QTimer::singleShot(0, this, [this, source = QPointer<pqPipelineSource>(source)] { this->mend(source); });
+    });
+}
+
+void ErrorColours::mend(pqPipelineSource* source)
+{
+  if (source == nullptr || !isOfThisPlugin(source->getProxy()))
+  {
+    return;
+  }
+  for (pqOutputPort* port : source->getOutputPorts())
+  {
+    for (pqView* view : port->getViews())
+    {
+      for (pqDataRepresentation* shown : port->getRepresentations(view))
+      {
+        mendColours(shown, view, port->getDataInformation()->GetNumberOfPoints() == 0);
+      }
+    }
+  }
+}
+
+} // namespace cactus
