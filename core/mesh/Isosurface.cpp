@@ -305,7 +305,7 @@ private:
     std::size_t edge = 0;
     for (std::size_t loop = 0; loop < loops.count; ++loop)
     {
-      Polygon polygon;
+      PointPolygon polygon;
       for (; edge < loops.ends[loop]; ++edge)
       {
         polygon.add(this->Points.between(cell, loops.edges[edge].from, loops.edges[edge].to));
@@ -330,7 +330,7 @@ private:
   /// The part of a face of the box in which the field is positive.
   void addCaps(const LatticeNode& cell, const std::array<int, 4>& corners, int mask, bool isJoined)
   {
-    Polygon polygon;
+    PointPolygon polygon;
     for (std::size_t i = 0; i < 4; ++i)
     {
       const int from = corners[i];

@@ -12,7 +12,7 @@ namespace cactus
 {
 
 /// Points of a surface, around a part of it that is in one cell of a lattice or on one face of a cell.
-struct Polygon
+struct PointPolygon
 {
   std::array<std::int32_t, 12> corners;
   std::size_t count = 0;
@@ -21,7 +21,7 @@ struct Polygon
 };
 
 /// Cuts a polygon of a surface's points into triangles between its corners, by the shortest diagonals.
-inline void cutByDiagonals(Polygon p, TriangleMesh& mesh)
+inline void cutByDiagonals(PointPolygon p, TriangleMesh& mesh)
 {
   auto& c = p.corners;
   const auto squaredLength = [&](std::int32_t a, std::int32_t b)
@@ -53,7 +53,7 @@ inline void cutByDiagonals(Polygon p, TriangleMesh& mesh)
 }
 
 /// Cuts a polygon of more than three corners into triangles around a point in its middle, which lies on no face of the box.
-inline void cutAroundMiddle(const Polygon& p, CappedSurface& surface)
+inline void cutAroundMiddle(const PointPolygon& p, CappedSurface& surface)
 {
   if (p.count == 3)
   {

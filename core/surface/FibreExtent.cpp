@@ -37,20 +37,25 @@ void forEachSample(const SmoothedField& field, Visit&& visit)
     const NodeRange range = nodesOfBlock(field.lattice(), block).widened(1);
     values.resize(range.size());
     field.values(0.0, 0.0, range, values.data());
-    std::size_t index = 0;
+    const float* row = values.data();
     for (int k = 0; k < range.count[2]; ++k)
     {
-      for (int j = 0; j < range.count[1]; ++j)
+      for (int j = 0; j < range.count[1]; ++j, row += range.count[0])
       {
-        for (int i = 0; i < range.count[0]; ++i, ++index)
+        int found = 0; // most rows are outside the fibre
+        for (int i = 0; i < range.count[0]; ++i)
+        {
+          found |= int(row[i] > 0.0f);
+        }
+        for (int i = 0; found != 0 && i < range.count[0]; ++i)
         {
           const std::array<int, 3> at{ { range.first[0] + i, range.first[1] + j, range.first[2] + k } };
           // Blocks share their nodes: each counts for one of them.
           constexpr int size = NodeLattice::blockCells;
           const bool isOwn = i > 0 && j > 0 && k > 0 && i <= size && j <= size && k <= size;
-          if (isOwn && values[index] > 0.0f && isSample(field.lattice(), at))
+          if (isOwn && row[i] > 0.0f && isSample(field.lattice(), at))
           {
-            visit(at, values[index]);
+            visit(at, row[i]);
           }
         }
       }
@@ -103,6 +108,7 @@ double lengthOf(const SmoothedField& field, double spacing)
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
   std::map<int, std::pair<double, Vector3d>> slices; // number of samples and sum of their places
+  auto now = slices.end();
   forEachSample(field,
     [&](const std::array<int, 3>& at, float)
     {
@@ -111,9 +117,12 @@ double lengthOf(const SmoothedField& field, double spacing)
       lowest = std::min(lowest, along);
       highest = std::max(highest, along);
       const int number = static_cast<int>(std::floor(along / thickness));
-      auto& slice = slices.emplace(number, std::make_pair(0.0, Vector3d::Zero())).first->second;
-      slice.first += 1.0;
-      slice.second += p;
+      if (now == slices.end() || now->first != number) // samples next to each other mostly share theirs
+      {
+        now = slices.emplace(number, std::make_pair(0.0, Vector3d::Zero())).first;
+      }
+      now->second.first += 1.0;
+      now->second.second += p;
     });
   // The ends beyond the first and the last centroid go on along the axis.
   double length = 1.0 + highest - lowest;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/SampledVolume.h"
 
+#include "surface/SampledVolumeKernels.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +18,10 @@ namespace
 constexpr int mostNewtonSteps = 40;
 /// µm, far below what coarsening moves surfaces by.
 constexpr double sampledTolerance = 1e-4;
+/// Sums in single precision are over so few samples that they are good to a millionth.
+constexpr std::size_t samplesAtOnce = 1024;
+
+static_assert(samplesAtOnce % SampledSums::lanes == 0);
 
 /// How long the boxes of an axis's samples are, by node, µm: those beside the faces reach up to them, whose own nodes have none.
 std::vector<float> lengthsAlong(const std::vector<double>& planes)
@@ -67,17 +73,27 @@ SampledVolume::SampledVolume(const SmoothedField& field, const NodeLattice& latt
         const float area = lengths[1][std::size_t(nodes.first[1] + j)] * lengths[2][std::size_t(nodes.first[2] + k)];
         const float* row = values.data() + 1 + around.count[0] * (j + 1 + around.count[1] * (k + 1));
         const float* along = lengths[0].data() + nodes.first[0];
+        float deepest = least; // most rows are outside the fibre
         for (int i = 0; i < end(0); ++i)
+        {
+          deepest = row[i] > deepest ? row[i] : deepest;
+        }
+        for (int i = 0; deepest > least && i < end(0); ++i)
         {
           if (row[i] > least && area * along[i] > 0.0f)
           {
-            this->Samples.push_back({ row[i], area * along[i] });
+            this->Depths.push_back(row[i]);
+            this->Volumes.push_back(area * along[i]);
             this->Deepest = std::max(this->Deepest, double(row[i]));
+            this->Inside += row[i] > 0.0f ? double(area * along[i]) : 0.0;
           }
         }
       }
     }
   }
+  const std::size_t whole = (this->Depths.size() + SampledSums::lanes - 1) / SampledSums::lanes * SampledSums::lanes;
+  this->Depths.resize(whole, 0.0f);
+  this->Volumes.resize(whole, 0.0f);
 }
 
 /// A box counts in part where its sample is nearer to the level than a voxel: by a polynomial that begins and ends flat, so that
@@ -90,14 +106,18 @@ SampledVolume::Measure SampledVolume::measureAt(double level) const
   Measure result;
   double slope = 0.0;
   double bend = 0.0;
-  for (const Sample& sample : this->Samples)
+  const std::size_t count = this->Depths.size();
+  for (std::size_t begin = 0; begin < count; begin += samplesAtOnce)
   {
-    const double t = std::clamp((sample.depth - level) * perWidth, -1.0, 1.0);
-    const double square = t * t;
-    const double rest = 1.0 - square;
-    result.volume += sample.volume * (0.5 + t * (15.0 - square * (10.0 - 3.0 * square)) / 16.0);
-    slope += sample.volume * rest * rest;
-    bend -= sample.volume * t * rest;
+    SampledSums sums;
+    bestKernels<SampledVolumeKernels>().sum(this->Depths.data() + begin, this->Volumes.data() + begin,
+      std::min(samplesAtOnce, count - begin), float(level), float(perWidth), sums);
+    for (int lane = 0; lane < SampledSums::lanes; ++lane)
+    {
+      result.volume += sums.volume[lane];
+      slope += sums.slope[lane];
+      bend += sums.bend[lane];
+    }
   }
   result.area = 15.0 / 16.0 * perWidth * slope;
   const double curvature = 15.0 / 4.0 * perWidth * perWidth * bend; // over the surface, µm
@@ -107,7 +127,9 @@ SampledVolume::Measure SampledVolume::measureAt(double level) const
 
 double SampledVolume::levelOf(double volume, double lower, double upper) const
 {
-  double level = 0.5 * (lower + upper);
+  // In a round fibre the level falls from the middle as the root of the volume.
+  const double part = this->Inside > 0.0 ? std::clamp(volume / this->Inside, 0.0, 1.0) : 1.0;
+  double level = std::clamp(this->Deepest * (1.0 - std::sqrt(part)), lower, std::max(lower, upper));
   for (int step = 0; step < mostNewtonSteps && upper - lower > sampledTolerance; ++step)
   {
     const Measure now = this->measureAt(level);

@@ -31,16 +31,13 @@ private:
     double volume = 0.0;
     double area = 0.0; ///< by which it falls where the level rises, µm²
   };
-  struct Sample
-  {
-    float depth;  ///< µm
-    float volume; ///< of its box, µm³
-  };
   Measure measureAt(double level) const;
 
   double Spacing; ///< µm
   double Deepest;
-  std::vector<Sample> Samples; ///< those that count at some level
+  double Inside = 0.0;        ///< µm³, of the samples inside the fibre
+  std::vector<float> Depths;  ///< µm, of samples that count at some level, and of others without a box
+  std::vector<float> Volumes; ///< of their boxes, µm³
 };
 
 } // namespace cactus
