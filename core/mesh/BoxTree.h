@@ -68,6 +68,7 @@ public:
     FloatBox box;
     std::uint32_t first; ///< of a leaf its first place in order(), else the first of its two children, which are neighbours
     std::uint32_t count; ///< entries of a leaf, 0 for other nodes
+    float longestSide;   ///< of the box
 
     bool isLeaf() const { return this->count > 0; }
   };
