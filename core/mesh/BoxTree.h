@@ -193,11 +193,4 @@ bool visitOverlappingPlaces(const BoxTree& a, const BoxTree& b, Visit&& visit)
   return false;
 }
 
-/// Calls visit(entry of a, entry of b) likewise.
-template <typename Visit>
-bool visitOverlaps(const BoxTree& a, const BoxTree& b, Visit&& visit)
-{
-  return visitOverlappingPlaces(a, b, [&](std::uint32_t m, std::uint32_t n) { return visit(a.order()[m], b.order()[n]); });
-}
-
 } // namespace cactus
