@@ -22,11 +22,24 @@ namespace
 /// Pairs of triangles of a surface that are counted: a ruined one may have half a billion.
 constexpr std::size_t mostIntersections = 10000;
 
-/// Whether a piece of `inside` cannot be shown to lie strictly inside `around`.
-bool leaves(
-  const TreedSurface& inside, const SurfaceReport& pieces, const TreedSurface& around, const SurfaceReport& aroundReport)
+/// The triangles of `mesh` that are not among `some`, which are in increasing order.
+std::vector<std::uint32_t> othersThan(const std::vector<std::uint32_t>& some, const TriangleMesh& mesh)
 {
-  return !aroundReport.closed() || surfacesMeet(inside.tree, around.tree) || !liesInside(inside.mesh, pieces, around.tree);
+  std::vector<std::uint32_t> others;
+  others.reserve(mesh.triangles.size() - some.size());
+  auto next = some.begin();
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+  {
+    if (next != some.end() && *next == t)
+    {
+      ++next;
+    }
+    else
+    {
+      others.push_back(t);
+    }
+  }
+  return others;
 }
 
 double reachOf(const TriangleMesh& mesh, const Domain& box)
@@ -84,13 +97,17 @@ std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre,
     const auto inner = this->measure(this->Inner.mesh(innerEntry->second), fibre.fibreId, "inner",
       { fibre.inner, fibre.innerSelfIntersections, fibre.innerSelfNested, fibre.innerRadius });
     reach = std::max(reach, reachOf(inner->mesh, this->Box));
-    fibre.innerLeaves = !fibre.hasOuter || leaves(*inner, fibre.inner, *outer, fibre.outer);
+    fibre.innerLeaves = !fibre.hasOuter;
     if (fibre.hasOuter)
     {
       fibre.gRatio = gRatioOf(fibre.inner.volume, fibre.outer.volume);
-      const TriangleTree wall(outer->mesh, wallTriangles(outer->mesh, this->Box));
-      const SurfaceGap gap = smallestGap(inner->tree, wall);
+      const std::vector<std::uint32_t> wall = wallTriangles(outer->mesh, this->Box);
+      const SurfaceGap gap = smallestGap(inner->tree, TriangleTree(outer->mesh, wall));
       fibre.myelinThickness = gap.found() ? gap.distance : notANumber;
+      // Unless every piece can be shown to lie strictly inside. Where a gap is, the wall is not met.
+      fibre.innerLeaves = !fibre.outer.closed() || gap.distance == 0.0 ||
+                          surfacesMeet(inner->tree, TriangleTree(outer->mesh, othersThan(wall, outer->mesh))) ||
+                          !liesInside(inner->mesh, fibre.inner, outer->tree);
     }
   }
   return outer;

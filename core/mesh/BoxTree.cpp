@@ -109,7 +109,7 @@ BoxTree::BoxTree(std::vector<Item> items)
     if (range.last - range.first <= leafSize)
     {
       Node& leaf = this->Nodes[range.node];
-      leaf = { items[range.first].box, range.first, range.last - range.first };
+      leaf = { items[range.first].box, range.first, range.last - range.first, 0.0F };
       for (std::uint32_t i = range.first + 1; i < range.last; ++i)
       {
         leaf.box.include(items[i].box);
@@ -133,6 +133,7 @@ BoxTree::BoxTree(std::vector<Item> items)
       node.box = this->Nodes[node.first].box;
       node.box.include(this->Nodes[node.first + 1].box);
     }
+    node.longestSide = node.box.longestSide();
   }
   this->Order.resize(items.size());
   this->Boxes.resize(items.size());

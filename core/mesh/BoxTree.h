@@ -68,6 +68,7 @@ public:
     FloatBox box;
     std::uint32_t first; ///< of a leaf its first place in order(), else the first of its two children, which are neighbours
     std::uint32_t count; ///< entries of a leaf, 0 for other nodes
+    float longestSide;   ///< of the box
 
     bool isLeaf() const { return this->count > 0; }
   };
@@ -131,15 +132,15 @@ bool visitEntries(const BoxTree& tree, Wanted&& wanted, Visit&& visit)
   return visitPlaces(tree, wanted, [&](std::uint32_t place) { return visit(tree.order()[place]); });
 }
 
-/// Calls visit(entry of a, entry of b) for all pairs whose boxes overlap, until it returns true. Returns whether it did. Of
-/// a tree with itself, each pair of different entries comes once.
+/// Calls visit(place in a.order(), place in b.order()) for all pairs whose boxes overlap, until it returns true. Returns whether
+/// it did. Of a tree with itself, each pair of different places comes once.
 template <typename Visit>
-bool visitOverlaps(const BoxTree& a, const BoxTree& b, Visit&& visit)
+bool visitOverlappingPlaces(const BoxTree& a, const BoxTree& b, Visit&& visit)
 {
   const bool same = &a == &b;
   std::array<std::pair<std::uint32_t, std::uint32_t>, 2 * BoxTree::maximumDepth + 4> stack;
   std::size_t height = 0;
-  if (!a.empty() && !b.empty())
+  if (!a.empty() && !b.empty() && a.nodes()[0].box.overlaps(b.nodes()[0].box))
   {
     stack[height++] = { 0, 0 };
   }
@@ -151,33 +152,38 @@ bool visitOverlaps(const BoxTree& a, const BoxTree& b, Visit&& visit)
     const bool withItself = same && i == j;
     if (withItself && !p.isLeaf())
     {
-      stack[height++] = { p.first, p.first + 1 };
+      stack[height] = { p.first, p.first + 1 };
+      height += a.nodes()[p.first].box.overlaps(a.nodes()[p.first + 1].box) ? 1 : 0;
       stack[height++] = { p.first + 1, p.first + 1 };
       stack[height++] = { p.first, p.first };
       continue;
     }
-    if (!p.box.overlaps(q.box))
+    if (!p.isLeaf() || !q.isLeaf())
     {
-      continue;
-    }
-    if (!p.isLeaf() && (q.isLeaf() || p.box.longestSide() >= q.box.longestSide()))
-    {
-      stack[height++] = { p.first + 1, j };
-      stack[height++] = { p.first, j };
-      continue;
-    }
-    if (!q.isLeaf())
-    {
-      stack[height++] = { i, q.first + 1 };
-      stack[height++] = { i, q.first };
+      // Without branches, which would be guessed wrong half the time.
+      const bool partA = !p.isLeaf() && (q.isLeaf() || p.longestSide >= q.longestSide);
+      const std::uint32_t child = partA ? p.first : q.first;
+      const BoxTree::Node* children = (partA ? a : b).nodes().data() + child;
+      const FloatBox& whole = (partA ? q : p).box;
+      stack[height] = { partA ? child + 1 : i, partA ? j : child + 1 };
+      height += children[1].box.overlaps(whole) ? 1 : 0;
+      stack[height] = { partA ? child : i, partA ? j : child };
+      height += children[0].box.overlaps(whole) ? 1 : 0;
       continue;
     }
     for (std::uint32_t m = p.first; m < p.first + p.count; ++m)
     {
       const FloatBox& box = a.boxes()[m];
+      std::array<std::uint32_t, BoxTree::leafSize> hit;
+      std::size_t hits = 0;
       for (std::uint32_t n = withItself ? m + 1 : q.first; n < q.first + q.count; ++n)
       {
-        if (box.overlaps(b.boxes()[n]) && visit(a.order()[m], b.order()[n]))
+        hit[hits] = n;
+        hits += box.overlaps(b.boxes()[n]) ? 1 : 0;
+      }
+      for (std::size_t i = 0; i < hits; ++i)
+      {
+        if (visit(m, hit[i]))
         {
           return true;
         }

@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 struct Heights
 {
   std::array<double, 3> of; ///< distances from the plane, times twice the area of the triangle in it
+  double rounding = 0.0;    ///< more than what they may be wrong by
   double clearance = 0.0;   ///< no more than the least of them in size, where all are on one side for sure; else 0
 };
 
@@ -60,9 +61,32 @@ struct Facet
     const double least = std::min({ heights.of[0], heights.of[1], heights.of[2] });
     const double most = std::max({ heights.of[0], heights.of[1], heights.of[2] });
     // Well above the rounding of a product of three differences.
-    const double rounding = 3e-14 * reach * std::max({ this->edgeSquared[0], this->edgeSquared[1], this->edgeSquared[2] });
-    heights.clearance = std::max({ 0.0, least - rounding, -most - rounding });
+    heights.rounding = 3e-14 * reach * std::max({ this->edgeSquared[0], this->edgeSquared[1], this->edgeSquared[2] });
+    heights.clearance = std::max({ 0.0, least - heights.rounding, -most - heights.rounding });
     return heights;
+  }
+};
+
+/// Which corners and edges of a triangle are beside another one's plane, farther from it than asked for: they are farther from
+/// all of the other one, too.
+struct FarParts
+{
+  std::array<bool, 3> corner;
+  std::array<bool, 3> edge; ///< from corner i to the next
+
+  FarParts(const Heights& heights, const Facet& plane, double squared)
+  {
+    std::array<int, 3> side;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const double sure = std::fabs(heights.of[i]) - heights.rounding;
+      this->corner[i] = sure > 0.0 && sure * sure > 1.000001 * squared * plane.normalSquared;
+      side[i] = !this->corner[i] ? 0 : heights.of[i] > 0.0 ? 1 : -1;
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->edge[i] = side[i] * side[(i + 1) % 3] > 0;
+    }
   }
 };
 
@@ -75,9 +99,18 @@ std::array<Vector3d, 3> cornersOf(const TriangleTree& tree, std::uint32_t triang
 struct Nearest
 {
   double squared;
+  double slack;  ///< µm; heights over planes in trees are not wrong by more
+  double beyond; ///< µm; what is as far away does not matter, for sure
   Vector3d onA = Vector3d::Zero();
   Vector3d onB = Vector3d::Zero();
   bool found = false;
+
+  Nearest(double below, double rounding)
+    : squared(below * below)
+    , slack(rounding)
+    , beyond(1.000001 * below + rounding)
+  {
+  }
 
   /// For parts that do not meet: what rounding makes 0 is not.
   void take(double distanceSquared, const Vector3d& a, const Vector3d& b)
@@ -86,10 +119,20 @@ struct Nearest
     if (distanceSquared < this->squared)
     {
       this->squared = distanceSquared;
+      this->beyond = 1.000001 * std::sqrt(distanceSquared) + this->slack;
       this->onA = a;
       this->onB = b;
       this->found = true;
     }
+  }
+
+  /// Whether all corners lie beyond on one side of a plane.
+  bool areBeyond(const std::array<Vector3d, 3>& corners, const TrianglePlane& plane) const
+  {
+    const double a = plane.height(corners[0]);
+    const double b = plane.height(corners[1]);
+    const double c = plane.height(corners[2]);
+    return (std::min({ a, b, c }) > this->beyond) | (std::max({ a, b, c }) < -this->beyond);
   }
 };
 
@@ -114,12 +157,18 @@ void cornersToFace(const Facet& one, const Facet& face, const std::array<double,
 }
 
 /// Corners of `one` against the edges of `other`, ends included.
-void cornersToEdges(const Facet& one, const Facet& other, bool swapped, Nearest& nearest)
+void cornersToEdges(
+  const Facet& one, const FarParts& oneFar, const Facet& other, const FarParts& otherFar, bool swapped, Nearest& nearest)
 {
-  for (const Vector3d& corner : one.p)
+  for (std::size_t i = 0; i < 3; ++i)
   {
     for (std::size_t j = 0; j < 3; ++j)
     {
+      if (oneFar.corner[i] || otherFar.edge[j])
+      {
+        continue;
+      }
+      const Vector3d& corner = one.p[i];
       const double length = other.edgeSquared[j];
       const double t = length > 0.0 ? std::clamp(other.edge[j].dot(corner - other.p[j]) / length, 0.0, 1.0) : 0.0;
       const Vector3d foot = other.p[j] + t * other.edge[j];
@@ -129,12 +178,16 @@ void cornersToEdges(const Facet& one, const Facet& other, bool swapped, Nearest&
 }
 
 /// Edges whose common perpendicular has both its feet inside them; the rest is corners'.
-void edgesToEdges(const Facet& a, const Facet& b, Nearest& nearest)
+void edgesToEdges(const Facet& a, const FarParts& farA, const Facet& b, const FarParts& farB, Nearest& nearest)
 {
   for (std::size_t i = 0; i < 3; ++i)
   {
     for (std::size_t j = 0; j < 3; ++j)
     {
+      if (farA.edge[i] || farB.edge[j])
+      {
+        continue;
+      }
       const Vector3d across = a.edge[i].cross(b.edge[j]);
       const double acrossSquared = across.squaredNorm();
       const Vector3d r = b.p[j] - a.p[i];
@@ -168,20 +221,13 @@ bool heldApart(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& 
 }
 
 /// Lowers `nearest` where the two are nearer to each other.
-void compare(const Facet& a, const std::array<Vector3d, 3>& cornersB, Nearest& nearest)
+void compare(const Facet& a, const Facet& b, Nearest& nearest)
 {
-  const Heights aboveA = a.heightsOf(cornersB);
-  if (aboveA.clearance > 0.0 && aboveA.clearance * aboveA.clearance >= nearest.squared * a.normalSquared)
-  {
-    return;
-  }
-  if (heldApart(a.p, cornersB, nearest.squared))
-  {
-    return;
-  }
-  const Facet b(cornersB);
+  const Heights aboveA = a.heightsOf(b.p);
   const Heights aboveB = b.heightsOf(a.p);
-  if (aboveB.clearance > 0.0 && aboveB.clearance * aboveB.clearance >= nearest.squared * b.normalSquared)
+  const auto clears = [&](const Heights& heights, const Facet& plane)
+  { return heights.clearance > 0.0 && heights.clearance * heights.clearance >= nearest.squared * plane.normalSquared; };
+  if (clears(aboveA, a) || clears(aboveB, b))
   {
     return;
   }
@@ -194,11 +240,13 @@ void compare(const Facet& a, const std::array<Vector3d, 3>& cornersB, Nearest& n
     nearest.onB = b.p[0];
     return;
   }
+  const FarParts farA(aboveB, b, nearest.squared);
+  const FarParts farB(aboveA, a, nearest.squared);
   cornersToFace(b, a, aboveA.of, true, nearest);
   cornersToFace(a, b, aboveB.of, false, nearest);
-  edgesToEdges(a, b, nearest);
-  cornersToEdges(a, b, false, nearest);
-  cornersToEdges(b, a, true, nearest);
+  edgesToEdges(a, farA, b, farB, nearest);
+  cornersToEdges(a, farA, b, farB, false, nearest);
+  cornersToEdges(b, farB, a, farA, true, nearest);
 }
 
 struct NodePair
@@ -208,10 +256,10 @@ struct NodePair
   float squaredDistance;
 };
 
-/// Calls visit(triangle of a, its facet, triangle of b, its corners) for pairs that may be nearer than the square root of
-/// bound(), the likely nearest first, until it returns true.
-template <typename Bound, typename Visit>
-void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visit&& visit)
+/// Calls visit(place in a, corners of the triangle there, place in b, likewise) for pairs that may be nearer than `nearest`,
+/// which visit() may lower, the likely nearest first, until it returns true.
+template <typename Visit>
+void visitNear(const TriangleTree& a, const TriangleTree& b, const Nearest& nearest, Visit&& visit)
 {
   std::array<NodePair, 2 * TriangleTree::maximumDepth + 4> stack;
   std::size_t height = 0;
@@ -222,38 +270,50 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visi
   while (height > 0)
   {
     const NodePair pair = stack[--height];
-    if (pair.squaredDistance > bound())
+    if (pair.squaredDistance > nearest.squared)
     {
       continue;
     }
+    // Where the processor would guess wrong half the time, without branches.
     const TriangleTree::Node& p = a.nodes()[pair.a];
     const TriangleTree::Node& q = b.nodes()[pair.b];
     if (!p.isLeaf() || !q.isLeaf())
     {
-      const bool partA = !p.isLeaf() && (q.isLeaf() || p.box.longestSide() >= q.box.longestSide());
+      const bool partA = !p.isLeaf() && (q.isLeaf() || p.longestSide >= q.longestSide);
       const std::uint32_t child = partA ? p.first : q.first;
-      NodePair first = partA ? NodePair{ child, pair.b, 0.0F } : NodePair{ pair.a, child, 0.0F };
-      NodePair second = partA ? NodePair{ child + 1, pair.b, 0.0F } : NodePair{ pair.a, child + 1, 0.0F };
-      first.squaredDistance = a.nodes()[first.a].box.squaredDistance(b.nodes()[first.b].box);
-      second.squaredDistance = a.nodes()[second.a].box.squaredDistance(b.nodes()[second.b].box);
-      const bool inOrder = first.squaredDistance <= second.squaredDistance;
-      stack[height++] = inOrder ? second : first;
-      stack[height++] = inOrder ? first : second;
+      const TriangleTree::Node* children = (partA ? a : b).nodes().data() + child;
+      const FloatBox& whole = (partA ? q : p).box;
+      const float first = children[0].box.squaredDistance(whole);
+      const float second = children[1].box.squaredDistance(whole);
+      const std::uint32_t nearer = child + (second < first ? 1 : 0);
+      const std::uint32_t farther = 2 * child + 1 - nearer;
+      stack[height] = { partA ? farther : pair.a, partA ? pair.b : farther, std::max(first, second) };
+      height += stack[height].squaredDistance <= nearest.squared ? 1 : 0;
+      stack[height] = { partA ? nearer : pair.a, partA ? pair.b : nearer, std::min(first, second) };
+      height += stack[height].squaredDistance <= nearest.squared ? 1 : 0;
       continue;
     }
     for (std::uint32_t m = p.first; m < p.first + p.count; ++m)
     {
-      const std::uint32_t s = a.order()[m];
       const FloatBox& box = a.boxes()[m];
-      if (box.squaredDistance(q.box) > bound())
+      if (box.squaredDistance(q.box) > nearest.squared)
       {
         continue;
       }
-      const Facet facet(cornersOf(a, s));
+      const std::array<Vector3d, 3> cornersA = cornersOf(a, a.order()[m]);
+      std::array<std::uint32_t, TriangleTree::leafSize> kept;
+      std::size_t count = 0;
       for (std::uint32_t n = q.first; n < q.first + q.count; ++n)
       {
-        const std::uint32_t t = b.order()[n];
-        if (box.squaredDistance(b.boxes()[n]) <= bound() && visit(s, facet, t, cornersOf(b, t)))
+        kept[count] = n;
+        count += (box.squaredDistance(b.boxes()[n]) <= nearest.squared) & !nearest.areBeyond(cornersA, b.planes()[n]) ? 1 : 0;
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const std::uint32_t n = kept[i];
+        const std::array<Vector3d, 3> cornersB = cornersOf(b, b.order()[n]);
+        if (box.squaredDistance(b.boxes()[n]) <= nearest.squared && !nearest.areBeyond(cornersB, a.planes()[m]) &&
+            !heldApart(cornersA, cornersB, nearest.squared) && visit(m, cornersA, n, cornersB))
         {
           return;
         }
@@ -266,8 +326,11 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, Bound&& bound, Visi
 
 SurfaceGap triangleGap(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b, double below)
 {
-  Nearest nearest{ below * below };
-  compare(Facet(a), b, nearest);
+  Nearest nearest(below, 0.0);
+  if (!heldApart(a, b, nearest.squared))
+  {
+    compare(Facet(a), Facet(b), nearest);
+  }
   SurfaceGap gap;
   if (nearest.found)
   {
@@ -280,18 +343,17 @@ SurfaceGap triangleGap(const std::array<Vector3d, 3>& a, const std::array<Vector
 
 SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double below)
 {
-  Nearest nearest{ below * below };
+  Nearest nearest(below, heightError(a, b));
   SurfaceGap gap;
-  visitNear(
-    a, b, [&nearest] { return nearest.squared; },
-    [&](std::uint32_t s, const Facet& facetA, std::uint32_t t, const std::array<Vector3d, 3>& cornersB)
+  visitNear(a, b, nearest,
+    [&](std::uint32_t m, const std::array<Vector3d, 3>& cornersA, std::uint32_t n, const std::array<Vector3d, 3>& cornersB)
     {
       const double before = nearest.squared;
-      compare(facetA, cornersB, nearest);
+      compare(Facet(cornersA), Facet(cornersB), nearest);
       if (nearest.squared < before)
       {
-        gap.triangleA = s;
-        gap.triangleB = t;
+        gap.triangleA = a.order()[m];
+        gap.triangleB = b.order()[n];
       }
       return nearest.found && nearest.squared == 0.0;
     });
@@ -307,15 +369,15 @@ SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double belo
 std::vector<std::uint32_t> trianglesNear(const TriangleTree& a, const TriangleTree& b, double distance)
 {
   std::vector<char> isNear(a.mesh().triangles.size(), 0);
-  const double squared = distance * distance;
-  visitNear(
-    a, b, [squared] { return squared; },
-    [&](std::uint32_t s, const Facet& facetA, std::uint32_t, const std::array<Vector3d, 3>& cornersB)
+  const Nearest none(distance, heightError(a, b));
+  visitNear(a, b, none,
+    [&](std::uint32_t m, const std::array<Vector3d, 3>& cornersA, std::uint32_t, const std::array<Vector3d, 3>& cornersB)
     {
+      const std::uint32_t s = a.order()[m];
       if (!isNear[s])
       {
-        Nearest nearest{ squared };
-        compare(facetA, cornersB, nearest);
+        Nearest nearest = none;
+        compare(Facet(cornersA), Facet(cornersB), nearest);
         isNear[s] = nearest.found ? 1 : 0;
       }
       return false;

@@ -4,6 +4,9 @@
 #include "mesh/TriangleIntersection.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 
 namespace cactus
 {
@@ -11,34 +14,106 @@ namespace cactus
 namespace
 {
 
+using Eigen::Vector3d;
+using Corners = std::array<std::int32_t, 3>;
+
+/// Whether a triangle touches the plane of another one only in corners that the two share, and is else on one side, for sure.
+bool touchesInShared(const std::array<double, 3>& heights, double slack, const std::array<bool, 3>& isShared)
+{
+  // Without branches, which would be guessed wrong too often.
+  bool isAbove = false;
+  bool isBelow = false;
+  bool isClear = true;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const bool above = heights[i] > slack;
+    const bool below = heights[i] < -slack;
+    isAbove |= above;
+    isBelow |= below;
+    isClear &= above | below | isShared[i];
+  }
+  return isClear & (isAbove != isBelow);
+}
+
+/// Whether two triangles of one mesh have nothing in common but corners that they share by index, for sure.
+bool areApart(const TriangleMesh& mesh, const Corners& s, const TrianglePlane& planeS, const Corners& t,
+  const TrianglePlane& planeT, double slack)
+{
+  std::array<bool, 3> inS;
+  std::array<bool, 3> inT;
+  std::array<double, 3> aboveS;
+  std::array<double, 3> aboveT;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    inS[i] = (t[i] == s[0]) | (t[i] == s[1]) | (t[i] == s[2]);
+    inT[i] = (s[i] == t[0]) | (s[i] == t[1]) | (s[i] == t[2]);
+    aboveS[i] = planeS.height(mesh.points[std::size_t(t[i])]);
+    aboveT[i] = planeT.height(mesh.points[std::size_t(s[i])]);
+  }
+  return touchesInShared(aboveS, slack, inS) || touchesInShared(aboveT, slack, inT);
+}
+
 /// Calls found(first, second) for the pairs of selfIntersections(), until it returns true.
 template <typename Found>
 bool visitSelfIntersections(const TriangleTree& surface, Found&& found)
 {
   const TriangleMesh& mesh = surface.mesh();
-  std::vector<char> flat(mesh.triangles.size(), 0);
-  for (const std::uint32_t triangle : surface.order())
+  const std::vector<std::uint32_t>& order = surface.order();
+  const std::vector<TrianglePlane>& planes = surface.planes();
+  std::vector<char> flat(order.size(), 0);
+  for (std::size_t place = 0; place < order.size(); ++place)
   {
-    if (isFlat(cornersOf(mesh, triangle)))
+    if (planes[place].normal.isZero(0.0) && isFlat(cornersOf(mesh, order[place])))
     {
-      flat[triangle] = 1;
-      if (found(triangle, triangle))
+      flat[place] = 1;
+      if (found(order[place], order[place]))
       {
         return true;
       }
     }
   }
-  return visitOverlaps(surface, surface,
-    [&](std::uint32_t s, std::uint32_t t)
-    { return !flat[s] && !flat[t] && meetElsewhere(mesh, s, t) && found(std::min(s, t), std::max(s, t)); });
+  const double slack = heightError(surface, surface);
+  return visitOverlappingPlaces(surface, surface,
+    [&](std::uint32_t m, std::uint32_t n)
+    {
+      const std::uint32_t s = order[m];
+      const std::uint32_t t = order[n];
+      return !areApart(mesh, mesh.triangles[s], planes[m], mesh.triangles[t], planes[n], slack) && !flat[m] && !flat[n] &&
+             meetElsewhere(mesh, s, t) && found(std::min(s, t), std::max(s, t));
+    });
+}
+
+/// Whether all corners of a triangle are on one side of a plane, for sure.
+bool isBeside(const TriangleCorners& corners, const TrianglePlane& plane, double slack)
+{
+  const double a = plane.height(*corners[0]);
+  const double b = plane.height(*corners[1]);
+  const double c = plane.height(*corners[2]);
+  return std::min({ a, b, c }) > slack || std::max({ a, b, c }) < -slack;
+}
+
+/// Calls found(triangle of a, triangle of b) for those that meet, until it returns true.
+template <typename Found>
+bool visitMeetings(const TriangleTree& a, const TriangleTree& b, Found&& found)
+{
+  const double slack = heightError(a, b);
+  return visitOverlappingPlaces(a, b,
+    [&](std::uint32_t m, std::uint32_t n)
+    {
+      const std::uint32_t s = a.order()[m];
+      const std::uint32_t t = b.order()[n];
+      const TriangleCorners cornersA = cornersOf(a.mesh(), s);
+      const TriangleCorners cornersB = cornersOf(b.mesh(), t);
+      return !isBeside(cornersA, b.planes()[n], slack) && !isBeside(cornersB, a.planes()[m], slack) &&
+             trianglesMeet(cornersA, cornersB) && found(s, t);
+    });
 }
 
 } // namespace
 
 bool surfacesMeet(const TriangleTree& a, const TriangleTree& b)
 {
-  return visitOverlaps(
-    a, b, [&](std::uint32_t s, std::uint32_t t) { return trianglesMeet(cornersOf(a.mesh(), s), cornersOf(b.mesh(), t)); });
+  return visitMeetings(a, b, [](std::uint32_t, std::uint32_t) { return true; });
 }
 
 bool surfacesMeet(const TriangleMesh& a, const TriangleMesh& b)
@@ -49,13 +124,10 @@ bool surfacesMeet(const TriangleMesh& a, const TriangleMesh& b)
 std::vector<std::pair<std::uint32_t, std::uint32_t>> meetingTriangles(const TriangleTree& a, const TriangleTree& b)
 {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  visitOverlaps(a, b,
-    [&](std::uint32_t s, std::uint32_t t)
+  visitMeetings(a, b,
+    [&pairs](std::uint32_t s, std::uint32_t t)
     {
-      if (trianglesMeet(cornersOf(a.mesh(), s), cornersOf(b.mesh(), t)))
-      {
-        pairs.emplace_back(s, t);
-      }
+      pairs.emplace_back(s, t);
       return false;
     });
   std::sort(pairs.begin(), pairs.end());

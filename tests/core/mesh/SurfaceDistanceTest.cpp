@@ -2,6 +2,7 @@
 #include "mesh/SurfaceDistance.h"
 
 #include "ExampleSurfaces.h"
+#include "mesh/SurfaceIntersection.h"
 #include "mesh/TriangleIntersection.h"
 
 #include <Eigen/Geometry>
@@ -132,6 +133,41 @@ TEST(SurfaceDistance, SmallestGapIsThatOfAllPairs)
     EXPECT_EQ(cactus::trianglesNear(treeA, treeB, reach), near);
     EXPECT_FALSE(near.empty());
   }
+}
+
+// Planes, which tell most triangles of trees apart, take none from what is near: not those of slivers either, which hardly have
+// one.
+TEST(SurfaceDistance, TreesFindWhatTrianglesDo)
+{
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  std::size_t meeting = 0;
+  for (int trial = 0; trial < 20000; ++trial)
+  {
+    std::array<cactus::TriangleMesh, 2> meshes;
+    for (cactus::TriangleMesh& mesh : meshes)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        mesh.points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+      }
+      if (trial % 2 == 0)
+      {
+        const double aside = std::pow(10.0, -3.0 * (trial % 5));
+        mesh.points[2] = 0.5 * (mesh.points[0] + mesh.points[1]) + aside * mesh.points[2];
+      }
+      mesh.triangles = { { { 0, 1, 2 } } };
+    }
+    const cactus::TriangleTree a(meshes[0]);
+    const cactus::TriangleTree b(meshes[1]);
+    const double distance = cactus::triangleGap(pointsOf(meshes[0], 0), pointsOf(meshes[1], 0)).distance;
+    ASSERT_EQ(cactus::smallestGap(a, b).distance, distance) << "trial " << trial;
+    ASSERT_EQ(cactus::smallestGap(a, b, 1.0001 * distance + 1e-9).distance, distance) << "trial " << trial;
+    ASSERT_FALSE(cactus::smallestGap(a, b, 0.9999 * distance).found()) << "trial " << trial;
+    ASSERT_EQ(cactus::surfacesMeet(a, b), distance == 0.0) << "trial " << trial;
+    meeting += distance == 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(meeting, 500U);
 }
 
 TEST(SurfaceDistance, KnowsTubesByFormula)
