@@ -80,21 +80,20 @@ CACTUS_KERNEL_INLINE Floats smaller(const Floats& x, const Floats& y)
   return x < y ? x : y;
 }
 
-/// Writes the lanes of x that are set to `to`, in their order; may write up to a vector. Returns their number.
-CACTUS_KERNEL_INLINE std::size_t compress(const DoubleMask& mask, const Doubles& x, double* to)
+/// Bit l is set if lane l is.
+CACTUS_KERNEL_INLINE unsigned bitsOf(const DoubleMask& mask)
 {
 #if CACTUS_DOUBLES == 8
-  const __mmask8 set = _mm512_movepi64_mask((__m512i)mask);
-  _mm512_storeu_pd(to, _mm512_maskz_compress_pd(set, (__m512d)x));
-  return static_cast<std::size_t>(__builtin_popcount(set));
+  return _mm512_movepi64_mask((__m512i)mask);
+#elif CACTUS_DOUBLES == 4
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
 #else
-  std::size_t count = 0;
+  unsigned bits = 0;
   for (int l = 0; l < width; ++l)
   {
-    to[count] = x[l];
-    count -= static_cast<std::size_t>(mask[l]);
+    bits |= static_cast<unsigned>(mask[l] & 1) << l;
   }
-  return count;
+  return bits;
 #endif
 }
 
@@ -143,6 +142,107 @@ CACTUS_KERNEL_INLINE void transpose(const double* const (&rows)[width], Doubles 
 #endif
 }
 
+/// Lane l of columns[n] becomes number n of row l. Rows are aligned to 32 bytes.
+CACTUS_KERNEL_INLINE void transpose(const float* const (&rows)[floats], Floats (&columns)[8])
+{
+#if CACTUS_DOUBLES == 8
+  // Two rows in a vector; four by four within quarters, then the quarters of a column together. With masks of all lanes, as
+  // above.
+  const auto twoRows = [&](int first, int second) __attribute__((always_inline))
+  {
+    const __m512 lower = _mm512_castps256_ps512(_mm256_load_ps(rows[first]));
+    return _mm512_maskz_insertf32x8(0xffff, lower, _mm256_load_ps(rows[second]), 1);
+  };
+  __m512 quarters[2][4];
+  for (int half = 0; half < 2; ++half)
+  {
+    __m512 x[4];
+    for (int l = 0; l < 4; ++l)
+    {
+      x[l] = twoRows(8 * half + l, 8 * half + l + 4);
+    }
+    const __m512d lower01 = _mm512_castps_pd(_mm512_maskz_unpacklo_ps(0xffff, x[0], x[1]));
+    const __m512d lower23 = _mm512_castps_pd(_mm512_maskz_unpacklo_ps(0xffff, x[2], x[3]));
+    const __m512d upper01 = _mm512_castps_pd(_mm512_maskz_unpackhi_ps(0xffff, x[0], x[1]));
+    const __m512d upper23 = _mm512_castps_pd(_mm512_maskz_unpackhi_ps(0xffff, x[2], x[3]));
+    quarters[half][0] = _mm512_castpd_ps(_mm512_maskz_unpacklo_pd(0xff, lower01, lower23));
+    quarters[half][1] = _mm512_castpd_ps(_mm512_maskz_unpackhi_pd(0xff, lower01, lower23));
+    quarters[half][2] = _mm512_castpd_ps(_mm512_maskz_unpacklo_pd(0xff, upper01, upper23));
+    quarters[half][3] = _mm512_castpd_ps(_mm512_maskz_unpackhi_pd(0xff, upper01, upper23));
+  }
+  for (int n = 0; n < 4; ++n)
+  {
+    columns[n] = (Floats)_mm512_maskz_shuffle_f32x4(0xffff, quarters[0][n], quarters[1][n], 0x88);
+    columns[4 + n] = (Floats)_mm512_maskz_shuffle_f32x4(0xffff, quarters[0][n], quarters[1][n], 0xdd);
+  }
+#else
+  float numbers[8][floats];
+  for (int l = 0; l < floats; ++l)
+  {
+    for (int n = 0; n < 8; ++n)
+    {
+      numbers[n][l] = rows[l][n];
+    }
+  }
+  __builtin_memcpy(&columns, &numbers, sizeof(columns));
+#endif
+}
+
+/// totals[n] becomes the sum of the eight lanes of x[n], taken two by two: ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)). `count` is
+/// a multiple of four.
+template <int count>
+CACTUS_KERNEL_INLINE void sumLanes(const Doubles (&x)[count][8 / width], double (&totals)[count])
+{
+#if CACTUS_DOUBLES == 8
+  const auto pairs = [&](int n) __attribute__((always_inline))
+  {
+    const __m512d even = _mm512_maskz_unpacklo_pd(0xff, (__m512d)x[n][0], (__m512d)x[n + 1][0]);
+    const __m512d odd = _mm512_maskz_unpackhi_pd(0xff, (__m512d)x[n][0], (__m512d)x[n + 1][0]);
+    return (Doubles)even + (Doubles)odd;
+  };
+  const auto join = [](const Doubles& a, const Doubles& b) __attribute__((always_inline))
+  {
+    const __m512d even = _mm512_maskz_shuffle_f64x2(0xff, (__m512d)a, (__m512d)b, 0x88);
+    const __m512d odd = _mm512_maskz_shuffle_f64x2(0xff, (__m512d)a, (__m512d)b, 0xdd);
+    return (Doubles)even + (Doubles)odd;
+  };
+  for (int n = 0; n < count; n += 8)
+  {
+    const bool isWhole = n + 4 < count;
+    const Doubles first = join(pairs(n), pairs(n + 2));
+    const Doubles all = join(first, isWhole ? join(pairs(isWhole ? n + 4 : n), pairs(isWhole ? n + 6 : n)) : first);
+    __builtin_memcpy(totals + n, &all, isWhole ? sizeof(all) : sizeof(all) / 2);
+  }
+#else
+  for (int n = 0; n < count; ++n)
+  {
+    double lanes[8];
+    __builtin_memcpy(lanes, x[n], sizeof(lanes));
+    totals[n] = ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+  }
+#endif
+}
+
+/// The largest of eight lanes.
+CACTUS_KERNEL_INLINE double largestLane(const Doubles (&x)[8 / width])
+{
+#if CACTUS_DOUBLES == 8
+  const __m512d all = (__m512d)x[0];
+  const __m256d four = _mm256_max_pd(_mm512_maskz_extractf64x4_pd(0xf, all, 0), _mm512_maskz_extractf64x4_pd(0xf, all, 1));
+  const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
+  return _mm_cvtsd_f64(_mm_max_pd(two, _mm_unpackhi_pd(two, two)));
+#else
+  double lanes[8];
+  __builtin_memcpy(lanes, x, sizeof(lanes));
+  double largest = lanes[0];
+  for (const double lane : lanes)
+  {
+    largest = lane > largest ? lane : largest;
+  }
+  return largest;
+#endif
+}
+
 CACTUS_KERNEL_INLINE Floats load(const float* from)
 {
   Floats vector;
@@ -161,6 +261,11 @@ CACTUS_KERNEL_INLINE unsigned bitsOf(const FloatMask& mask)
 #endif
 }
 #endif
+
+CACTUS_KERNEL_INLINE void store(double* to, const Doubles& vector)
+{
+  __builtin_memcpy(to, &vector, sizeof(vector));
+}
 
 CACTUS_KERNEL_INLINE void store(float* to, const Floats& vector)
 {

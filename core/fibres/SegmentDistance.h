@@ -12,17 +12,16 @@ namespace cactus
 /// t_q), with a = d1·d1, e = d2·d2 (both positive), b = d1·d2, c = d1·(p0 − q0), f = d2·(p0 − q0). Closed form: the stationary s
 /// is clamped, t follows from it, and where t has to be clamped s follows from that; clamping both independently is wrong unless
 /// the segments are parallel. Of parallel segments, whose closest points are not unique, it takes the middle of the part that
-/// runs side by side. Free of branches; Real is a Scalar or a vector of them (of which `?:` picks lane by lane).
+/// runs side by side. Free of branches; Real is a Scalar or a vector of them (of which `?:` picks lane by lane). inverseA: 1 / a.
 template <typename Real, typename Scalar = double>
 inline __attribute__((always_inline)) void closestParameters(
-  const Real& a, const Real& e, const Real& b, const Real& c, const Real& f, Real& s, Real& t)
+  const Real& a, const Real& inverseA, const Real& e, const Real& b, const Real& c, const Real& f, Real& s, Real& t)
 {
   constexpr Scalar parallel = 1e-12; // sin² of the angle below which segments count as parallel
   const Real zero = a - a;
   const Real one = zero + Scalar(1);
   const auto isParallel = a * e - b * b <= parallel * a * e;
   const Real stationary = (b * f - c * e) / (isParallel ? one : a * e - b * b);
-  const Real inverseA = one / a;
   const Real from = -c * inverseA;
   const Real to = (b - c) * inverseA;
   Real low = from < to ? from : to;
@@ -41,6 +40,27 @@ inline __attribute__((always_inline)) void closestParameters(
   s = free == t ? first : second;
 }
 
+/// Parameters in single precision, for vectors of floats: of points whose squared distance is that of the closest ones but for
+/// 10⁻⁵ (a + e + distance²) at most, also where segments are next to parallel, and the determinant is nothing but rounding (which
+/// is less than 10⁻⁶ a·e). There the cost of another s than the stationary one is small as long as it lies on the same side.
+template <typename Floats>
+inline __attribute__((always_inline)) void nearlyClosestParameters(const Floats& a, const Floats& inverseA, const Floats& e,
+  const Floats& b, const Floats& c, const Floats& f, Floats& s, Floats& t)
+{
+  const Floats zero = a - a;
+  const Floats one = zero + 1.0f;
+  const auto clamp = [&](const Floats& x) __attribute__((always_inline))
+  {
+    const Floats positive = x > zero ? x : zero;
+    return positive < one ? positive : one;
+  };
+  const Floats determinant = a * e - b * b;
+  const Floats least = 1e-6f * a * e;
+  const Floats first = clamp((b * f - c * e) / (determinant > least ? determinant : least));
+  t = clamp((b * first + f) / e);
+  s = clamp((b * t - c) * inverseA);
+}
+
 /// Closest points of two segments: their parameters and distance (µm).
 struct SegmentPair
 {
@@ -57,7 +77,7 @@ inline SegmentPair closestPoints(
   const Eigen::Vector3d d2 = q1 - q0;
   const Eigen::Vector3d r = p0 - q0;
   SegmentPair pair;
-  closestParameters(d1.dot(d1), d2.dot(d2), d1.dot(d2), d1.dot(r), d2.dot(r), pair.s, pair.t);
+  closestParameters(d1.dot(d1), 1.0 / d1.dot(d1), d2.dot(d2), d1.dot(d2), d1.dot(r), d2.dot(r), pair.s, pair.t);
   pair.distance = (r + pair.s * d1 - pair.t * d2).norm();
   return pair;
 }

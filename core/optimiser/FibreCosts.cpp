@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/FibreCosts.h"
 
+#include "optimiser/FibreCostKernels.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <utility>
 
 namespace cactus
@@ -56,15 +60,27 @@ FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, st
 FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double relaxation, const FibreGradients& gradients) const
 {
   FibreCostTotals totals;
+  const FibreCostKernels& kernels = bestKernels<FibreCostKernels>();
+  const std::size_t begin = fibres.offsets[f];
+  const std::size_t count = fibres.pointCount(f);
+  const FibreShape shape = { count, fibres.points[begin].data(), &fibres.radii[begin], &this->ReferenceLength[begin],
+    &this->SmallestCosine[begin] };
+  const FibreShapeGradients to = { gradients.byPoint[begin].data(), &gradients.byRadius[begin], &gradients.stiffness[begin] };
+  const std::unique_ptr<double[]> room(new double[FibreCostKernels::roomFor(count)]);
   if (this->Weights.curvature > 0.0)
   {
-    this->addCurvature(fibres, f, relaxation * this->Weights.curvature, totals, gradients);
-    this->addBendLimit(fibres, f, totals, gradients);
+    const std::unique_ptr<std::uint32_t[]> sharp(new std::uint32_t[count]);
+    const std::size_t sharpOnes =
+      kernels.addCurvature(shape, relaxation * this->Weights.curvature, totals.curvature, to, room.get(), sharp.get());
+    for (std::size_t n = 0; n < sharpOnes; ++n)
+    {
+      this->addBendLimit(fibres, begin + sharp[n], totals, gradients);
+    }
   }
   if (this->Weights.length > 0.0)
   {
     this->addCompressionLimit(fibres, f, totals, gradients);
-    this->addLength(fibres, f, relaxation * this->Weights.length, totals, gradients);
+    kernels.addLength(shape, relaxation * this->Weights.length, totals.length, to, room.get());
   }
   if (this->Weights.compactness > 0.0)
   {
@@ -78,71 +94,34 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
   return totals;
 }
 
-void FibreCosts::addCurvature(
-  const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const
+/// Adds what the limit of the bend at a control point takes.
+void FibreCosts::addBendLimit(const Fibres& fibres, std::size_t i, FibreCostTotals& totals, const FibreGradients& gradients) const
 {
   const auto& x = fibres.points;
-  const auto& r = fibres.radii;
-  for (std::size_t i = fibres.offsets[f] + 1; i + 1 < fibres.offsets[f + 1]; ++i)
+  const Eigen::Vector3d u = x[i] - x[i - 1];
+  const Eigen::Vector3d w = x[i + 1] - x[i];
+  const double squaredU = u.squaredNorm();
+  const double squaredW = w.squaredNorm();
+  const double inverse = 1.0 / std::sqrt(squaredU * squaredW);
+  const double cosine = u.dot(w) * inverse;
+  const double excess = this->SmallestCosine[i] - cosine;
+  if (excess <= 0.0)
   {
-    const Eigen::Vector3d u = x[i] - x[i - 1];
-    const Eigen::Vector3d w = x[i + 1] - x[i];
-    const double lengthU = u.norm();
-    const double lengthW = w.norm();
-    const double inverse = 1.0 / (lengthU * lengthW);
-    const double cosine = u.dot(w) * inverse;
-    const double radiusSum = r[i - 1] + r[i] + r[i + 1];
-    const double bend = 1.0 - cosine;
-    const double scale = weight * 3.0 / radiusSum;
-    totals.curvature += scale * bend * bend;
-    const double byCosine = -2.0 * scale * bend;
-    const Eigen::Vector3d byU = byCosine * (w * inverse - cosine / (lengthU * lengthU) * u);
-    const Eigen::Vector3d byW = byCosine * (u * inverse - cosine / (lengthW * lengthW) * w);
-    gradients.byPoint[i - 1] -= byU;
-    gradients.byPoint[i] += byU - byW;
-    gradients.byPoint[i + 1] += byW;
-    const double byRadius = -scale * bend * bend / radiusSum;
-    gradients.byRadius[i - 1] += byRadius;
-    gradients.byRadius[i] += byRadius;
-    gradients.byRadius[i + 1] += byRadius;
-    // (1 − cos θ)² ≈ θ⁴/4 has curvature 3 θ² ≈ 6 (1 − cos θ) in θ, and θ changes by 1/ℓ per unit of displacement.
-    const double curvature = 6.0 * scale * bend;
-    gradients.stiffness[i - 1] += 4.0 * curvature / (lengthU * lengthU);
-    gradients.stiffness[i] += 4.0 * curvature * inverse * 4.0;
-    gradients.stiffness[i + 1] += 4.0 * curvature / (lengthW * lengthW);
+    return;
   }
-}
-
-void FibreCosts::addBendLimit(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const
-{
-  const auto& x = fibres.points;
-  for (std::size_t i = fibres.offsets[f] + 1; i + 1 < fibres.offsets[f + 1]; ++i)
-  {
-    const Eigen::Vector3d u = x[i] - x[i - 1];
-    const Eigen::Vector3d w = x[i + 1] - x[i];
-    const double squaredU = u.squaredNorm();
-    const double squaredW = w.squaredNorm();
-    const double inverse = 1.0 / std::sqrt(squaredU * squaredW);
-    const double cosine = u.dot(w) * inverse;
-    const double excess = this->SmallestCosine[i] - cosine;
-    if (excess <= 0.0)
-    {
-      continue;
-    }
-    const double area = this->ReferenceLength[i - 1] * this->ReferenceLength[i];
-    const double scale = 0.25 * this->Weights.curvature * area * area;
-    totals.curvature += scale * excess * excess;
-    const double byCosine = -2.0 * scale * excess;
-    const Eigen::Vector3d byU = byCosine * (w * inverse - cosine / squaredU * u);
-    const Eigen::Vector3d byW = byCosine * (u * inverse - cosine / squaredW * w);
-    gradients.byPoint[i - 1] -= byU;
-    gradients.byPoint[i] += byU - byW;
-    gradients.byPoint[i + 1] += byW;
-    // An end point changes the cosine by at most 1/ℓ per unit of displacement; twice that for what the three do together.
-    gradients.stiffness[i - 1] += 4.0 * scale / squaredU;
-    gradients.stiffness[i] += 4.0 * scale * (1.0 / squaredU + 1.0 / squaredW + 2.0 * inverse);
-    gradients.stiffness[i + 1] += 4.0 * scale / squaredW;
-  }
+  const double area = this->ReferenceLength[i - 1] * this->ReferenceLength[i];
+  const double scale = 0.25 * this->Weights.curvature * area * area;
+  totals.curvature += scale * excess * excess;
+  const double byCosine = -2.0 * scale * excess;
+  const Eigen::Vector3d byU = byCosine * (w * inverse - cosine / squaredU * u);
+  const Eigen::Vector3d byW = byCosine * (u * inverse - cosine / squaredW * w);
+  gradients.byPoint[i - 1] -= byU;
+  gradients.byPoint[i] += byU - byW;
+  gradients.byPoint[i + 1] += byW;
+  // An end point changes the cosine by at most 1/ℓ per unit of displacement; twice that for what the three do together.
+  gradients.stiffness[i - 1] += 4.0 * scale / squaredU;
+  gradients.stiffness[i] += 4.0 * scale * (1.0 / squaredU + 1.0 / squaredW + 2.0 * inverse);
+  gradients.stiffness[i + 1] += 4.0 * scale / squaredW;
 }
 
 void FibreCosts::addCompressionLimit(
@@ -162,33 +141,6 @@ void FibreCosts::addCompressionLimit(
     const Eigen::Vector3d push = k * compression / length * d;
     gradients.byPoint[i] += push;
     gradients.byPoint[i + 1] -= push;
-    gradients.stiffness[i] += 2.0 * k;
-    gradients.stiffness[i + 1] += 2.0 * k;
-  }
-}
-
-void FibreCosts::addLength(
-  const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const
-{
-  const auto& r = fibres.radii;
-  for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
-  {
-    const Eigen::Vector3d d = fibres.points[i + 1] - fibres.points[i];
-    const double length = d.norm();
-    const double stretch = length - this->ReferenceLength[i];
-    if (stretch <= 0.0)
-    {
-      continue;
-    }
-    const double inverseRadii = 1.0 / r[i] + 1.0 / r[i + 1];
-    const double k = weight * 20.0 / inverseRadii;
-    totals.length += 0.5 * k * stretch * stretch;
-    const Eigen::Vector3d pull = k * stretch / length * d;
-    gradients.byPoint[i] -= pull;
-    gradients.byPoint[i + 1] += pull;
-    const double byInverse = -0.5 * k * stretch * stretch / inverseRadii;
-    gradients.byRadius[i] -= byInverse / (r[i] * r[i]);
-    gradients.byRadius[i + 1] -= byInverse / (r[i + 1] * r[i + 1]);
     gradients.stiffness[i] += 2.0 * k;
     gradients.stiffness[i + 1] += 2.0 * k;
   }

@@ -68,12 +68,8 @@ public:
   const BundleBox& boxOf(std::size_t fibre) const { return this->Boxes[fibre]; }
 
 private:
-  void addCurvature(
-    const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
-  void addBendLimit(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addBendLimit(const Fibres& fibres, std::size_t i, FibreCostTotals& totals, const FibreGradients& gradients) const;
   void addCompressionLimit(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const;
-  void addLength(
-    const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
   void addChord(
     const Fibres& fibres, std::size_t f, double relaxation, FibreCostTotals& totals, const FibreGradients& gradients) const;
   void addRadius(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const;

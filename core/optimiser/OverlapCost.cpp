@@ -3,7 +3,6 @@
 
 #include "base/Parallel.h"
 #include "fibres/SegmentDistance.h"
-#include "optimiser/OverlapKernels.h"
 
 #include <Eigen/Geometry>
 
@@ -85,6 +84,23 @@ void partCoincident(const Capsules& capsules, std::size_t k, const std::uint32_t
   }
 }
 
+/// Room for what the kernel works with.
+class KernelRoom
+{
+public:
+  OverlapKernels::Room get(std::size_t neighbours)
+  {
+    using Room = OverlapKernels::Room;
+    this->Touching.resize(std::max(this->Touching.size(), Room::touchingFor(neighbours)));
+    this->Lanes.resize(std::max(this->Lanes.size(), Room::lanesFor(neighbours)));
+    return { this->Touching.data(), this->Lanes.data() };
+  }
+
+private:
+  std::vector<std::uint32_t> Touching;
+  std::vector<EightDoubles> Lanes;
+};
+
 } // namespace
 
 bool isAnyTapered(const Capsules& capsules, const CapsuleRange& of)
@@ -95,35 +111,49 @@ bool isAnyTapered(const Capsules& capsules, const CapsuleRange& of)
 }
 
 OverlapParts evaluateOverlap(const Capsules& capsules, const CapsuleRange& of, std::size_t place, const NeighbourList& neighbours,
-  const OverlapTerms& terms, int threads, std::vector<CapsuleOverlap>& result)
+  const OverlapTerms& terms, int threads, std::vector<RoughCapsule>& rough, std::vector<CapsuleOverlap>& result)
 {
+  const OverlapKernels& kernels = bestKernels<OverlapKernels>();
+  rough.resize(capsules.size());
+  parallelBlocks(capsules.size(), blockSize, threads,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    { kernels.roughen(capsules.bodies.data() + begin, end - begin, rough.data() + begin); });
+  const ListedCapsules listed = { capsules.bodies.data(), rough.data(), of.begin, neighbours.offsets.data(),
+    neighbours.indices.data(), neighbours.indices.size() };
   result.resize(of.size());
   // Blocks are those of all capsules, of which the first may be entered in its midst.
   const std::size_t skipped = place % blockSize;
   const std::size_t end = skipped + of.size();
   std::vector<OverlapTotals> partial((end + blockSize - 1) / blockSize);
-  const auto evaluateCapsule = bestKernels<OverlapKernels>().evaluateCapsule;
-  parallelBlocks(end, blockSize, threads,
-    [&](std::size_t block, std::size_t blockBegin, std::size_t blockEnd)
+  const auto evaluate = [&](KernelRoom& room, std::size_t begin, std::size_t end, OverlapTotals& totals)
+  {
+    const std::size_t pairs = neighbours.offsets[end] - neighbours.offsets[begin];
+    kernels.evaluateCapsules(listed, begin, end, terms, room.get(pairs), result.data() + begin);
+    for (std::size_t k = begin; k < end; ++k)
     {
-      OverlapTotals& mine = partial[block];
-      for (std::size_t k = std::max(blockBegin, skipped) - skipped; k + skipped < blockEnd; ++k)
+      if (result[k].penetration > 1.0 - 2.0 * meeting)
       {
-        const std::uint32_t* others = neighbours.indices.data() + neighbours.offsets[k];
-        const std::size_t othersCount = neighbours.offsets[k + 1] - neighbours.offsets[k];
-        const Capsule& body = capsules.bodies[of.begin + k];
-        const std::size_t known = neighbours.indices.size() - neighbours.offsets[k];
-        evaluateCapsule(
-          capsules.bodies.data(), others, othersCount, known, body, terms.margin, terms.tolerance, terms.tapered, result[k]);
-        if (result[k].penetration > 1.0 - 2.0 * meeting)
-        {
-          partCoincident(capsules, of.begin + k, others, othersCount, terms.margin, result[k]);
-        }
-        mine.cost += result[k].cost;
-        mine.penetration = std::max(mine.penetration, result[k].penetration);
-        mine.overlappingPairs += result[k].overlapping;
+        const std::size_t first = neighbours.offsets[k];
+        partCoincident(
+          capsules, of.begin + k, neighbours.indices.data() + first, neighbours.offsets[k + 1] - first, terms.margin, result[k]);
       }
-    });
+      totals.cost += result[k].cost;
+      totals.penetration = std::max(totals.penetration, result[k].penetration);
+      totals.overlappingPairs += result[k].overlapping;
+    }
+  };
+  runLoop(
+    partial.size(), threads, [](int) { return KernelRoom(); },
+    [&](KernelRoom& room, std::size_t block)
+    {
+      const std::size_t blockBegin = std::max(block * blockSize, skipped) - skipped;
+      const std::size_t blockEnd = std::min((block + 1) * blockSize, end) - skipped;
+      for (std::size_t begin = blockBegin; begin < blockEnd; begin += OverlapKernels::together)
+      {
+        evaluate(room, begin, std::min(begin + OverlapKernels::together, blockEnd), partial[block]);
+      }
+    },
+    [] { return true; });
   OverlapParts parts;
   for (std::size_t block = 0; block < partial.size(); ++block)
   {
@@ -185,7 +215,8 @@ OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& nei
 {
   OverlapSum sum;
   const OverlapTerms terms{ margin, tolerance, isAnyTapered(capsules, { 0, capsules.size() }) };
-  sum.add(evaluateOverlap(capsules, { 0, capsules.size() }, 0, neighbours, terms, threads, result));
+  std::vector<RoughCapsule> rough;
+  sum.add(evaluateOverlap(capsules, { 0, capsules.size() }, 0, neighbours, terms, threads, rough, result));
   return sum.totals();
 }
 

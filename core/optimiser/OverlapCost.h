@@ -4,6 +4,7 @@
 #include "fibres/Capsules.h"
 #include "optimiser/CapsuleOverlap.h"
 #include "optimiser/NeighbourSearch.h"
+#include "optimiser/OverlapKernels.h"
 
 #include <cstddef>
 #include <vector>
@@ -28,14 +29,6 @@ struct OverlapTotals
 OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& neighbours, double margin, double tolerance,
   int threads, std::vector<CapsuleOverlap>& result);
 
-/// How it is evaluated.
-struct OverlapTerms
-{
-  double margin = 1.0;
-  double tolerance = 0.0;
-  bool tapered = true; ///< whether the radius of any capsule varies along it
-};
-
 /// Sums over some consecutive capsules, from which those over all follow to the last bit, however these are parted: costs are
 /// summed by blocks of capsules, and what has no whole block is kept capsule by capsule.
 struct OverlapParts
@@ -50,9 +43,9 @@ struct OverlapParts
 bool isAnyTapered(const Capsules& capsules, const CapsuleRange& of);
 
 /// The same for the capsules `of` alone, whose lists begin with neighbours.offsets[0] and whose results with result[0]. `place`:
-/// the number of the first of them among the capsules of all processes.
+/// the number of the first of them among the capsules of all processes. `rough` need not hold anything: its memory is used.
 OverlapParts evaluateOverlap(const Capsules& capsules, const CapsuleRange& of, std::size_t place, const NeighbourList& neighbours,
-  const OverlapTerms& terms, int threads, std::vector<CapsuleOverlap>& result);
+  const OverlapTerms& terms, int threads, std::vector<RoughCapsule>& rough, std::vector<CapsuleOverlap>& result);
 
 /// Adds up the parts, the first capsules first.
 class OverlapSum

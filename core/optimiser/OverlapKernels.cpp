@@ -4,70 +4,243 @@
 #include "base/Vector.h"
 #include "fibres/SegmentDistance.h"
 
+#include <cstddef>
+
 namespace cactus
 {
 
 namespace
 {
 
-/// Neighbours are summed in this many lanes, in one vector or in several.
+/// Neighbours that touch are summed in this many lanes, in one vector or in several: the n-th in the lane n % lanes.
 constexpr int lanes = 8;
 constexpr int vectors = lanes / width;
 
-/// What neighbours contribute to a capsule.
+/// What neighbours contribute to a capsule, in the order that CapsuleOverlap has.
 enum Number
 {
   Gradient0,
-  Gradient1 = Gradient0 + 3,
-  Radius0 = Gradient1 + 3,
-  Radius1,
+  Radius0 = Gradient0 + 3,
+  Gradient1,
+  Radius1 = Gradient1 + 3,
   Stiffness0,
   Stiffness1,
   Cost,
-  Penetration, ///< the largest
   Overlapping, ///< how many
-  Numbers = 16 ///< with some that are always zero, so that they are two times eight
+  Numbers
 };
 
-/// Their sums and the largest, lane by lane.
+/// Their sums lane by lane, and the largest penetrations.
 struct LaneSums
 {
-  Doubles of[Numbers];
+  Doubles of[Numbers][vectors];
+  Doubles deepest[vectors];
 };
 
-/// Adds up the lanes, and finds the largest.
-CACTUS_KERNEL_INLINE void reduce(const LaneSums (&sums)[vectors], double (&totals)[Numbers], double (&maxima)[Numbers])
+CACTUS_KERNEL_INLINE LaneSums noSums()
 {
-  for (int first = 0; first < Numbers; first += width)
+  LaneSums sums = {};
+  for (Doubles& deepest : sums.deepest)
   {
-    alignas(64) double rows[width][lanes];
-    const double* begins[width];
-    for (int number = 0; number < width; ++number)
+    deepest = deepest - 1.0;
+  }
+  return sums;
+}
+
+void roughen(const Capsule* bodies, std::size_t count, RoughCapsule* rough)
+{
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    for (int part = 0; part < lanes; part += width)
     {
-      for (int v = 0; v < vectors; ++v)
-      {
-        __builtin_memcpy(rows[number] + v * width, &sums[v].of[first + number], sizeof(Doubles));
-      }
-      begins[number] = rows[number];
+      const Doubles numbers = load(&bodies[k].p0[0] + part);
+      const NarrowFloats narrow = __builtin_convertvector(numbers, NarrowFloats);
+      __builtin_memcpy(&rough[k].p0[0] + part, &narrow, sizeof(narrow));
     }
-    Doubles x[lanes];
-    transpose(begins, x);
-    const Doubles total = ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
-    Doubles largest = x[0];
-    for (int l = 1; l < lanes; ++l)
-    {
-      largest = x[l] > largest ? x[l] : largest;
-    }
-    __builtin_memcpy(totals + first, &total, sizeof(total));
-    __builtin_memcpy(maxima + first, &largest, sizeof(largest));
   }
 }
 
-/// The segment of p and those of as many neighbours q as a vector holds, and where they come closest.
+/// What is needed again and again of the capsules that are taken at once, which others are compared with.
+struct Subjects
+{
+  static constexpr std::size_t most = OverlapKernels::together;
+  // In single precision.
+  alignas(64) float roughU[3][most];
+  alignas(64) float roughSquared[most];
+  alignas(64) float roughInverse[most];
+  alignas(64) float reach[most]; ///< radius, margin included, and what rounding takes
+  // In double precision.
+  alignas(64) double u[3][most];    ///< along it
+  alignas(64) double squared[most]; ///< u·u
+  alignas(64) double inverseSquared[most];
+  alignas(64) double length[most];
+  alignas(64) double inverseLength[most];
+};
+
+template <bool tapered>
+CACTUS_KERNEL_INLINE void prepareRough(const RoughCapsule* bodies, std::size_t count, double margin, Subjects& subjects)
+{
+  for (std::size_t k = 0; k < count; k += floats)
+  {
+    const float* rows[floats];
+    for (std::size_t l = 0; l < floats; ++l)
+    {
+      rows[l] = bodies[k + l < count ? k + l : k].p0;
+    }
+    Floats p[8];
+    transpose(rows, p);
+    const Floats zero = {};
+    Floats squared = zero;
+    Floats farthest = zero;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Floats u = p[4 + axis] - p[axis];
+      squared += u * u;
+      store(subjects.roughU[axis] + k, u);
+      farthest = larger(farthest, larger(larger(p[axis], -p[axis]), larger(p[4 + axis], -p[4 + axis])));
+    }
+    store(subjects.roughSquared + k, squared);
+    store(subjects.roughInverse + k, 1.0f / squared);
+    // Coordinates are rounded by 2⁻²⁴ of themselves, which brings the axes of both apart by less than this; those of a neighbour
+    // may be larger by no more than what the bound in selectTouching allows for.
+    const Floats rounding = 3e-7f * farthest;
+    store(subjects.reach + k, static_cast<float>(margin) * (tapered ? larger(p[3], p[7]) : p[3]) + rounding);
+  }
+}
+
+CACTUS_KERNEL_INLINE void prepare(const Capsule* bodies, std::size_t count, Subjects& subjects)
+{
+  for (std::size_t k = 0; k < count; k += width)
+  {
+    const double* rows[width];
+    for (std::size_t l = 0; l < width; ++l)
+    {
+      rows[l] = bodies[k + l < count ? k + l : k].p0;
+    }
+    Doubles p[8];
+    transpose(rows, p);
+    Doubles squared = {};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Doubles u = p[4 + axis] - p[axis];
+      squared += u * u;
+      store(subjects.u[axis] + k, u);
+    }
+    const Doubles length = squareRoot(squared);
+    store(subjects.squared + k, squared);
+    store(subjects.inverseSquared + k, 1.0 / squared);
+    store(subjects.length + k, length);
+    store(subjects.inverseLength + k, 1.0 / length);
+  }
+}
+
+/// Writes to `found` those neighbours of the k-th capsule that may touch it, in their order, and returns the end of what it
+/// wrote: all that do, and of the others next to none. `subject`: its place among the subjects.
+template <bool tapered>
+CACTUS_KERNEL_INLINE std::uint32_t* selectTouching(const ListedCapsules& capsules, std::size_t k, const Subjects& subjects,
+  std::size_t subject, double margin, std::uint32_t* found)
+{
+  const RoughCapsule& p = capsules.rough[capsules.first + k];
+  const Floats zero = {};
+  Floats u[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    u[axis] = zero + subjects.roughU[axis][subject];
+  }
+  const Floats a = zero + subjects.roughSquared[subject];
+  const Floats inverseA = zero + subjects.roughInverse[subject];
+  const float reach = subjects.reach[subject];
+  const auto narrowMargin = static_cast<float>(margin);
+  const std::size_t end = capsules.offsets[k + 1];
+  for (std::size_t n = capsules.offsets[k]; n < end; n += floats)
+  {
+    // What follows is of the next capsule, and left out in the end.
+    constexpr std::size_t ahead = 64;
+    const std::uint32_t* indices = capsules.neighbours + n;
+    std::uint32_t last[floats];
+    if (n + floats > capsules.neighbourCount)
+    {
+      for (std::size_t l = 0; l < floats; ++l)
+      {
+        last[l] = indices[n + l < end ? l : 0];
+      }
+      indices = last;
+    }
+    const std::uint32_t* next = capsules.neighbours + n + ahead; // on their way from memory
+    if (next + floats < capsules.neighbours + capsules.neighbourCount)
+    {
+      for (int l = 0; l < floats; ++l)
+      {
+        __builtin_prefetch(capsules.rough + next[l]);
+      }
+    }
+    const float* rows[floats];
+    for (int l = 0; l < floats; ++l)
+    {
+      rows[l] = &capsules.rough[indices[l]].p0[0];
+    }
+    Floats q[8];
+    transpose(rows, q);
+    Floats v[3], r[3];
+    Floats b = zero, c = zero, e = zero, f = zero;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      v[axis] = q[4 + axis] - q[axis];
+      r[axis] = p.p0[axis] - q[axis];
+      b += u[axis] * v[axis];
+      c += u[axis] * r[axis];
+      e += v[axis] * v[axis];
+      f += v[axis] * r[axis];
+    }
+    Floats s, t;
+    nearlyClosestParameters(a, inverseA, e, b, c, f, s, t);
+    Floats squared = zero;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Floats w = r[axis] + s * u[axis] - t * v[axis];
+      squared += w * w;
+    }
+    const Floats limit = reach + narrowMargin * (tapered ? larger(q[3], q[7]) : q[3]);
+    // Twice what squared may be too large by. Written so that it holds for NaN.
+    const FloatMask near = ~(squared >= limit * limit + 2e-5f * (limit * limit + a + e));
+    found = append(near, static_cast<int>(end - n < floats ? end - n : floats), indices, found);
+  }
+  return found;
+}
+
+/// A capsule that others are compared with.
+struct Subject
+{
+  double p0[3];
+  double u[3];    ///< along it
+  double squared; ///< u·u
+  double inverseSquared;
+  double length;
+  double inverseLength;
+  double r0;
+  double taper; ///< by how much the radius grows along it
+};
+
+CACTUS_KERNEL_INLINE Subject subjectOf(const Capsule& body, const Subjects& subjects, std::size_t k)
+{
+  Subject subject;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    subject.p0[axis] = body.p0[axis];
+    subject.u[axis] = subjects.u[axis][k];
+  }
+  subject.squared = subjects.squared[k];
+  subject.inverseSquared = subjects.inverseSquared[k];
+  subject.length = subjects.length[k];
+  subject.inverseLength = subjects.inverseLength[k];
+  subject.r0 = body.r0;
+  subject.taper = body.r1 - body.r0;
+  return subject;
+}
+
+/// As many neighbours q of p as a vector holds, and where they come closest.
 struct ClosestPoints
 {
-  Doubles u[3];    ///< along p
-  Doubles a;       ///< u·u
   Doubles v[3];    ///< along q
   Doubles w[3];    ///< from q's closest point to p's
   Doubles b;       ///< u·v
@@ -75,185 +248,136 @@ struct ClosestPoints
   Doubles s;       ///< p's closest point, from 0 to 1 along u
   Doubles t;       ///< q's, along v
   Doubles squared; ///< w·w
-  Doubles rq;      ///< radius there
-  Doubles taperQ;  ///< by how much q's radius grows along v
+  Doubles rp;      ///< radii there
+  Doubles rq;
+  Doubles taperQ; ///< by how much q's radius grows along v
 };
 
-/// What depends on p alone is written so that the compiler computes it once for all q.
-CACTUS_KERNEL_INLINE void setSegment(const Capsule& p, ClosestPoints& pair)
+template <bool tapered>
+CACTUS_KERNEL_INLINE ClosestPoints closestPointsOf(const Subject& p, const Doubles (&q)[8])
 {
   const Doubles zero = {};
-  pair.a = zero;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    pair.u[axis] = zero + (p.p1[axis] - p.p0[axis]);
-    pair.a += pair.u[axis] * pair.u[axis];
-  }
-}
-
-CACTUS_KERNEL_INLINE ClosestPoints closestPointsOf(const Capsule& p, const Doubles (&q)[8])
-{
   ClosestPoints pair = {};
-  setSegment(p, pair);
   Doubles r[3];
   Doubles c = {}, f = {};
   for (int axis = 0; axis < 3; ++axis)
   {
     pair.v[axis] = q[4 + axis] - q[axis];
     r[axis] = p.p0[axis] - q[axis];
-    pair.b += pair.u[axis] * pair.v[axis];
-    c += pair.u[axis] * r[axis];
+    pair.b += p.u[axis] * pair.v[axis];
+    c += p.u[axis] * r[axis];
     pair.e += pair.v[axis] * pair.v[axis];
     f += pair.v[axis] * r[axis];
   }
-  closestParameters<Doubles>(pair.a, pair.e, pair.b, c, f, pair.s, pair.t);
+  const Doubles a = zero + p.squared;
+  const Doubles inverseA = zero + p.inverseSquared;
+  closestParameters<Doubles>(a, inverseA, pair.e, pair.b, c, f, pair.s, pair.t);
   for (int axis = 0; axis < 3; ++axis)
   {
-    pair.w[axis] = r[axis] + pair.s * pair.u[axis] - pair.t * pair.v[axis];
+    pair.w[axis] = r[axis] + pair.s * p.u[axis] - pair.t * pair.v[axis];
     pair.squared += pair.w[axis] * pair.w[axis];
   }
-  pair.taperQ = q[7] - q[3];
-  pair.rq = q[3] + pair.t * pair.taperQ;
+  if (tapered)
+  {
+    pair.taperQ = q[7] - q[3];
+    pair.rp = p.r0 + pair.s * p.taper;
+    pair.rq = q[3] + pair.t * pair.taperQ;
+  }
+  else
+  {
+    pair.rp = zero + p.r0;
+    pair.rq = q[3];
+  }
   return pair;
 }
 
-/// The neighbours that touch, gathered from among many that do not: what ClosestPoints knows of each beside what is p's.
-class TouchingPairs
+/// Calls visit for each number of the pairs that is needed after it is known that they touch.
+template <bool tapered, typename Pair, typename Visit>
+CACTUS_KERNEL_INLINE void forEachNumber(Pair& pair, Visit&& visit)
 {
-public:
-  static constexpr std::size_t batch = 4 * lanes; ///< that may be there before append()
-
-  std::size_t size() const { return this->Size; }
-
-  CACTUS_KERNEL_INLINE void append(const DoubleMask& touching, const ClosestPoints& pair, bool tapered)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    std::size_t added = 0;
-    const auto put = [&](const Doubles& x, int column) __attribute__((always_inline))
-    {
-      added = compress(touching, x, this->Columns[column] + this->Size);
-    };
+    visit(pair.w[axis]);
+  }
+  visit(pair.s);
+  visit(pair.squared);
+  visit(pair.e);
+  visit(pair.rq);
+  if (tapered)
+  {
+    visit(pair.t);
+    visit(pair.b);
+    visit(pair.rp);
+    visit(pair.taperQ);
     for (int axis = 0; axis < 3; ++axis)
     {
-      put(pair.w[axis], ColumnW + axis);
-    }
-    put(pair.s, ColumnS);
-    put(pair.squared, ColumnSquared);
-    put(pair.e, ColumnE);
-    put(pair.rq, ColumnRq);
-    if (tapered)
-    {
-      put(pair.t, ColumnT);
-      put(pair.b, ColumnB);
-      put(pair.taperQ, ColumnTaperQ);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        put(pair.v[axis], ColumnV + axis);
-      }
-    }
-    this->Size += added;
-  }
-
-  CACTUS_KERNEL_INLINE void get(std::size_t first, bool tapered, ClosestPoints& pair) const
-  {
-    const auto column = [&](int number) __attribute__((always_inline))
-    {
-      return load(this->Columns[number] + first);
-    };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      pair.w[axis] = column(ColumnW + axis);
-    }
-    pair.s = column(ColumnS);
-    pair.squared = column(ColumnSquared);
-    pair.e = column(ColumnE);
-    pair.rq = column(ColumnRq);
-    if (tapered)
-    {
-      pair.t = column(ColumnT);
-      pair.b = column(ColumnB);
-      pair.taperQ = column(ColumnTaperQ);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        pair.v[axis] = column(ColumnV + axis);
-      }
+      visit(pair.v[axis]);
     }
   }
+}
 
-  /// Fills the lanes that are left over behind the last pair with some that are too far apart to contribute anything.
-  CACTUS_KERNEL_INLINE void fillUp()
+template <bool tapered>
+CACTUS_KERNEL_INLINE double* write(const ClosestPoints& pair, double* to)
+{
+  forEachNumber<tapered>(
+    pair, [&](const Doubles& number) __attribute__((always_inline)) {
+      __builtin_memcpy(to, &number, sizeof(number));
+      to += width;
+    });
+  return to;
+}
+
+template <bool tapered>
+CACTUS_KERNEL_INLINE const double* read(const double* from, const Subject& p, ClosestPoints& pair)
+{
+  const Doubles zero = {};
+
+  forEachNumber<tapered>(
+    pair, [&](Doubles & number) __attribute__((always_inline)) {
+      number = load(from);
+      from += width;
+    });
+  if (!tapered)
   {
-    const Doubles zero = {};
-    for (int number = 0; number < ColumnCount; ++number)
-    {
-      const Doubles filling = zero + (number == ColumnSquared ? 1e12 : number == ColumnE || number == ColumnRq ? 1.0 : 0.0);
-      __builtin_memcpy(this->Columns[number] + this->Size, &filling, sizeof(filling));
-    }
+    pair.rp = zero + p.r0;
   }
-
-  /// Leaves out the first batch.
-  CACTUS_KERNEL_INLINE void dropBatch()
-  {
-    this->Size -= batch;
-    for (int number = 0; number < ColumnCount; ++number)
-    {
-      const Doubles left = load(this->Columns[number] + batch);
-      __builtin_memcpy(this->Columns[number], &left, sizeof(left));
-    }
-  }
-
-private:
-  enum Column
-  {
-    ColumnW,
-    ColumnS = ColumnW + 3,
-    ColumnSquared,
-    ColumnE,
-    ColumnRq,
-    ColumnT, // from here on only where radii vary
-    ColumnB,
-    ColumnTaperQ,
-    ColumnV,
-    ColumnCount = ColumnV + 3
-  };
-  std::size_t Size = 0;
-  double Columns[ColumnCount][batch + 2 * width];
-};
+  return from;
+}
 
 /// How the cost changes as the closest points slide, given how it changes with the radii there along p and q. The points satisfy
 /// a·s − b·t + c = 0 and −b·s + e·t − f = 0 (whichever is not clamped); the adjoint of that system gives the slide's share.
 CACTUS_KERNEL_INLINE void slide(
-  const ClosestPoints& pair, const Doubles& alongP, const Doubles& alongQ, Doubles& adjointS, Doubles& adjointT)
+  const Subject& p, const ClosestPoints& pair, const Doubles& alongP, const Doubles& alongQ, Doubles& adjointS, Doubles& adjointT)
 {
   const Doubles zero = {};
+  const Doubles a = zero + p.squared;
   const Doubles one = zero + 1.0;
-  const Doubles determinant = pair.a * pair.e - pair.b * pair.b;
-  const DoubleMask skew = determinant > 1e-12 * pair.a * pair.e;
+  const Doubles determinant = a * pair.e - pair.b * pair.b;
+  const DoubleMask skew = determinant > 1e-12 * a * pair.e;
   const DoubleMask sFree = (pair.s > zero) & (pair.s < one) & skew;
   const DoubleMask tFree = (pair.t > zero) & (pair.t < one) & skew;
   const Doubles inverseDeterminant = select(sFree & tFree, one, zero) / select(skew, determinant, one);
-  adjointS = (pair.e * alongP + pair.b * alongQ) * inverseDeterminant + select(sFree & ~tFree, alongP / pair.a, zero);
-  adjointT = (pair.b * alongP + pair.a * alongQ) * inverseDeterminant + select(tFree & ~sFree, alongQ / pair.e, zero);
+  adjointS = (pair.e * alongP + pair.b * alongQ) * inverseDeterminant + select(sFree & ~tFree, alongP / a, zero);
+  adjointT = (pair.b * alongP + a * alongQ) * inverseDeterminant + select(tFree & ~sFree, alongQ / pair.e, zero);
 }
 
-/// Adds what as many touching pairs as a vector holds contribute to the sums of p.
-CACTUS_KERNEL_INLINE void addLanes(
-  const Capsule& p, const ClosestPoints& pair, double margin, double tolerance, bool tapered, LaneSums& sums)
+/// Adds what as many touching pairs as a vector holds contribute to the v-th vector of the sums of p.
+template <bool tapered>
+CACTUS_KERNEL_INLINE void addLanes(const Subject& p, const ClosestPoints& pair, const OverlapTerms& terms, int v, LaneSums& sums)
 {
   const Doubles zero = {};
   const Doubles one = zero + 1.0;
-  const Doubles taperP = zero + (p.r1 - p.r0);
-  const Doubles rp = p.r0 + pair.s * taperP;
+  const Doubles& rp = pair.rp;
   const Doubles& rq = pair.rq;
   const Doubles distance = squareRoot(pair.squared);
-  const Doubles lengthP = squareRoot(pair.a);
   const Doubles lengthQ = squareRoot(pair.e);
   const Doubles inverseSum = one / (rp + rq);
   const Doubles ratio = distance * inverseSum;
-  const Doubles depth = margin - ratio;
+  const Doubles depth = terms.margin - ratio;
   const Doubles D = select(depth > zero, depth, zero);
-  const Doubles lengths = lengthP * lengthQ;
+  const Doubles lengths = p.length * lengthQ;
   const Doubles scale = lengths * rp * rq;
-  const Doubles byLength = D * D * lengthQ * rp * rq * (one / lengthP); // ∂F/∂|p0−p1| / |p0−p1|
+  const Doubles byLength = D * D * lengthQ * rp * rq * p.inverseLength; // ∂F/∂|p0−p1| / |p0−p1|
   // Where the axes meet there is no direction to part in: no push from here, see partCoincident().
   const Doubles push = -2.0 * D * scale * inverseSum / select(distance > 1e-12, distance, one);
   const Doubles byRp = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rq;
@@ -262,7 +386,7 @@ CACTUS_KERNEL_INLINE void addLanes(
   Doubles adjointT = zero;
   if (tapered)
   {
-    slide(pair, byRp * taperP, byRq * pair.taperQ, adjointS, adjointT);
+    slide(p, pair, byRp * p.taper, byRq * pair.taperQ, adjointS, adjointT);
   }
   const Doubles near0 = one - pair.s;
   const Doubles alongW0 = push * near0 + adjointS;
@@ -273,95 +397,91 @@ CACTUS_KERNEL_INLINE void addLanes(
   const Doubles alongV1 = adjointT * pair.s;
   for (int axis = 0; axis < 3; ++axis)
   {
-    sums.of[Gradient0 + axis] += alongW0 * pair.w[axis] + alongU0 * pair.u[axis] + alongV0 * pair.v[axis];
-    sums.of[Gradient1 + axis] += alongW1 * pair.w[axis] + alongU1 * pair.u[axis] + alongV1 * pair.v[axis];
+    sums.of[Gradient0 + axis][v] += alongW0 * pair.w[axis] + alongU0 * p.u[axis] + alongV0 * pair.v[axis];
+    sums.of[Gradient1 + axis][v] += alongW1 * pair.w[axis] + alongU1 * p.u[axis] + alongV1 * pair.v[axis];
   }
-  sums.of[Radius0] += byRp * near0;
-  sums.of[Radius1] += byRp * pair.s;
+  sums.of[Radius0][v] += byRp * near0;
+  sums.of[Radius1][v] += byRp * pair.s;
   const Doubles stiffness = select(depth > zero, 2.0 * scale * inverseSum * inverseSum, zero);
-  sums.of[Stiffness0] += stiffness * near0;
-  sums.of[Stiffness1] += stiffness * pair.s;
-  sums.of[Cost] += 0.5 * D * D * scale;
+  sums.of[Stiffness0][v] += stiffness * near0;
+  sums.of[Stiffness1][v] += stiffness * pair.s;
+  sums.of[Cost][v] += 0.5 * D * D * scale;
   const Doubles deepest = one - ratio;
-  sums.of[Penetration] = deepest > sums.of[Penetration] ? deepest : sums.of[Penetration];
-  sums.of[Overlapping] += select(deepest > tolerance, one, zero);
+  sums.deepest[v] = deepest > sums.deepest[v] ? deepest : sums.deepest[v];
+  sums.of[Overlapping][v] += select(deepest > terms.tolerance, one, zero);
 }
 
-/// Adds what the first `count` of the pairs contribute, the n-th of them in the lane n % lanes of all sums.
-CACTUS_KERNEL_INLINE void addTouching(const Capsule& p, const TouchingPairs& pairs, std::size_t count, double margin,
-  double tolerance, bool tapered, LaneSums (&sums)[vectors])
-{
-  ClosestPoints pair = {};
-  setSegment(p, pair);
-  for (int v = 0; v < vectors; ++v)
-  {
-    for (std::size_t n = std::size_t(v) * width; n < count; n += lanes)
-    {
-      pairs.get(n, tapered, pair);
-      addLanes(p, pair, margin, tolerance, tapered, sums[v]);
-    }
-  }
-}
-
-/// A capsule too far away to touch, for the lanes that are left over.
-CACTUS_KERNEL_INLINE Capsule farFrom(const Capsule& p)
-{
-  Capsule far = p;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    far.p0[axis] += 1e6;
-    far.p1[axis] = far.p0[axis] + 1.0;
-  }
-  return far;
-}
-
-/// The numbers of as many capsules as a vector holds, or of the `count` that are left.
-CACTUS_KERNEL_INLINE void gather(
-  const Capsule* bodies, const std::uint32_t* indices, std::size_t count, const Capsule& far, Doubles (&q)[8])
+/// The numbers of capsules that follow each other in a list.
+CACTUS_KERNEL_INLINE void gather(const Capsule* bodies, const std::uint32_t* indices, Doubles (&q)[8])
 {
   const double* rows[width];
-  for (std::size_t l = 0; l < width; ++l)
+  for (int l = 0; l < width; ++l)
   {
-    rows[l] = reinterpret_cast<const double*>(l < count ? bodies + indices[l] : &far);
+    rows[l] = &bodies[indices[l]].p0[0];
   }
   transpose(rows, q);
 }
 
-/// Lists reach further than contact: much of what they hold contributes nothing. What does is gathered first and then summed, so
-/// that sums depend on which capsules touch, and not on what else is in the list.
-void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std::size_t count, std::size_t known,
-  const Capsule& p, double margin, double tolerance, bool tapered, CapsuleOverlap& result)
+/// Removes those of the first `width` numbers whose bit is set, and returns how many of `count` are left.
+CACTUS_KERNEL_INLINE std::size_t remove(unsigned bits, std::uint32_t* numbers, std::size_t count)
 {
-  constexpr std::size_t ahead = 32; // neighbours that are on their way from memory
-  const Capsule far = farFrom(p);
-  TouchingPairs touching;
-  LaneSums all[vectors] = {};
-  for (LaneSums& sums : all)
+  std::size_t left = 0;
+  for (std::size_t n = 0; n < count; ++n)
   {
-    sums.of[Penetration] -= 1.0;
+    numbers[left] = numbers[n];
+    left += n >= width || (bits >> n & 1u) == 0 ? 1 : 0;
   }
-  for (std::size_t n = 0; n < count; n += width)
+  return left;
+}
+
+/// Writes down what is to be summed of the neighbours that touch, as many as a vector holds together, and behind them as many of
+/// others as fill it. Those `count` that may touch are given, and behind them are any numbers; the few that do not are removed,
+/// since sums must not depend on what else is in a list. Returns the end of what it wrote.
+template <bool tapered>
+CACTUS_KERNEL_INLINE double* writeTouching(
+  const Capsule* bodies, const Subject& p, std::uint32_t* touching, std::size_t count, const OverlapTerms& terms, double* to)
+{
+  const Doubles zero = {};
+  DoubleMask lane;
+  for (int l = 0; l < width; ++l)
   {
-    for (std::size_t next = n + ahead; next < n + ahead + width && next < known; ++next)
-    {
-      __builtin_prefetch(bodies + neighbours[next]);
-    }
+    lane[l] = l;
+  }
+  for (std::size_t n = 0; n < count;)
+  {
     Doubles q[8];
-    gather(bodies, neighbours + n, count - n, far, q);
-    const ClosestPoints pair = closestPointsOf(p, q);
-    const Doubles farthest = margin * (p.r0 + pair.s * (p.r1 - p.r0) + pair.rq);
-    touching.append(pair.squared < farthest * farthest, pair, tapered);
-    if (touching.size() >= TouchingPairs::batch)
+    gather(bodies, touching + n, q);
+    ClosestPoints pair = closestPointsOf<tapered>(p, q);
+    const DoubleMask isThere = lane < static_cast<long long>(count - n);
+    const Doubles farthest = terms.margin * (pair.rp + pair.rq);
+    const DoubleMask isApart = isThere & ~(pair.squared < farthest * farthest);
+    const unsigned apart = bitsOf(isApart);
+    if (apart != 0)
     {
-      addTouching(p, touching, TouchingPairs::batch, margin, tolerance, tapered, all);
-      touching.dropBatch();
+      count = n + remove(apart, touching + n, count - n);
+      continue;
     }
+    // What is too far away contributes nothing.
+    pair.squared = select(isThere, pair.squared, zero + 1e12);
+    to = write<tapered>(pair, to);
+    n += width;
   }
-  touching.fillUp();
-  addTouching(p, touching, touching.size(), margin, tolerance, tapered, all);
+  return to;
+}
+
+template <bool tapered>
+CACTUS_KERNEL_INLINE void sumTouching(
+  const Subject& p, const double* from, const double* end, const OverlapTerms& terms, CapsuleOverlap& result)
+{
+  LaneSums sums = noSums();
+  for (int v = 0; from < end; v = v + 1 < vectors ? v + 1 : 0)
+  {
+    ClosestPoints pair = {};
+    from = read<tapered>(from, p, pair);
+    addLanes<tapered>(p, pair, terms, v, sums);
+  }
   double totals[Numbers];
-  double maxima[Numbers];
-  reduce(all, totals, maxima);
+  sumLanes(sums.of, totals);
   for (int axis = 0; axis < 3; ++axis)
   {
     result.gradient0[axis] = totals[Gradient0 + axis];
@@ -372,12 +492,55 @@ void evaluateCapsule(const Capsule* bodies, const std::uint32_t* neighbours, std
   result.stiffness0 = totals[Stiffness0];
   result.stiffness1 = totals[Stiffness1];
   result.cost = totals[Cost];
-  result.penetration = maxima[Penetration];
+  result.penetration = largestLane(sums.deepest);
   result.overlapping = static_cast<std::size_t>(totals[Overlapping]);
+}
+
+/// In three steps, each for all capsules, so that no capsule has to wait for another one's numbers.
+template <bool tapered>
+CACTUS_KERNEL_INLINE void evaluateAll(const ListedCapsules& capsules, std::size_t begin, std::size_t end,
+  const OverlapTerms& terms, const OverlapKernels::Room& room, CapsuleOverlap* results)
+{
+  const std::size_t count = end - begin;
+  const Capsule* bodies = capsules.bodies + capsules.first + begin;
+  Subjects subjects;
+  prepareRough<tapered>(capsules.rough + capsules.first + begin, count, terms.margin, subjects);
+  prepare(bodies, count, subjects);
+  std::uint32_t* touching[OverlapKernels::together + 1] = { room.touching };
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    touching[k + 1] = selectTouching<tapered>(capsules, begin + k, subjects, k, terms.margin, touching[k]);
+  }
+  double* pairs[OverlapKernels::together + 1] = { room.lanes->numbers };
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const auto found = static_cast<std::size_t>(touching[k + 1] - touching[k]);
+    pairs[k + 1] =
+      writeTouching<tapered>(capsules.bodies, subjectOf(bodies[k], subjects, k), touching[k], found, terms, pairs[k]);
+  }
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    sumTouching<tapered>(subjectOf(bodies[k], subjects, k), pairs[k], pairs[k + 1], terms, results[k]);
+  }
+}
+
+/// Lists reach further than contact: most of what they hold contributes nothing. What may contribute is found in single
+/// precision, and only that is evaluated.
+void evaluateCapsules(const ListedCapsules& capsules, std::size_t begin, std::size_t end, const OverlapTerms& terms,
+  const OverlapKernels::Room& room, CapsuleOverlap* results)
+{
+  if (terms.tapered)
+  {
+    evaluateAll<true>(capsules, begin, end, terms, room, results);
+  }
+  else
+  {
+    evaluateAll<false>(capsules, begin, end, terms, room, results);
+  }
 }
 
 } // namespace
 
-const OverlapKernels CACTUS_KERNELS_OF_UNIT(OverlapKernels) = { evaluateCapsule };
+const OverlapKernels CACTUS_KERNELS_OF_UNIT(OverlapKernels) = { roughen, evaluateCapsules };
 
 } // namespace cactus

@@ -137,7 +137,7 @@ CACTUS_KERNEL_INLINE FloatMask areClose(const Floats (&q)[7], const float (&p)[N
     f += v[axis] * r[axis];
   }
   Floats s, t;
-  closestParameters<Floats, float>(a, e, b, c, f, s, t);
+  nearlyClosestParameters(a, 1.0f / a, e, b, c, f, s, t);
   Floats squared = zero;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -145,9 +145,8 @@ CACTUS_KERNEL_INLINE FloatMask areClose(const Floats (&q)[7], const float (&p)[N
     squared += w * w;
   }
   const Floats limit = p[6] + q[6];
-  // The errors of single precision in squared are below 10⁻⁶ of these squares, also where segments are nearly parallel: s may
-  // then be off, but the distance hardly depends on it.
-  return squared < limit * limit + 1e-5f * (limit * limit + a + e);
+  // Twice what squared may be too large by.
+  return squared < limit * limit + 2e-5f * (limit * limit + a + e);
 }
 
 std::uint32_t* selectNeighbours(const NearColumns& near, const std::uint32_t* indices, std::size_t count,

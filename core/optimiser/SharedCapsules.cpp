@@ -83,10 +83,10 @@ void SharedCapsules::takeAll(const Fibres& fibres)
 }
 
 OverlapParts SharedCapsules::evaluate(
-  const NeighbourList& neighbours, double margin, double tolerance, int threads, std::vector<CapsuleOverlap>& result) const
+  const NeighbourList& neighbours, double margin, double tolerance, int threads, std::vector<CapsuleOverlap>& result)
 {
-  return evaluateOverlap(
-    this->All, this->Own, this->Shares.ownCapsule(), neighbours, { margin, tolerance, this->IsTapered }, threads, result);
+  return evaluateOverlap(this->All, this->Own, this->Shares.ownCapsule(), neighbours, { margin, tolerance, this->IsTapered },
+    threads, this->Rough, result);
 }
 
 void SharedCapsules::findNeighbours(const Fibres& fibres, const std::vector<float>& reach, int threads, NeighbourList& list)

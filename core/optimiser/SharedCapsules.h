@@ -47,7 +47,7 @@ public:
 
   /// Sums over the capsules of all processes are the caller's to make of those over the own ones.
   OverlapParts evaluate(
-    const NeighbourList& neighbours, double margin, double tolerance, int threads, std::vector<CapsuleOverlap>& result) const;
+    const NeighbourList& neighbours, double margin, double tolerance, int threads, std::vector<CapsuleOverlap>& result);
 
 private:
   /// Capsules that follow each other in a fibre.
@@ -79,6 +79,7 @@ private:
 
   const FibreShares& Shares;
   Capsules All;
+  std::vector<RoughCapsule> Rough; ///< room for evaluate()
   CapsuleRange Own;
   std::size_t PointsBefore = 0; ///< control points of others in front of the process's own
   /// Whether any capsule of all processes is tapered: where none is here, gradients are the same in value without, but zeros may

@@ -22,5 +22,5 @@ inline double largestListed(const cactus::Capsule& p, const cactus::Capsule& q, 
   const double limit = std::max(p.r0, p.r1) + std::max(q.r0, q.r1) + reach;
   const double lengths =
     (Vector3d::Map(p.p1) - Vector3d::Map(p.p0)).squaredNorm() + (Vector3d::Map(q.p1) - Vector3d::Map(q.p0)).squaredNorm();
-  return std::sqrt(1.0 + 1.2e-5 * (1.0 + lengths / (limit * limit)));
+  return std::sqrt(1.0 + 2.2e-5 * (1.0 + lengths / (limit * limit)));
 }

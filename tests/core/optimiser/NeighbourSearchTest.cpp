@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/NeighbourSearch.h"
 
+#include "NearlyParallel.h"
 #include "RandomBundle.h"
 #include "RelativeDistance.h"
 
@@ -103,6 +104,13 @@ TEST(NeighbourSearch, FindsThinAndLongOnes)
     const cactus::Capsules capsules = cactus::capsulesOf(fibres);
     EXPECT_GT(expectAllPairs(capsules, std::vector<float>(capsules.size(), 0.0f)), 40u);
   }
+}
+
+// Guarantee: the same for capsules that are next to parallel, whose closest points are anywhere as far as single precision knows.
+TEST(NeighbourSearch, FindsNearlyParallelOnes)
+{
+  const cactus::Capsules capsules = cactus::capsulesOf(nearlyParallelPairs(10, 1000, 1.0 - 1e-6));
+  EXPECT_EQ(expectAllPairs(capsules, std::vector<float>(capsules.size(), 0.0f)), capsules.size());
 }
 
 // Guarantee: no pairs of one fibre alone, and none of nothing.

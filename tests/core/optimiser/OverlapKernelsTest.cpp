@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/OverlapKernels.h"
 
+#include "NearlyParallel.h"
 #include "RandomBundle.h"
 #include "optimiser/NeighbourSearch.h"
 #include "optimiser/OverlapCost.h"
@@ -31,6 +32,27 @@ void expectSame(const cactus::CapsuleOverlap& result, const cactus::CapsuleOverl
   ASSERT_EQ(result.overlapping, expected.overlapping);
 }
 
+/// What some kernels make of all capsules.
+std::vector<cactus::CapsuleOverlap> evaluate(
+  const cactus::OverlapKernels& kernels, const cactus::Capsules& capsules, const cactus::NeighbourList& list, bool tapered)
+{
+  using Room = cactus::OverlapKernels::Room;
+  std::vector<cactus::RoughCapsule> rough(capsules.size());
+  kernels.roughen(capsules.bodies.data(), capsules.size(), rough.data());
+  const cactus::ListedCapsules listed = { capsules.bodies.data(), rough.data(), 0, list.offsets.data(), list.indices.data(),
+    list.indices.size() };
+  std::vector<std::uint32_t> touching(Room::touchingFor(list.indices.size()));
+  std::vector<cactus::EightDoubles> lanes(Room::lanesFor(list.indices.size()));
+  std::vector<cactus::CapsuleOverlap> results(capsules.size());
+  for (std::size_t begin = 0; begin < capsules.size(); begin += cactus::OverlapKernels::together)
+  {
+    const std::size_t end = std::min(begin + cactus::OverlapKernels::together, capsules.size());
+    kernels.evaluateCapsules(
+      listed, begin, end, { 1.01, 1e-3, tapered }, { touching.data(), lanes.data() }, results.data() + begin);
+  }
+  return results;
+}
+
 } // namespace
 
 // Guarantee: cost and gradient have the same bits on every vector unit, with radii that vary and with radii that do not, and
@@ -47,25 +69,43 @@ TEST(OverlapKernels, SameBitsOnEveryVectorUnit)
     const cactus::Capsules capsules = cactus::capsulesOf(fibres);
     cactus::NeighbourList list;
     cactus::findNeighbours(capsules, 0.5, 1, list);
-    for (std::size_t k = 0; k < capsules.size(); ++k)
+    const std::vector<cactus::CapsuleOverlap> first = evaluate(cactus::portableOverlapKernels, capsules, list, true);
+    for (const cactus::OverlapKernels* kernels : cactus::runnableKernels<cactus::OverlapKernels>())
     {
-      const std::uint32_t* neighbours = list.indices.data() + list.offsets[k];
-      const std::size_t count = list.offsets[k + 1] - list.offsets[k];
-      cactus::CapsuleOverlap first;
-      const auto evaluate = [&](const cactus::OverlapKernels& kernels, bool flag, cactus::CapsuleOverlap& result)
+      for (const bool flag : { tapered, true })
       {
-        kernels.evaluateCapsule(capsules.bodies.data(), neighbours, count, list.indices.size() - list.offsets[k],
-          capsules.bodies[k], 1.01, 1e-3, flag, result);
-      };
-      evaluate(cactus::portableOverlapKernels, true, first);
+        const std::vector<cactus::CapsuleOverlap> results = evaluate(*kernels, capsules, list, flag);
+        for (std::size_t k = 0; k < capsules.size(); ++k)
+        {
+          SCOPED_TRACE(k);
+          expectSame(results[k], first[k]);
+        }
+      }
+    }
+  }
+}
+
+// Guarantee: no pair that touches is taken for one that does not, however nearly parallel or nearly apart.
+TEST(OverlapKernels, FindsWhatHardlyTouches)
+{
+  for (const double distance : { 1.01 - 1e-7, 1.01 + 1e-7 })
+  {
+    for (const double shift : { 0.0, 90000.0 })
+    {
+      cactus::Fibres fibres = nearlyParallelPairs(23, 1000, distance);
+      for (Eigen::Vector3d& point : fibres.points)
+      {
+        point[0] += shift;
+      }
+      const cactus::Capsules capsules = cactus::capsulesOf(fibres);
+      cactus::NeighbourList list;
+      cactus::findNeighbours(capsules, 1.0, 1, list);
       for (const cactus::OverlapKernels* kernels : cactus::runnableKernels<cactus::OverlapKernels>())
       {
-        for (const bool flag : { tapered, true })
-        {
-          cactus::CapsuleOverlap result;
-          evaluate(*kernels, flag, result);
-          expectSame(result, first);
-        }
+        const std::vector<cactus::CapsuleOverlap> results = evaluate(*kernels, capsules, list, false);
+        const auto touching =
+          std::count_if(results.begin(), results.end(), [](const cactus::CapsuleOverlap& result) { return result.cost > 0.0; });
+        EXPECT_EQ(static_cast<std::size_t>(touching), distance < 1.01 ? capsules.size() : 0) << shift;
       }
     }
   }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/VectorUnit.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace cactus
+{
+
+/// One fibre, and what its costs compare it with (see FibreCosts). All are indexed by control point.
+struct FibreShape
+{
+  std::size_t count;              ///< of its control points, at least 2
+  const double* points;           ///< x, y and z of one after the other
+  const double* radii;            ///< at each
+  const double* referenceLengths; ///< of the segment that starts there
+  const float* smallestCosines;   ///< of the bend there, of those that have one
+};
+
+/// Where derivatives by its control points are added, as in FibreGradients.
+struct FibreShapeGradients
+{
+  double* byPoint;
+  double* byRadius;
+  double* stiffness;
+};
+
+/// The terms of FibreCosts that all of a fibre's control points have.
+struct FibreCostKernels
+{
+  /// What the kernels work with, for so many control points.
+  static constexpr std::size_t roomFor(std::size_t points) { return 23 * (points + 32); }
+
+  /// Adds the cost of curvature. Writes to `sharp` the control points whose bends are sharper than is free to take, and returns
+  /// their number.
+  std::size_t (*addCurvature)(const FibreShape& fibre, double weight, double& total, const FibreShapeGradients& gradients,
+    double* room, std::uint32_t* sharp);
+
+  /// Adds the cost of length.
+  void (*addLength)(const FibreShape& fibre, double weight, double& total, const FibreShapeGradients& gradients, double* room);
+};
+
+CACTUS_KERNEL_VERSIONS(FibreCostKernels);
+
+} // namespace cactus
