@@ -179,7 +179,7 @@ private:
     return true;
   }
 
-  /// Moves a point of a loop outwards in its plane, from where it was first, if no face of the box holds it.
+  /// Moves a point of a loop outwards in its plane, from where it was first, if no face of the box along the axis holds it.
   void move(const PlaneLoop& loop, std::size_t i, double way)
   {
     const std::size_t count = loop.points.size();
@@ -187,7 +187,8 @@ private:
     const Vector3d along = this->at(loop.points[(i + 1) % count]) - this->at(loop.points[(i + count - 1) % count]);
     const Vector3d outwards = along.cross(Vector3d::Unit(this->Axis));
     const double length = outwards.norm();
-    if (this->facesOf(p) == 0 && length > 0.0)
+    const int otherFaces = this->facesOf(p) & ~(3 << (2 * this->Axis)); // a rim stays in its own
+    if (otherFaces == 0 && length > 0.0)
     {
       const Vector3d to = this->at(p) + (way / length) * outwards;
       this->Places[std::size_t(p)] = keptInside(this->Surface.box, this->at(p), to, this->Options.maximumError);

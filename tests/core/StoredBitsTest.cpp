@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "972620304cfb6d2f9c7f889106dfb4be7d34cfdff7af3929a79f4cd019011219",
-           "2e57334acdad0a046a2c6436bac3af6f314fa16d214bf35621c8d6fe69f6d2e5" },
-         Known{ 20, "91bfcd66635a5f4fc09f6b7bb315dddfbfb2beb1b0438c76229d560f2e257ee4",
-           "3b6111c730f5da1fc783597332d6369b6f9ae337c4c441b4649ce4e38e44d262" },
-         Known{ 38, "bf84ae2aeda4600699f04c3b8c1649a4af8ea7b07f8cff090e4e83421d28db7a",
-           "3bffd06df900899db30229313eb02fb81cd53db81dad71860072fb41fc1b59d6" },
+         Known{ 1, "9ae0eac3679f453fe613e495669b109815f9a6dd6ee0c8d5103a7a8d64f6305b",
+           "df6f550e1f8a2efc45c3a04d56f10f95b4d4fb35dd89ef8f2cbd59806f2fc20d" },
+         Known{ 20, "07a92d43cb2efe74ea12199fd635e70048eb4487b0134d7c93f20df714169946",
+           "18942f883cabd182030c17d9c3a4a0d098f7c6bdc841bd3d6a81ba975a38f816" },
+         Known{ 38, "6c2eae67541a47691c18e9853786a5e0c5146676338f61534b2e61ca58a8d649",
+           "832d0d1422b319ffbdf1527de51a78a00af70e792a5b3c0e4cf471c58d1ca463" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
