@@ -15,7 +15,7 @@ namespace
 {
 
 using Eigen::Vector3d;
-using Corners = std::array<std::int32_t, 3>;
+using PointNumbers = std::array<std::int32_t, 3>;
 
 /// Whether a triangle touches the plane of another one only in corners that the two share, and is else on one side, for sure.
 bool touchesInShared(const std::array<double, 3>& heights, double slack, const std::array<bool, 3>& isShared)
@@ -36,7 +36,7 @@ bool touchesInShared(const std::array<double, 3>& heights, double slack, const s
 }
 
 /// Whether two triangles of one mesh have nothing in common but corners that they share by index, for sure.
-bool areApart(const TriangleMesh& mesh, const Corners& s, const TrianglePlane& planeS, const Corners& t,
+bool areApart(const TriangleMesh& mesh, const PointNumbers& s, const TrianglePlane& planeS, const PointNumbers& t,
   const TrianglePlane& planeT, double slack)
 {
   std::array<bool, 3> inS;
