@@ -61,7 +61,7 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
       {
         const double arrival = -static_cast<double>(cell.best[n]);
         const int reached = static_cast<int>((std::min(arrival, reach) - first) / growthClass);
-        classOf[n] = (arrival < reach) & (cell.best[n] - cell.second[n] > gap) ? reached : never;
+        classOf[n] = (int(arrival < reach) & int(cell.best[n] - cell.second[n] > gap)) != 0 ? reached : never;
       }
       auto& counts = perThread[std::size_t(thread)];
       cell.forEachSample([&](int n) { ++counts[std::size_t(classOf[std::size_t(n)])]; });

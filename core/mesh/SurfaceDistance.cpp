@@ -132,7 +132,7 @@ struct Nearest
     const double a = plane.height(corners[0]);
     const double b = plane.height(corners[1]);
     const double c = plane.height(corners[2]);
-    return (std::min({ a, b, c }) > this->beyond) | (std::max({ a, b, c }) < -this->beyond);
+    return (int(std::min({ a, b, c }) > this->beyond) | int(std::max({ a, b, c }) < -this->beyond)) != 0;
   }
 };
 
@@ -306,7 +306,8 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, const Nearest& near
       for (std::uint32_t n = q.first; n < q.first + q.count; ++n)
       {
         kept[count] = n;
-        count += (box.squaredDistance(b.boxes()[n]) <= nearest.squared) & !nearest.areBeyond(cornersA, b.planes()[n]) ? 1 : 0;
+        count += std::size_t(
+          int(box.squaredDistance(b.boxes()[n]) <= nearest.squared) & int(!nearest.areBeyond(cornersA, b.planes()[n])));
       }
       for (std::size_t i = 0; i < count; ++i)
       {

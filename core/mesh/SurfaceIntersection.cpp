@@ -45,8 +45,8 @@ bool areApart(const TriangleMesh& mesh, const PointNumbers& s, const TrianglePla
   std::array<double, 3> aboveT;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    inS[i] = (t[i] == s[0]) | (t[i] == s[1]) | (t[i] == s[2]);
-    inT[i] = (s[i] == t[0]) | (s[i] == t[1]) | (s[i] == t[2]);
+    inS[i] = (int(t[i] == s[0]) | int(t[i] == s[1]) | int(t[i] == s[2])) != 0;
+    inT[i] = (int(s[i] == t[0]) | int(s[i] == t[1]) | int(s[i] == t[2])) != 0;
     aboveS[i] = planeS.height(mesh.points[std::size_t(t[i])]);
     aboveT[i] = planeT.height(mesh.points[std::size_t(s[i])]);
   }
