@@ -308,7 +308,7 @@ private:
     {
       return Verdict::Worse;
     }
-    return after.excess <= this->excessAround(u, v) ? Verdict::NoWorse : Verdict::Worse;
+    return static_cast<float>(after.excess) <= this->excessAround(u, v) ? Verdict::NoWorse : Verdict::Worse;
   }
 
   /// Whether all triangles at u and v were made by collapses that keep the field in its range.
@@ -331,7 +331,7 @@ private:
   }
 
   /// By how much the field is out of its range at u and v and at the middles of edges and the centroids of the triangles at them.
-  double excessAround(std::int32_t u, std::int32_t v)
+  float excessAround(std::int32_t u, std::int32_t v)
   {
     float largest = std::max(this->excessAt(u), this->excessAt(v));
     this->Mesh.visitCornersAt(u, v,

@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "9ae0eac3679f453fe613e495669b109815f9a6dd6ee0c8d5103a7a8d64f6305b",
-           "df6f550e1f8a2efc45c3a04d56f10f95b4d4fb35dd89ef8f2cbd59806f2fc20d" },
-         Known{ 20, "07a92d43cb2efe74ea12199fd635e70048eb4487b0134d7c93f20df714169946",
-           "18942f883cabd182030c17d9c3a4a0d098f7c6bdc841bd3d6a81ba975a38f816" },
-         Known{ 38, "6c2eae67541a47691c18e9853786a5e0c5146676338f61534b2e61ca58a8d649",
-           "832d0d1422b319ffbdf1527de51a78a00af70e792a5b3c0e4cf471c58d1ca463" },
+         Known{ 1, "f2d92ed9e833db0b8ca791b86d133ba844173bf66098b8601e5e44aae26fd5aa",
+           "edaa27b5fbd6d7d72ac790a0439c7fa83dce8354336fb2457b2779d0d1b3bf88" },
+         Known{ 20, "17e10d4c7f682a79f52c0e5cfb9880ba64914e9adaebd19c10ab39dcbdf4df25",
+           "00168952e1f835d42254cde0f8d2aa15feecd29610bc915de23afc9e579d13df" },
+         Known{ 38, "29ac8594620ff3659dcff6a5bdb77346758d52b5adbd846ab3f3a8239508ae0a",
+           "bd5868c817c416e83b73434ebf1c90c8bcba464e4e53171f99a929ee6558726a" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
