@@ -17,7 +17,7 @@ namespace
 
 /// How far the field may be from its level along triangles, before points settle, as a part of the largest error.
 constexpr double slack = 1.2;
-/// The same of triangles across one band, or next to bands that stay.
+/// The same towards the inside of the body, of triangles across one band or next to bands that stay.
 constexpr double looseSlack = 4.0;
 /// Across so many bands the field may exceed its level by as much as it does in the contour itself.
 constexpr std::size_t fewBands = 4;
@@ -79,8 +79,9 @@ bool LoopStitching::stitchRing(
 
 ErrorRange LoopStitching::allowedIn(const Span& span) const
 {
-  const double furthest = (span.isLoose || span.bands() == 1 ? looseSlack : slack) * this->Options.maximumError;
-  ErrorRange allowed{ -furthest, furthest };
+  // Outside the body are neighbours, from which a surface that bulges would have to be moved away.
+  const double inside = span.isLoose || span.bands() == 1 ? looseSlack : slack;
+  ErrorRange allowed{ -slack * this->Options.maximumError, inside * this->Options.maximumError };
   for (std::size_t band = span.begin; span.bands() <= fewBands && band < span.end; ++band)
   {
     allowed.add(this->Stack.excesses[band]);

@@ -57,7 +57,7 @@ public:
   ///
   /// Where the field is farther from its level than it may be, in the middle of a triangle or at points along an edge across, or
   /// triangles fold, a part of the loop midway goes between, of the stack's loops with few points; and so on down to single
-  /// bands. There, and all over where `isLoose`, the field may be farther off. On faces of the box it may be larger.
+  /// bands. There, and all over where `isLoose`, the surface may lie farther inside. On faces of the box it may be larger.
   ///
   /// Returns false where that does not help, and where the two loops do not come to the same faces of the box, one after the
   /// other.

@@ -100,10 +100,10 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "f2d92ed9e833db0b8ca791b86d133ba844173bf66098b8601e5e44aae26fd5aa",
-           "edaa27b5fbd6d7d72ac790a0439c7fa83dce8354336fb2457b2779d0d1b3bf88" },
-         Known{ 20, "17e10d4c7f682a79f52c0e5cfb9880ba64914e9adaebd19c10ab39dcbdf4df25",
-           "00168952e1f835d42254cde0f8d2aa15feecd29610bc915de23afc9e579d13df" },
+         Known{ 1, "41d838ffe05f486a03cf9309ff9a492a771b0bb636c10e5baef39d8f21f9d73c",
+           "6a1c8ef662a66b9568a5d285785d472cf41552083609e2a689d782e88134ea47" },
+         Known{ 20, "8844708bbebd106524eb548d38a248186e5145cd5185c85b2a35fd37aa73af68",
+           "0699edbf07a128f792c2a4fc2184a7a97512fdaf690c580a770d3808b86dcc6f" },
          Known{ 38, "29ac8594620ff3659dcff6a5bdb77346758d52b5adbd846ab3f3a8239508ae0a",
            "bd5868c817c416e83b73434ebf1c90c8bcba464e4e53171f99a929ee6558726a" },
        })
