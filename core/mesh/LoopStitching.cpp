@@ -16,11 +16,11 @@ namespace
 {
 
 /// How far the field may be from its level along triangles, before points settle, as a part of the largest error.
-constexpr double slack = 1.2;
+constexpr double slack = 1.1;
 /// The same towards the inside of the body, of triangles across one band or next to bands that stay.
 constexpr double looseSlack = 4.0;
 /// Across so many bands the field may exceed its level by as much as it does in the contour itself.
-constexpr std::size_t fewBands = 4;
+constexpr std::size_t fewBands = 3;
 
 /// How far a place on an edge across may be from the loop in its plane, as a part of the largest error.
 constexpr double farthestFromLoop = 6.0;

@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "41d838ffe05f486a03cf9309ff9a492a771b0bb636c10e5baef39d8f21f9d73c",
-           "6a1c8ef662a66b9568a5d285785d472cf41552083609e2a689d782e88134ea47" },
-         Known{ 20, "8844708bbebd106524eb548d38a248186e5145cd5185c85b2a35fd37aa73af68",
-           "0699edbf07a128f792c2a4fc2184a7a97512fdaf690c580a770d3808b86dcc6f" },
-         Known{ 38, "29ac8594620ff3659dcff6a5bdb77346758d52b5adbd846ab3f3a8239508ae0a",
-           "bd5868c817c416e83b73434ebf1c90c8bcba464e4e53171f99a929ee6558726a" },
+         Known{ 1, "28a39c07d95ed6fb73271b078c5f9af781be952a5fe3ceff5c099eb3ebc28dbd",
+           "c12664864c4501e04ca2b1f5ed3e1251eac81dbde890fb1b4589c7dda8abe4c5" },
+         Known{ 20, "fb03d46a7e4fb841744f5e2e4a94c596f4e0a39584925c8342675b87792302eb",
+           "173ebf51433d536c954b701825d7e979189c06e9080a1fecc567afd67f0647dc" },
+         Known{ 38, "fa912dc9e5bdd72e661a59dd405b95e4639b0d828cf1bb213fd49d6ec7c1632e",
+           "8f5352c7e4a31bc588cf6e386e3f3474a2de03e1b492e3514d61d52c292ad34f" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

@@ -243,7 +243,7 @@ class Command(unittest.TestCase):
 
     def stop(self, wait_for, number):
         """The command, stopped by a signal once it shows what is waited for: long before the end, however busy the machine."""
-        recipe = self.recipe({"BundleInitializer": {"Side": 22}}, "large.json")
+        recipe = self.recipe({"BundleInitializer": {"Side": 45}}, "large.json")
         master, slave = pty.openpty()
         with subprocess.Popen([PROGRAM, recipe, "-o", "large"], stdout=slave, stderr=slave, cwd=self.folder) as process:
             os.close(slave)
