@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ErrorColours.h"
 
-#include "PluginProxies.h"
+#include "AfterUpdate.h"
 
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqView.h>
 #include <vtkDataObject.h>
 #include <vtkNew.h>
@@ -16,8 +15,6 @@
 #include <vtkSMRepresentationProxy.h>
 #include <vtkSMTransferFunctionManager.h>
 
-#include <QPointer>
-#include <QTimer>
 #include <QVariant>
 
 #include <string>
@@ -77,20 +74,11 @@ void mendColours(pqDataRepresentation* shown, pqView* view, bool isEmpty)
 ErrorColours::ErrorColours(pqPVApplicationCore* core)
   : QObject(core)
 {
-  connect(core->getServerManagerModel(), &pqServerManagerModel::dataUpdated, this,
-    [this](pqPipelineSource* source)
-    {
-      // It is shown only after this.
-      QTimer::singleShot(0, this, [this, source = QPointer<pqPipelineSource>(source)] { this->mend(source); });
-    });
+  afterUpdate(core, this, [this](pqPipelineSource* source) { this->mend(source); });
 }
 
 void ErrorColours::mend(pqPipelineSource* source)
 {
-  if (source == nullptr || !isOfThisPlugin(source->getProxy()))
-  {
-    return;
-  }
   for (pqOutputPort* port : source->getOutputPorts())
   {
     for (pqView* view : port->getViews())

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FirstLook.h"
 
+#include "AfterUpdate.h"
 #include "ObliqueCamera.h"
-#include "PluginProxies.h"
 
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 #include <vtkBoundingBox.h>
 #include <vtkCamera.h>
 #include <vtkMath.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMRenderViewProxy.h>
 
-#include <QPointer>
-#include <QTimer>
 #include <QVariant>
 
 #include <algorithm>
@@ -117,20 +114,11 @@ void fitIn(pqRenderView* view, pqPipelineSource* source)
 FirstLook::FirstLook(pqPVApplicationCore* core)
   : QObject(core)
 {
-  connect(core->getServerManagerModel(), &pqServerManagerModel::dataUpdated, this,
-    [this](pqPipelineSource* source)
-    {
-      // The views have the data only after this.
-      QTimer::singleShot(0, this, [this, source = QPointer<pqPipelineSource>(source)] { this->fit(source); });
-    });
+  afterUpdate(core, this, [this](pqPipelineSource* source) { this->fit(source); });
 }
 
 void FirstLook::fit(pqPipelineSource* source)
 {
-  if (source == nullptr || !isOfThisPlugin(source->getProxy()))
-  {
-    return;
-  }
   for (pqView* view : source->getViews())
   {
     if (pqRenderView* renderView = qobject_cast<pqRenderView*>(view))
