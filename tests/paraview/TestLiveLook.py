@@ -43,7 +43,7 @@ class LiveLook(CactusTestCase):
         return shown
 
     def test_states_are_shown_and_the_result_is_the_same(self):
-        bundle = self.bundle()
+        bundle = self.bundle(30)
         expected = CapsuleOptimizer(Input=bundle)
         last = fetch(expected, 0)
         live = CapsuleOptimizer(Input=bundle, ShowEvery=1)
@@ -51,7 +51,7 @@ class LiveLook(CactusTestCase):
         self.assertEqual(number(first, "Converged"), 0)
         self.assertGreater(number(first, "MaximumPenetration"), 0.1)
         self.assertLess(fetch(live, 1).GetNumberOfRows(), fetch(expected, 1).GetNumberOfRows())
-        self.assertGreater(self.wait(live), 3)
+        self.assertGreater(self.wait(live), 1)
         result = self.look(live)
         self.assertEqual(number(result, "Converged"), 1)
         self.assertTrue(numpy.array_equal(points(result), points(last)))
