@@ -3,6 +3,7 @@
 #include "FirstLook.h"
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
+#include "WholePanels.h"
 
 #include <pqInterfaceTracker.h>
 #include <pqPVApplicationCore.h>
@@ -21,6 +22,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::QuickLaunch(core);
         new cactus::FirstLook(core);
         new cactus::ErrorColours(core);
+        new cactus::WholePanels(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
       }
     });
