@@ -51,7 +51,7 @@ bool wasFittedToNothing(vtkCamera* camera)
   return acrossFromPut(camera) < sameDirection && std::min(std::abs(distance - put), std::abs(distance - fitted)) < 1e-3;
 }
 
-// Dynamic properties: of a view where its camera was when it was last fitted, of a representation how large its data were then.
+// Dynamic properties of a view: where its camera was when it was last fitted, and how large then was what it showed.
 constexpr char lastCamera[] = "cactusLastCamera";
 constexpr char lastSize[] = "cactusLastSize";
 
@@ -68,37 +68,31 @@ QVariant placeOf(vtkCamera* camera)
   return place << camera->GetParallelScale();
 }
 
-/// Diagonal of what an output has; 0 of nothing.
-double sizeOf(pqOutputPort* port)
+/// Diagonal of what a source shows in a view; 0 of nothing.
+double sizeIn(pqRenderView* view, pqPipelineSource* source)
 {
-  const vtkBoundingBox box(port->getDataInformation()->GetBounds());
-  return box.IsValid() ? box.GetDiagonalLength() : 0.0;
-}
-
-/// Whether what a representation shows has another size than when this was last asked.
-bool hasAnotherSize(pqDataRepresentation* shown, double size)
-{
-  const double before = shown->property(lastSize).toDouble();
-  if (size > 0.0)
+  vtkBoundingBox box;
+  for (pqOutputPort* port : source->getOutputPorts())
   {
-    shown->setProperty(lastSize, size);
+    for (const pqDataRepresentation* shown : port->getRepresentations(view))
+    {
+      if (shown->isVisible())
+      {
+        box.AddBounds(port->getDataInformation()->GetBounds());
+      }
+    }
   }
-  return size > 0.0 && before > 0.0 && std::fabs(size - before) > sameSize * before;
+  return box.IsValid() ? box.GetDiagonalLength() : 0.0;
 }
 
 void fitIn(pqRenderView* view, pqPipelineSource* source)
 {
-  bool isNew = false;
-  for (pqOutputPort* port : source->getOutputPorts())
-  {
-    for (pqDataRepresentation* shown : port->getRepresentations(view))
-    {
-      isNew = (shown->isVisible() && hasAnotherSize(shown, sizeOf(port))) || isNew;
-    }
-  }
+  const double size = sizeIn(view, source);
+  const double before = view->property(lastSize).toDouble();
+  const bool isOther = size > 0.0 && before > 0.0 && std::fabs(size - before) > sameSize * before;
   vtkCamera* camera = view->getRenderViewProxy()->GetActiveCamera();
   const QVariant last = view->property(lastCamera);
-  if (wasFittedToNothing(camera) || (isNew && last == placeOf(camera)))
+  if (wasFittedToNothing(camera) || (isOther && last == placeOf(camera)))
   {
     view->resetCamera();
   }
@@ -107,6 +101,10 @@ void fitIn(pqRenderView* view, pqPipelineSource* source)
     return; // somebody has moved it, or nothing has changed
   }
   view->setProperty(lastCamera, placeOf(camera));
+  if (size > 0.0)
+  {
+    view->setProperty(lastSize, size);
+  }
 }
 
 } // namespace
