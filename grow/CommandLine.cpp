@@ -9,7 +9,7 @@
 #include <vector>
 
 const char* const commandHelp =
-  R"(Usage: cactus-grow RECIPE [--output FOLDER] [--threads N]
+  R"(Usage: cactus-grow RECIPE [--output FOLDER] [--threads N] [--progress SECONDS]
 
 Grows a white-matter substrate and writes it as a folder of closed surfaces with a certificate, as the filters of
 CACTUS for ParaView do, with the same bits, and without ParaView.
@@ -19,6 +19,7 @@ CACTUS for ParaView do, with the same bits, and without ParaView.
   -o, --output FOLDER the folder to write. Without it FolderName in the recipe or, where that is not given, the
                       recipe's name without .json; for a manifest its folder's name with -rerun
   -t, --threads N     on which no result depends; 0, the default: what the recipe says, else all
+  -p, --progress SECONDS between lines of progress where standard error is no terminal, as in a job: 60; 0: none
   -h, --help          this
   -V, --version       the version
 
@@ -32,18 +33,20 @@ namespace
 
 const std::string advice = ": cactus-grow --help tells more";
 
-int threadsFrom(const std::string& text)
+/// The value of an option that takes whole numbers.
+int wholeNumber(const std::string& option, const std::string& text, const cactus::Range& range)
 {
   std::string_view rest = text;
   double number = 0.0;
-  if (!cactus::takeNumber(rest, number) || !rest.empty() || number != std::floor(number) ||
-      !cactus::limits::threads.holds(number))
+  if (!cactus::takeNumber(rest, number) || !rest.empty() || number != std::floor(number) || !range.holds(number))
   {
-    throw cactus::InvalidInput(cactus::text(
-      "--threads is ", cactus::excerpt(text), ": give a whole number from 0 to ", int(cactus::limits::threads.highest)));
+    throw cactus::InvalidInput(cactus::text(option, " is ", cactus::excerpt(text), ": give a whole number from ",
+      int(range.lowest), " to ", int(range.highest)));
   }
   return static_cast<int>(number);
 }
+
+constexpr cactus::Range seconds{ 0.0, 86400.0 }; // a day
 
 /// Takes one argument after the other.
 class Reader
@@ -97,7 +100,11 @@ private:
     }
     else if (name == "-t" || name == "--threads")
     {
-      this->Found.threads = threadsFrom(this->value(name, sign));
+      this->Found.threads = wholeNumber("--threads", this->value(name, sign), cactus::limits::threads);
+    }
+    else if (name == "-p" || name == "--progress")
+    {
+      this->Found.progress = wholeNumber("--progress", this->value(name, sign), seconds);
     }
     else if ((name == "-h" || name == "--help") && sign == std::string::npos)
     {

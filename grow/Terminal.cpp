@@ -44,6 +44,8 @@ std::string onOneLine(std::string text)
 
 Terminal::Terminal()
   : IsTerminal(::isatty(STDERR_FILENO) != 0)
+  , Pause(std::chrono::milliseconds(this->IsTerminal ? 100 : 0))
+  , LastTime(std::chrono::steady_clock::now())
 {
 }
 
@@ -52,18 +54,33 @@ Terminal::~Terminal()
   this->clear();
 }
 
+void Terminal::setPause(std::chrono::seconds pause)
+{
+  if (!this->IsTerminal)
+  {
+    this->Pause = pause;
+  }
+}
+
 void Terminal::progress(double fraction, const std::string& message)
 {
   const auto now = std::chrono::steady_clock::now();
-  if (!this->IsTerminal || (this->IsShown && now - this->LastTime < std::chrono::milliseconds(100)))
+  const bool isFirst = this->IsTerminal && !this->IsShown;
+  if (this->Pause == this->Pause.zero() || (!isFirst && now - this->LastTime < this->Pause))
   {
     return;
   }
   this->LastTime = now;
-  this->IsShown = true;
   char percent[16];
   std::snprintf(percent, sizeof(percent), "%3d %%  ", static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0)));
-  std::fprintf(stderr, "\r%s\033[K", shortened(percent + onOneLine(message), width() - 1).c_str());
+  const std::string line = percent + message;
+  if (!this->IsTerminal)
+  {
+    this->say(line);
+    return;
+  }
+  this->IsShown = true;
+  std::fprintf(stderr, "\r%s\033[K", shortened(onOneLine(line), width() - 1).c_str());
   std::fflush(stderr);
 }
 

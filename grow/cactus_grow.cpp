@@ -7,6 +7,7 @@
 #include "recipe/RecipeReader.h"
 #include "recipe/RecipeRun.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -182,6 +183,7 @@ int main(int count, char** arguments)
       std::fputs(command.wantsHelp ? commandHelp : "cactus-grow " CACTUS_VERSION "\n", stdout);
       return certified;
     }
+    terminal.setPause(std::chrono::seconds(command.progress));
     return run(jobFrom(command), terminal);
   }
   catch (const std::exception& error)

@@ -13,6 +13,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "paraview"))
@@ -268,6 +269,23 @@ class Command(unittest.TestCase):
                 self.assertRegex(shown, r"\r *\d+ %  ")
                 self.assertRegex(shown, r"cactus-grow: stopped: large is as it was\r\n$")
                 self.assertEqual(os.listdir(self.folder), ["large.json"])
+
+    def test_progress_in_the_log_of_a_job(self):
+        self.assertEqual(self.run_it(self.recipe(SMALL)).stderr, "", "shorter than a minute")
+        recipe = self.recipe({"BundleInitializer": {"Side": 20}})
+        started = time.monotonic()
+        done = self.run_it(recipe, "--progress", "1", "--threads", "1")
+        lines = [line for line in done.stderr.splitlines() if "warning" not in line]
+        self.assertGreaterEqual(len(lines), 1)
+        self.assertLessEqual(len(lines), time.monotonic() - started)
+        places = []
+        for line in lines:
+            self.assertRegex(line, r"^cactus-grow: +\d+ %  \d/5 [A-Z][A-Za-z]+")
+            percent, stage = line.split(":")[1].split("%")
+            places.append((stage.split("/")[0], int(percent)))
+        self.assertEqual(places, sorted(places))
+        for refused in ("-1", "1.5", "often"):
+            self.assertIn("--progress is " + refused, self.run_it(recipe, "--progress", refused).stderr)
 
     def test_the_examples_are_recipes(self):
         examples = sorted(glob.glob(os.path.join(RECIPES, "*.json")))
