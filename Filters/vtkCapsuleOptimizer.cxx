@@ -353,7 +353,7 @@ void vtkCapsuleOptimizer::Report(Run& run)
 {
   if (run.IsOver && !run.WasReported)
   {
-    for (const std::string& remark : cactus::remarksOnOptimisation(run.Optimisation, this->Stage().options.overlapTolerance))
+    for (const std::string& remark : cactus::remarksOnOptimisation(run.Optimisation, this->Stage().options))
     {
       vtkWarningMacro(<< remark);
     }

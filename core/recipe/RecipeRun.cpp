@@ -235,7 +235,7 @@ private:
     this->Caller.checkpoint(); // it keeps its best state where it is stopped
     std::vector<std::size_t> kept;
     fibres = trimmedFibres(stage, std::move(fibres), kept);
-    for (const std::string& remark : remarksOnOptimisation(result, stage.options.overlapTolerance))
+    for (const std::string& remark : remarksOnOptimisation(result, stage.options))
     {
       this->say("CapsuleOptimizer: " + remark);
     }

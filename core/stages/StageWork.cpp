@@ -59,9 +59,16 @@ const char* reasonText(StopReason reason)
   }
 }
 
+/// A longer first step of Adagrad (µm) leaps over its contacts.
+constexpr double longAdagradStep = 0.2;
+
 /// What to do about overlaps that a run has left; nothing where it was the user who ended it.
-const char* adviceOn(StopReason reason)
+std::string adviceOn(StopReason reason, const CapsuleOptimizerOptions& options)
 {
+  if (reason == StopReason::Stagnated && options.method == DescentMethod::Adagrad && options.stepSize > longAdagradStep)
+  {
+    return text(" StepSize ", options.stepSize, " is the first step in µm with Adagrad: about 0.02 is usual.");
+  }
   switch (reason)
   {
   case StopReason::MaximumIterations:
@@ -297,18 +304,18 @@ Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vec
   return fibres;
 }
 
-std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, double overlapTolerance)
+std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, const CapsuleOptimizerOptions& options)
 {
   std::vector<std::string> remarks;
   if (!result.checkpointFailure.empty())
   {
     remarks.push_back("the run could not be written down to go on from: " + result.checkpointFailure);
   }
-  if (result.maximumPenetration > overlapTolerance)
+  if (result.maximumPenetration > options.overlapTolerance)
   {
     remarks.push_back(text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration,
-      " iterations with ", result.overlappingPairs, " capsule pairs above OverlapTolerance ", overlapTolerance,
-      ", the largest penetration being ", result.maximumPenetration, ". The best state is kept.", adviceOn(result.reason)));
+      " iterations with ", result.overlappingPairs, " capsule pairs above OverlapTolerance ", options.overlapTolerance,
+      ", the largest penetration being ", result.maximumPenetration, ". The best state is kept.", adviceOn(result.reason, options)));
   }
   return remarks;
 }

@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
 Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vector<std::size_t>& kept);
 
 /// How the optimiser's run fell short, in sentences; empty where it did not.
-std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, double overlapTolerance);
+std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, const CapsuleOptimizerOptions& options);
 
 /// That fibres which no optimiser has parted overlap, where capsules of different ones have more than a hundredth of their radii
 /// in common; empty else.

@@ -107,6 +107,9 @@ TEST_F(RecipeRuns, TellsOfFibresThatStillOverlap)
   runRecipe(readRecipe(with(R"({"MaximumIterations": 1})"), ""), this->place("few"), {}, remember);
   EXPECT_NE(remarks.find("overlaps remain: MaximumIterations were used up after 1 iterations"), std::string::npos) << remarks;
   remarks.clear();
+  runRecipe(readRecipe(with(R"({"Method": "Adagrad"})"), ""), this->place("leaps"), {}, remember);
+  EXPECT_NE(remarks.find("StepSize 1.7 is the first step in µm with Adagrad"), std::string::npos) << remarks;
+  remarks.clear();
   runRecipe(readRecipe(with("false"), ""), this->place("none"), {}, remember);
   EXPECT_NE(remarks.find("the optimiser has not parted these fibres"), std::string::npos) << remarks;
 }
