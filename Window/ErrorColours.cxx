@@ -11,6 +11,7 @@
 #include <vtkDataObject.h>
 #include <vtkNew.h>
 #include <vtkPVDataInformation.h>
+#include <vtkPVGeneralSettings.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRepresentationProxy.h>
 #include <vtkSMTransferFunctionManager.h>
@@ -65,6 +66,11 @@ void mendColours(pqDataRepresentation* shown, pqView* view, bool isEmpty)
       vtkSMPropertyHelper(proxy, "Representation").GetAsString() == std::string(plainLook))
   {
     vtkSMRepresentationProxy::SetRepresentationType(proxy, look.c_str()); // which chooses an array, too
+    if (vtkPVGeneralSettings::GetInstance()->GetScalarBarMode() == vtkPVGeneralSettings::AUTOMATICALLY_SHOW_AND_HIDE_SCALAR_BARS)
+    {
+      vtkNew<vtkSMTransferFunctionManager> colours;
+      colours->UpdateScalarBars(view->getProxy(), vtkSMTransferFunctionManager::SHOW_USED_SCALAR_BARS);
+    }
     view->render();
   }
 }

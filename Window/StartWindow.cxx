@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BarUnits.h"
 #include "ErrorColours.h"
 #include "FirstLook.h"
 #include "NarrowChoices.h"
@@ -23,6 +24,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::FirstLook(core);
         new cactus::ErrorColours(core);
         new cactus::WholePanels(core);
+        new cactus::BarUnits(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
       }
     });

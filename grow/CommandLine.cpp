@@ -40,8 +40,8 @@ int wholeNumber(const std::string& option, const std::string& text, const cactus
   double number = 0.0;
   if (!cactus::takeNumber(rest, number) || !rest.empty() || number != std::floor(number) || !range.holds(number))
   {
-    throw cactus::InvalidInput(cactus::text(option, " is ", cactus::excerpt(text), ": give a whole number from ",
-      int(range.lowest), " to ", int(range.highest)));
+    throw cactus::InvalidInput(cactus::text(
+      option, " is ", cactus::excerpt(text), ": give a whole number from ", int(range.lowest), " to ", int(range.highest)));
   }
   return static_cast<int>(number);
 }

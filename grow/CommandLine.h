@@ -9,7 +9,7 @@ struct CommandLine
   std::string recipe; ///< a file, or a substrate folder
   std::string output; ///< empty where none is named
   int threads = 0;    ///< 0: what the recipe says
-  int progress = 60;          ///< seconds between lines of progress where there is no terminal; 0: none
+  int progress = 60;  ///< seconds between lines of progress where there is no terminal; 0: none
   bool wantsHelp = false;
   bool wantsVersion = false;
 };

@@ -25,7 +25,7 @@ private:
   void clear();
 
   bool IsTerminal;
-  std::chrono::steady_clock::duration Pause; ///< between two changes of the progress
-  bool IsShown = false; ///< a line of progress
+  std::chrono::steady_clock::duration Pause;      ///< between two changes of the progress
+  bool IsShown = false;                           ///< a line of progress
   std::chrono::steady_clock::time_point LastTime; ///< of progress; at first when this was made
 };

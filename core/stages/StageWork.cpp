@@ -315,7 +315,8 @@ std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result,
   {
     remarks.push_back(text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration,
       " iterations with ", result.overlappingPairs, " capsule pairs above OverlapTolerance ", options.overlapTolerance,
-      ", the largest penetration being ", result.maximumPenetration, ". The best state is kept.", adviceOn(result.reason, options)));
+      ", the largest penetration being ", result.maximumPenetration, ". The best state is kept.",
+      adviceOn(result.reason, options)));
   }
   return remarks;
 }

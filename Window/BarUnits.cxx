@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BarUnits.h"
+
+#include "AfterUpdate.h"
+
+#include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
+#include <pqPVApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqView.h>
+#include <vtkNew.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMTransferFunctionManager.h>
+
+#include <QTimer>
+
+#include <string>
+
+namespace cactus
+{
+namespace
+{
+
+/// Of an array in what a source or filter gives, by the hints in its XML; empty where it has none.
+std::string unitOf(const std::string& array, vtkSMProxy* source)
+{
+  vtkPVXMLElement* hints = source->GetHints();
+  for (unsigned int i = 0; i < hints->GetNumberOfNestedElements(); ++i)
+  {
+    vtkPVXMLElement* output = hints->GetNestedElement(i);
+    for (unsigned int j = 0; j < output->GetNumberOfNestedElements(); ++j)
+    {
+      vtkPVXMLElement* told = output->GetNestedElement(j);
+      if (std::string(told->GetName()) == "Array" && told->GetAttributeOrEmpty("name") == array)
+      {
+        return told->GetAttributeOrEmpty("unit");
+      }
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+BarUnits::BarUnits(pqPVApplicationCore* core)
+  : QObject(core)
+{
+  afterUpdate(core, this, [this](pqPipelineSource* source) { this->watch(source); });
+}
+
+void BarUnits::watch(pqPipelineSource* source)
+{
+  for (pqView* view : source->getViews())
+  {
+    for (pqOutputPort* port : source->getOutputPorts())
+    {
+      for (pqDataRepresentation* shown : port->getRepresentations(view))
+      {
+        QObject::connect(
+          shown, &pqDataRepresentation::colorTransferFunctionModified, this, &BarUnits::afterColouring, Qt::UniqueConnection);
+        addUnit(shown);
+      }
+    }
+  }
+}
+
+void BarUnits::afterColouring()
+{
+  if (pqDataRepresentation* shown = qobject_cast<pqDataRepresentation*>(this->sender()))
+  {
+    QTimer::singleShot(0, shown, [shown] { addUnit(shown); }); // ParaView names the bar only after this
+  }
+}
+
+void BarUnits::addUnit(pqDataRepresentation* shown)
+{
+  vtkSMProxy* colours = shown->getLookupTableProxy();
+  if (colours == nullptr || shown->getView() == nullptr)
+  {
+    return;
+  }
+  const vtkSMPropertyHelper array(shown->getProxy(), "ColorArrayName", true);
+  const char* name = array.GetInputArrayNameToProcess();
+  const std::string unit = name != nullptr ? unitOf(name, shown->getInput()->getProxy()) : "";
+  if (unit.empty())
+  {
+    return;
+  }
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  vtkSMProxy* bar = manager->GetScalarBarRepresentation(colours, shown->getView()->getProxy());
+  vtkSMPropertyHelper title(bar, "Title");
+  if (std::string(title.GetAsString()) == name)
+  {
+    title.Set((std::string(name) + " (" + unit + ")").c_str());
+    bar->UpdateVTKObjects();
+    shown->getView()->render();
+  }
+}
+
+} // namespace cactus
