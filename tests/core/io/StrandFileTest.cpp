@@ -22,15 +22,17 @@ std::string messageOf(const std::string& text)
 {
   const std::string path = scratch("bad.strands");
   std::ofstream(path) << text;
+  std::string message;
   try
   {
     cactus::readStrandFile(path);
   }
   catch (const cactus::Error& error)
   {
-    return error.what();
+    message = error.what();
   }
-  return "";
+  std::filesystem::remove(path);
+  return message;
 }
 
 } // namespace
@@ -46,6 +48,7 @@ TEST(StrandFile, RoundTrip)
   const std::string path = scratch("round.strands");
   cactus::writeStrandFile(fibres, path);
   const cactus::Fibres back = cactus::readStrandFile(path);
+  std::filesystem::remove(path);
   ASSERT_EQ(back.size(), 1u);
   ASSERT_EQ(back.points.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i)
