@@ -53,7 +53,7 @@ struct FloatBox
 class BoxTree
 {
 public:
-  static constexpr std::uint32_t leafSize = 4;
+  static constexpr std::uint32_t leafSize = 8;
   static constexpr int maximumDepth = 72;
 
   /// What the tree is made of: a box, and what it is of.
