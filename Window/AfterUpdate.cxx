@@ -3,9 +3,12 @@
 
 #include "PluginProxies.h"
 
+#include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
+#include <pqView.h>
 
 #include <QPointer>
 #include <QTimer>
@@ -28,6 +31,20 @@ void afterUpdate(pqPVApplicationCore* core, QObject* owner, const std::function<
           }
         });
     });
+}
+
+void forEachShown(pqPipelineSource* source, const std::function<void(pqDataRepresentation*, pqOutputPort*, pqView*)>& act)
+{
+  for (pqOutputPort* port : source->getOutputPorts())
+  {
+    for (pqView* view : port->getViews())
+    {
+      for (pqDataRepresentation* shown : port->getRepresentations(view))
+      {
+        act(shown, port, view);
+      }
+    }
+  }
 }
 
 } // namespace cactus

@@ -4,8 +4,11 @@
 #include <functional>
 
 class QObject;
+class pqDataRepresentation;
+class pqOutputPort;
 class pqPVApplicationCore;
 class pqPipelineSource;
+class pqView;
 
 namespace cactus
 {
@@ -13,5 +16,8 @@ namespace cactus
 /// Calls act(source) each time after a source or filter of this plugin has been updated, once views have its data, as long as
 /// `owner` lives.
 void afterUpdate(pqPVApplicationCore* core, QObject* owner, const std::function<void(pqPipelineSource*)>& act);
+
+/// Calls act(representation, port, view) for all that views show, or hide, of what a source or filter gives.
+void forEachShown(pqPipelineSource* source, const std::function<void(pqDataRepresentation*, pqOutputPort*, pqView*)>& act);
 
 } // namespace cactus

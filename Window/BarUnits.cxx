@@ -52,18 +52,13 @@ BarUnits::BarUnits(pqPVApplicationCore* core)
 
 void BarUnits::watch(pqPipelineSource* source)
 {
-  for (pqView* view : source->getViews())
-  {
-    for (pqOutputPort* port : source->getOutputPorts())
+  forEachShown(source,
+    [this](pqDataRepresentation* shown, pqOutputPort*, pqView*)
     {
-      for (pqDataRepresentation* shown : port->getRepresentations(view))
-      {
-        QObject::connect(
-          shown, &pqDataRepresentation::colorTransferFunctionModified, this, &BarUnits::afterColouring, Qt::UniqueConnection);
-        addUnit(shown);
-      }
-    }
-  }
+      QObject::connect(
+        shown, &pqDataRepresentation::colorTransferFunctionModified, this, &BarUnits::afterColouring, Qt::UniqueConnection);
+      addUnit(shown);
+    });
 }
 
 void BarUnits::afterColouring()

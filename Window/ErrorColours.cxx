@@ -85,16 +85,8 @@ ErrorColours::ErrorColours(pqPVApplicationCore* core)
 
 void ErrorColours::mend(pqPipelineSource* source)
 {
-  for (pqOutputPort* port : source->getOutputPorts())
-  {
-    for (pqView* view : port->getViews())
-    {
-      for (pqDataRepresentation* shown : port->getRepresentations(view))
-      {
-        mendColours(shown, view, port->getDataInformation()->GetNumberOfPoints() == 0);
-      }
-    }
-  }
+  forEachShown(source, [](pqDataRepresentation* shown, pqOutputPort* port, pqView* view)
+    { mendColours(shown, view, port->getDataInformation()->GetNumberOfPoints() == 0); });
 }
 
 } // namespace cactus

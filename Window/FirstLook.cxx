@@ -72,16 +72,14 @@ QVariant placeOf(vtkCamera* camera)
 double sizeIn(pqRenderView* view, pqPipelineSource* source)
 {
   vtkBoundingBox box;
-  for (pqOutputPort* port : source->getOutputPorts())
-  {
-    for (const pqDataRepresentation* shown : port->getRepresentations(view))
+  forEachShown(source,
+    [&](pqDataRepresentation* shown, pqOutputPort* port, pqView* where)
     {
-      if (shown->isVisible())
+      if (where == view && shown->isVisible())
       {
         box.AddBounds(port->getDataInformation()->GetBounds());
       }
-    }
-  }
+    });
   return box.IsValid() ? box.GetDiagonalLength() : 0.0;
 }
 
