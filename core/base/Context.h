@@ -12,16 +12,16 @@ namespace cactus
 /// `progress` and `cancelled` are only ever called from the thread that called the operation.
 struct Context
 {
-  /// OpenMP threads to use at most; 0 means all that the machine offers.
+  /// To use at most; 0 means as many as the environment variable OMP_NUM_THREADS says, else all that the machine offers.
   int threads = 0;
   /// Called with a fraction in [0, 1] and a short sentence.
   std::function<void(double, const std::string&)> progress;
   /// True once the caller wants the operation to stop.
   std::function<bool()> cancelled;
 
-  /// `threads`, with 0 replaced by the machine's number: at most the larger of 16 and the machine's processors, and no more than
+  /// `threads`, with 0 replaced by that: at most the larger of 16 and the machine's processors, and no more than
   /// the system lets this process start (limits on address space and on the number of threads). At least 1. No result depends
-  /// on it.
+  /// on it. Throws InvalidInput where that variable holds no number.
   int threadCount() const;
   void report(double fraction, const std::string& message) const
   {

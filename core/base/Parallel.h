@@ -5,13 +5,13 @@
 
 #include "base/Context.h"
 #include "base/Error.h"
-
-#include <omp.h>
+#include "base/Threads.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -19,8 +19,8 @@
 namespace cactus
 {
 
-/// Ends a parallel loop before its time, and carries out of it what ended it: an exception must not leave a parallel region by
-/// itself.
+/// Ends a parallel loop before its time, and carries out of it what ended it: an exception must not leave the thread that it came
+/// up in.
 class LoopEnd
 {
 public:
@@ -34,30 +34,22 @@ public:
     }
     catch (...)
     {
-#pragma omp critical(cactusLoopEnd)
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      if (!this->Failure || index < this->FailedIndex)
       {
-        if (!this->Failure || index < this->FailedIndex)
-        {
-          this->FailedIndex = index;
-          this->Failure = std::current_exception();
-        }
+        this->FailedIndex = index;
+        this->Failure = std::current_exception();
       }
       this->Reached = true;
     }
   }
 
-  void stop()
-  {
-    this->Stopped = this->Reached = true;
-  }
+  void stop() { this->Stopped = this->Reached = true; }
 
   /// Whether what is left of the loop need not be done.
-  bool reached() const
-  {
-    return this->Reached;
-  }
+  bool reached() const { return this->Reached; }
 
-  /// Throws, after the region, what was thrown inside, or Cancelled after stop().
+  /// Throws, after the loop, what was thrown inside, or Cancelled after stop().
   void rethrow() const
   {
     if (this->Failure)
@@ -71,6 +63,7 @@ public:
   }
 
 private:
+  std::mutex Mutex;
   std::exception_ptr Failure;
   std::size_t FailedIndex = 0;
   std::atomic<bool> Stopped{ false };
@@ -83,31 +76,27 @@ template <typename MakeWorker, typename Body, typename WantsMore>
 void runLoop(std::size_t count, int threads, MakeWorker&& makeWorker, Body&& body, WantsMore&& wantsMore)
 {
   LoopEnd end;
-  const auto total = static_cast<std::ptrdiff_t>(count);
-#pragma omp parallel num_threads(threads)
+  std::atomic<std::size_t> next{ 0 };
+  const auto take = [&](int thread)
   {
-    bool isCaller = false;
-#pragma omp master
-    isCaller = true;
     std::optional<std::decay_t<decltype(makeWorker(0))>> worker;
-    end.run(count, [&] { worker.emplace(makeWorker(omp_get_thread_num())); });
-#pragma omp for schedule(dynamic)
-    for (std::ptrdiff_t i = 0; i < total; ++i)
+    end.run(count, [&] { worker.emplace(makeWorker(thread)); });
+    for (std::size_t i = 0; !end.reached() && (i = next++) < count;)
     {
-      if (end.reached())
-      {
-        continue;
-      }
-      end.run(static_cast<std::size_t>(i),
+      end.run(i,
         [&]
         {
-          body(*worker, static_cast<std::size_t>(i));
-          if (isCaller && !wantsMore())
+          body(*worker, i);
+          if (thread == 0 && !wantsMore())
           {
             end.stop();
           }
         });
     }
+  };
+  if (count > 0)
+  {
+    shareWork(static_cast<int>(std::min(count, static_cast<std::size_t>(threads))), take);
   }
   end.rethrow();
 }

@@ -74,14 +74,7 @@ void RunGridEntries::count(const std::vector<RunBox>& runs, const RunGrid& grid,
 {
   parallelForInBlocks(runs.size(), runsTogether, threads,
     [&](std::size_t i)
-    {
-      grid.forEachCell(runs[i],
-        [&](std::size_t cell)
-        {
-#pragma omp atomic
-          ++this->Start[cell];
-        });
-    });
+    { grid.forEachCell(runs[i], [&](std::size_t cell) { __atomic_add_fetch(&this->Start[cell], 1, __ATOMIC_RELAXED); }); });
   std::size_t sum = 0;
   for (std::size_t& entry : this->Start)
   {
@@ -119,9 +112,7 @@ void RunGridEntries::fillKeys(const std::vector<RunBox>& runs, const RunGrid& gr
       grid.forEachCell(runs[i],
         [&](std::size_t cell)
         {
-          std::size_t place = 0;
-#pragma omp atomic capture
-          place = --this->Start[cell];
+          const std::size_t place = __atomic_sub_fetch(&this->Start[cell], 1, __ATOMIC_RELAXED);
           this->Keys[place] = static_cast<std::uint32_t>(i);
         });
     });

@@ -19,24 +19,13 @@
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 
 namespace cactus_testing
 {
 
-/// Runs something in a thread of its own. A child that is forked from there begins without the OpenMP threads that belong to
-/// the calling thread: they do not come along, and OpenMP would wait for them.
-template <typename Result>
-Result inThread(const std::function<Result()>& work)
-{
-  Result result{};
-  std::thread thread([&] { result = work(); });
-  thread.join();
-  return result;
-}
-
-inline std::string forked(const std::function<std::string()>& work)
+/// What `work` returned in a child process; its death is told, too.
+inline std::string inChild(const std::function<std::string()>& work)
 {
   int ends[2];
   if (::pipe(ends) != 0)
@@ -61,12 +50,6 @@ inline std::string forked(const std::function<std::string()>& work)
   int status = 0;
   ::waitpid(child, &status, 0);
   return status == 0 ? text : text + " (the child ended with status " + std::to_string(status) + ")";
-}
-
-/// What `work` returned in a child process; its death is told, too.
-inline std::string inChild(const std::function<std::string()>& work)
-{
-  return inThread<std::string>([&] { return forked(work); });
 }
 
 /// For a child: goes on as a user to whom permissions mean something. Root may write everywhere.
@@ -109,7 +92,8 @@ enum class Fate
   untraceable ///< this machine does not let processes watch each other
 };
 
-inline Fate forkedAndKilled(int call, const std::function<void()>& work)
+/// Runs `work` in a child that is killed (SIGKILL) when it is about to make its `call`-th system call that changes files.
+inline Fate killedAtCall(int call, const std::function<void()>& work)
 {
   static const std::set<unsigned long long> changes{
     __NR_openat, __NR_mkdirat, __NR_unlinkat, __NR_renameat2, __NR_write, __NR_fsync, __NR_syncfs, __NR_flock,
@@ -166,12 +150,6 @@ inline Fate forkedAndKilled(int call, const std::function<void()>& work)
       return Fate::killed;
     }
   }
-}
-
-/// Runs `work` in a child that is killed (SIGKILL) when it is about to make its `call`-th system call that changes files.
-inline Fate killedAtCall(int call, const std::function<void()>& work)
-{
-  return inThread<Fate>([&] { return forkedAndKilled(call, work); });
 }
 
 } // namespace cactus_testing

@@ -3,9 +3,10 @@
 #include "Sanitized.h"
 #include "base/Context.h"
 #include "base/Error.h"
+#include "base/Parallel.h"
+#include "base/Threads.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -129,8 +130,8 @@ int refusesWhatDoesNotFit()
   return 2;
 }
 
-/// Opens parallel regions with little room for stacks.
-int opensRegionsWithin(rlim_t bytes)
+/// Shares loops among threads with little room for stacks.
+int sharesLoopsWithin(rlim_t bytes)
 {
   limitAddressSpace(bytes);
   cactus::Context context;
@@ -138,13 +139,11 @@ int opensRegionsWithin(rlim_t bytes)
   {
     context.threads = asked;
     const int count = context.threadCount();
-    if (count < 1 || count > std::max(16, omp_get_num_procs()))
+    if (count < 1 || count > std::max(16, cactus::processorCount()))
     {
       return 1;
     }
-#pragma omp parallel num_threads(count)
-    {
-    }
+    cactus::parallelBlocks(1000, 1, count, [](std::size_t, std::size_t, std::size_t) {});
   }
   return 0;
 }
@@ -171,21 +170,8 @@ TEST_F(LimitedProcess, IsRefusedWhatDoesNotFitIntoItsAddressSpace)
 
 TEST_F(LimitedProcess, DoesWithoutThreadsThatCannotBeStarted)
 {
-  EXPECT_EXIT(_exit(opensRegionsWithin(500000000)), ::testing::ExitedWithCode(0), "");
-  EXPECT_EXIT(_exit(opensRegionsWithin(5 * gigabyte)), ::testing::ExitedWithCode(0), "");
-}
-
-// Guarantee 5, and 4: a result never depends on the number of threads, so fewer are taken than asked for where they cannot be.
-TEST(Threads, AreNeverMoreThanAreOfUse)
-{
-  cactus::Context context;
-  for (const int asked : { 1, 2, 16, 17, 1000, 2000000000 })
-  {
-    context.threads = asked;
-    EXPECT_EQ(context.threadCount(), std::min(asked, std::max(16, omp_get_num_procs())));
-  }
-  context.threads = 0;
-  EXPECT_LE(context.threadCount(), std::max(16, omp_get_num_procs()));
+  EXPECT_EXIT(_exit(sharesLoopsWithin(500000000)), ::testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(_exit(sharesLoopsWithin(5 * gigabyte)), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(Memory, IsWrittenAsPeopleReadIt)

@@ -59,7 +59,7 @@ class Worker:
     def start(self):
         reader, writer = os.pipe()
         program = os.readlink("/proc/self/exe")
-        environment = {**os.environ, "OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive", "PYTHONDONTWRITEBYTECODE": "1"}
+        environment = {**os.environ, "OMP_NUM_THREADS": "2", "PYTHONDONTWRITEBYTECODE": "1"}
         # What is freed goes back to the system, so that a limit of memory is met again and again.
         environment.update({"MALLOC_MMAP_THRESHOLD_": "65536", "MALLOC_TRIM_THRESHOLD_": "65536", "MALLOC_ARENA_MAX": "1"})
         self.log.truncate(0)
