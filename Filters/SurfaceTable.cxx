@@ -35,8 +35,8 @@ void fillSurfaceTable(vtkTable* table, const std::vector<FibreSurfacePair>& fibr
   number("OuterSquaredEdgeRatio", [](const Fibre& f) { return f.outerReport.largestSquaredEdgeRatio; });
   number("InnerSquaredEdgeRatio", [](const Fibre& f) { return f.innerReport.largestSquaredEdgeRatio; });
   integer("Flawed", [](const Fibre& f) { return long(f.isFlawed); });
-  number("LargestMove_um", [](const Fibre& f) { return f.largestMove; });
-  number("DroppedVolume_um3", [](const Fibre& f) { return f.droppedVolume; });
+  number("LargestMove_um", [](const Fibre& f) { return f.largestMove(); });
+  number("DroppedVolume_um3", [](const Fibre& f) { return f.droppedVolume(); });
 }
 
 } // namespace cactus

@@ -241,11 +241,12 @@ std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
   const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
   const std::string demand = outerDemandOf(stage);
   const std::size_t count = maker.fibres().size();
+  cactus::SurfacesInMemory inner(count);
   if (this->Kept == nullptr || this->Kept->inputTime != inputTime || this->Kept->demand != demand)
   {
     this->Kept.reset(); // nothing is kept of what fails
     cactus::SurfacesInMemory outer(count);
-    maker.makeOuter(outer);
+    maker.makeOuter(outer, inner);
     std::vector<cactus::FibreSurfacePair> fibres = maker.fibres();
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -266,7 +267,6 @@ std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
     output->GetCellData()->ShallowCopy(this->Kept->surfaces->GetCellData());
   }
   const OutputSurfaces outer(this->Kept->surfaces, this->Kept->fibres);
-  cactus::SurfacesInMemory inner(count);
   maker.makeInner(outer, inner);
   std::vector<cactus::FibreSurfacePair> fibres = maker.fibres();
   for (std::size_t i = 0; i < count; ++i)

@@ -69,7 +69,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   sum.add(&fibres.grownFraction, sizeof(double));
   sum.add(fibres.domain.lower.data(), 3 * sizeof(double));
   sum.add(fibres.domain.upper.data(), 3 * sizeof(double));
-  const std::string values = "CACTUS " CACTUS_VERSION ", journal 3\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 4\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)
   {
@@ -185,7 +185,7 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const F
   SubstrateFolderContents contents;
   {
     SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
-    maker.makeOuter(spool.outer());
+    maker.makeOuter(spool.outer(), spool.inner());
     maker.makeInner(spool.outer(), spool.inner());
     result.fibres = maker.fibres();
     result.remarks = notAsAsked(maker.fibres(), spacing, facts);

@@ -127,8 +127,12 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
     // What was moved is moved again, from what was contoured.
     std::fill(this->Outer.isSpaced.begin(), this->Outer.isSpaced.end(), 0);
   }
-  const auto& notes = this->IsSpacingDone ? this->InnerNotes : this->OuterNotes;
-  this->Found = std::size_t(std::count_if(notes.begin(), notes.end(), [](const auto& of) { return !of.empty(); }));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const bool isFound = this->IsSpacingDone ? !this->InnerNotes[i].empty() || pairFrom(this->SpacedNotes[i].back()).isInnerMade
+                                             : !this->OuterNotes[i].empty();
+    this->Found += isFound ? 1 : 0;
+  }
 }
 
 /// Those of all processes that have ever worked here, sorted.

@@ -280,7 +280,7 @@ private:
     const LabelImageView view{ grown.image.grid, grown.image.fibreId.data(), grown.image.depth.data(), grown.gap };
     SurfaceMaker maker(std::make_shared<LabelImageInMemory>(view), grown.facts, stage.options, this->contextFor(stage.threads));
     auto made = std::make_unique<MadeSurfaces>(maker.fibres().size());
-    maker.makeOuter(made->outer);
+    maker.makeOuter(made->outer, made->inner);
     maker.makeInner(made->outer, made->inner);
     this->say(notAsAsked(maker.fibres(), view.grid.spacing, grown.facts));
     made->fibres = maker.fibres();

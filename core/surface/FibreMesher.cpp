@@ -92,7 +92,8 @@ void FibreMesher::makeOuter(
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
   const double highest = this->Withdrawal + deeper;
   double level = highest - usualPart * furthest;
-  CappedSurface surface = this->Contours.outerAt(field, level, pair.droppedVolume);
+  pair.outerChange = SurfaceChange();
+  CappedSurface surface = this->Contours.outerAt(field, level, pair.outerChange.droppedVolume);
   if (surface.mesh.triangles.empty())
   {
     return;
@@ -111,7 +112,8 @@ void FibreMesher::makeOuter(
       if (std::abs(right - level) > rest)
       {
         level = right;
-        surface = this->Contours.outerAt(field, level, pair.droppedVolume);
+        pair.outerChange = SurfaceChange();
+        surface = this->Contours.outerAt(field, level, pair.outerChange.droppedVolume);
         now = measure(surface);
       }
       right = level;
@@ -119,7 +121,8 @@ void FibreMesher::makeOuter(
     const double there = now.volume + (level - right) * now.freeArea;
     volume = std::clamp(volume, there - rest * now.freeArea, there + rest * now.freeArea);
   }
-  const bool isSound = this->Finishing.finish(field, { level, right, volume, nullptr, bounds }, surface, pair.outerReport, pair);
+  const bool isSound =
+    this->Finishing.finish(field, { level, right, volume, nullptr, bounds }, surface, pair.outerReport, pair.outerChange);
   pair.isFlawed = pair.isFlawed || !isSound;
   pair.outer = packed(std::move(surface.mesh));
   pair.outerLevel = right;
@@ -133,7 +136,7 @@ std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) con
   CappedSurface surface{ std::move(pair.outer), std::move(faces), box };
   this->Finishing.finishMoved(surface);
   pair.outer = std::move(surface.mesh);
-  pair.outerReport = keepSoundPieces(pair.outer, pair.droppedVolume);
+  pair.outerReport = keepSoundPieces(pair.outer, pair.outerChange.droppedVolume);
   if (pair.outer.triangles.empty())
   {
     pair.state = MyelinState::NoFibre;
@@ -158,13 +161,20 @@ AxonLevels FibreMesher::axonLevels(const SmoothedField& field, double volume) co
   return levels;
 }
 
-void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) const
+void FibreMesher::forgetInner(FibreSurfacePair& pair)
 {
   pair.inner = TriangleMesh();
   pair.innerReport = SurfaceReport();
+  pair.innerChange = SurfaceChange();
   pair.gRatio = 0.0;
   pair.thickness = 0.0;
-  pair.state = MyelinState::NoAxon;
+  pair.state = pair.state == MyelinState::NoFibre ? MyelinState::NoFibre : MyelinState::NoAxon;
+  pair.isInnerMade = false;
+}
+
+void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) const
+{
+  forgetInner(pair);
   const double wanted = pair.targetGRatio * pair.targetGRatio * pair.outerReport.volume;
   if (!(wanted > 0.0))
   {
@@ -196,8 +206,9 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
   {
     const double volume = state == MyelinState::AsAsked ? search.volume() : axon.volume;
     level = axon.level + (axon.volume - volume) / axon.area;
-    const bool isSound =
-      this->Finishing.finish(search.field(), { axon.level, level, volume, &outer, {} }, axon.surface, pair.innerReport, pair);
+    pair.innerChange = SurfaceChange();
+    const bool isSound = this->Finishing.finish(
+      search.field(), { axon.level, level, volume, &outer, {} }, axon.surface, pair.innerReport, pair.innerChange);
     const TriangleMesh& inner = axon.surface.mesh;
     const bool isInside = isSound && liesInside(inner, pair.innerReport, outer);
     if (isSound && (inner.triangles.empty() || (within != nullptr && !isInside)))
@@ -229,7 +240,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
   }
   if (state == MyelinState::NoAxon)
   {
-    pair.innerReport = SurfaceReport();
+    forgetInner(pair);
     return;
   }
   pair.inner = packed(std::move(axon.surface.mesh));
@@ -243,7 +254,6 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
 void FibreMesher::finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const
 {
   const double wanted = state == MyelinState::AsAsked ? search.volume() : axon.volume;
-  const double outerMove = pair.largestMove;
   double error = 0.0;
   for (int round = 0; round < filterRounds; ++round)
   {
@@ -257,8 +267,9 @@ void FibreMesher::finishByFilters(const AxonSearch& search, MyelinState state, A
       axon = next;
     }
     CappedSurface surface = axon.surface;
-    pair.largestMove = outerMove;
-    this->Finishing.finish(search.field(), { axon.level, axon.level, wanted, nullptr, {} }, surface, pair.innerReport, pair);
+    pair.innerChange = SurfaceChange();
+    this->Finishing.finish(
+      search.field(), { axon.level, axon.level, wanted, nullptr, {} }, surface, pair.innerReport, pair.innerChange);
     pair.inner = packed(std::move(surface.mesh));
     error = pair.innerReport.volume - wanted;
     if (std::abs(error) <= axonVolumeTolerance * wanted)

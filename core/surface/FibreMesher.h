@@ -51,6 +51,9 @@ public:
   /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, double outerVolume) const;
 
+  /// As if no inner surface had been made.
+  static void forgetInner(FibreSurfacePair& pair);
+
   /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would leave that or
   /// come nearer to its wall than promised, and without an axon if no thickness prevents that.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;

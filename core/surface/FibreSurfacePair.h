@@ -4,6 +4,7 @@
 #include "mesh/SurfaceCheck.h"
 #include "mesh/TriangleMesh.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace cactus
@@ -19,6 +20,13 @@ enum class MyelinState
   NoFibre = 4  ///< the fibre has no voxel of the image, or too few for a closed surface: neither surface
 };
 
+/// What became of a surface after it was contoured.
+struct SurfaceChange
+{
+  double largestMove = 0.0;   ///< µm, the largest |field - level| found on the final surface away from caps
+  double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
+};
+
 /// The surfaces of one fibre and what was measured on them.
 struct FibreSurfacePair
 {
@@ -29,19 +37,25 @@ struct FibreSurfacePair
   TriangleMesh inner; ///< empty for NoFibre and NoAxon
   SurfaceReport outerReport;
   SurfaceReport innerReport;
+  SurfaceChange outerChange;
+  SurfaceChange innerChange;
   MyelinState state = MyelinState::NoFibre;
   /// µm³, of the outer surface before it was kept apart from others; NaN where there was none.
   double volumeAsMade = std::numeric_limits<double>::quiet_NaN();
   double outerLevel = 0.0; ///< µm, the field's value on the outer surface, 0 or a little less
   double thickness = 0.0;  ///< µm, depth of the inner surface below the outer one: the difference of the field
   double targetGRatio = 0.0;
-  double gRatio = 0.0;        ///< reached: sqrt(inner volume / outer volume); 0 without an axon
-  double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
-  bool isWanted = true;       ///< false only where the centre line is known to pass by outside the domain
+  double gRatio = 0.0;  ///< reached: sqrt(inner volume / outer volume); 0 without an axon
+  bool isWanted = true; ///< false only where the centre line is known to pass by outside the domain
   /// A surface has a fault that could not be repaired: it meets itself or the other one, or is nearer than MinimumGap (and
   /// leastSeparation) to another fibre.
   bool isFlawed = false;
-  double largestMove = 0.0; ///< µm, the largest |field - level| found on the final surfaces away from caps
+  /// The inner surface was made with the outer one, which has not been moved since.
+  bool isInnerMade = false;
+
+  /// Of both surfaces.
+  double largestMove() const { return std::max(this->outerChange.largestMove, this->innerChange.largestMove); }
+  double droppedVolume() const { return this->outerChange.droppedVolume + this->innerChange.droppedVolume; }
 };
 
 } // namespace cactus

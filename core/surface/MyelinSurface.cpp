@@ -16,7 +16,7 @@ std::vector<FibreSurfacePair> myelinSurfaces(const LabelImageView& image, const 
   SurfaceMaker maker(std::make_shared<LabelImageInMemory>(image), facts, options, context, filters);
   SurfacesInMemory outer(maker.fibres().size());
   SurfacesInMemory inner(maker.fibres().size());
-  maker.makeOuter(outer);
+  maker.makeOuter(outer, inner);
   maker.makeInner(outer, inner);
   std::vector<FibreSurfacePair> fibres = maker.fibres();
   for (std::size_t i = 0; i < fibres.size(); ++i)

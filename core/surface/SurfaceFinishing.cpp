@@ -90,25 +90,25 @@ SurfaceFinishing::SurfaceFinishing(double decimationError, double minimumAngle, 
 }
 
 bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface,
-  SurfaceReport& report, FibreSurfacePair& pair) const
+  SurfaceReport& report, SurfaceChange& change) const
 {
   if (this->Filters != nullptr)
   {
     this->Filters->finish(surface);
     report = checkSurface(surface.mesh);
-    pair.largestMove = std::max(pair.largestMove, this->largestMove(field, surface, target.level));
+    change.largestMove = this->largestMove(field, surface, target.level);
     return true;
   }
   if (this->DecimationError > 0.0)
   {
     if (this->coarsen(field, target, surface, report))
     {
-      pair.largestMove = std::max(pair.largestMove, this->largestMove(field, surface, target.level));
+      change.largestMove = this->largestMove(field, surface, target.level);
       return true;
     }
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
-  report = keepSoundPieces(surface.mesh, pair.droppedVolume);
+  report = keepSoundPieces(surface.mesh, change.droppedVolume);
   surface.faces.clear(); // they count the points of before
   return placesThatMeet(surface.mesh, target.container).empty();
 }

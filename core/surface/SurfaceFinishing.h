@@ -39,10 +39,10 @@ public:
 
   /// Coarsens a contour, gives it its volume, and checks what comes out. If something is wrong with it, it is made again with
   /// less coarsening around there; what cannot be repaired like that stays as contoured, without pieces that enclose no volume,
-  /// which may leave an empty mesh. Measures it in `report`; raises the pair's largestMove, and adds to its droppedVolume.
-  /// Returns whether the surface is as it has to be.
+  /// which may leave an empty mesh. Measures it in `report`, and says in `change` what has become of it: adds to what it has
+  /// dropped. Returns whether the surface is as it has to be.
   bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
-    FibreSurfacePair& pair) const;
+    SurfaceChange& change) const;
 
   /// Sees to it that moving has left no needles in a coarsened surface.
   void finishMoved(CappedSurface& surface) const;

@@ -218,13 +218,14 @@ void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* messag
     [&](std::size_t i, const std::string& bytes) { this->Pairs[this->Order[i]] = pairFrom(bytes); }, message, from, to);
 }
 
-void SurfaceMaker::makeOuter(SurfaceStore& outer)
+void SurfaceMaker::makeOuter(SurfaceStore& outer, SurfaceStore& inner)
 {
   if (this->Journal.recallSpaced(this->Pairs))
   {
     return;
   }
-  this->contourOuter(outer);
+  this->Shares = this->isCommon() ? Progress{ 0.45, 0.55 } : Progress{ 0.8, 0.9 };
+  this->contour(outer, inner);
   this->Journal.beginSpacing();
   if (this->Filters == nullptr)
   {
@@ -233,10 +234,18 @@ void SurfaceMaker::makeOuter(SurfaceStore& outer)
   this->Journal.noteSpaced(this->Pairs);
 }
 
+void SurfaceMaker::takeOuter(std::vector<FibreSurfacePair> fibres)
+{
+  this->Pairs = std::move(fibres);
+  for (FibreSurfacePair& pair : this->Pairs)
+  {
+    FibreMesher::forgetInner(pair);
+  }
+}
+
 void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
 {
-  this->Options.model == GRatioModel::TargetAxonVolumeFraction ? this->makeInnerOfCommonVolume(outer, inner)
-                                                               : this->makeEachInner(outer, inner);
+  this->isCommon() ? this->makeInnerOfCommonVolume(outer, inner) : this->makeEachInner(outer, inner);
 }
 
 double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const
@@ -254,7 +263,7 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
   }
 }
 
-void SurfaceMaker::contourOuter(SurfaceStore& outer)
+void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
 {
   const auto isMade = [&](std::size_t i)
   {
@@ -270,15 +279,23 @@ void SurfaceMaker::contourOuter(SurfaceStore& outer)
       {
         return;
       }
-      this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair);
+      const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
+      this->Mesher.makeOuter(field, pair);
       if (pair.state != MyelinState::NoFibre)
       {
         pair.volumeAsMade = pair.outerReport.volume;
+        if (!this->isCommon())
+        {
+          pair.targetGRatio = this->targetGRatio(field, pair);
+          this->Mesher.makeInner(field, pair);
+          inner.put(i, std::exchange(pair.inner, TriangleMesh()));
+          pair.isInnerMade = true;
+        }
       }
       outer.put(i, std::exchange(pair.outer, TriangleMesh()));
       this->Journal.noteOuter(i, pair);
     },
-    "making outer surfaces", 0.05, 0.45);
+    this->isCommon() ? "making outer surfaces" : "making surfaces", 0.05, this->Shares.contoured);
 }
 
 /// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again,
@@ -298,7 +315,7 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer)
     std::vector<std::size_t> changed;
     std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
     const SpacingReport spacing = keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller,
-      attempt == 0 ? 0.45 : 0.54, 0.55, this->Shared);
+      attempt == 0 ? this->Shares.contoured : this->Shares.spaced, this->Shares.spaced, this->Shared);
     tooNear = spacing.tooNear;
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);
     this->makeAgain(made, deeperEachTime * (isCoarsened ? attempt : attempt + 1), bounds, outer);
@@ -319,6 +336,7 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[moved[i]];
+      FibreMesher::forgetInner(pair);
       pair.outer = *outer.get(moved[i]);
       faults[i] = this->Mesher.checkOuter(pair);
       outer.put(moved[i], std::exchange(pair.outer, TriangleMesh()));
@@ -360,25 +378,24 @@ void SurfaceMaker::makeAgain(
 void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
 {
   constexpr double anyGRatio = std::numeric_limits<double>::quiet_NaN();
-  const bool isCommon = this->Options.model == GRatioModel::TargetAxonVolumeFraction;
   const auto recall = [&](std::size_t i, FibreSurfacePair& pair)
-  { return this->Journal.recallInner(i, isCommon ? this->Pairs[i].targetGRatio : anyGRatio, pair); };
+  { return this->Journal.recallInner(i, this->isCommon() ? this->Pairs[i].targetGRatio : anyGRatio, pair); };
   const auto isMade = [&](std::size_t i)
   {
     FibreSurfacePair known;
-    return recall(i, known);
+    return this->Pairs[i].isInnerMade || recall(i, known);
   };
   this->forEachFibre(
     isMade,
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];
-      if (std::isnan(pair.volumeAsMade) || recall(i, pair))
+      if (std::isnan(pair.volumeAsMade) || pair.isInnerMade || recall(i, pair))
       {
         return;
       }
       const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
-      if (!isCommon)
+      if (!this->isCommon())
       {
         pair.targetGRatio = this->targetGRatio(field, pair);
       }
@@ -391,7 +408,7 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
       }
       this->Journal.noteInner(i, pair);
     },
-    "making inner surfaces", 0.55, 1.0);
+    "making inner surfaces", this->Shares.spaced, 1.0);
 }
 
 /// With one g-ratio for all, so that all axons together have the wanted volume; if a fibre cannot have it, the others make up for

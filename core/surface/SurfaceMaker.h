@@ -18,8 +18,8 @@
 namespace cactus
 {
 
-/// Makes the surfaces of all fibres (see myelinSurfaces() for what they are) in two steps. The first, the outer surfaces, does
-/// not depend on g-ratios, so that its result can be kept and used again. Meshes are put into stores, by the places of their
+/// Makes the surfaces of all fibres (see myelinSurfaces() for what they are) in two steps. What the first makes of outer surfaces
+/// does not depend on g-ratios, so that it can be kept and used again. Meshes are put into stores, by the places of their
 /// fibres in fibres(), and held in memory only while they are worked on.
 class SurfaceMaker
 {
@@ -33,21 +33,29 @@ public:
   /// All fibres, by increasing id, and what is known of them; their meshes are in the stores.
   const std::vector<FibreSurfacePair>& fibres() const { return this->Pairs; }
 
-  /// Makes the outer surfaces and keeps them apart.
-  void makeOuter(SurfaceStore& outer);
+  /// Makes the outer surfaces and keeps them apart; and with each, from the same field, the inner one, if g-ratios do not depend
+  /// on all fibres.
+  void makeOuter(SurfaceStore& outer, SurfaceStore& inner);
   /// Instead: what fibres() was after makeOuter() of another maker, whose image, facts and options were the same but for what is
-  /// asked of g-ratios.
-  void takeOuter(std::vector<FibreSurfacePair> fibres) { this->Pairs = std::move(fibres); }
-  /// Makes the inner surfaces; outer ones are in their places.
+  /// asked of g-ratios. No inner surface is made yet.
+  void takeOuter(std::vector<FibreSurfacePair> fibres);
+  /// Makes the inner surfaces that are still to be made, or again since the outer one was moved; outer ones are in their places.
   void makeInner(const SurfaceSource& outer, SurfaceStore& inner);
 
 private:
+  /// How much is done when outer surfaces are made, and when they are kept apart.
+  struct Progress
+  {
+    double contoured;
+    double spaced;
+  };
   using BoundsOfFibres = std::map<std::size_t, std::vector<LocalErrorBound>>;
 
   template <typename IsMade, typename Body>
   void forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to);
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
-  void contourOuter(SurfaceStore& outer);
+  bool isCommon() const { return this->Options.model == GRatioModel::TargetAxonVolumeFraction; }
+  void contour(SurfaceStore& outer, SurfaceStore& inner);
   void spaceOut(SurfaceStore& outer);
   std::vector<std::size_t> checkMoved(
     const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds);
@@ -64,6 +72,7 @@ private:
   SurfaceJournal& Journal;
   FibreMesher Mesher;
   std::vector<FibreSurfacePair> Pairs;
+  Progress Shares{ 0.0, 0.0 };
   std::vector<std::size_t> Order; ///< in which to work on them: one after the other what is near each other
 };
 

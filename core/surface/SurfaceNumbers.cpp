@@ -10,6 +10,13 @@ namespace cactus
 namespace
 {
 
+template <typename Change, typename Visit>
+void visitChange(Change& change, Visit&& visit)
+{
+  visit(change.largestMove);
+  visit(change.droppedVolume);
+}
+
 /// Calls visit(number) for every number of a pair, which may be const.
 template <typename Pair, typename Visit>
 void visitPair(Pair& pair, Visit&& visit)
@@ -19,16 +26,17 @@ void visitPair(Pair& pair, Visit&& visit)
   visit(pair.targetRadius);
   visitNumbers(pair.outerReport, visit);
   visitNumbers(pair.innerReport, visit);
+  visitChange(pair.outerChange, visit);
+  visitChange(pair.innerChange, visit);
   visit(pair.state);
   visit(pair.volumeAsMade);
   visit(pair.outerLevel);
   visit(pair.thickness);
   visit(pair.targetGRatio);
   visit(pair.gRatio);
-  visit(pair.droppedVolume);
   visit(pair.isWanted);
   visit(pair.isFlawed);
-  visit(pair.largestMove);
+  visit(pair.isInnerMade);
 }
 
 } // namespace

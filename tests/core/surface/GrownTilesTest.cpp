@@ -148,11 +148,18 @@ TEST(GrownTiles, MakeTheSameSurfaces)
     MyelinSurfaceOptions options;
     options.smoothingIterations = passes;
     const auto wanted = myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, options);
-    SurfaceMaker maker(std::make_shared<GrownTiles>(fibres, growth, 0.2, 2), facts, options, {});
+    const auto tiles = std::make_shared<GrownTiles>(fibres, growth, 0.2, 2);
+    SurfaceMaker maker(tiles, facts, options, {});
     SurfacesInMemory outer(wanted.size());
     SurfacesInMemory inner(wanted.size());
-    maker.makeOuter(outer);
+    maker.makeOuter(outer, inner);
     maker.makeInner(outer, inner);
+    // Inner surfaces are the same, too, where they are made of outer ones that were kept.
+    SurfaceMaker later(tiles, facts, options, {});
+    SurfacesInMemory innerLater(wanted.size());
+    later.takeOuter(maker.fibres());
+    EXPECT_EQ(later.fibres().front().innerReport.triangles, 0u);
+    later.makeInner(outer, innerLater);
     ASSERT_EQ(maker.fibres().size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
     {
@@ -161,7 +168,17 @@ TEST(GrownTiles, MakeTheSameSurfaces)
       EXPECT_EQ(outer.get(i)->triangles, wanted[i].outer.triangles);
       EXPECT_EQ(inner.get(i)->points, wanted[i].inner.points);
       EXPECT_EQ(inner.get(i)->triangles, wanted[i].inner.triangles);
-      EXPECT_EQ(maker.fibres()[i].gRatio, wanted[i].gRatio);
+      EXPECT_EQ(innerLater.get(i)->points, wanted[i].inner.points);
+      EXPECT_EQ(innerLater.get(i)->triangles, wanted[i].inner.triangles);
+      for (const SurfaceMaker* each : { &maker, &later })
+      {
+        const FibreSurfacePair& made = each->fibres()[i];
+        EXPECT_EQ(made.gRatio, wanted[i].gRatio);
+        EXPECT_EQ(made.state, wanted[i].state);
+        EXPECT_EQ(made.thickness, wanted[i].thickness);
+        EXPECT_EQ(made.largestMove(), wanted[i].largestMove());
+        EXPECT_EQ(made.droppedVolume(), wanted[i].droppedVolume());
+      }
     }
   }
 }
