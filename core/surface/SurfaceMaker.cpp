@@ -263,6 +263,18 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
   }
 }
 
+/// Makes the inner surface of a fibre whose outer one is in its pair.
+void SurfaceMaker::putInner(std::size_t i, const SmoothedField& field, SurfaceStore& inner)
+{
+  FibreSurfacePair& pair = this->Pairs[i];
+  if (!this->isCommon())
+  {
+    pair.targetGRatio = this->targetGRatio(field, pair);
+  }
+  this->Mesher.makeInner(field, pair);
+  inner.put(i, std::exchange(pair.inner, TriangleMesh()));
+}
+
 void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
 {
   const auto isMade = [&](std::size_t i)
@@ -286,9 +298,7 @@ void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
         pair.volumeAsMade = pair.outerReport.volume;
         if (!this->isCommon())
         {
-          pair.targetGRatio = this->targetGRatio(field, pair);
-          this->Mesher.makeInner(field, pair);
-          inner.put(i, std::exchange(pair.inner, TriangleMesh()));
+          this->putInner(i, field, inner);
           pair.isInnerMade = true;
         }
       }
@@ -394,16 +404,10 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
       {
         return;
       }
-      const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
-      if (!this->isCommon())
-      {
-        pair.targetGRatio = this->targetGRatio(field, pair);
-      }
       if (pair.state != MyelinState::NoFibre)
       {
         pair.outer = *outer.get(i);
-        this->Mesher.makeInner(field, pair);
-        inner.put(i, std::exchange(pair.inner, TriangleMesh()));
+        this->putInner(i, this->Mesher.smoothed(pair.fibreId), inner);
         pair.outer = TriangleMesh();
       }
       this->Journal.noteInner(i, pair);

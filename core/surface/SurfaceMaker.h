@@ -55,6 +55,7 @@ private:
   void forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to);
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
   bool isCommon() const { return this->Options.model == GRatioModel::TargetAxonVolumeFraction; }
+  void putInner(std::size_t i, const SmoothedField& field, SurfaceStore& inner);
   void contour(SurfaceStore& outer, SurfaceStore& inner);
   void spaceOut(SurfaceStore& outer);
   std::vector<std::size_t> checkMoved(
