@@ -228,8 +228,8 @@ TEST_F(Production, GoesOnWhereItWasKilled)
       this->killAt("killed", part);
       EXPECT_TRUE(fs::exists(this->folder("killed.work/journal"))) << part;
       EXPECT_FALSE(fs::exists(this->folder("killed"))) << part;
-      // What is in the journal is not made again: its time of change stays. By then all outer surfaces are, in the first case with
-      // inner ones.
+      // What is in the journal is not made again: its time of change stays. By then all outer surfaces are, in the first case
+      // with inner ones.
       const fs::path first = this->folder("killed.work/outer/00000/00000.surface");
       const bool isThere = part >= (model == GRatioModel::Constant ? 0.7 : 0.45);
       const auto time = isThere ? fs::last_write_time(first) : fs::file_time_type();
