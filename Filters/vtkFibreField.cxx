@@ -126,7 +126,7 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
       cactus::requireWithin(
         "SurfaceTolerance of the label image", labels.facts.surfaceTolerance, cactus::limits::surfaceTolerance);
       const cactus::FibreField field(labels.view, labels.facts.domain, stage.clipToDomain);
-      const cactus::FoundFibres found = cactus::findFibres(field, reach, context);
+      const cactus::FoundFibres found = cactus::findFibres(field, context);
       const std::vector<Chosen> chosen = choose(labels.facts, stage);
 
       auto* output = vtkMultiBlockDataSet::GetData(outputs);
@@ -139,7 +139,8 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
           const auto fibre = found.find(chosen[i].fibreId);
           if (fibre != found.end())
           {
-            images[i] = imageFrom(cactus::fibreImage(field, chosen[i].fibreId, fibre->second.blocks, stage.level));
+            images[i] = imageFrom(
+              cactus::fibreImage(field, chosen[i].fibreId, cactus::blocksNear(field, fibre->second, reach).numbers, stage.level));
           }
         },
         "sampling fibres");

@@ -33,6 +33,12 @@ struct NodeRange
   std::array<int, 3> count{ { 0, 0, 0 } };
 
   std::size_t size() const { return std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]); }
+  /// Of a node's value.
+  std::ptrdiff_t index(int i, int j, int k) const
+  {
+    return std::ptrdiff_t(i - first[0]) +
+           std::ptrdiff_t(count[0]) * (std::ptrdiff_t(j - first[1]) + std::ptrdiff_t(count[1]) * std::ptrdiff_t(k - first[2]));
+  }
   /// With so many nodes more on every side.
   NodeRange widened(int nodes) const
   {
@@ -50,6 +56,21 @@ struct NodeRange
       common.count[axis] = std::max(0, end - common.first[axis]);
     }
     return common;
+  }
+  /// The least range that holds both.
+  NodeRange joined(const NodeRange& other) const
+  {
+    if (this->size() == 0 || other.size() == 0)
+    {
+      return this->size() == 0 ? other : *this;
+    }
+    NodeRange both;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      both.first[axis] = std::min(first[axis], other.first[axis]);
+      both.count[axis] = std::max(first[axis] + count[axis], other.first[axis] + other.count[axis]) - both.first[axis];
+    }
+    return both;
   }
 };
 

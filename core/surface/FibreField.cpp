@@ -312,49 +312,4 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
   }
 }
 
-NodeRange FibreField::nodesInside(std::int32_t fibre, const NodeRange& range, const LabelImageView& held) const
-{
-  const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
-  const SampleRow row = this->Samples.rowOf(range);
-  // Along x in samples of the row, else in nodes.
-  std::array<int, 3> lower{ { row.count, range.count[1], range.count[2] } };
-  std::array<int, 3> upper{ { -1, -1, -1 } };
-  for (int k = 0; k < range.count[2]; ++k)
-  {
-    const int z = this->Samples.sampleOf(2, range.first[2] + k);
-    for (int j = 0; j < range.count[1]; ++j)
-    {
-      const std::int32_t* ids = held.fibreId + held.grid.index(row.first, this->Samples.sampleOf(1, range.first[1] + j), z);
-      // Amid those found only what makes the box larger counts.
-      const bool isAmid = k <= upper[2] && j >= lower[1] && j <= upper[1];
-      const bool isFound =
-        isAmid ? kernels.holds(ids, lower[0], fibre) || kernels.holds(ids + upper[0] + 1, row.count - upper[0] - 1, fibre)
-               : kernels.holds(ids, row.count, fibre);
-      if (!isFound)
-      {
-        continue;
-      }
-      lower = { { int(std::find(ids, ids + lower[0], fibre) - ids), std::min(lower[1], j), std::min(lower[2], k) } };
-      int last = row.count - 1;
-      while (last > upper[0] && ids[last] != fibre)
-      {
-        --last;
-      }
-      upper = { { last, std::max(upper[1], j), k } };
-    }
-  }
-  if (upper[0] >= 0)
-  {
-    lower[0] = lower[0] == 0 ? 0 : row.before + lower[0];
-    upper[0] = upper[0] + 1 == row.count ? range.count[0] - 1 : row.before + upper[0];
-  }
-  NodeRange inside;
-  for (std::size_t axis = 0; axis < 3 && upper[axis] >= 0; ++axis)
-  {
-    inside.first[axis] = range.first[axis] + lower[axis];
-    inside.count[axis] = upper[axis] - lower[axis] + 1;
-  }
-  return inside;
-}
-
 } // namespace cactus

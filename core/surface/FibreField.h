@@ -78,8 +78,6 @@ public:
   /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside. held: samplesFor()
   /// the range.
   void atNodes(std::int32_t fibre, const NodeRange& range, const LabelImageView& held, float* out) const;
-  /// Of a range of nodes, the box of those whose sample is a fibre's own; empty where none is. held: samplesFor() the range.
-  NodeRange nodesInside(std::int32_t fibre, const NodeRange& range, const LabelImageView& held) const;
   /// Where node 0 would be if it were as far from the first sample as that from the next, µm.
   Eigen::Vector3d firstNode() const;
 

@@ -53,7 +53,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Options(options)
   , Filters(filters)
   , Field(image, facts.domain, options.clipToDomain)
-  , Fibres(findFibres(Field, options.smoothingIterations, context, sharing))
+  , Fibres(findFibres(Field, context, sharing))
   , Spacing(image->grid().spacing)
   , Contours(Field, std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing),
       nudgeFor(Spacing, facts.surfaceTolerance), filters)
@@ -81,8 +81,10 @@ bool FibreMesher::movesContours() const
 SmoothedField FibreMesher::smoothed(std::int32_t fibreId) const
 {
   const auto found = this->Fibres.find(fibreId);
-  return SmoothedField(this->Field, fibreId, found != this->Fibres.end() ? found->second.blocks : std::vector<std::uint32_t>(),
-    this->Options.smoothingIterations, this->Thin ? &*this->Thin : nullptr);
+  const int passes = this->Options.smoothingIterations;
+  return SmoothedField(this->Field, fibreId,
+    found != this->Fibres.end() ? blocksNear(this->Field, found->second, passes) : NearBlocks(), passes,
+    this->Thin ? &*this->Thin : nullptr);
 }
 
 void FibreMesher::makeOuter(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -28,6 +29,7 @@ constexpr int fewPasses = 8;
 /// Nodes beyond those inside a fibre at which the field counts: contours and value() look at what is two nodes away from the
 /// surface.
 constexpr int nodesBeside = 3;
+static_assert(nodesBeside + 1 <= NearBlocks::around, "a block is held with a node beyond");
 /// The field elsewhere, µm: far below what any other one can make up for.
 constexpr float farOutside = -1e6f;
 
@@ -85,6 +87,42 @@ inline FourFloats larger(const FourFloats& x, const FourFloats& y)
 #endif
 }
 
+/// A block by its place along each axis.
+std::array<int, 3> indexOf(const NodeLattice& lattice, std::size_t block)
+{
+  const NodeRange range = nodesOfBlock(lattice, block);
+  constexpr int size = NodeLattice::blockCells;
+  return { { range.first[0] / size, range.first[1] / size, range.first[2] / size } };
+}
+
+/// The box of the nodes at which the values of a range are above 0, in a part of it.
+NodeRange insideOf(const std::vector<float>& values, const NodeRange& range, const NodeRange& part)
+{
+  NodeRange inside;
+  for (int k = part.first[2]; k < part.first[2] + part.count[2]; ++k)
+  {
+    for (int j = part.first[1]; j < part.first[1] + part.count[1]; ++j)
+    {
+      const float* row = values.data() + range.index(part.first[0], j, k);
+      int found = 0; // most rows are outside the fibre
+      for (int i = 0; i < part.count[0]; ++i)
+      {
+        found |= int(row[i] > 0.0f);
+      }
+      if (found != 0)
+      {
+        const auto isInside = [](float value) { return value > 0.0f; };
+        const float* end = row + part.count[0];
+        const auto first = int(std::find_if(row, end, isInside) - row);
+        const auto behind =
+          int(std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(row), isInside).base() - row);
+        inside = inside.joined({ { { part.first[0] + first, j, k } }, { { behind - first, 1, 1 } } });
+      }
+    }
+  }
+  return inside;
+}
+
 /// agreedBend() (see mesh/ContourPoints.h) of four pairs of second differences.
 inline FourFloats agreedBends(const FourFloats& first, const FourFloats& second)
 {
@@ -94,31 +132,30 @@ inline FourFloats agreedBends(const FourFloats& first, const FourFloats& second)
 
 } // namespace
 
-SmoothedField::SmoothedField(
-  const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes, const ThinFibres* thin)
+SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, NearBlocks blocks, int passes, const ThinFibres* thin)
   : Fibre(fibre)
   , Lattice(field.lattice())
-  , Blocks(std::move(blocks))
+  , Blocks(std::move(blocks.numbers))
   , FirstNode(field.firstNode())
   , NodesPerLength(1.0 / field.grid().spacing)
 {
-  for (const std::vector<Piece>& together : this->layOut(passes > fewPasses))
+  for (const std::vector<Piece>& together : this->layOut(blocks.inside, passes > fewPasses))
   {
     this->smooth(field, together, passes, thin);
   }
+  const auto isLeftOut = [&](std::uint32_t block) { return this->placeOf(indexOf(this->Lattice, block))->begin < 0; };
+  this->Blocks.erase(std::remove_if(this->Blocks.begin(), this->Blocks.end(), isLeftOut), this->Blocks.end());
 }
 
-std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCubes)
+std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(const std::vector<NodeRange>& inside, bool inCubes)
 {
   std::vector<Index> at;
   Index last{ { 0, 0, 0 } };
   for (const std::uint32_t block : this->Blocks)
   {
-    const NodeRange range = nodesOfBlock(this->Lattice, block);
-    Index index;
+    const Index index = indexOf(this->Lattice, block);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      index[axis] = range.first[axis] / NodeLattice::blockCells;
       this->First[axis] = at.empty() ? index[axis] : std::min(this->First[axis], index[axis]);
       last[axis] = at.empty() ? index[axis] : std::max(last[axis], index[axis]);
     }
@@ -135,18 +172,17 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(bool inCube
   const std::size_t longest = std::size_t(std::max_element(this->Count.begin(), this->Count.end()) - this->Count.begin());
   const auto edge = [&](std::size_t axis) { return inCubes || axis != longest ? blocksTogether : blocksAlongFibre; };
   std::map<Index, std::vector<Piece>> groups;
-  std::ptrdiff_t place = 0;
+  std::size_t most = 0; // values
   for (std::size_t b = 0; b < at.size(); ++b)
   {
-    const Piece piece{ nodesOfBlock(this->Lattice, this->Blocks[b]).widened(1), place };
+    BlockPlace& place = this->Places[std::size_t(this->placeOf(at[b]) - this->Places.data())];
+    const Piece piece{ nodesOfBlock(this->Lattice, this->Blocks[b]).widened(1), inside[b], &place };
     groups[{ { at[b][0] / edge(0), at[b][1] / edge(1), at[b][2] / edge(2) } }].push_back(piece);
-    this->Places[std::size_t(this->placeOf(at[b]) - this->Places.data())] = { place,
-      { { piece.range.count[0], piece.range.count[0] * piece.range.count[1] } } };
-    place += std::ptrdiff_t(piece.range.size());
+    most += piece.range.size();
   }
   // Not filled: copyPieces() does that.
-  this->Values.reset(new float[std::size_t(place)]);
-  this->Unsmoothed.reset(new float[std::size_t(place)]);
+  this->Values.reset(new float[most]);
+  this->Unsmoothed.reset(new float[most]);
   std::vector<std::vector<Piece>> result;
   result.reserve(groups.size());
   for (auto& group : groups)
@@ -161,30 +197,22 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   // One node more, since how much of a pass the outermost ones get is not known right (see ThinFibres::smoothingAt()).
   const int reach = passes > 0 ? passes + 1 : 0;
   NodeRange whole;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  NodeRange inside;
+  for (const Piece& piece : pieces)
   {
-    int first = std::numeric_limits<int>::max();
-    int end = std::numeric_limits<int>::min();
-    for (const Piece& piece : pieces)
-    {
-      first = std::min(first, piece.range.first[axis]);
-      end = std::max(end, piece.range.first[axis] + piece.range.count[axis]);
-    }
-    whole.first[axis] = first;
-    whole.count[axis] = end - first;
+    whole = whole.joined(piece.range);
+    inside = inside.joined(piece.inside);
   }
-  thread_local LabelBuffer samples;
-  const LabelImageView held = field.samplesFor(whole.widened(reach), samples);
   // Only what is beside the fibre is smoothed.
-  const NodeRange inside = field.nodesInside(this->Fibre, whole.widened(reach), held);
-  const NodeRange beside = inside.widened(inside.size() > 0 ? nodesBeside : 0).within(whole);
-  if (beside.size() == 0)
+  const auto besideIn = [](const NodeRange& within, const NodeRange& fibre)
+  { return fibre.size() > 0 ? fibre.widened(nodesBeside).within(within) : fibre; };
+  const NodeRange range = besideIn(whole, inside).widened(reach);
+  if (besideIn(whole, inside).size() == 0)
   {
-    copyPieces({}, {}, beside, pieces, this->Unsmoothed.get());
-    copyPieces({}, {}, beside, pieces, this->Values.get());
     return;
   }
-  const NodeRange range = beside.widened(reach);
+  thread_local LabelBuffer samples;
+  const LabelImageView held = field.samplesFor(range, samples);
   thread_local std::vector<float> buffer;
   thread_local std::vector<float> before;
   thread_local std::vector<float> part;
@@ -193,7 +221,14 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
     scratch->resize(std::max(scratch->size(), range.size()));
   }
   field.atNodes(this->Fibre, range, held, buffer.data());
-  copyPieces(buffer, range, beside, pieces, this->Unsmoothed.get());
+  const std::vector<Piece> near = this->place(pieces, std::min(passes, nodesBeside + 1), buffer, range);
+  whole = {};
+  for (const Piece& piece : near)
+  {
+    whole = whole.joined(piece.range);
+  }
+  const NodeRange beside = besideIn(whole, insideOf(buffer, range, whole.widened(reach).within(range)));
+  copyPieces(buffer, range, beside, near, this->Unsmoothed.get());
   const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
   // Each pass leaves one node less on every side: values at the rim become wrong, and are not used. Strides stay.
   const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
@@ -206,7 +241,25 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
       kernels.smooth(step, range.size(), before.data(), isUniform ? nullptr : part.data(), buffer.data());
     }
   }
-  copyPieces(buffer, range, beside, pieces, this->Values.get());
+  copyPieces(buffer, range, beside, near, this->Values.get());
+}
+
+/// Gives those a place that have nodes inside the fibre, or at most `reach` away from one.
+std::vector<SmoothedField::Piece> SmoothedField::place(
+  const std::vector<Piece>& pieces, int reach, const std::vector<float>& values, const NodeRange& range)
+{
+  std::vector<Piece> near;
+  for (const Piece& piece : pieces)
+  {
+    // A piece has a node more than its block.
+    if (insideOf(values, range, piece.range.widened(reach - 1).within(range)).size() > 0)
+    {
+      *piece.place = { this->Filled, { { piece.range.count[0], piece.range.count[0] * piece.range.count[1] } } };
+      this->Filled += std::ptrdiff_t(piece.range.size());
+      near.push_back(piece);
+    }
+  }
+  return near;
 }
 
 void SmoothedField::copyPieces(
@@ -214,7 +267,7 @@ void SmoothedField::copyPieces(
 {
   for (const Piece& piece : pieces)
   {
-    std::fill_n(to + piece.place, piece.range.size(), farOutside);
+    std::fill_n(to + piece.place->begin, piece.range.size(), farOutside);
     const NodeRange common = piece.range.within(known);
     if (common.size() == 0)
     {
@@ -224,13 +277,8 @@ void SmoothedField::copyPieces(
     {
       for (int j = common.first[1]; j < common.first[1] + common.count[1]; ++j)
       {
-        const auto rowIn = [&](const NodeRange& of)
-        {
-          return std::ptrdiff_t(common.first[0] - of.first[0]) +
-                 std::ptrdiff_t(of.count[0]) *
-                   (std::ptrdiff_t(j - of.first[1]) + std::ptrdiff_t(of.count[1]) * std::ptrdiff_t(k - of.first[2]));
-        };
-        std::copy_n(from.begin() + rowIn(range), common.count[0], to + piece.place + rowIn(piece.range));
+        const auto rowIn = [&](const NodeRange& of) { return of.index(common.first[0], j, k); };
+        std::copy_n(from.data() + rowIn(range), common.count[0], to + piece.place->begin + rowIn(piece.range));
       }
     }
   }

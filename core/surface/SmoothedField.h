@@ -3,6 +3,7 @@
 
 #include "mesh/NodeLattice.h"
 #include "surface/FibreField.h"
+#include "surface/FibreSurvey.h"
 #include "surface/ThinFibres.h"
 
 #include <Eigen/Core>
@@ -28,9 +29,9 @@ typedef float FourFloats __attribute__((vector_size(16)));
 class SmoothedField
 {
 public:
-  /// In `passes` passes, which spare `thin` fibres, if that is given.
-  SmoothedField(
-    const FibreField& field, std::int32_t fibre, std::vector<std::uint32_t> blocks, int passes, const ThinFibres* thin = nullptr);
+  /// In `passes` passes, which spare `thin` fibres, if that is given. blocks: those near the fibre, with a reach of as many
+  /// nodes; where a box is near but none of its samples, a block is left out.
+  SmoothedField(const FibreField& field, std::int32_t fibre, NearBlocks blocks, int passes, const ThinFibres* thin = nullptr);
 
   std::int32_t fibre() const { return this->Fibre; }
   const NodeLattice& lattice() const { return this->Lattice; }
@@ -51,26 +52,28 @@ public:
 private:
   using Index = std::array<int, 3>; ///< a block by its place along each axis, or a cell
 
-  /// The nodes held of a block, and where in Values they begin.
-  struct Piece
-  {
-    NodeRange range;
-    std::ptrdiff_t place;
-  };
-  /// Finds room for all blocks, and puts those together that are smoothed together.
-  std::vector<std::vector<Piece>> layOut(bool inCubes);
-  /// Fills Values and Unsmoothed for some blocks.
-  void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
-  /// Fills some blocks with the values of a range where they are `known`; elsewhere they are far outside.
-  static void copyPieces(
-    const std::vector<float>& from, const NodeRange& range, const NodeRange& known, const std::vector<Piece>& pieces, float* to);
-
   /// Where the values of a block are.
   struct BlockPlace
   {
     std::ptrdiff_t begin = -1;            ///< in Values; -1: not held
     std::array<std::int32_t, 2> stride{}; ///< from a node to the next along y and z
   };
+  /// The nodes of a block and those around it, which are held.
+  struct Piece
+  {
+    NodeRange range;
+    NodeRange inside; ///< a box that holds the fibre's samples in them and around them
+    BlockPlace* place;
+  };
+  /// Finds room for as many blocks, and puts those together that are smoothed together.
+  std::vector<std::vector<Piece>> layOut(const std::vector<NodeRange>& inside, bool inCubes);
+  /// Fills Values and Unsmoothed for those of some blocks that are near the fibre.
+  void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
+  std::vector<Piece> place(const std::vector<Piece>& pieces, int reach, const std::vector<float>& values, const NodeRange& range);
+  /// Fills some blocks with the values of a range where they are `known`; elsewhere they are far outside.
+  static void copyPieces(
+    const std::vector<float>& from, const NodeRange& range, const NodeRange& known, const std::vector<Piece>& pieces, float* to);
+
   /// A point by the cell between samples that holds it, or the nearest one.
   struct CellPlace
   {
@@ -100,6 +103,7 @@ private:
   std::array<double, 3> LastSample{};  ///< the last node that is a sample
   Index LastCell{ { 1, 1, 1 } };       ///< the last cell that begins at a sample, and ends at another if there are two
   std::vector<BlockPlace> Places;      ///< per block of the box
+  std::ptrdiff_t Filled = 0;           ///< how many Values have a block
 };
 
 } // namespace cactus

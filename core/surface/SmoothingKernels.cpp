@@ -46,22 +46,6 @@ CACTUS_KERNEL_INLINE void forEachVector(int count, Visit&& visit)
   }
 }
 
-bool holds(const std::int32_t* ids, int count, std::int32_t fibre)
-{
-  if (count < floats)
-  {
-    int found = 0;
-    for (int n = 0; n < count; ++n)
-    {
-      found |= int(ids[n] == fibre);
-    }
-    return found != 0;
-  }
-  FloatMask found = {};
-  forEachVector(count, [&](int n) { found |= load(ids + n) == fibre; });
-  return isAnySet(found);
-}
-
 bool field(const std::int32_t* ids, const float* depths, int count, std::int32_t fibre, float gap, float outside, float* out)
 {
   if (count < floats)
@@ -124,6 +108,6 @@ void smooth(std::size_t step, std::size_t size, const float* before, const float
 
 } // namespace
 
-const SmoothingKernels CACTUS_KERNELS_OF_UNIT(SmoothingKernels) = { holds, field, smooth };
+const SmoothingKernels CACTUS_KERNELS_OF_UNIT(SmoothingKernels) = { field, smooth };
 
 } // namespace cactus

@@ -12,9 +12,6 @@ namespace cactus
 /// The loops in which fields are read from a label image and smoothed.
 struct SmoothingKernels
 {
-  /// Whether one of the ids is that of the fibre.
-  bool (*holds)(const std::int32_t* ids, int count, std::int32_t fibre);
-
   /// The field of a fibre at a row of samples, as if those outside all fibres were nearest to it; whether one of these is nearer
   /// than `outside`, so that this is to be asked. See LabelImage.
   bool (*field)(

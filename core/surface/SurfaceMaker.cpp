@@ -89,9 +89,9 @@ std::uint64_t placeNumber(const std::array<int, 3>& place)
   return number;
 }
 
-/// The fibres in such an order by the middle of their blocks, so that samples that neighbours share are at hand.
+/// The fibres in such an order by the middle of their boxes, so that samples that neighbours share are at hand.
 std::vector<std::size_t> orderByPlace(
-  const std::vector<FibreSurfacePair>& pairs, const FoundFibres& fibres, const NodeLattice& lattice)
+  const std::vector<FibreSurfacePair>& pairs, const FoundFibres& fibres, const FibreField& field)
 {
   std::vector<std::pair<std::uint64_t, std::size_t>> places;
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -101,18 +101,18 @@ std::vector<std::size_t> orderByPlace(
     if (found != fibres.end())
     {
       std::array<double, 3> sum{ { 0.0, 0.0, 0.0 } };
-      for (const std::uint32_t block : found->second.blocks)
+      for (const FoundBox& box : found->second.boxes)
       {
-        const NodeRange nodes = nodesOfBlock(lattice, block);
+        const NodeRange nodes = nodesOf(field, box);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           sum[axis] += nodes.first[axis];
         }
       }
-      const auto blocks = static_cast<double>(found->second.blocks.size()) * NodeLattice::blockCells;
+      const auto apart = static_cast<double>(found->second.boxes.size()) * FoundBox::pieceEdge;
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        middle[axis] = static_cast<int>(sum[axis] / blocks);
+        middle[axis] = static_cast<int>(sum[axis] / apart);
       }
     }
     places.emplace_back(placeNumber(middle), i);
@@ -184,7 +184,7 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   , Journal(journal != nullptr ? *journal : NoJournal)
   , Mesher(image, facts, options, filters, context, sharing)
   , Pairs(fibresOf(facts, Mesher.fibres()))
-  , Order(orderByPlace(Pairs, Mesher.fibres(), Mesher.field().lattice()))
+  , Order(orderByPlace(Pairs, Mesher.fibres(), Mesher.field()))
 {
   keepFreedMemory();
 }
@@ -208,7 +208,7 @@ void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* messag
       const auto found = this->Mesher.fibres().find(this->Pairs[this->Order[place]].fibreId);
       if (made[place] == 0 && found != this->Mesher.fibres().end())
       {
-        weights[place] += static_cast<double>(found->second.blocks.size());
+        weights[place] += static_cast<double>(found->second.boxes.size());
       }
     }
   }

@@ -43,7 +43,7 @@ struct Example
   FibreImage image(std::int32_t fibre, double level = 0.0, double inset = 0.0) const
   {
     const FibreField field(view, domain, true);
-    return fibreImage(field, fibre, findFibres(field, 1).at(fibre).blocks, level, inset);
+    return fibreImage(field, fibre, blocksNear(field, findFibres(field).at(fibre), 1).numbers, level, inset);
   }
 
   LabelImage labels;
@@ -207,7 +207,7 @@ TEST(FibreImage, RefusesWhatIsNoContour)
 {
   const Example example;
   const FibreField field(example.view, example.domain, true);
-  const auto blocks = findFibres(field, 1).at(1).blocks;
+  const auto blocks = blocksNear(field, findFibres(field).at(1), 1).numbers;
   EXPECT_THROW(fibreImage(field, 1, {}), InvalidInput);
   EXPECT_THROW(fibreImage(field, 1, blocks, -0.1), InvalidInput);
   EXPECT_THROW(fibreImage(field, 1, blocks, std::numeric_limits<double>::quiet_NaN()), InvalidInput);

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <set>
+#include <map>
+#include <vector>
 
 namespace
 {
@@ -14,83 +16,142 @@ namespace
 using namespace cactus;
 using example::meetingFibres;
 
-/// The same sample by sample, and node by node.
-FoundFibres foundOneByOne(const FibreField& field, const LabelImageView& image, int reach)
+bool areSame(const NodeRange& a, const NodeRange& b)
 {
-  FoundFibres found;
-  const NodeLattice lattice = field.lattice();
-  for (std::size_t block = 0; block < lattice.blockCount(); ++block)
-  {
-    const NodeRange own = nodesOfBlock(lattice, block);
-    const NodeRange range = own.widened(reach);
-    std::set<std::int32_t> ids;
-    for (int k = range.first[2]; k < range.first[2] + range.count[2]; ++k)
-    {
-      for (int j = range.first[1]; j < range.first[1] + range.count[1]; ++j)
-      {
-        for (int i = range.first[0]; i < range.first[0] + range.count[0]; ++i)
-        {
-          const SampleBox& samples = field.samples();
-          ids.insert(image.fibreId[image.grid.index(samples.sampleOf(0, i), samples.sampleOf(1, j), samples.sampleOf(2, k))]);
-        }
-      }
-    }
-    for (const std::int32_t id : ids)
-    {
-      if (id != 0)
-      {
-        found[id].blocks.push_back(static_cast<std::uint32_t>(block));
-      }
-    }
-  }
+  return a.size() == b.size() && (a.size() == 0 || (a.first == b.first && a.count == b.count));
+}
+
+/// Calls visit(node, id, depth) for each sample of a field that a fibre has.
+template <typename Visit>
+void forEachOwnSample(const FibreField& field, const LabelImageView& image, Visit&& visit)
+{
   const SampleBox& samples = field.samples();
-  for (int k = samples.first[2]; k < samples.first[2] + samples.count[2]; ++k)
+  for (int k = 0; k < samples.count[2]; ++k)
   {
-    for (int j = samples.first[1]; j < samples.first[1] + samples.count[1]; ++j)
+    for (int j = 0; j < samples.count[1]; ++j)
     {
-      for (int i = samples.first[0]; i < samples.first[0] + samples.count[0]; ++i)
+      for (int i = 0; i < samples.count[0]; ++i)
       {
-        const std::size_t at = image.grid.index(i, j, k);
+        const std::size_t at = image.grid.index(samples.first[0] + i, samples.first[1] + j, samples.first[2] + k);
         if (image.fibreId[at] != 0)
         {
-          found[image.fibreId[at]].depths += double(image.depth[at]);
-          found[image.fibreId[at]].samples += 1.0;
+          visit(std::array<int, 3>{ { i + 1, j + 1, k + 1 } }, image.fibreId[at], double(image.depth[at]));
         }
       }
     }
   }
+}
+
+/// What findFibres() says of a fibre, sample by sample.
+struct Expected
+{
+  double depths = 0.0;
+  double samples = 0.0;
+  std::map<std::array<int, 3>, NodeRange> boxes; ///< by the piece along each axis, z first
+};
+
+std::map<std::int32_t, Expected> foundOneByOne(const FibreField& field, const LabelImageView& image)
+{
+  std::map<std::int32_t, Expected> found;
+  forEachOwnSample(field, image,
+    [&](const std::array<int, 3>& node, std::int32_t id, double depth)
+    {
+      Expected& fibre = found[id];
+      fibre.depths += depth;
+      fibre.samples += 1.0;
+      std::array<int, 3> piece{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        piece[2 - axis] = (field.samples().first[axis] + node[axis] - 1) / 16;
+      }
+      NodeRange& box = fibre.boxes[piece];
+      box = box.joined({ node, { { 1, 1, 1 } } });
+    });
   return found;
 }
 
-TEST(FibreSurvey, FindsBlocksAndDepths)
+/// Of an image, and of a part of it whose first samples are not the first ones of a piece.
+std::vector<Domain> domains()
 {
-  FibreRadialGrowthOptions options;
-  options.voxelSize = 0.06;
-  const LabelImage image = meetingFibres(options);
-  const LabelImageView view{ image.grid, image.fibreId.data(), image.depth.data(), options.gap() };
   Domain part = Domain::cube(3.0);
   part.lower[1] += 0.4;
   part.upper[2] -= 0.5;
-  for (const Domain& domain : { Domain::cube(3.0), part })
+  return { Domain::cube(3.0), part };
+}
+
+struct MeetingImage
+{
+  MeetingImage()
   {
-    const FibreField field(view, domain, true);
-    ASSERT_GT(field.lattice().blockCount(), 27u);
-    for (const int reach : { 0, 1, 7, 20 })
+    FibreRadialGrowthOptions options;
+    options.voxelSize = 0.06;
+    this->labels = meetingFibres(options);
+    this->view = { this->labels.grid, this->labels.fibreId.data(), this->labels.depth.data(), options.gap() };
+  }
+  LabelImage labels;
+  LabelImageView view;
+};
+
+TEST(FibreSurvey, FindsBoxesAndDepths)
+{
+  const MeetingImage image;
+  for (const Domain& domain : domains())
+  {
+    const FibreField field(image.view, domain, true);
+    const FoundFibres found = findFibres(field);
+    ASSERT_EQ(found.size(), 3u);
+    for (const auto& [id, fibre] : foundOneByOne(field, image.view))
     {
-      const FoundFibres found = findFibres(field, reach);
-      const FoundFibres expected = foundOneByOne(field, view, reach);
-      ASSERT_EQ(found.size(), 3u);
-      for (const auto& [id, fibre] : expected)
+      ASSERT_EQ(found.at(id).boxes.size(), fibre.boxes.size());
+      EXPECT_GT(fibre.boxes.size(), 4u);
+      auto box = found.at(id).boxes.begin();
+      for (const auto& [piece, nodes] : fibre.boxes)
       {
-        EXPECT_EQ(found.at(id).blocks, fibre.blocks);
-        EXPECT_EQ(found.at(id).samples, fibre.samples);
-        EXPECT_NEAR(found.at(id).depths, fibre.depths, 1e-9 * fibre.depths);
+        EXPECT_TRUE(areSame(nodesOf(field, *box++), nodes));
+      }
+      EXPECT_EQ(found.at(id).samples, fibre.samples);
+      EXPECT_NEAR(found.at(id).depths, fibre.depths, 1e-9 * fibre.depths);
+    }
+  }
+}
+
+TEST(FibreSurvey, KnowsTheBlocksNearAFibreAndWhereItIsInThem)
+{
+  const MeetingImage image;
+  for (const Domain& domain : domains())
+  {
+    const FibreField field(image.view, domain, true);
+    const NodeLattice lattice = field.lattice();
+    ASSERT_GT(lattice.blockCount(), 27u);
+    for (const auto& [id, fibre] : findFibres(field))
+    {
+      for (const int reach : { 0, 1, 7, 20 })
+      {
+        const NearBlocks near = blocksNear(field, fibre, reach);
+        ASSERT_EQ(near.numbers.size(), near.inside.size());
+        std::size_t at = 0;
+        for (std::uint32_t block = 0; block < lattice.blockCount(); ++block)
+        {
+          const NodeRange own = nodesOfBlock(lattice, block);
+          bool isNear = false;
+          NodeRange inside;
+          for (const FoundBox& box : fibre.boxes)
+          {
+            const NodeRange nodes = nodesOf(field, box);
+            isNear = isNear || nodes.within(own.widened(reach)).size() > 0;
+            inside = inside.joined(nodes.within(own.widened(NearBlocks::around)));
+          }
+          ASSERT_EQ(isNear, at < near.numbers.size() && near.numbers[at] == block) << id << ' ' << reach << ' ' << block;
+          if (isNear)
+          {
+            EXPECT_TRUE(areSame(near.inside[at], inside));
+            ++at;
+          }
+        }
+        EXPECT_EQ(at, near.numbers.size());
       }
     }
   }
-  const FibreField field(view, part, true);
-  EXPECT_THROW(findFibres(field, -1), InvalidInput);
-  EXPECT_THROW(findFibres(field, 21), InvalidInput);
 }
 
 TEST(FibreSurvey, RefusesWhatIsNoLabelImage)
@@ -98,7 +159,7 @@ TEST(FibreSurvey, RefusesWhatIsNoLabelImage)
   FibreRadialGrowthOptions options;
   LabelImage image = meetingFibres(options);
   const auto find = [&] {
-    findFibres(FibreField({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true), 1);
+    findFibres(FibreField({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true));
   };
   EXPECT_NO_THROW(find());
   const float depth = image.depth[1234];

@@ -5,12 +5,12 @@
 #include "surface/SampledVolume.h"
 #include "base/Constants.h"
 #include "surface/FibreContours.h"
+#include "surface/FibreSurvey.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace
@@ -53,9 +53,7 @@ struct Image
 
 SmoothedField fieldOf(const FibreField& field)
 {
-  std::vector<std::uint32_t> all(field.lattice().blockCount());
-  std::iota(all.begin(), all.end(), 0u);
-  return SmoothedField(field, 1, all, 0);
+  return SmoothedField(field, 1, blocksNear(field, findFibres(field).at(1), 0), 0);
 }
 
 TEST(SampledVolume, IsThatOfContours)

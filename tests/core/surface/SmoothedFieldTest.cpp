@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace
 {
@@ -16,25 +15,40 @@ namespace
 using namespace cactus;
 using example::meetingFibres;
 
+/// Farther than any block is away.
+constexpr int anywhere = 1000;
+
+bool isHeld(const SmoothedField& field, std::uint32_t block)
+{
+  return std::binary_search(field.blocks().begin(), field.blocks().end(), block);
+}
+
+/// Far outside where the block is not held.
+std::vector<float> valuesAt(const SmoothedField& field, std::uint32_t block)
+{
+  const NodeRange range = nodesOfBlock(field.lattice(), block).widened(1);
+  std::vector<float> values(range.size(), -1e6f);
+  if (isHeld(field, block))
+  {
+    field.values(0.0, 0.0, range, values.data());
+  }
+  return values;
+}
+
 /// The largest sum of two of the three fibres' smoothed fields at a node.
 double largestSum(const FibreField& field, int passes, const ThinFibres* thin = nullptr)
 {
   const NodeLattice lattice = field.lattice();
-  std::vector<std::uint32_t> all(lattice.blockCount());
-  std::iota(all.begin(), all.end(), 0u);
-  const SmoothedField one(field, 1, all, passes, thin);
-  const SmoothedField two(field, 2, all, passes, thin);
-  const SmoothedField three(field, 3, all, passes, thin);
+  const FoundFibres found = findFibres(field);
+  const SmoothedField one(field, 1, blocksNear(field, found.at(1), anywhere), passes, thin);
+  const SmoothedField two(field, 2, blocksNear(field, found.at(2), anywhere), passes, thin);
+  const SmoothedField three(field, 3, blocksNear(field, found.at(3), anywhere), passes, thin);
   double largest = -1.0;
-  for (const std::uint32_t block : all)
+  for (std::uint32_t block = 0; block < lattice.blockCount(); ++block)
   {
-    const NodeRange range = nodesOfBlock(lattice, block).widened(1);
-    std::vector<float> a(range.size());
-    std::vector<float> b(range.size());
-    std::vector<float> c(range.size());
-    one.values(0.0, 0.0, range, a.data());
-    two.values(0.0, 0.0, range, b.data());
-    three.values(0.0, 0.0, range, c.data());
+    const std::vector<float> a = valuesAt(one, block);
+    const std::vector<float> b = valuesAt(two, block);
+    const std::vector<float> c = valuesAt(three, block);
     for (std::size_t n = 0; n < a.size(); ++n)
     {
       largest = std::max({ largest, double(a[n]) + b[n], double(b[n]) + c[n], double(c[n]) + a[n] });
@@ -66,7 +80,7 @@ TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
     const LabelImage image = meetingFibres(options);
     const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
     const double smoothed = largestSum(field, 4);
-    const ThinFibres thin(field, findFibres(field, 0));
+    const ThinFibres thin(field, findFibres(field));
     const double spared = largestSum(field, 4, &thin);
     EXPECT_LE(spared, -options.gap() + 1e-6);
     EXPECT_NE(spared, smoothed);
@@ -75,12 +89,12 @@ TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
 
 /// Compares two fields of a fibre at those nodes of a block that are two or fewer from one inside it along each axis. Returns how
 /// many are inside.
-int compareBesideFibre(const SmoothedField& one, const SmoothedField& other, const NodeRange& range)
+int compareBesideFibre(const SmoothedField& one, const SmoothedField& other, std::uint32_t block)
 {
-  std::vector<float> a(range.size());
-  std::vector<float> b(range.size());
-  one.values(0.0, 0.0, range, a.data());
-  other.values(0.0, 0.0, range, b.data());
+  EXPECT_EQ(isHeld(one, block), isHeld(other, block));
+  const NodeRange range = nodesOfBlock(one.lattice(), block).widened(1);
+  const std::vector<float> a = valuesAt(one, block);
+  const std::vector<float> b = valuesAt(other, block);
   int inside = 0;
   for (int n = 0; n < int(a.size()); ++n)
   {
@@ -111,18 +125,19 @@ TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
     const LabelImage image = meetingFibres(options);
     const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
     const NodeLattice lattice = field.lattice();
-    std::vector<std::uint32_t> all(lattice.blockCount());
-    std::iota(all.begin(), all.end(), 0u);
-    ASSERT_GE(all.size(), 8u);
-    const ThinFibres thin(field, findFibres(field, 0)); // of larger voxels, in part
+    const FoundFibres found = findFibres(field);
+    const NearBlocks all = blocksNear(field, found.at(1), anywhere);
+    ASSERT_EQ(all.numbers.size(), lattice.blockCount());
+    ASSERT_GE(all.numbers.size(), 8u);
+    const ThinFibres thin(field, found); // of larger voxels, in part
     for (const int passes : { 0, 2, 9, 20 })
     {
       const SmoothedField together(field, 1, all, passes, &thin);
       int inside = 0;
-      for (const std::uint32_t block : all)
+      for (std::size_t i = 0; i < all.numbers.size(); ++i)
       {
-        const SmoothedField alone(field, 1, { block }, passes, &thin);
-        inside += compareBesideFibre(together, alone, nodesOfBlock(lattice, block).widened(1));
+        const SmoothedField alone(field, 1, { { all.numbers[i] }, { all.inside[i] } }, passes, &thin);
+        inside += compareBesideFibre(together, alone, all.numbers[i]);
       }
       EXPECT_GT(inside, 500);
     }
@@ -134,9 +149,9 @@ TEST(SmoothedField, InterpolatesTheSamples)
   FibreRadialGrowthOptions options;
   const LabelImage image = meetingFibres(options);
   const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
-  const FoundFibres found = findFibres(field, 0);
+  const FoundFibres found = findFibres(field);
   ASSERT_EQ(found.size(), 3u);
-  const SmoothedField one(field, 1, found.at(1).blocks, 0);
+  const SmoothedField one(field, 1, blocksNear(field, found.at(1), 0), 0);
   int inside = 0;
   for (int k = 0; k < image.grid.count[2]; ++k)
   {

@@ -36,25 +36,6 @@ std::vector<std::int32_t> randomIds(std::size_t count, unsigned seed)
   return ids;
 }
 
-TEST(SmoothingKernels, FindAFibreWhereverItIs)
-{
-  for (const SmoothingKernels* kernels : runnableKernels<SmoothingKernels>())
-  {
-    for (int count = 0; count < 70; ++count)
-    {
-      std::vector<std::int32_t> ids(std::size_t(count) + 1, 1);
-      ids.back() = 7; // beyond the row
-      EXPECT_FALSE(kernels->holds(ids.data(), count, 7));
-      for (int place = 0; place < count; ++place)
-      {
-        ids[std::size_t(place)] = 7;
-        EXPECT_TRUE(kernels->holds(ids.data(), count, 7)) << place << " of " << count;
-        ids[std::size_t(place)] = 1;
-      }
-    }
-  }
-}
-
 TEST(SmoothingKernels, FieldIsThatOfTheLabelImage)
 {
   for (const SmoothingKernels* kernels : runnableKernels<SmoothingKernels>())
