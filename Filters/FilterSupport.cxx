@@ -201,6 +201,9 @@ bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::func
     return false;
   }
   forget(self);
+  // VTK reports progress before and after this, when no text of this run's is true.
+  const std::unique_ptr<vtkAlgorithm, void (*)(vtkAlgorithm*)> textless(
+    self, [](vtkAlgorithm* done) { done->SetProgressText(nullptr); });
   setProcessesSharingMemory(processesOnThisMachine());
   try
   {

@@ -74,8 +74,8 @@ public:
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      this->First[axis] = samples.first[axis] / FoundBox::pieceEdge;
-      this->Count[axis] = (samples.first[axis] + samples.count[axis] - 1) / FoundBox::pieceEdge - this->First[axis] + 1;
+      this->First[axis] = pieceOf(samples.first[axis]);
+      this->Count[axis] = pieceOf(samples.first[axis] + samples.count[axis] - 1) - this->First[axis] + 1;
     }
   }
 
@@ -108,6 +108,13 @@ public:
   }
 
 private:
+  /// Of a sample along an axis, which may be negative.
+  static int pieceOf(int sample)
+  {
+    constexpr int edge = FoundBox::pieceEdge;
+    return sample >= 0 ? sample / edge : -((edge - 1 - sample) / edge);
+  }
+
   SampleBox Samples;
   std::array<int, 3> First{}; ///< piece along each axis
   std::array<int, 3> Count{};

@@ -62,7 +62,7 @@ std::map<std::int32_t, Expected> foundOneByOne(const FibreField& field, const La
       std::array<int, 3> piece{};
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        piece[2 - axis] = (field.samples().first[axis] + node[axis] - 1) / 16;
+        piece[2 - axis] = static_cast<int>(std::floor((field.samples().first[axis] + node[axis] - 1) / 16.0));
       }
       NodeRange& box = fibre.boxes[piece];
       box = box.joined({ node, { { 1, 1, 1 } } });
@@ -81,11 +81,15 @@ std::vector<Domain> domains()
 
 struct MeetingImage
 {
-  MeetingImage()
+  /// shift: of the first sample's place, which changes nothing else.
+  explicit MeetingImage(int shift)
   {
     FibreRadialGrowthOptions options;
     options.voxelSize = 0.06;
     this->labels = meetingFibres(options);
+    VoxelGrid& grid = this->labels.grid;
+    grid.lower = { { shift, 2 * shift, 3 * shift } };
+    grid.origin -= grid.spacing * Eigen::Vector3d(shift, 2 * shift, 3 * shift);
     this->view = { this->labels.grid, this->labels.fibreId.data(), this->labels.depth.data(), options.gap() };
   }
   LabelImage labels;
@@ -94,30 +98,33 @@ struct MeetingImage
 
 TEST(FibreSurvey, FindsBoxesAndDepths)
 {
-  const MeetingImage image;
-  for (const Domain& domain : domains())
+  for (const int shift : { 0, 5, -7 })
   {
-    const FibreField field(image.view, domain, true);
-    const FoundFibres found = findFibres(field);
-    ASSERT_EQ(found.size(), 3u);
-    for (const auto& [id, fibre] : foundOneByOne(field, image.view))
+    const MeetingImage image(shift);
+    for (const Domain& domain : domains())
     {
-      ASSERT_EQ(found.at(id).boxes.size(), fibre.boxes.size());
-      EXPECT_GT(fibre.boxes.size(), 4u);
-      auto box = found.at(id).boxes.begin();
-      for (const auto& [piece, nodes] : fibre.boxes)
+      const FibreField field(image.view, domain, true);
+      const FoundFibres found = findFibres(field);
+      ASSERT_EQ(found.size(), 3u);
+      for (const auto& [id, fibre] : foundOneByOne(field, image.view))
       {
-        EXPECT_TRUE(areSame(nodesOf(field, *box++), nodes));
+        ASSERT_EQ(found.at(id).boxes.size(), fibre.boxes.size());
+        EXPECT_GT(fibre.boxes.size(), 4u);
+        auto box = found.at(id).boxes.begin();
+        for (const auto& [piece, nodes] : fibre.boxes)
+        {
+          EXPECT_TRUE(areSame(nodesOf(field, *box++), nodes));
+        }
+        EXPECT_EQ(found.at(id).samples, fibre.samples);
+        EXPECT_NEAR(found.at(id).depths, fibre.depths, 1e-9 * fibre.depths);
       }
-      EXPECT_EQ(found.at(id).samples, fibre.samples);
-      EXPECT_NEAR(found.at(id).depths, fibre.depths, 1e-9 * fibre.depths);
     }
   }
 }
 
 TEST(FibreSurvey, KnowsTheBlocksNearAFibreAndWhereItIsInThem)
 {
-  const MeetingImage image;
+  const MeetingImage image(-7);
   for (const Domain& domain : domains())
   {
     const FibreField field(image.view, domain, true);
