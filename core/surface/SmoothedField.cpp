@@ -206,11 +206,12 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   // Only what is beside the fibre is smoothed.
   const auto besideIn = [](const NodeRange& within, const NodeRange& fibre)
   { return fibre.size() > 0 ? fibre.widened(nodesBeside).within(within) : fibre; };
-  const NodeRange range = besideIn(whole, inside).widened(reach);
-  if (besideIn(whole, inside).size() == 0)
+  const NodeRange atMost = besideIn(whole, inside);
+  if (atMost.size() == 0)
   {
     return;
   }
+  const NodeRange range = atMost.widened(reach);
   thread_local LabelBuffer samples;
   const LabelImageView held = field.samplesFor(range, samples);
   thread_local std::vector<float> buffer;

@@ -8,10 +8,10 @@ import os
 
 import numpy
 from cactus_testing import UNPARTED, CactusTestCase, fetch, main, mesh_oracle, produce
-from paraview.simple import FibreRadialGrowth, MyelinSurface, OutputPort, StrandReader, SubstrateCertificate, SubstrateStatistics
+from paraview.simple import FibreRadialGrowth, MyelinSurface, OutputPort, StrandReader, SubstrateCertificate, SubstrateStatistics, TrivialProducer
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference, vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkStaticCellLocator
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkStaticCellLocator
 
 
 def strands(side, lines):
@@ -366,6 +366,24 @@ class MyelinSurfaceTest(CactusTestCase):
         # Each a filter of its own, which has no outer surfaces yet.
         digests = {self.digest(MyelinSurface(Input=growth, NumberOfThreads=threads)) for threads in (1, 2, 4)}
         self.assertEqual(len(digests), 1)
+
+    def test_an_image_may_begin_below_zero(self):
+        """As that of a volume of interest may: the same samples in the same place, counted from elsewhere."""
+        growth = self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.85)
+        growth.UpdatePipeline()
+        image = growth.GetClientSideObject().GetOutputDataObject(0)
+        volumes = []
+        for shift in (0, 20, 37):
+            shifted = vtkImageData()
+            shifted.ShallowCopy(image)
+            shifted.SetExtent([end - shift for end in image.GetExtent()])
+            shifted.SetOrigin([first + shift * step for first, step in zip(image.GetOrigin(), image.GetSpacing())])
+            source = TrivialProducer()
+            source.GetClientSideObject().SetOutput(shifted)
+            table = fetch(MyelinSurface(Input=source), 2)
+            volumes.append(vtk_to_numpy(table.GetColumnByName("OuterVolume_um3")))
+        for found in volumes[1:]:
+            numpy.testing.assert_allclose(found, volumes[0], rtol=1e-3)
 
     def test_outer_surfaces_are_kept_while_only_g_ratios_change(self):
         growth = self.growth(hexagonal(3.0), TargetFibreVolumeFraction=0.85)

@@ -96,6 +96,20 @@ struct MeetingImage
   LabelImageView view;
 };
 
+// What the tests below compare with is made of these.
+TEST(NodeRange, HasWhatBothHaveAndHoldsBoth)
+{
+  const NodeRange one{ { { 0, 1, 2 } }, { { 3, 3, 3 } } };
+  const NodeRange other{ { { 2, -1, 2 } }, { { 4, 3, 1 } } };
+  EXPECT_TRUE(areSame(one.within(other), { { { 2, 1, 2 } }, { { 1, 1, 1 } } }));
+  EXPECT_TRUE(areSame(one.joined(other), { { { 0, -1, 2 } }, { { 6, 5, 3 } } }));
+  EXPECT_TRUE(areSame(one.joined({}), one));
+  EXPECT_TRUE(areSame(NodeRange().joined(one), one));
+  EXPECT_EQ(one.within({ { { 3, 1, 2 } }, { { 1, 1, 1 } } }).size(), 0u);
+  EXPECT_EQ(one.index(0, 1, 2), 0);
+  EXPECT_EQ(one.index(2, 3, 3), 2 + 3 * (2 + 3 * 1));
+}
+
 TEST(FibreSurvey, FindsBoxesAndDepths)
 {
   for (const int shift : { 0, 5, -7 })
