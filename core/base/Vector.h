@@ -250,17 +250,22 @@ CACTUS_KERNEL_INLINE Floats load(const float* from)
   return vector;
 }
 
-#if CACTUS_DOUBLES > 2
 /// Bit l is set if lane l is.
 CACTUS_KERNEL_INLINE unsigned bitsOf(const FloatMask& mask)
 {
 #if CACTUS_DOUBLES == 8
   return _mm512_movepi32_mask((__m512i)mask);
-#else
+#elif CACTUS_DOUBLES == 4
   return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
+#else
+  unsigned bits = 0;
+  for (int l = 0; l < floats; ++l)
+  {
+    bits |= static_cast<unsigned>(mask[l] & 1) << l;
+  }
+  return bits;
 #endif
 }
-#endif
 
 CACTUS_KERNEL_INLINE void store(double* to, const Doubles& vector)
 {

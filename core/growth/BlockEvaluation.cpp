@@ -12,12 +12,21 @@ namespace
 {
 
 constexpr double blockHalf = 0.5 * (BlockEvaluation::blockSize - 1);
-constexpr int cellSize[3] = { FieldCell::sizeX, FieldCell::sizeY, FieldCell::sizeZ };
+constexpr int cellSize = FieldCell::edge;
+/// Samples along each side of the parts of a block whose cells have their candidates in common.
+constexpr int partSize = 8;
 
 /// Single precision is good to some 1e-7 of a block's neighbourhood; the slack keeps decisions on the safe side of it.
 double slackened(double extent)
 {
   return extent * (1.0 + 1e-5) + 1e-5;
+}
+
+/// So many samples along each edge.
+SamplePlace cubeOf(int samples, double spacing)
+{
+  const double half = 0.5 * spacing * (samples - 1);
+  return { {}, float(slackened(half)), float(slackened(half * std::sqrt(3.0))) };
 }
 
 CellRelevance inSinglePrecision(const FieldRelevance& relevance)
@@ -38,17 +47,17 @@ BlockEvaluation::BlockEvaluation(const CapsuleSeeds& seeds, const SeedBins& bins
   , HandOver(sink)
   , Thread(thread)
 {
-  this->Samples.extent =
-    float(slackened(0.5 * grid.spacing * Eigen::Vector3d(cellSize[0] - 1, cellSize[1] - 1, cellSize[2] - 1).norm()));
-  const int strides[3] = { 1, FieldCell::sizeX, FieldCell::sizeX * FieldCell::sizeY };
+  this->Part = cubeOf(partSize, grid.spacing);
+  this->Samples.place = cubeOf(cellSize, grid.spacing);
+  const int strides[3] = { 1, cellSize, cellSize * cellSize };
   for (int axis = 0; axis < 3; ++axis)
   {
-    for (int at = 0; at < blockSize; at += cellSize[axis])
+    for (int at = 0; at < blockSize; at += cellSize)
     {
       this->Positions[axis].emplace_back();
       for (int n = 0; n < FieldCell::size; ++n)
       {
-        const int place = n / strides[axis] % cellSize[axis];
+        const int place = n / strides[axis] % cellSize;
         this->Positions[axis].back()[std::size_t(n)] = float((at + place - blockHalf) * grid.spacing);
       }
     }
@@ -62,51 +71,83 @@ void BlockEvaluation::evaluate(const Eigen::Array3i& lower)
     this->Grid.origin + h * Eigen::Vector3d(lower[0] + blockHalf, lower[1] + blockHalf, lower[2] + blockHalf);
   const double extent = slackened(0.5 * h * (blockSize - 1) * std::sqrt(3.0));
   Candidates& candidates = this->Search.find(centre, extent, this->Relevance);
-  for (int k = 0; k < blockSize; k += cellSize[2])
+  this->Near.makeRoomFor(candidates);
+  for (int k = 0; k < blockSize; k += partSize)
   {
-    for (int j = 0; j < blockSize; j += cellSize[1])
+    for (int j = 0; j < blockSize; j += partSize)
     {
-      for (int i = 0; i < blockSize; i += cellSize[0])
+      for (int i = 0; i < blockSize; i += partSize)
       {
-        this->evaluateCell(lower, { i, j, k }, candidates);
+        this->evaluatePart(lower, { i, j, k }, candidates.all());
       }
     }
   }
 }
 
-/// at: where in the block the cell begins.
-void BlockEvaluation::evaluateCell(const Eigen::Array3i& lower, const Eigen::Array3i& at, Candidates& candidates)
+/// part: where in the block it begins.
+void BlockEvaluation::evaluatePart(const Eigen::Array3i& lower, const Eigen::Array3i& part, const ConeGroups& candidates)
 {
-  FieldCell cell;
+  ConeGroups near = this->Near.all();
+  bool isNarrowed = false;
+  for (int k = part[2]; k < part[2] + partSize; k += cellSize)
+  {
+    for (int j = part[1]; j < part[1] + partSize; j += cellSize)
+    {
+      for (int i = part[0]; i < part[0] + partSize; i += cellSize)
+      {
+        const Eigen::Array3i at(i, j, k);
+        FieldCell cell;
+        if (!this->isHeld(lower + at, cell))
+        {
+          continue;
+        }
+        if (!isNarrowed)
+        {
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            this->Part.centre[axis] = float((part[axis] + 0.5 * (partSize - 1) - blockHalf) * this->Grid.spacing);
+          }
+          this->Kernels.narrow(candidates, this->RelevanceInCells, this->Part, near);
+          isNarrowed = true;
+        }
+        this->evaluateCell(cell, at, near);
+      }
+    }
+  }
+}
+
+/// Whether the grid holds samples of a cell, and which.
+bool BlockEvaluation::isHeld(const Eigen::Array3i& lower, FieldCell& cell) const
+{
   for (int axis = 0; axis < 3; ++axis)
   {
     const int first = this->Grid.lower[std::size_t(axis)];
-    cell.lower[axis] = lower[axis] + at[axis];
+    cell.lower[axis] = lower[axis];
     cell.begin[axis] = std::max(0, first - cell.lower[axis]);
-    cell.end[axis] = std::min(cellSize[axis], first + this->Grid.count[std::size_t(axis)] - cell.lower[axis]);
+    cell.end[axis] = std::min(cellSize, first + this->Grid.count[std::size_t(axis)] - cell.lower[axis]);
     if (cell.begin[axis] >= cell.end[axis])
     {
-      return;
+      return false;
     }
   }
-  this->placeSamples(at);
-  std::vector<ConeGroup>& groups = candidates.groups();
-  this->Kernels.evaluateCell(candidates.columns(), groups.data(), groups.size(), this->RelevanceInCells, this->Samples);
-  cell.best = this->Samples.best;
-  cell.second = this->Samples.second;
-  cell.rank = this->Samples.rank;
-  this->HandOver(cell, this->Thread);
+  return true;
 }
 
-void BlockEvaluation::placeSamples(const Eigen::Array3i& at)
+/// at: where in the block the cell begins.
+void BlockEvaluation::evaluateCell(FieldCell& cell, const Eigen::Array3i& at, const ConeGroups& candidates)
 {
   const double h = this->Grid.spacing;
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Samples.centre[axis] = float((at[axis] + 0.5 * (cellSize[axis] - 1) - blockHalf) * h);
-    const auto& positions = this->Positions[axis][std::size_t(at[axis] / cellSize[axis])];
+    this->Samples.place.centre[axis] = float((at[axis] + 0.5 * (cellSize - 1) - blockHalf) * h);
+    const auto& positions = this->Positions[axis][std::size_t(at[axis] / cellSize)];
     std::copy(positions.begin(), positions.end(), this->Samples.position[axis]);
   }
+  this->Kernels.evaluateCell(candidates, this->RelevanceInCells, this->Samples);
+  cell.best = this->Samples.best;
+  cell.second = this->Samples.second;
+  cell.rank = this->Samples.rank;
+  this->HandOver(cell, this->Thread);
 }
 
 } // namespace cactus

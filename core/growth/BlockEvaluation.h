@@ -31,8 +31,9 @@ public:
   void evaluate(const Eigen::Array3i& lower);
 
 private:
-  void evaluateCell(const Eigen::Array3i& lower, const Eigen::Array3i& at, Candidates& candidates);
-  void placeSamples(const Eigen::Array3i& at);
+  void evaluatePart(const Eigen::Array3i& lower, const Eigen::Array3i& part, const ConeGroups& candidates);
+  bool isHeld(const Eigen::Array3i& lower, FieldCell& cell) const;
+  void evaluateCell(FieldCell& cell, const Eigen::Array3i& at, const ConeGroups& candidates);
 
   CandidateSearch Search;
   const VoxelGrid& Grid;
@@ -41,6 +42,8 @@ private:
   const FieldKernels& Kernels = bestKernels<FieldKernels>();
   const FieldSink& HandOver;
   int Thread;
+  Candidates Near; ///< of those of a block, the ones that matter in a part of it
+  SamplePlace Part;
   CellSamples Samples;
   /// Relative to a block's centre along each axis, the samples of cells that begin at one place of a block after the other.
   std::vector<std::array<float, FieldCell::size>> Positions[3];

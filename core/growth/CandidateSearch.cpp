@@ -11,6 +11,8 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Of searches, in extents, that mostly need not be made again where fibres lie close together.
+constexpr double usualReach = 2.5;
 
 } // namespace
 
@@ -26,15 +28,15 @@ void Candidates::clear()
 
 void Candidates::beginGroup(int rank)
 {
-  this->Groups.push_back({ rank, this->Count, this->Count, 0.0f });
+  this->Groups.push_back({ rank, this->Count, this->Count, 0.0f, this->Count });
 }
 
 void Candidates::add(const Cone& cone, const Eigen::Vector3d& origin)
 {
   const Eigen::Vector3d start = cone.start - origin;
-  const double numbers[columnCount] = { start.x(), start.y(), start.z(), cone.axis.x(), cone.axis.y(), cone.axis.z(), cone.length,
-    cone.radius, cone.slope, cone.lean, 0.0 };
-  for (std::size_t n = 0; n < columnCount; ++n)
+  const double numbers[ConeColumns::given] = { start.x(), start.y(), start.z(), cone.axis.x(), cone.axis.y(), cone.axis.z(),
+    cone.length, cone.radius, cone.slope, cone.lean };
+  for (std::size_t n = 0; n < ConeColumns::given; ++n)
   {
     this->Columns[n].push_back(float(numbers[n]));
   }
@@ -49,11 +51,24 @@ void Candidates::finish()
   }
 }
 
-ConeColumns Candidates::columns()
+void Candidates::makeRoomFor(const Candidates& others)
 {
-  const auto column = [&](std::size_t n) { return this->Columns[n].data(); };
-  return { { column(0), column(1), column(2) }, { column(3), column(4), column(5) }, column(6), column(7), column(8), column(9),
-    column(10), this->Count };
+  this->Groups.resize(std::max(this->Groups.size(), others.Groups.size()));
+  for (std::vector<float>& column : this->Columns)
+  {
+    column.resize(std::max(column.size(), others.Count + FieldKernels::padding), 0.0f);
+  }
+}
+
+ConeGroups Candidates::all()
+{
+  ConeGroups all{ {}, this->Groups.data(), this->Groups.size() };
+  for (std::size_t n = 0; n < ConeColumns::numbers; ++n)
+  {
+    all.cones.of[n] = this->Columns[n].data();
+  }
+  all.cones.count = this->Count;
+  return all;
 }
 
 CandidateSearch::CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins)
@@ -67,7 +82,7 @@ CandidateSearch::CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins
 Candidates& CandidateSearch::find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance)
 {
   ++this->Search;
-  double reach = extent + std::min(relevance.bestReach, extent);
+  double reach = usualReach * extent;
   for (;;)
   {
     this->collect(centre, reach);

@@ -25,15 +25,15 @@ public:
   void add(const Cone& cone, const Eigen::Vector3d& origin);
   /// Makes the columns readable in whole vectors.
   void finish();
+  /// Makes room for some of others, in the place of what is here.
+  void makeRoomFor(const Candidates& others);
 
-  ConeColumns columns();
-  std::vector<ConeGroup>& groups() { return this->Groups; }
+  /// For kernels, until the candidates change.
+  ConeGroups all();
 
 private:
-  static constexpr std::size_t columnCount = 11;
-
   std::vector<ConeGroup> Groups;
-  std::vector<float> Columns[columnCount];
+  std::vector<float> Columns[ConeColumns::numbers];
   std::size_t Count = 0;
 };
 

@@ -6,13 +6,11 @@
 namespace cactus
 {
 
-/// The two largest fields at a small box of samples, x fastest, with fixed strides.
+/// The two largest fields at a small cube of samples, x fastest.
 struct FieldCell
 {
-  static constexpr int sizeX = 8;
-  static constexpr int sizeY = 4;
-  static constexpr int sizeZ = 4;
-  static constexpr int size = sizeX * sizeY * sizeZ;
+  static constexpr int edge = 4; ///< samples along each side
+  static constexpr int size = edge * edge * edge;
 
   int lower[3];        ///< grid index of the cell's first sample
   int begin[3];        ///< the part asked for: cell-relative indices [begin, end)
@@ -29,7 +27,7 @@ struct FieldCell
     {
       for (int j = this->begin[1]; j < this->end[1]; ++j)
       {
-        const int row = sizeX * (j + sizeY * k);
+        const int row = edge * (j + edge * k);
         for (int i = row + this->begin[0]; i < row + this->end[0]; ++i)
         {
           visit(i);

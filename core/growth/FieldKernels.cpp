@@ -10,6 +10,11 @@ namespace
 {
 
 constexpr float nowhere = -1e30f;
+/// Room for the rounding of bounds, as a part of a cell's extent and µm.
+constexpr float boundSlack = 1e-4f;
+constexpr float leastSlack = 1e-5f;
+
+using Columns = ConeColumns;
 
 /// Numbers of one cone, or of as many as a vector holds.
 template <typename Number>
@@ -23,42 +28,248 @@ struct ConeNumbers
   Number lean;
 };
 
-/// The field of cones at positions, lane by lane; see coneValue(). What is everywhere as thick (`isEven`) takes a root less.
-template <bool isEven, typename Position, typename Number>
-CACTUS_KERNEL_INLINE Floats fieldOf(const ConeNumbers<Number>& cone, const Position (&at)[3])
+/// take(n): number n of them.
+template <typename Number, typename Take>
+CACTUS_KERNEL_INLINE ConeNumbers<Number> numbersOf(const Take& take)
 {
-  const Floats zero = {};
-  const Floats dx = at[0] - cone.start[0];
-  const Floats dy = at[1] - cone.start[1];
-  const Floats dz = at[2] - cone.start[2];
-  const Floats foot = dx * cone.axis[0] + (dy * cone.axis[1] + dz * cone.axis[2]);
-  const Floats ex = dx - foot * cone.axis[0];
-  const Floats ey = dy - foot * cone.axis[1];
-  const Floats ez = dz - foot * cone.axis[2];
-  const Floats distance2 = ex * ex + (ey * ey + ez * ez);
-  const Floats centre = isEven ? foot : foot + cone.lean * squareRoot(distance2);
-  const Floats along = smaller(larger(centre, zero), zero + cone.length);
-  const Floats rest = along - foot;
-  return cone.radius + cone.slope * along - squareRoot(distance2 + rest * rest);
+  return { { take(Columns::Start), take(Columns::Start + 1), take(Columns::Start + 2) },
+    { take(Columns::Axis), take(Columns::Axis + 1), take(Columns::Axis + 2) }, take(Columns::Length), take(Columns::Radius),
+    take(Columns::Slope), take(Columns::Lean) };
 }
 
-/// Writes each cone's field at the cell's centre.
-CACTUS_KERNEL_INLINE void evaluateCentre(const ConeColumns& cones, const float (&centre)[3])
+CACTUS_KERNEL_INLINE ConeNumbers<Floats> conesAt(const Columns& cones, std::size_t c)
 {
+  return numbersOf<Floats>([&](int n) __attribute__((always_inline)) { return load(cones.of[n] + c); });
+}
+
+CACTUS_KERNEL_INLINE ConeNumbers<float> coneAt(const Columns& cones, std::size_t c)
+{
+  return numbersOf<float>([&](int n) __attribute__((always_inline)) { return cones.of[n][c]; });
+}
+
+/// Lane by lane, the field of cones at positions (see coneValue()) and the ball of the cone that it is of.
+struct NearestBall
+{
+  Floats offset[3]; ///< from its centre to the position
+  Floats distance;  ///< how long that is
+  Floats field;
+
+  /// What is everywhere as thick (`isEven`) takes a root less.
+  template <bool isEven, typename Position, typename Number>
+  CACTUS_KERNEL_INLINE static NearestBall of(const ConeNumbers<Number>& cone, const Position (&at)[3])
+  {
+    const Floats zero = {};
+    const Floats dx = at[0] - cone.start[0];
+    const Floats dy = at[1] - cone.start[1];
+    const Floats dz = at[2] - cone.start[2];
+    const Floats foot = dx * cone.axis[0] + (dy * cone.axis[1] + dz * cone.axis[2]);
+    const Floats ex = dx - foot * cone.axis[0];
+    const Floats ey = dy - foot * cone.axis[1];
+    const Floats ez = dz - foot * cone.axis[2];
+    const Floats distance2 = ex * ex + (ey * ey + ez * ez);
+    const Floats centre = isEven ? foot : foot + cone.lean * squareRoot(distance2);
+    const Floats along = smaller(larger(centre, zero), zero + cone.length);
+    const Floats rest = along - foot;
+    const Floats distance = squareRoot(distance2 + rest * rest);
+    return { { ex - rest * cone.axis[0], ey - rest * cone.axis[1], ez - rest * cone.axis[2] }, distance,
+      cone.radius + cone.slope * along - distance };
+  }
+};
+
+/// Writes each cone's field at a place, and what it is below around: a concave function lies below its tangents, so at an offset
+/// from the place it is below Bound + Gradient · offset. Near a cone's axis the gradient is not known well, and the field is only
+/// known to be 1-Lipschitz.
+CACTUS_KERNEL_INLINE void evaluateAt(const Columns& cones, const SamplePlace& place)
+{
+  const Floats zero = {};
+  const float slack = boundSlack * place.extent + leastSlack;
   for (std::size_t c = 0; c < cones.count; c += floats)
   {
-    ConeNumbers<Floats> cone;
+    const NearestBall ball = NearestBall::of<false>(conesAt(cones, c), place.centre);
+    const FloatMask isFar = ball.distance > zero + place.extent;
+    const Floats steepness = isFar ? -1.0f / ball.distance : zero;
+    store(cones.of[Columns::Field] + c, ball.field);
+    store(cones.of[Columns::Bound] + c, ball.field + (isFar ? zero + slack : zero + (slack + place.extent)));
     for (int axis = 0; axis < 3; ++axis)
     {
-      cone.start[axis] = load(cones.start[axis] + c);
-      cone.axis[axis] = load(cones.axis[axis] + c);
+      store(cones.of[Columns::Gradient + axis] + c, steepness * ball.offset[axis]);
     }
-    cone.length = load(cones.length + c);
-    cone.radius = load(cones.radius + c);
-    cone.slope = load(cones.slope + c);
-    cone.lean = load(cones.lean + c);
-    store(cones.atCentre + c, fieldOf<false>(cone, centre));
   }
+}
+
+constexpr int corners = 8;
+/// Whole vectors; what is beyond the corners is the same again.
+constexpr int cornerLanes = floats > corners ? floats : corners;
+
+/// On which side of the place they are, along each axis.
+alignas(64) constexpr float cornerSigns[3][2 * corners] = { { -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1 },
+  { -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1 }, { -1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1 } };
+
+/// Of a cone at the corners of the cube around a place.
+struct alignas(64) AtCorners
+{
+  float field[cornerLanes];
+};
+
+CACTUS_KERNEL_INLINE AtCorners fieldAtCorners(const Columns& cones, std::size_t c, const SamplePlace& place)
+{
+  const ConeNumbers<float> cone = coneAt(cones, c);
+  AtCorners result;
+  for (int i = 0; i < cornerLanes; i += floats)
+  {
+    const auto along = [&](int axis) __attribute__((always_inline))
+    {
+      return place.centre[axis] + place.half * load(cornerSigns[axis] + i);
+    };
+    const Floats at[3] = { along(0), along(1), along(2) };
+    store(result.field + i, NearestBall::of<false>(cone, at).field);
+  }
+  return result;
+}
+
+/// Which of the cones from c on may be above a concave function somewhere in the cube, given what that is at the corners.
+CACTUS_KERNEL_INLINE FloatMask mayExceed(const Columns& cones, std::size_t c, const SamplePlace& place, const AtCorners& least)
+{
+  // A tangent less a concave function is convex, so it is largest at a corner.
+  Floats step[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    step[axis] = place.half * load(cones.of[Columns::Gradient + axis] + c);
+  }
+  const Floats bound = load(cones.of[Columns::Bound] + c);
+  FloatMask above = {};
+  for (int corner = 0; corner < corners; ++corner)
+  {
+    const Floats x = (corner & 1) != 0 ? bound + step[0] : bound - step[0];
+    const Floats xy = (corner & 2) != 0 ? x + step[1] : x - step[1];
+    const Floats xyz = (corner & 4) != 0 ? xy + step[2] : xy - step[2];
+    above |= xyz > Floats{} + least.field[corner];
+  }
+  return above;
+}
+
+/// The fibres, and of these the cones, that can make a difference in the cube around a place.
+class Relevant
+{
+public:
+  /// Writes what is known of each cone at the place.
+  CACTUS_KERNEL_INLINE Relevant(const ConeGroups& all, const CellRelevance& relevance, const SamplePlace& place)
+    : All(all)
+    , Place(place)
+    , Relevance(relevance)
+  {
+    evaluateAt(all.cones, place);
+    for (std::size_t g = 0; g < all.count; ++g)
+    {
+      ConeGroup& group = all.groups[g];
+      group.ahead = group.begin;
+      group.field = nowhere;
+      for (std::size_t c = group.begin; c < group.end; ++c)
+      {
+        const float field = all.cones.of[Columns::Field][c];
+        group.ahead = field > group.field ? c : group.ahead;
+        group.field = field > group.field ? field : group.field;
+      }
+      if (group.field > this->Best)
+      {
+        this->Second = this->Best;
+        this->RunnerUp = this->First;
+        this->Best = group.field;
+        this->First = g;
+      }
+      else if (group.field > this->Second)
+      {
+        this->Second = group.field;
+        this->RunnerUp = g;
+      }
+    }
+    if (all.count > 2)
+    {
+      // The second largest field is nowhere below the smaller one of two.
+      this->OfFirst = fieldAtCorners(all.cones, all.groups[this->First].ahead, place);
+      this->OfRunnerUp = fieldAtCorners(all.cones, all.groups[this->RunnerUp].ahead, place);
+      for (int i = 0; i < cornerLanes; i += floats)
+      {
+        store(this->Lesser.field + i, smaller(load(this->OfFirst.field + i), load(this->OfRunnerUp.field + i)));
+      }
+    }
+  }
+
+  /// visit(c) for those cones of a group.
+  template <typename Visit>
+  CACTUS_KERNEL_INLINE void forEachOf(std::size_t g, const Visit& visit) const
+  {
+    const ConeGroup& group = this->All.groups[g];
+    if (!this->matters(group.field))
+    {
+      return;
+    }
+    const Columns& cones = this->All.cones;
+    const bool isOfTwo = g == this->First || g == this->RunnerUp;
+    const AtCorners ahead = !isOfTwo || this->All.count <= 2 ? fieldAtCorners(cones, group.ahead, this->Place)
+                            : g == this->First               ? this->OfFirst
+                                                             : this->OfRunnerUp;
+    for (std::size_t c = group.begin; c < group.end; c += floats)
+    {
+      unsigned set = bitsOf(mayExceed(cones, c, this->Place, ahead));
+      set |= group.ahead - c < floats ? 1u << (group.ahead - c) : 0u; // not, where that is before c
+      set &= isOfTwo ? ~0u : bitsOf(mayExceed(cones, c, this->Place, this->Lesser));
+      set &= group.end - c < floats ? (1u << (group.end - c)) - 1u : ~0u;
+      for (; set != 0; set &= set - 1)
+      {
+        visit(c + std::size_t(__builtin_ctz(set)));
+      }
+    }
+  }
+
+private:
+  /// Whether a fibre with this field at the place can be one of the two largest that matter.
+  CACTUS_KERNEL_INLINE bool matters(float field) const
+  {
+    const float extent = this->Place.extent;
+    const float twice = 2.0f * extent;
+    const bool mayBeBest = field + twice >= this->Best && field + extent > -this->Relevance.bestReach;
+    const bool mayBeSecond = this->Best + extent > -this->Relevance.secondReach && field + twice >= this->Second &&
+                             field + this->Best + twice > -this->Relevance.sumReach &&
+                             field + twice >= this->Best - this->Relevance.contrast;
+    return mayBeBest || mayBeSecond;
+  }
+
+  const ConeGroups& All;
+  const SamplePlace& Place;
+  const CellRelevance& Relevance;
+  float Best = nowhere;
+  float Second = nowhere;
+  std::size_t First = 0;    ///< group of the largest field at the place
+  std::size_t RunnerUp = 0; ///< and of the second largest
+  // If there are others:
+  AtCorners OfFirst; ///< of the cone that is ahead there
+  AtCorners OfRunnerUp;
+  AtCorners Lesser; ///< of the two
+};
+
+void narrow(const ConeGroups& all, const CellRelevance& relevance, const SamplePlace& place, ConeGroups& near)
+{
+  const Relevant relevant(all, relevance, place);
+  std::size_t kept = 0;
+  near.count = 0;
+  for (std::size_t g = 0; g < all.count; ++g)
+  {
+    ConeGroup& same = near.groups[near.count];
+    same.rank = all.groups[g].rank;
+    same.begin = kept;
+    relevant.forEachOf(
+      g, [&](std::size_t c) __attribute__((always_inline)) {
+        for (int n = 0; n < Columns::given; ++n)
+        {
+          near.cones.of[n][kept] = all.cones.of[n][c];
+        }
+        ++kept;
+      });
+    same.end = kept;
+    near.count += kept > same.begin ? 1 : 0;
+  }
+  near.cones.count = kept;
 }
 
 /// Takes one cone's field into that of its fibre.
@@ -69,35 +280,7 @@ CACTUS_KERNEL_INLINE void evaluateCone(
   for (int i = 0; i < FieldCell::size; i += floats)
   {
     const Floats at[3] = { load(samples.position[0] + i), load(samples.position[1] + i), load(samples.position[2] + i) };
-    store(field + i, larger(fieldOf<isEven>(cone, at), load(field + i)));
-  }
-}
-
-/// Writes the largest field of a group's cones at each sample. Cones whose field at the centre is below `enough` cannot have it.
-CACTUS_KERNEL_INLINE void evaluateGroup(
-  const ConeColumns& cones, const ConeGroup& group, float enough, const CellSamples& samples, float (&field)[FieldCell::size])
-{
-  const Floats none = Floats{} + nowhere;
-  for (int i = 0; i < FieldCell::size; i += floats)
-  {
-    store(field + i, none);
-  }
-  for (std::size_t c = group.begin; c < group.end; ++c)
-  {
-    if (cones.atCentre[c] < enough)
-    {
-      continue;
-    }
-    const ConeNumbers<float> cone = { { cones.start[0][c], cones.start[1][c], cones.start[2][c] },
-      { cones.axis[0][c], cones.axis[1][c], cones.axis[2][c] }, cones.length[c], cones.radius[c], cones.slope[c], cones.lean[c] };
-    if (cone.slope == 0.0f && cone.lean == 0.0f)
-    {
-      evaluateCone<true>(cone, samples, field);
-    }
-    else
-    {
-      evaluateCone<false>(cone, samples, field);
-    }
+    store(field + i, larger(NearestBall::of<isEven>(cone, at).field, load(field + i)));
   }
 }
 
@@ -117,50 +300,46 @@ CACTUS_KERNEL_INLINE void merge(int rank, const float (&field)[FieldCell::size],
   }
 }
 
-void evaluateCell(
-  const ConeColumns& cones, ConeGroup* groups, std::size_t groupCount, const CellRelevance& relevance, CellSamples& samples)
+void evaluateCell(const ConeGroups& all, const CellRelevance& relevance, CellSamples& samples)
 {
-  evaluateCentre(cones, samples.centre);
-  float best = nowhere;
-  float second = nowhere;
-  for (std::size_t g = 0; g < groupCount; ++g)
-  {
-    float value = nowhere;
-    for (std::size_t c = groups[g].begin; c < groups[g].end; ++c)
-    {
-      value = cones.atCentre[c] > value ? cones.atCentre[c] : value;
-    }
-    groups[g].atCentre = value;
-    const float lesser = best < value ? best : value;
-    second = second > lesser ? second : lesser;
-    best = best > value ? best : value;
-  }
-
+  const Relevant relevant(all, relevance, samples.place);
   for (int i = 0; i < FieldCell::size; ++i)
   {
     samples.best[i] = nowhere;
     samples.second[i] = nowhere;
     samples.rank[i] = -1;
   }
-  const float twice = 2.0f * samples.extent;
-  const bool secondMatters = best + samples.extent > -relevance.secondReach;
   alignas(64) float field[FieldCell::size];
-  for (std::size_t g = 0; g < groupCount; ++g)
+  for (std::size_t g = 0; g < all.count; ++g)
   {
-    const float value = groups[g].atCentre;
-    const bool mayBeBest = value + twice >= best && value + samples.extent > -relevance.bestReach;
-    const bool mayBeSecond = secondMatters && value + twice >= second && value + best + twice > -relevance.sumReach &&
-                             value + twice >= best - relevance.contrast;
-    if (mayBeBest || mayBeSecond)
+    bool isAny = false;
+    relevant.forEachOf(
+      g, [&](std::size_t c) __attribute__((always_inline)) {
+        const Floats none = Floats{} + nowhere;
+        for (int i = 0; !isAny && i < FieldCell::size; i += floats)
+        {
+          store(field + i, none);
+        }
+        isAny = true;
+        const ConeNumbers<float> cone = coneAt(all.cones, c);
+        if (cone.slope == 0.0f && cone.lean == 0.0f)
+        {
+          evaluateCone<true>(cone, samples, field);
+        }
+        else
+        {
+          evaluateCone<false>(cone, samples, field);
+        }
+      });
+    if (isAny)
     {
-      evaluateGroup(cones, groups[g], value - twice, samples, field);
-      merge(groups[g].rank, field, samples);
+      merge(all.groups[g].rank, field, samples);
     }
   }
 }
 
 } // namespace
 
-const FieldKernels CACTUS_KERNELS_OF_UNIT(FieldKernels) = { evaluateCell };
+const FieldKernels CACTUS_KERNELS_OF_UNIT(FieldKernels) = { narrow, evaluateCell };
 
 } // namespace cactus

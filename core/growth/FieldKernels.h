@@ -9,17 +9,26 @@
 namespace cactus
 {
 
-/// The cones that can matter in one block of samples, relative to the block's centre: one column per number (see Cone), readable
-/// up to 16 beyond the last.
+/// Cones that can matter somewhere, relative to the centre of a block: one column per number, readable and writable up to
+/// FieldKernels::padding beyond the last.
 struct ConeColumns
 {
-  const float* start[3];
-  const float* axis[3];
-  const float* length;
-  const float* radius;
-  const float* slope;
-  const float* lean;
-  float* atCentre; ///< written by the kernel: the cone's field at the cell's centre; writable as far
+  enum Number
+  {
+    Start = 0, ///< x, y, z; see Cone
+    Axis = 3,  ///< x, y, z
+    Length = 6,
+    Radius,
+    Slope,
+    Lean,
+    given,         ///< so many numbers say what a cone is; kernels write the others
+    Field = given, ///< of the cone, at a place
+    Bound,         ///< with the gradient: what the field is below around the place
+    Gradient,      ///< x, y, z
+    numbers = Gradient + 3
+  };
+
+  float* of[numbers];
   std::size_t count;
 };
 
@@ -29,7 +38,17 @@ struct ConeGroup
   int rank;
   std::size_t begin;
   std::size_t end;
-  float atCentre; ///< written by the kernel: the fibre's field at the cell's centre
+  // Written by kernels.
+  float field;       ///< the fibre's at a place
+  std::size_t ahead; ///< the cone that has it
+};
+
+/// Cones by fibre.
+struct ConeGroups
+{
+  ConeColumns cones;
+  ConeGroup* groups; ///< by rank, increasing
+  std::size_t count; ///< of groups
 };
 
 /// FieldRelevance in single precision.
@@ -41,28 +60,36 @@ struct CellRelevance
   float contrast;
 };
 
+/// A place, relative to the block's centre, and a cube of samples around it.
+struct SamplePlace
+{
+  float centre[3];
+  float half;   ///< along each axis, how far the samples reach, with room for rounding
+  float extent; ///< distance to the farthest sample, likewise
+};
+
 /// The samples of one cell, relative to the block's centre, and what comes out.
 struct alignas(64) CellSamples
 {
   float position[3][FieldCell::size];
-  float centre[3];
-  float extent; ///< distance from the cell's centre to its farthest sample, with room for rounding
+  SamplePlace place;
   float best[FieldCell::size];
   float second[FieldCell::size];
   int rank[FieldCell::size];
 };
 
-/// The loop in which growth spends its time.
+/// The loops in which growth spends its time. The field of a cone is 1-Lipschitz and concave, so what it is at a place and at the
+/// corners of a cube around that tells which fibres, and which of their cones, can make no difference at any sample in the cube.
 struct FieldKernels
 {
   /// What is read in whole vectors is there for so many numbers beyond the last.
   static constexpr std::size_t padding = 16;
 
-  /// The two largest fields at the samples of one cell, and whose the largest is. Fields are 1-Lipschitz, so their values at the
-  /// cell's centre tell which fibres, and which of their cones, can make no difference at any of its samples; the rest is
-  /// evaluated.
-  void (*evaluateCell)(
-    const ConeColumns& cones, ConeGroup* groups, std::size_t groupCount, const CellRelevance& relevance, CellSamples& samples);
+  /// Those of some cones that can matter at the samples around a place. `near` has room for all of them.
+  void (*narrow)(const ConeGroups& all, const CellRelevance& relevance, const SamplePlace& place, ConeGroups& near);
+
+  /// The two largest fields at the samples of one cell, and whose the largest is.
+  void (*evaluateCell)(const ConeGroups& all, const CellRelevance& relevance, CellSamples& samples);
 };
 
 CACTUS_KERNEL_VERSIONS(FieldKernels);

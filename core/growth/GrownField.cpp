@@ -2,6 +2,7 @@
 #include "growth/GrownField.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace cactus
@@ -50,21 +51,27 @@ void GrownField::enter(const FieldCell& cell, const VoxelGrid& held, std::int32_
   const auto g = static_cast<float>(this->Growth);
   const auto w = static_cast<float>(this->HalfGap);
   const auto lowest = static_cast<float>(-this->Band);
+  std::array<float, FieldCell::size> fields;
+  for (int n = 0; n < FieldCell::size; ++n)
+  {
+    const float alone = cell.best[n] + g;
+    const float beside = 0.5f * (cell.best[n] - cell.second[n]) - w;
+    fields[std::size_t(n)] = alone < beside ? alone : beside;
+  }
   for (int k = cell.begin[2]; k < cell.end[2]; ++k)
   {
     for (int j = cell.begin[1]; j < cell.end[1]; ++j)
     {
-      const int row = FieldCell::sizeX * (j + FieldCell::sizeY * k);
+      const int row = FieldCell::edge * (j + FieldCell::edge * k);
       const std::size_t out = held.index(cell.lower[0] + cell.begin[0], cell.lower[1] + j, cell.lower[2] + k);
       std::int32_t* ids = fibreId + out;
       float* depths = depth + out;
-      for (int i = cell.begin[0]; i < cell.end[0]; ++i, ++ids, ++depths)
+      for (int i = row + cell.begin[0]; i < row + cell.end[0]; ++i, ++ids, ++depths)
       {
-        const float best = cell.best[row + i];
-        const float f = std::min(best + g, 0.5f * (best - cell.second[row + i]) - w);
-        const bool inside = f > 0.0f;
-        *ids = inside ? this->IdOfRank[static_cast<std::size_t>(cell.rank[row + i])] : 0;
-        *depths = inside ? f : std::max(f, lowest);
+        const float f = fields[std::size_t(i)];
+        const std::int32_t id = this->IdOfRank[static_cast<std::size_t>(std::max(cell.rank[i], 0))];
+        *ids = f > 0.0f ? id : 0; // without a jump
+        *depths = std::max(f, lowest);
       }
     }
   }

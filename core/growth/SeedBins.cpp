@@ -12,6 +12,15 @@
 namespace cactus
 {
 
+namespace
+{
+
+/// A search comes to fewer bins if these are larger, and to fewer of them for the same piece, but to more pieces that are too
+/// far.
+constexpr double piecesPerBin = 16.0;
+
+} // namespace
+
 SeedBins::SeedBins(const std::vector<SeedPiece>& pieces)
 {
   this->choose(pieces);
@@ -36,7 +45,7 @@ SeedBins::SeedBins(const std::vector<SeedPiece>& pieces)
   }
 }
 
-/// About half as many bins as pieces, and no more than a thousand along an axis.
+/// About one bin for `piecesPerBin` pieces, and no more than a thousand along an axis.
 void SeedBins::choose(const std::vector<SeedPiece>& pieces)
 {
   Eigen::AlignedBox3d bounds;
@@ -50,7 +59,8 @@ void SeedBins::choose(const std::vector<SeedPiece>& pieces)
   }
   this->Origin = bounds.min();
   const Eigen::Vector3d size = bounds.sizes().cwiseMax(1e-6);
-  this->Size = std::max(std::cbrt(size.prod() * 2.0 / std::max<double>(double(pieces.size()), 1.0)), size.maxCoeff() / 1000.0);
+  this->Size =
+    std::max(std::cbrt(size.prod() * piecesPerBin / std::max<double>(double(pieces.size()), 1.0)), size.maxCoeff() / 1000.0);
   this->Count = (size / this->Size).array().floor().cast<int>() + 1;
 }
 
