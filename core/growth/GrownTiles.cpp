@@ -21,8 +21,9 @@ static_assert(GrownTiles::edge == BlockEvaluation::blockSize, "a tile is what is
 struct GrownTiles::Tile
 {
   VoxelGrid grid; ///< within the image
-  std::vector<std::int32_t> fibreId;
-  std::vector<float> depth;
+  // Filled where they are made.
+  std::unique_ptr<std::int32_t[]> fibreId;
+  std::unique_ptr<float[]> depth;
 };
 
 namespace
@@ -82,7 +83,7 @@ public:
   void compute(const Eigen::Array3i& lower, Tile& tile)
   {
     std::unique_ptr<TileWorker> worker = this->takeWorker();
-    worker->compute(lower, tile.grid, tile.fibreId.data(), tile.depth.data());
+    worker->compute(lower, tile.grid, tile.fibreId.get(), tile.depth.get());
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Idle.push_back(std::move(worker));
   }
@@ -150,8 +151,8 @@ std::shared_ptr<const GrownTiles::Tile> GrownTiles::tile(const std::array<int, 3
     tile->grid.lower[axis] = edge * at[axis];
     tile->grid.count[axis] = std::min(edge, whole.count[axis] - edge * at[axis]);
   }
-  tile->fibreId.resize(tile->grid.size());
-  tile->depth.resize(tile->grid.size());
+  tile->fibreId.reset(new std::int32_t[tile->grid.size()]);
+  tile->depth.reset(new float[tile->grid.size()]);
   this->Source->compute({ edge * at[0], edge * at[1], edge * at[2] }, *tile);
   ++this->Computed;
   this->Source->recent.keep(key, tile);
@@ -175,8 +176,8 @@ void GrownTiles::copyTile(const Tile& tile, const VoxelGrid& held, LabelBuffer& 
       const std::size_t from = tile.grid.index(begin[0], j, k);
       const std::size_t to = held.index(begin[0], j, k);
       const auto count = std::ptrdiff_t(end[0] - begin[0]);
-      std::copy_n(tile.fibreId.data() + from, count, buffer.fibreId.data() + to);
-      std::copy_n(tile.depth.data() + from, count, buffer.depth.data() + to);
+      std::copy_n(tile.fibreId.get() + from, count, buffer.fibreId.data() + to);
+      std::copy_n(tile.depth.get() + from, count, buffer.depth.data() + to);
     }
   }
 }
@@ -200,8 +201,8 @@ LabelImageView GrownTiles::samples(const SampleRange& range, LabelBuffer& buffer
     const std::shared_ptr<const Tile> tile = this->tile(first);
     buffer.held = tile;
     view.grid = tile->grid;
-    view.fibreId = tile->fibreId.data();
-    view.depth = tile->depth.data();
+    view.fibreId = tile->fibreId.get();
+    view.depth = tile->depth.get();
     return view;
   }
   buffer.fibreId.resize(view.grid.size());

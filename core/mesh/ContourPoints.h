@@ -3,13 +3,14 @@
 
 #include "mesh/CappedSurface.h"
 #include "mesh/NodeLattice.h"
+#include "mesh/PointTable.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace cactus
@@ -58,17 +59,21 @@ struct BlockValues
 class ContourPoints
 {
 public:
-  /// Points are added to `surface`. What is given has to outlive the object. Of so many blocks room for their points is made.
-  ContourPoints(const NodeLattice& lattice, CappedSurface& surface, std::size_t blocks)
+  /// Points are added to `surface`. What is given has to outlive the object.
+  ContourPoints(const NodeLattice& lattice, CappedSurface& surface)
     : Lattice(lattice)
     , Surface(surface)
   {
-    this->Shared.reserve(sharedPerBlock * blocks);
   }
 
-  /// Goes on to another block.
+  /// Goes on to another block, in the same layer along z or above it.
   void begin(const BlockValues& block)
   {
+    if (block.range.first[2] > this->Block.range.first[2])
+    {
+      std::swap(this->Shared, this->SharedAbove);
+      this->SharedAbove.clear();
+    }
     this->Block = block;
     for (const std::size_t local : this->Used)
     {
@@ -116,17 +121,16 @@ public:
     {
       node = node * std::uint64_t(this->Lattice.nodes(int(axis))) + std::uint64_t(this->Block.range.first[axis] + lower[axis]);
     }
-    const auto entry = this->Shared.emplace(pointsPerNode * node + direction, -1).first;
-    if (entry->second < 0)
+    const bool isAbove = lower[2] + 1 == this->Block.range.count[2];
+    std::int32_t& point = (isAbove ? this->SharedAbove : this->Shared)[pointsPerNode * node + direction];
+    if (point == PointTable::none)
     {
-      entry->second = this->addPoint(lower, direction, this->facesAt(lower, direction));
+      point = this->addPoint(lower, direction, this->facesAt(lower, direction));
     }
-    return known = entry->second;
+    return known = point;
   }
 
 private:
-  /// Points that a block shares with others, where a surface goes right through it.
-  static constexpr std::size_t sharedPerBlock = 128;
   /// Points of a node: the node itself, and one on the edge that leads up from it along each axis.
   static constexpr std::size_t pointsPerNode = 4;
 
@@ -198,10 +202,11 @@ private:
   const NodeLattice& Lattice;
   CappedSurface& Surface;
   BlockValues Block;
-  std::vector<std::int32_t> Local;                        ///< points of the block, by lower node and direction, or -1
-  std::vector<std::size_t> Used;                          ///< which of them are not -1
-  std::array<std::array<std::size_t, 8>, 8> Places;       ///< in Local, by two corners of the first cell
-  std::unordered_map<std::uint64_t, std::int32_t> Shared; ///< points on planes between blocks
+  std::vector<std::int32_t> Local;                  ///< points of the block, by lower node and direction, or -1
+  std::vector<std::size_t> Used;                    ///< which of them are not -1
+  std::array<std::array<std::size_t, 8>, 8> Places; ///< in Local, by two corners of the first cell
+  PointTable Shared;                                ///< points on planes between blocks of this layer and to that below
+  PointTable SharedAbove;                           ///< and on the plane to the layer above
 };
 
 } // namespace cactus

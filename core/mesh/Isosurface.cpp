@@ -192,9 +192,9 @@ std::uint32_t positives(const float* row, int count)
 class Contourer
 {
 public:
-  Contourer(const NodeLattice& lattice, std::size_t blocks)
+  explicit Contourer(const NodeLattice& lattice)
     : Lattice(lattice)
-    , Points(lattice, Surface, blocks)
+    , Points(lattice, Surface)
   {
     const auto& planes = lattice.planes;
     Surface.box = Eigen::AlignedBox3d(Eigen::Vector3d(planes[0].front(), planes[1].front(), planes[2].front()),
@@ -388,7 +388,7 @@ CappedSurface contour(const NodeLattice& lattice, const std::vector<std::uint32_
   {
     throw InvalidInput("blocks to contour must be increasing and lie in the lattice");
   }
-  Contourer contourer(lattice, blocks.size());
+  Contourer contourer(lattice);
   std::vector<float> buffer;
   for (const std::uint32_t block : blocks)
   {

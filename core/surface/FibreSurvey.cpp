@@ -107,6 +107,30 @@ public:
     return range;
   }
 
+  /// The numbers of those that hold a box of the field's samples.
+  std::vector<std::uint32_t> holding(const std::array<int, 3>& firstSample, const std::array<int, 3>& lastSample) const
+  {
+    std::array<std::size_t, 3> first{};
+    std::array<std::size_t, 3> last{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      first[axis] = std::size_t(pieceOf(firstSample[axis]) - this->First[axis]);
+      last[axis] = std::size_t(pieceOf(lastSample[axis]) - this->First[axis]);
+    }
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t z = first[2]; z <= last[2]; ++z)
+    {
+      for (std::size_t y = first[1]; y <= last[1]; ++y)
+      {
+        for (std::size_t x = first[0]; x <= last[0]; ++x)
+        {
+          numbers.push_back(std::uint32_t(x + std::size_t(this->Count[0]) * (y + std::size_t(this->Count[1]) * z)));
+        }
+      }
+    }
+    return numbers;
+  }
+
 private:
   /// Of a sample along an axis, which may be negative.
   static int pieceOf(int sample)
@@ -252,6 +276,19 @@ NodeRange nodesOf(const FibreField& field, const FoundBox& box)
     nodes.count[axis] = box.ends[axis] / FoundBox::pieceEdge - first + 1;
   }
   return nodes;
+}
+
+std::vector<std::uint32_t> piecesAt(const FibreField& field, const NodeRange& nodes)
+{
+  const SampleBox& samples = field.samples();
+  std::array<int, 3> first{};
+  std::array<int, 3> last{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = samples.sampleOf(axis, nodes.first[axis]);
+    last[axis] = samples.sampleOf(axis, nodes.first[axis] + nodes.count[axis] - 1);
+  }
+  return Pieces(samples).holding(first, last);
 }
 
 NearBlocks blocksNear(const FibreField& field, const FoundFibre& fibre, int reach)

@@ -44,6 +44,9 @@ FoundFibres findFibres(const FibreField& field, const Context& context = {}, con
 /// The nodes of a box.
 NodeRange nodesOf(const FibreField& field, const FoundBox& box);
 
+/// The numbers of the pieces with the samples that some nodes take their values from.
+std::vector<std::uint32_t> piecesAt(const FibreField& field, const NodeRange& nodes);
+
 /// Blocks of a field's lattice, and where in them and around them a fibre is.
 struct NearBlocks
 {

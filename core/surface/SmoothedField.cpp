@@ -143,7 +143,7 @@ SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, NearBl
   {
     this->smooth(field, together, passes, thin);
   }
-  const auto isLeftOut = [&](std::uint32_t block) { return this->placeOf(indexOf(this->Lattice, block))->begin < 0; };
+  const auto isLeftOut = [&](std::uint32_t block) { return this->placeOf(indexOf(this->Lattice, block))->values == nullptr; };
   this->Blocks.erase(std::remove_if(this->Blocks.begin(), this->Blocks.end(), isLeftOut), this->Blocks.end());
 }
 
@@ -172,17 +172,12 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(const std::
   const std::size_t longest = std::size_t(std::max_element(this->Count.begin(), this->Count.end()) - this->Count.begin());
   const auto edge = [&](std::size_t axis) { return inCubes || axis != longest ? blocksTogether : blocksAlongFibre; };
   std::map<Index, std::vector<Piece>> groups;
-  std::size_t most = 0; // values
   for (std::size_t b = 0; b < at.size(); ++b)
   {
     BlockPlace& place = this->Places[std::size_t(this->placeOf(at[b]) - this->Places.data())];
     const Piece piece{ nodesOfBlock(this->Lattice, this->Blocks[b]).widened(1), inside[b], &place };
     groups[{ { at[b][0] / edge(0), at[b][1] / edge(1), at[b][2] / edge(2) } }].push_back(piece);
-    most += piece.range.size();
   }
-  // Not filled: copyPieces() does that.
-  this->Values.reset(new float[most]);
-  this->Unsmoothed.reset(new float[most]);
   std::vector<std::vector<Piece>> result;
   result.reserve(groups.size());
   for (auto& group : groups)
@@ -229,7 +224,7 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
     whole = whole.joined(piece.range);
   }
   const NodeRange beside = besideIn(whole, insideOf(buffer, range, whole.widened(reach).within(range)));
-  copyPieces(buffer, range, beside, near, this->Unsmoothed.get());
+  copyPieces(buffer, range, beside, near, &BlockPlace::unsmoothed);
   const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
   // Each pass leaves one node less on every side: values at the rim become wrong, and are not used. Strides stay.
   const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
@@ -242,7 +237,7 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
       kernels.smooth(step, range.size(), before.data(), isUniform ? nullptr : part.data(), buffer.data());
     }
   }
-  copyPieces(buffer, range, beside, near, this->Values.get());
+  copyPieces(buffer, range, beside, near, &BlockPlace::values);
 }
 
 /// Gives those a place that have nodes inside the fibre, or at most `reach` away from one.
@@ -250,25 +245,33 @@ std::vector<SmoothedField::Piece> SmoothedField::place(
   const std::vector<Piece>& pieces, int reach, const std::vector<float>& values, const NodeRange& range)
 {
   std::vector<Piece> near;
+  std::size_t nodes = 0;
   for (const Piece& piece : pieces)
   {
     // A piece has a node more than its block.
     if (insideOf(values, range, piece.range.widened(reach - 1).within(range)).size() > 0)
     {
-      *piece.place = { this->Filled, { { piece.range.count[0], piece.range.count[0] * piece.range.count[1] } } };
-      this->Filled += std::ptrdiff_t(piece.range.size());
+      nodes += piece.range.size();
       near.push_back(piece);
     }
+  }
+  // Not filled: copyPieces() does that.
+  float* room = this->Values.emplace_back(new float[2 * nodes]).get();
+  for (const Piece& piece : near)
+  {
+    const std::size_t size = piece.range.size();
+    *piece.place = { room, room + size, { { piece.range.count[0], piece.range.count[0] * piece.range.count[1] } } };
+    room += 2 * size;
   }
   return near;
 }
 
-void SmoothedField::copyPieces(
-  const std::vector<float>& from, const NodeRange& range, const NodeRange& known, const std::vector<Piece>& pieces, float* to)
+void SmoothedField::copyPieces(const std::vector<float>& from, const NodeRange& range, const NodeRange& known,
+  const std::vector<Piece>& pieces, float* BlockPlace::*to)
 {
   for (const Piece& piece : pieces)
   {
-    std::fill_n(to + piece.place->begin, piece.range.size(), farOutside);
+    std::fill_n(piece.place->*to, piece.range.size(), farOutside);
     const NodeRange common = piece.range.within(known);
     if (common.size() == 0)
     {
@@ -279,7 +282,7 @@ void SmoothedField::copyPieces(
       for (int j = common.first[1]; j < common.first[1] + common.count[1]; ++j)
       {
         const auto rowIn = [&](const NodeRange& of) { return of.index(common.first[0], j, k); };
-        std::copy_n(from.data() + rowIn(range), common.count[0], to + piece.place->begin + rowIn(piece.range));
+        std::copy_n(from.data() + rowIn(range), common.count[0], piece.place->*to + rowIn(piece.range));
       }
     }
   }
@@ -303,22 +306,22 @@ inline const SmoothedField::BlockPlace* SmoothedField::placeOf(const Index& bloc
 
 void SmoothedField::values(double level, double smallest, const NodeRange& around, float* out) const
 {
-  this->copyBlock(this->Values.get(), level, smallest, around, out);
+  this->copyBlock(&BlockPlace::values, level, smallest, around, out);
 }
 
 void SmoothedField::unsmoothedValues(double smallest, const NodeRange& around, float* out) const
 {
-  this->copyBlock(this->Unsmoothed.get(), 0.0, smallest, around, out);
+  this->copyBlock(&BlockPlace::unsmoothed, 0.0, smallest, around, out);
 }
 
-void SmoothedField::copyBlock(const float* held, double level, double smallest, const NodeRange& around, float* out) const
+void SmoothedField::copyBlock(float* BlockPlace::*held, double level, double smallest, const NodeRange& around, float* out) const
 {
   Index block;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     block[axis] = (around.first[axis] + 1) / NodeLattice::blockCells;
   }
-  const float* in = held + this->placeOf(block)->begin;
+  const float* in = this->placeOf(block)->*held;
   const auto t = static_cast<float>(level);
   const auto least = static_cast<float>(smallest);
   for (std::size_t n = 0; n < around.size(); ++n)
@@ -347,11 +350,11 @@ inline SmoothedField::CellPlace SmoothedField::placeAt(const Eigen::Vector3d& at
   }
   place.t = FourFloats{ t[0], t[1], t[2], 0.0f };
   const BlockPlace* held = this->placeOf(block);
-  if (held != nullptr && held->begin >= 0)
+  if (held != nullptr && held->values != nullptr)
   {
     const auto nodeOf = [&](std::size_t axis) { return std::ptrdiff_t(place.cell[axis] & (blockCells - 1)) + 1; };
     place.stride = held->stride;
-    place.corner = this->Values.get() + held->begin + nodeOf(0) + nodeOf(1) * held->stride[0] + nodeOf(2) * held->stride[1];
+    place.corner = held->values + nodeOf(0) + nodeOf(1) * held->stride[0] + nodeOf(2) * held->stride[1];
   }
   return place;
 }

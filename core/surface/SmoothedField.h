@@ -52,10 +52,11 @@ public:
 private:
   using Index = std::array<int, 3>; ///< a block by its place along each axis, or a cell
 
-  /// Where the values of a block are.
+  /// Where the values of a block and one node beyond on every side are.
   struct BlockPlace
   {
-    std::ptrdiff_t begin = -1;            ///< in Values; -1: not held
+    float* values = nullptr;              ///< null: not held
+    float* unsmoothed = nullptr;          ///< the same before smoothing
     std::array<std::int32_t, 2> stride{}; ///< from a node to the next along y and z
   };
   /// The nodes of a block and those around it, which are held.
@@ -65,14 +66,14 @@ private:
     NodeRange inside; ///< a box that holds the fibre's samples in them and around them
     BlockPlace* place;
   };
-  /// Finds room for as many blocks, and puts those together that are smoothed together.
+  /// Puts those blocks together that are smoothed together.
   std::vector<std::vector<Piece>> layOut(const std::vector<NodeRange>& inside, bool inCubes);
-  /// Fills Values and Unsmoothed for those of some blocks that are near the fibre.
+  /// Makes the values of those of some blocks that are near the fibre.
   void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
   std::vector<Piece> place(const std::vector<Piece>& pieces, int reach, const std::vector<float>& values, const NodeRange& range);
   /// Fills some blocks with the values of a range where they are `known`; elsewhere they are far outside.
-  static void copyPieces(
-    const std::vector<float>& from, const NodeRange& range, const NodeRange& known, const std::vector<Piece>& pieces, float* to);
+  static void copyPieces(const std::vector<float>& from, const NodeRange& range, const NodeRange& known,
+    const std::vector<Piece>& pieces, float* BlockPlace::*to);
 
   /// A point by the cell between samples that holds it, or the nearest one.
   struct CellPlace
@@ -88,22 +89,20 @@ private:
   /// The place of a block; null where it lies outside the box of the blocks held.
   const BlockPlace* placeOf(const Index& block) const;
   /// Copies what is held of a block, less `level` and kept off 0.
-  void copyBlock(const float* held, double level, double smallest, const NodeRange& around, float* out) const;
+  void copyBlock(float* BlockPlace::*held, double level, double smallest, const NodeRange& around, float* out) const;
 
   std::int32_t Fibre;
   NodeLattice Lattice;
   std::vector<std::uint32_t> Blocks;
-  Eigen::Vector3d FirstNode;           ///< µm
-  double NodesPerLength;               ///< per µm
-  std::unique_ptr<float[]> Values;     ///< of each block held, and one node beyond on every side
-  std::unique_ptr<float[]> Unsmoothed; ///< the same before smoothing
-  Index First{ { 0, 0, 0 } };          ///< the box of the blocks held: first one
-  Index Count{ { 0, 0, 0 } };          ///< and how many
-  Index Cells{ { 0, 0, 0 } };          ///< of the lattice
-  std::array<double, 3> LastSample{};  ///< the last node that is a sample
-  Index LastCell{ { 1, 1, 1 } };       ///< the last cell that begins at a sample, and ends at another if there are two
-  std::vector<BlockPlace> Places;      ///< per block of the box
-  std::ptrdiff_t Filled = 0;           ///< how many Values have a block
+  Eigen::Vector3d FirstNode;                    ///< µm
+  double NodesPerLength;                        ///< per µm
+  std::vector<std::unique_ptr<float[]>> Values; ///< of blocks that were smoothed together
+  Index First{ { 0, 0, 0 } };                   ///< the box of the blocks held: first one
+  Index Count{ { 0, 0, 0 } };                   ///< and how many
+  Index Cells{ { 0, 0, 0 } };                   ///< of the lattice
+  std::array<double, 3> LastSample{};           ///< the last node that is a sample
+  Index LastCell{ { 1, 1, 1 } };                ///< the last cell that begins at a sample, and ends at another if there are two
+  std::vector<BlockPlace> Places;               ///< per block of the box
 };
 
 } // namespace cactus

@@ -29,6 +29,10 @@ ThinFibres::ThinFibres(const FibreField& field, const FoundFibres& fibres)
     if (part < 1.0)
     {
       Smoothing[id] = static_cast<float>(std::max(part, 0.0));
+      for (const FoundBox& box : fibre.boxes)
+      {
+        Pieces.insert(box.piece);
+      }
     }
   }
 }
@@ -68,11 +72,21 @@ bool ThinFibres::smoothingInside(const NodeRange& range, const LabelImageView& h
   return any;
 }
 
+bool ThinFibres::areNear(const NodeRange& range) const
+{
+  if (this->Pieces.empty() || range.size() == 0)
+  {
+    return false;
+  }
+  const std::vector<std::uint32_t> pieces = piecesAt(this->Field, range);
+  return std::any_of(pieces.begin(), pieces.end(), [&](std::uint32_t piece) { return this->Pieces.count(piece) > 0; });
+}
+
 bool ThinFibres::smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const
 {
   thread_local std::vector<float> inside;
   inside.resize(std::max(inside.size(), range.size()));
-  if (this->Smoothing.empty() || range.size() == 0 || !this->smoothingInside(range, held, inside.data()))
+  if (!this->areNear(range) || !this->smoothingInside(range, held, inside.data()))
   {
     return false;
   }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace cactus
 {
@@ -24,11 +25,14 @@ public:
   bool smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const;
 
 private:
+  /// Whether thin fibres may have samples in a range.
+  bool areNear(const NodeRange& range) const;
   /// Of each node by itself, whatever is beside it; 2 outside all fibres. False if there is no thin fibre.
   bool smoothingInside(const NodeRange& range, const LabelImageView& held, float* out) const;
 
   const FibreField& Field;
   std::unordered_map<std::int32_t, float> Smoothing; ///< of thin fibres, below 1
+  std::unordered_set<std::uint32_t> Pieces;          ///< those that hold some of them, see FoundBox
 };
 
 } // namespace cactus
