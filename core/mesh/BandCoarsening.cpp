@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/BandCoarsening.h"
 
+#include "mesh/BandExcesses.h"
 #include "mesh/LoopStitching.h"
 #include "mesh/PlaneLoops.h"
 #include "mesh/PolygonTriangulation.h"
@@ -40,8 +41,6 @@ constexpr std::size_t firstBands = 8;
 /// that by one twice as long.
 constexpr double tooMany = 1.7;
 constexpr double fewEnough = 1.25;
-/// Of a contour's triangles, one of so many is looked at.
-constexpr std::size_t lookEvery = 3;
 
 /// Triangles between two planes, in the place of the bands between them.
 struct Strip
@@ -76,13 +75,12 @@ public:
     , Loops(surface, axis, planes)
     , Places(surface.mesh.points)
     , Moves(surface.mesh.points.size(), 0.0)
-    , Excesses(Loops.bandCount(), 0.0)
+    , Excesses(surface, Loops, options)
   {
   }
 
   void run()
   {
-    this->findExcesses();
     this->simplify();
     this->cutCaps(0);
     this->cutCaps(this->Loops.planeCount() - 1);
@@ -306,22 +304,6 @@ private:
       .stitch(lower, upper, strip.begin, strip.end, strip.hasAllBelow || strip.hasAllAbove, strip.stitched);
   }
 
-  /// Finds by how much the field exceeds its level in the contour itself, as it does at creases that voxels do not resolve.
-  void findExcesses()
-  {
-    const auto& triangles = this->Surface.mesh.triangles;
-    for (std::size_t t = 0; t < triangles.size(); t += lookEvery)
-    {
-      const auto& corners = triangles[t];
-      if (!this->Surface.isCap(corners))
-      {
-        const Vector3d middle = (this->at(corners[0]) + this->at(corners[1]) + this->at(corners[2])) / 3.0;
-        double& excess = this->Excesses[this->Loops.bandOf(t)];
-        excess = std::max(excess, this->Options.field(middle) - this->Options.level);
-      }
-    }
-  }
-
   /// Moves points of strips so that the surface around each lies amid where the field is too large and too small.
   void settle()
   {
@@ -393,10 +375,10 @@ private:
   const SurfaceDecimationOptions& Options;
   Eigen::Index Axis;
   PlaneLoops Loops;
-  std::vector<PlaneLoop> Few;                                   ///< per plane, its loop with few points
-  std::vector<Vector3d> Places;                                 ///< per point, where it is to go
-  std::vector<double> Moves;                                    ///< per point, how far it has moved outwards, µm
-  std::vector<double> Excesses;                                 ///< per band, µm
+  std::vector<PlaneLoop> Few;   ///< per plane, its loop with few points
+  std::vector<Vector3d> Places; ///< per point, where it is to go
+  std::vector<double> Moves;    ///< per point, how far it has moved outwards, µm
+  BandExcesses Excesses;
   std::vector<Strip> Strips;                                    ///< from below
   std::array<std::vector<std::array<std::int32_t, 3>>, 2> Caps; ///< in the first plane and the last one
 };

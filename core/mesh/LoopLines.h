@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mesh/BandExcesses.h"
 #include "mesh/CappedSurface.h"
 #include "mesh/PlaneLoops.h"
 
@@ -21,7 +22,7 @@ struct LoopStack
   Eigen::Index axis;                          ///< across which the planes are
   const PlaneLoops& all;                      ///< the loops as they are
   const std::vector<PlaneLoop>& few;          ///< per plane, its loop with fewer points
-  const std::vector<double>& excesses;        ///< per band, by how much a field exceeds its level in the surface there, µm
+  const BandExcesses& excesses;               ///< by how much a field exceeds its level in the surface
 
   const Eigen::Vector3d& placeOf(std::int32_t point) const { return this->places[std::size_t(point)]; }
   std::uint8_t facesOf(std::int32_t point) const { return this->surface.faces[std::size_t(point)]; }

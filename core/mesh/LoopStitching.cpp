@@ -84,7 +84,7 @@ ErrorRange LoopStitching::allowedIn(const Span& span) const
   ErrorRange allowed{ -slack * this->Options.maximumError, inside * this->Options.maximumError };
   for (std::size_t band = span.begin; span.bands() <= fewBands && band < span.end; ++band)
   {
-    allowed.add(this->Stack.excesses[band]);
+    allowed.add(this->Stack.excesses.in(band));
   }
   return allowed;
 }
