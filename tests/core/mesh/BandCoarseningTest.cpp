@@ -3,6 +3,7 @@
 // and in the faces of its box; what planes do not cut into single rings stays as it is.
 #include "mesh/BandCoarsening.h"
 #include "base/Constants.h"
+#include "mesh/BandExcesses.h"
 #include "mesh/ExampleContours.h"
 #include "mesh/PlaneLoops.h"
 #include "mesh/SurfaceCheck.h"
@@ -331,6 +332,31 @@ TEST(PlaneLoops, FindsLoopsRingsAndAnchors)
   for (std::size_t plane = 0; plane < twoLoops.planeCount(); ++plane)
   {
     EXPECT_TRUE(twoLoops.loop(plane).isEmpty());
+  }
+}
+
+// A field that rises along the axis says itself what it is in each band.
+TEST(BandExcesses, AreTheLargestInEachBand)
+{
+  const NodeLattice lattice = boxLattice(20, 20, 40);
+  const CappedSurface tube = contourOf(lattice, windingTube);
+  const PlaneLoops loops(tube, 2, lattice.planes[2]);
+  SurfaceDecimationOptions options = optionsFor([](const Vector3d& p) { return p.z(); });
+  options.level = -1.0;
+  const BandExcesses excesses(tube, loops, options);
+  for (std::size_t band = loops.bandCount(); band-- > 0;)
+  {
+    const double lower = lattice.planes[2][band] - options.level;
+    if (lower <= -spacing)
+    {
+      EXPECT_EQ(excesses.in(band), 0.0);
+    }
+    else if (lower >= 0.0)
+    {
+      // Middles of triangles, some of which reach from plane to plane.
+      EXPECT_GT(excesses.in(band), lower + 0.5 * spacing);
+      EXPECT_LT(excesses.in(band), lower + spacing);
+    }
   }
 }
 
