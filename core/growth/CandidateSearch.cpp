@@ -34,9 +34,9 @@ void Candidates::beginGroup(int rank)
 void Candidates::add(const Cone& cone, const Eigen::Vector3d& origin)
 {
   const Eigen::Vector3d start = cone.start - origin;
-  const double numbers[ConeColumns::given] = { start.x(), start.y(), start.z(), cone.axis.x(), cone.axis.y(), cone.axis.z(),
+  const double numbers[ConeColumns::Given] = { start.x(), start.y(), start.z(), cone.axis.x(), cone.axis.y(), cone.axis.z(),
     cone.length, cone.radius, cone.slope, cone.lean };
-  for (std::size_t n = 0; n < ConeColumns::given; ++n)
+  for (std::size_t n = 0; n < ConeColumns::Given; ++n)
   {
     this->Columns[n].push_back(float(numbers[n]));
   }
@@ -63,7 +63,7 @@ void Candidates::makeRoomFor(const Candidates& others)
 ConeGroups Candidates::all()
 {
   ConeGroups all{ {}, this->Groups.data(), this->Groups.size() };
-  for (std::size_t n = 0; n < ConeColumns::numbers; ++n)
+  for (std::size_t n = 0; n < ConeColumns::Numbers; ++n)
   {
     all.cones.of[n] = this->Columns[n].data();
   }

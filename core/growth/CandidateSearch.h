@@ -33,7 +33,7 @@ public:
 
 private:
   std::vector<ConeGroup> Groups;
-  std::vector<float> Columns[ConeColumns::numbers];
+  std::vector<float> Columns[ConeColumns::Numbers];
   std::size_t Count = 0;
 };
 

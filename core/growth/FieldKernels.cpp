@@ -260,7 +260,7 @@ void narrow(const ConeGroups& all, const CellRelevance& relevance, const SampleP
     same.begin = kept;
     relevant.forEachOf(
       g, [&](std::size_t c) __attribute__((always_inline)) {
-        for (int n = 0; n < Columns::given; ++n)
+        for (int n = 0; n < Columns::Given; ++n)
         {
           near.cones.of[n][kept] = all.cones.of[n][c];
         }

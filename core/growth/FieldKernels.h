@@ -21,14 +21,14 @@ struct ConeColumns
     Radius,
     Slope,
     Lean,
-    given,         ///< so many numbers say what a cone is; kernels write the others
-    Field = given, ///< of the cone, at a place
+    Given,         ///< so many numbers say what a cone is; kernels write the others
+    Field = Given, ///< of the cone, at a place
     Bound,         ///< with the gradient: what the field is below around the place
     Gradient,      ///< x, y, z
-    numbers = Gradient + 3
+    Numbers = Gradient + 3
   };
 
-  float* of[numbers];
+  float* of[Numbers];
   std::size_t count;
 };
 
