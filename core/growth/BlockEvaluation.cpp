@@ -87,59 +87,39 @@ void BlockEvaluation::evaluate(const Eigen::Array3i& lower)
 /// part: where in the block it begins.
 void BlockEvaluation::evaluatePart(const Eigen::Array3i& lower, const Eigen::Array3i& part, const ConeGroups& candidates)
 {
+  int begin[3];
+  int end[3];
+  if (!this->findHeld(lower + part, partSize, begin, end))
+  {
+    return;
+  }
+  this->moveTo(part, partSize, this->Part);
   ConeGroups near = this->Near.all();
-  bool isNarrowed = false;
+  this->Kernels.narrow(candidates, this->RelevanceInCells, this->Part, near);
   for (int k = part[2]; k < part[2] + partSize; k += cellSize)
   {
     for (int j = part[1]; j < part[1] + partSize; j += cellSize)
     {
       for (int i = part[0]; i < part[0] + partSize; i += cellSize)
       {
-        const Eigen::Array3i at(i, j, k);
-        FieldCell cell;
-        if (!this->isHeld(lower + at, cell))
-        {
-          continue;
-        }
-        if (!isNarrowed)
-        {
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            this->Part.centre[axis] = float((part[axis] + 0.5 * (partSize - 1) - blockHalf) * this->Grid.spacing);
-          }
-          this->Kernels.narrow(candidates, this->RelevanceInCells, this->Part, near);
-          isNarrowed = true;
-        }
-        this->evaluateCell(cell, at, near);
+        this->evaluateCell(lower, { i, j, k }, near);
       }
     }
   }
 }
 
-/// Whether the grid holds samples of a cell, and which.
-bool BlockEvaluation::isHeld(const Eigen::Array3i& lower, FieldCell& cell) const
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int first = this->Grid.lower[std::size_t(axis)];
-    cell.lower[axis] = lower[axis];
-    cell.begin[axis] = std::max(0, first - cell.lower[axis]);
-    cell.end[axis] = std::min(cellSize, first + this->Grid.count[std::size_t(axis)] - cell.lower[axis]);
-    if (cell.begin[axis] >= cell.end[axis])
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// at: where in the block the cell begins.
-void BlockEvaluation::evaluateCell(FieldCell& cell, const Eigen::Array3i& at, const ConeGroups& candidates)
+void BlockEvaluation::evaluateCell(const Eigen::Array3i& lower, const Eigen::Array3i& at, const ConeGroups& candidates)
 {
-  const double h = this->Grid.spacing;
+  FieldCell cell;
+  if (!this->findHeld(lower + at, cellSize, cell.begin, cell.end))
+  {
+    return;
+  }
+  this->moveTo(at, cellSize, this->Samples.place);
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Samples.place.centre[axis] = float((at[axis] + 0.5 * (cellSize - 1) - blockHalf) * h);
+    cell.lower[axis] = lower[axis] + at[axis];
     const auto& positions = this->Positions[axis][std::size_t(at[axis] / cellSize)];
     std::copy(positions.begin(), positions.end(), this->Samples.position[axis]);
   }
@@ -148,6 +128,31 @@ void BlockEvaluation::evaluateCell(FieldCell& cell, const Eigen::Array3i& at, co
   cell.second = this->Samples.second;
   cell.rank = this->Samples.rank;
   this->HandOver(cell, this->Thread);
+}
+
+/// Which samples of a cube the grid holds, counted from its first one, `lower`; false for none.
+bool BlockEvaluation::findHeld(const Eigen::Array3i& lower, int edge, int (&begin)[3], int (&end)[3]) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int first = this->Grid.lower[std::size_t(axis)];
+    begin[axis] = std::max(0, first - lower[axis]);
+    end[axis] = std::min(edge, first + this->Grid.count[std::size_t(axis)] - lower[axis]);
+    if (begin[axis] >= end[axis])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Moves a place to the middle of a cube of samples that begins `at` a place of the block.
+void BlockEvaluation::moveTo(const Eigen::Array3i& at, int edge, SamplePlace& place) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place.centre[axis] = float((at[axis] + 0.5 * (edge - 1) - blockHalf) * this->Grid.spacing);
+  }
 }
 
 } // namespace cactus

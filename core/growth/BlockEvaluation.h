@@ -32,8 +32,9 @@ public:
 
 private:
   void evaluatePart(const Eigen::Array3i& lower, const Eigen::Array3i& part, const ConeGroups& candidates);
-  bool isHeld(const Eigen::Array3i& lower, FieldCell& cell) const;
-  void evaluateCell(FieldCell& cell, const Eigen::Array3i& at, const ConeGroups& candidates);
+  void evaluateCell(const Eigen::Array3i& lower, const Eigen::Array3i& at, const ConeGroups& candidates);
+  bool findHeld(const Eigen::Array3i& lower, int edge, int (&begin)[3], int (&end)[3]) const;
+  void moveTo(const Eigen::Array3i& at, int edge, SamplePlace& place) const;
 
   CandidateSearch Search;
   const VoxelGrid& Grid;

@@ -31,7 +31,8 @@ ThinFibres::ThinFibres(const FibreField& field, const FoundFibres& fibres)
       Smoothing[id] = static_cast<float>(std::max(part, 0.0));
       for (const FoundBox& box : fibre.boxes)
       {
-        Pieces.insert(box.piece);
+        HoldsSome.resize(std::max(HoldsSome.size(), std::size_t(box.piece) + 1));
+        HoldsSome[box.piece] = true;
       }
     }
   }
@@ -74,12 +75,13 @@ bool ThinFibres::smoothingInside(const NodeRange& range, const LabelImageView& h
 
 bool ThinFibres::areNear(const NodeRange& range) const
 {
-  if (this->Pieces.empty() || range.size() == 0)
+  if (this->HoldsSome.empty() || range.size() == 0)
   {
     return false;
   }
   const std::vector<std::uint32_t> pieces = piecesAt(this->Field, range);
-  return std::any_of(pieces.begin(), pieces.end(), [&](std::uint32_t piece) { return this->Pieces.count(piece) > 0; });
+  return std::any_of(
+    pieces.begin(), pieces.end(), [&](std::uint32_t piece) { return piece < this->HoldsSome.size() && this->HoldsSome[piece]; });
 }
 
 bool ThinFibres::smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const

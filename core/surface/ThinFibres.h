@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <unordered_map>
-#include <unordered_set>
+#include <vector>
 
 namespace cactus
 {
@@ -32,7 +32,7 @@ private:
 
   const FibreField& Field;
   std::unordered_map<std::int32_t, float> Smoothing; ///< of thin fibres, below 1
-  std::unordered_set<std::uint32_t> Pieces;          ///< those that hold some of them, see FoundBox
+  std::vector<bool> HoldsSome;                       ///< per piece (see FoundBox), up to the last one that holds thin fibres
 };
 
 } // namespace cactus
