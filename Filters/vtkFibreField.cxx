@@ -14,6 +14,7 @@
 #include "stages/Stages.h"
 #include "surface/FibreImage.h"
 #include "surface/FibreSurvey.h"
+#include "surface/NearBlocks.h"
 
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace cactus
@@ -13,8 +14,10 @@ namespace
 
 constexpr double blockHalf = 0.5 * (BlockEvaluation::blockSize - 1);
 constexpr int cellSize = FieldCell::edge;
-/// Samples along each side of the parts of a block whose cells have their candidates in common.
+/// Samples along each side of the parts of a block whose cells have their narrowed candidates in common.
 constexpr int partSize = 8;
+/// A search takes as long as looking at so many pieces, were there none.
+constexpr double piecesPerSearch = 32.0;
 
 /// Single precision is good to some 1e-7 of a block's neighbourhood; the slack keeps decisions on the safe side of it.
 double slackened(double extent)
@@ -46,6 +49,7 @@ BlockEvaluation::BlockEvaluation(const CapsuleSeeds& seeds, const SeedBins& bins
   , RelevanceInCells(inSinglePrecision(relevance))
   , HandOver(sink)
   , Thread(thread)
+  , SearchEdge(this->chooseSearchEdge())
 {
   this->Part = cubeOf(partSize, grid.spacing);
   this->Samples.place = cubeOf(cellSize, grid.spacing);
@@ -64,21 +68,72 @@ BlockEvaluation::BlockEvaluation(const CapsuleSeeds& seeds, const SeedBins& bins
   }
 }
 
+/// Where samples lie close together, a block has its candidates in common; where they are further apart, it would have too many.
+int BlockEvaluation::chooseSearchEdge() const
+{
+  int best = blockSize;
+  double least = std::numeric_limits<double>::infinity();
+  for (int edge = blockSize; edge >= cellSize; edge /= 2)
+  {
+    const double pieces = this->Search.piecesWithin(cubeOf(edge, this->Grid.spacing).extent);
+    const double perSample = (pieces + piecesPerSearch) / (double(edge) * edge * edge);
+    if (perSample < least)
+    {
+      least = perSample;
+      best = edge;
+    }
+  }
+  return best;
+}
+
 void BlockEvaluation::evaluate(const Eigen::Array3i& lower)
 {
-  const double h = this->Grid.spacing;
-  const Eigen::Vector3d centre =
-    this->Grid.origin + h * Eigen::Vector3d(lower[0] + blockHalf, lower[1] + blockHalf, lower[2] + blockHalf);
-  const double extent = slackened(0.5 * h * (blockSize - 1) * std::sqrt(3.0));
-  Candidates& candidates = this->Search.find(centre, extent, this->Relevance);
-  this->Near.makeRoomFor(candidates);
-  for (int k = 0; k < blockSize; k += partSize)
+  for (int k = 0; k < blockSize; k += this->SearchEdge)
   {
-    for (int j = 0; j < blockSize; j += partSize)
+    for (int j = 0; j < blockSize; j += this->SearchEdge)
     {
-      for (int i = 0; i < blockSize; i += partSize)
+      for (int i = 0; i < blockSize; i += this->SearchEdge)
       {
-        this->evaluatePart(lower, { i, j, k }, candidates.all());
+        this->evaluateCube(lower, { i, j, k });
+      }
+    }
+  }
+}
+
+/// Of the cube that begins `at` a place of the block.
+Candidates& BlockEvaluation::findCandidates(const Eigen::Array3i& lower, const Eigen::Array3i& at)
+{
+  const double h = this->Grid.spacing;
+  const double half = 0.5 * (this->SearchEdge - 1);
+  const auto place = [&](const Eigen::Array3d& sample) { return Eigen::Vector3d(this->Grid.origin + h * sample.matrix()); };
+  const Eigen::Array3d first = lower.cast<double>();
+  return this->Search.find(
+    place(first + at.cast<double>() + half), slackened(h * half * std::sqrt(3.0)), this->Relevance, place(first + blockHalf));
+}
+
+/// Of samples that have their candidates in common.
+void BlockEvaluation::evaluateCube(const Eigen::Array3i& lower, const Eigen::Array3i& at)
+{
+  int begin[3];
+  int end[3];
+  if (!this->findHeld(lower + at, this->SearchEdge, begin, end))
+  {
+    return;
+  }
+  Candidates& candidates = this->findCandidates(lower, at);
+  if (this->SearchEdge == cellSize)
+  {
+    this->evaluateCell(lower, at, candidates.all());
+    return;
+  }
+  this->Near.makeRoomFor(candidates);
+  for (int k = 0; k < this->SearchEdge; k += partSize)
+  {
+    for (int j = 0; j < this->SearchEdge; j += partSize)
+    {
+      for (int i = 0; i < this->SearchEdge; i += partSize)
+      {
+        this->evaluatePart(lower, at + Eigen::Array3i(i, j, k), candidates.all());
       }
     }
   }

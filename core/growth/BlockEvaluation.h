@@ -31,6 +31,9 @@ public:
   void evaluate(const Eigen::Array3i& lower);
 
 private:
+  int chooseSearchEdge() const;
+  Candidates& findCandidates(const Eigen::Array3i& lower, const Eigen::Array3i& at);
+  void evaluateCube(const Eigen::Array3i& lower, const Eigen::Array3i& at);
   void evaluatePart(const Eigen::Array3i& lower, const Eigen::Array3i& part, const ConeGroups& candidates);
   void evaluateCell(const Eigen::Array3i& lower, const Eigen::Array3i& at, const ConeGroups& candidates);
   bool findHeld(const Eigen::Array3i& lower, int edge, int (&begin)[3], int (&end)[3]) const;
@@ -43,6 +46,7 @@ private:
   const FieldKernels& Kernels = bestKernels<FieldKernels>();
   const FieldSink& HandOver;
   int Thread;
+  int SearchEdge;  ///< of the cubes of samples for each of which candidates are looked for
   Candidates Near; ///< of those of a block, the ones that matter in a part of it
   SamplePlace Part;
   CellSamples Samples;

@@ -2,6 +2,7 @@
 #include "growth/CandidateSearch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace cactus
@@ -79,7 +80,13 @@ CandidateSearch::CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins
 {
 }
 
-Candidates& CandidateSearch::find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance)
+double CandidateSearch::piecesWithin(double extent) const
+{
+  return this->Bins.density() * std::pow(2.0 * usualReach * extent + this->Bins.size(), 3.0);
+}
+
+Candidates& CandidateSearch::find(
+  const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance, const Eigen::Vector3d& origin)
 {
   ++this->Search;
   double reach = usualReach * extent;
@@ -94,7 +101,7 @@ Candidates& CandidateSearch::find(const Eigen::Vector3d& centre, double extent, 
     }
     reach = needed;
   }
-  this->keep(centre, extent);
+  this->keep(extent, origin);
   return this->Kept;
 }
 
@@ -164,7 +171,7 @@ double CandidateSearch::neededReach(double extent, const FieldRelevance& relevan
 
 /// Keeps of the fibres found those that can be one of the two largest within `extent`, and of their pieces those that can be
 /// their largest.
-void CandidateSearch::keep(const Eigen::Vector3d& centre, double extent)
+void CandidateSearch::keep(double extent, const Eigen::Vector3d& origin)
 {
   std::sort(this->Pieces.begin(), this->Pieces.end(), [](const Found& a, const Found& b) { return a.piece < b.piece; });
   this->Kept.clear();
@@ -180,7 +187,7 @@ void CandidateSearch::keep(const Eigen::Vector3d& centre, double extent)
       {
         if (found->value >= value - 2.0 * extent)
         {
-          this->Kept.add(this->Seeds.pieces[found->piece].cone, centre);
+          this->Kept.add(this->Seeds.pieces[found->piece].cone, origin);
         }
       }
     }

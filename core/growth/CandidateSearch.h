@@ -15,7 +15,7 @@
 namespace cactus
 {
 
-/// The cones that can matter in one block of samples, in single precision relative to the block's centre, grouped by fibre.
+/// The cones that can matter in one block of samples, in single precision relative to an origin near them, grouped by fibre.
 class Candidates
 {
 public:
@@ -43,8 +43,11 @@ class CandidateSearch
 public:
   CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins);
 
-  /// All that can matter within `extent` of `centre`, until the next call.
-  Candidates& find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance);
+  /// About how many pieces are looked at to find what can matter within `extent` of a place.
+  double piecesWithin(double extent) const;
+
+  /// All that can matter within `extent` of `centre`, relative to `origin`, until the next call.
+  Candidates& find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance, const Eigen::Vector3d& origin);
 
 private:
   struct Found
@@ -64,7 +67,7 @@ private:
   void collect(const Eigen::Vector3d& centre, double reach);
   void rankFields();
   double neededReach(double extent, const FieldRelevance& relevance) const;
-  void keep(const Eigen::Vector3d& centre, double extent);
+  void keep(double extent, const Eigen::Vector3d& origin);
 
   const CapsuleSeeds& Seeds;
   const SeedBins& Bins;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 
 namespace cactus
 {
@@ -48,6 +49,31 @@ struct Blocks
   std::int64_t count[3];
 };
 
+/// Where s is computed in single precision, it may be more than it is by this part of a voxel, and much less.
+constexpr double roundingInVoxels = 0.01;
+
+/// Whether the field of a cone may be above -`reach` at samples of a block: looks at its eighths, in which the field is no more
+/// than in their middle by what that is away from their corners.
+bool comesNear(const Cone& cone, const VoxelGrid& grid, const std::array<int, 3>& block, double reach)
+{
+  constexpr int half = BlockEvaluation::blockSize / 2;
+  const double toCorner = 0.5 * (half - 1) * std::sqrt(3.0) * grid.spacing;
+  for (int eighth = 0; eighth < 8; ++eighth)
+  {
+    Eigen::Vector3d middle = grid.origin;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int first = BlockEvaluation::blockSize * block[std::size_t(axis)] + half * ((eighth >> axis) & 1);
+      middle[axis] += grid.spacing * (first + 0.5 * (half - 1));
+    }
+    if (coneValue(cone, middle) + toCorner > -reach)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 CapsuleField::CapsuleField(const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach)
@@ -65,6 +91,65 @@ double CapsuleField::value(int rank, const Eigen::Vector3d& x) const
     value = std::max(value, coneValue(this->Seeds.pieces[p].cone, x));
   }
   return value;
+}
+
+double CapsuleField::length(int rank, Eigen::Vector3d& middle) const
+{
+  double length = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  const auto r = std::size_t(rank);
+  for (std::size_t p = this->Seeds.pieceOffsets[r]; p < this->Seeds.pieceOffsets[r + 1]; ++p)
+  {
+    const Cone& cone = this->Seeds.pieces[p].cone;
+    length += cone.length;
+    moment += cone.length * (cone.start + 0.5 * cone.length * cone.axis);
+  }
+  if (length > 0.0)
+  {
+    middle = moment / length;
+  }
+  return length;
+}
+
+std::vector<std::array<int, 3>> CapsuleField::blocksNear(int rank, const VoxelGrid& grid, double reach) const
+{
+  const double farthest = reach + roundingInVoxels * grid.spacing;
+  const double edge = BlockEvaluation::blockSize * grid.spacing;
+  const Blocks blocks(grid);
+  std::set<std::array<int, 3>> near;
+  const auto r = std::size_t(rank);
+  for (std::size_t p = this->Seeds.pieceOffsets[r]; p < this->Seeds.pieceOffsets[r + 1]; ++p)
+  {
+    const Cone& cone = this->Seeds.pieces[p].cone;
+    const Eigen::AlignedBox3d box = boundingBox(cone);
+    int first[3];
+    int last[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto blockAt = [&](double x)
+      {
+        const double block = std::floor((x - grid.origin[axis]) / edge);
+        return blocks.first[axis] + int(std::min(std::max(block - blocks.first[axis], -1.0), double(blocks.count[axis])));
+      };
+      first[axis] = std::max(blockAt(box.min()[axis] - farthest), blocks.first[axis]);
+      last[axis] = std::min(blockAt(box.max()[axis] + farthest), blocks.first[axis] + int(blocks.count[axis]) - 1);
+    }
+    for (int z = first[2]; z <= last[2]; ++z)
+    {
+      for (int y = first[1]; y <= last[1]; ++y)
+      {
+        for (int x = first[0]; x <= last[0]; ++x)
+        {
+          const std::array<int, 3> block{ { x, y, z } };
+          if (near.count(block) == 0 && comesNear(cone, grid, block, farthest))
+          {
+            near.insert(block);
+          }
+        }
+      }
+    }
+  }
+  return { near.begin(), near.end() };
 }
 
 std::unique_ptr<BlockEvaluation> CapsuleField::evaluation(

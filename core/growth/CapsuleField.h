@@ -13,9 +13,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace cactus
 {
@@ -48,6 +50,14 @@ public:
 
   /// s of one fibre at a point, in double precision over all its balls: slow, the reference for `sweep`.
   double value(int rank, const Eigen::Vector3d& x) const;
+
+  /// Of all of a fibre's balls' centres: the length of their lines (µm), of which middle becomes the centroid; that is left as it
+  /// is where there are none.
+  double length(int rank, Eigen::Vector3d& middle) const;
+
+  /// All blocks of a grid's index space (see BlockEvaluation) that hold samples of the grid where s of a fibre, rounded as in
+  /// sweep(), is above -`reach`, and maybe others near it: the first sample by the size of a block, per axis; each of them once.
+  std::vector<std::array<int, 3>> blocksNear(int rank, const VoxelGrid& grid, double reach) const;
 
   /// Evaluates the two largest fields at the samples that `grid` holds and hands them over cell by cell. `sink` is called from
   /// several threads at once (its second argument is the thread, below context.threadCount()), in any order, once per cell.

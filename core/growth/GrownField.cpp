@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace cactus
@@ -38,12 +39,40 @@ GrownField::GrownField(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   , Band(std::max(bandInVoxels * Part.spacing, HalfGap))
   , Relevance(relevanceOf(growth, Band, HalfGap))
   , Seeds(fibres, { options.surfaceRoughness, options.seed }, Part.box(), reachOf(fibres, Relevance, Part.spacing))
-  , IdOfRank(Seeds.size())
 {
-  for (std::size_t rank = 0; rank < this->IdOfRank.size(); ++rank)
+  for (std::size_t rank = 0; rank < this->Seeds.size(); ++rank)
   {
-    this->IdOfRank[rank] = fibres.fibreIds[this->Seeds.fibre(static_cast<int>(rank))];
+    const std::size_t f = this->Seeds.fibre(static_cast<int>(rank));
+    this->IdOfRank.push_back(fibres.fibreIds[f]);
+    this->RadiusOfRank.push_back(fibres.targetRadii[f]);
   }
+}
+
+FibreOutline GrownField::outline(int rank) const
+{
+  FibreOutline outline;
+  outline.fibreId = this->IdOfRank[static_cast<std::size_t>(rank)];
+  outline.targetRadius = this->RadiusOfRank[static_cast<std::size_t>(rank)];
+  Eigen::Vector3d middle = this->Part.box().center();
+  outline.length = this->Seeds.length(rank, middle);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto a = Eigen::Index(axis);
+    outline.middle[axis] = static_cast<int>(std::lround((middle[a] - this->Part.origin[a]) / this->Part.spacing));
+  }
+  return outline;
+}
+
+int GrownField::rankOf(std::int32_t fibreId) const
+{
+  const auto found = std::lower_bound(this->IdOfRank.begin(), this->IdOfRank.end(), fibreId);
+  return found != this->IdOfRank.end() && *found == fibreId ? static_cast<int>(found - this->IdOfRank.begin()) : -1;
+}
+
+std::vector<std::array<int, 3>> GrownField::blocksOf(int rank) const
+{
+  // A sample is in a fibre only where its seed's field is above -growth, see enter().
+  return this->Seeds.blocksNear(rank, this->Part, this->Growth);
 }
 
 void GrownField::enter(const FieldCell& cell, const VoxelGrid& held, std::int32_t* fibreId, float* depth) const

@@ -7,7 +7,9 @@
 #include "growth/FieldCell.h"
 #include "growth/FieldRelevance.h"
 #include "growth/LabelImage.h"
+#include "growth/LabelSource.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +28,13 @@ public:
   const CapsuleField& seeds() const { return this->Seeds; }
   const FieldRelevance& relevance() const { return this->Relevance; }
 
+  /// By rank, see CapsuleField.
+  FibreOutline outline(int rank) const;
+  /// -1 where no fibre has that id.
+  int rankOf(std::int32_t fibreId) const;
+  /// All blocks that hold samples of a fibre, and maybe others near it (see CapsuleField::blocksNear()).
+  std::vector<std::array<int, 3>> blocksOf(int rank) const;
+
   /// Writes FibreId and Depth at a cell's samples to where they are in `held`, which holds all of them.
   void enter(const FieldCell& cell, const VoxelGrid& held, std::int32_t* fibreId, float* depth) const;
 
@@ -36,7 +45,8 @@ private:
   double Band; ///< µm outside a fibre, beyond which depths are only known to be as far
   FieldRelevance Relevance;
   CapsuleField Seeds;
-  std::vector<std::int32_t> IdOfRank;
+  std::vector<std::int32_t> IdOfRank; ///< increasing
+  std::vector<double> RadiusOfRank;   ///< target, µm
 };
 
 } // namespace cactus

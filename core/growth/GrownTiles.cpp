@@ -2,7 +2,6 @@
 #include "growth/GrownTiles.h"
 
 #include "base/Error.h"
-#include "base/RecentThings.h"
 #include "growth/BlockEvaluation.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrownField.h"
@@ -17,14 +16,6 @@ namespace cactus
 {
 
 static_assert(GrownTiles::edge == BlockEvaluation::blockSize, "a tile is what is evaluated at once");
-
-struct GrownTiles::Tile
-{
-  VoxelGrid grid; ///< within the image
-  // Filled where they are made.
-  std::unique_ptr<std::int32_t[]> fibreId;
-  std::unique_ptr<float[]> depth;
-};
 
 namespace
 {
@@ -70,27 +61,43 @@ private:
 } // namespace
 
 /// The field, and the workers of as many threads as have ever asked at the same time.
-class GrownTiles::Growing
+class GrownTiles::Growing : public KnownFibres
 {
 public:
   Growing(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept)
     : gap(options.gap())
     , field(checked(fibres, growth), options, growth, growthGrid(fibres.domain, options))
-    , recent(kept)
+    , kept(kept)
   {
   }
 
   void compute(const Eigen::Array3i& lower, Tile& tile)
   {
     std::unique_ptr<TileWorker> worker = this->takeWorker();
-    worker->compute(lower, tile.grid, tile.fibreId.get(), tile.depth.get());
+    worker->compute(lower, tile.grid, tile.fibreId.data(), tile.depth.data());
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Idle.push_back(std::move(worker));
   }
 
+  std::vector<FibreOutline> outlines() const override
+  {
+    std::vector<FibreOutline> outlines;
+    for (std::size_t rank = 0; rank < this->field.seeds().size(); ++rank)
+    {
+      outlines.push_back(this->field.outline(static_cast<int>(rank)));
+    }
+    return outlines;
+  }
+
+  std::vector<std::array<int, 3>> tilesOf(std::int32_t fibreId) const override
+  {
+    const int rank = this->field.rankOf(fibreId);
+    return rank < 0 ? std::vector<std::array<int, 3>>() : this->field.blocksOf(rank);
+  }
+
   const double gap;
   const GrownField field;
-  RecentThings<Tile> recent;
+  TileStore kept;
 
 private:
   std::unique_ptr<TileWorker> takeWorker()
@@ -132,30 +139,33 @@ double GrownTiles::gap() const
   return this->Source->gap;
 }
 
-std::shared_ptr<const GrownTiles::Tile> GrownTiles::tile(const std::array<int, 3>& at) const
+const KnownFibres* GrownTiles::knownFibres() const
 {
-  std::uint64_t key = 0;
-  for (const int index : at)
+  return this->Source.get();
+}
+
+std::shared_ptr<const Tile> GrownTiles::tile(const std::array<int, 3>& at) const
+{
+  const VoxelGrid& whole = this->grid();
+  std::uint64_t number = 0;
+  for (std::size_t axis = 3; axis-- > 0;)
   {
-    key = (key << 21) + std::uint64_t(index); // see mostTiles
+    number = number * std::uint64_t(whole.count[axis] / edge + 1) + std::uint64_t(at[axis]); // see mostTiles
   }
-  if (auto kept = this->Source->recent.find(key))
+  if (auto kept = this->Source->kept.find(number))
   {
     return kept;
   }
-  const VoxelGrid& whole = this->grid();
-  auto tile = std::make_shared<Tile>();
+  const std::shared_ptr<Tile> tile = this->Source->kept.make();
   tile->grid = whole;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     tile->grid.lower[axis] = edge * at[axis];
     tile->grid.count[axis] = std::min(edge, whole.count[axis] - edge * at[axis]);
   }
-  tile->fibreId.reset(new std::int32_t[tile->grid.size()]);
-  tile->depth.reset(new float[tile->grid.size()]);
   this->Source->compute({ edge * at[0], edge * at[1], edge * at[2] }, *tile);
   ++this->Computed;
-  this->Source->recent.keep(key, tile);
+  this->Source->kept.keep(number, tile);
   return tile;
 }
 
@@ -176,8 +186,8 @@ void GrownTiles::copyTile(const Tile& tile, const VoxelGrid& held, LabelBuffer& 
       const std::size_t from = tile.grid.index(begin[0], j, k);
       const std::size_t to = held.index(begin[0], j, k);
       const auto count = std::ptrdiff_t(end[0] - begin[0]);
-      std::copy_n(tile.fibreId.get() + from, count, buffer.fibreId.data() + to);
-      std::copy_n(tile.depth.get() + from, count, buffer.depth.data() + to);
+      std::copy_n(tile.fibreId.data() + from, count, buffer.fibreId.data() + to);
+      std::copy_n(tile.depth.data() + from, count, buffer.depth.data() + to);
     }
   }
 }
@@ -201,8 +211,8 @@ LabelImageView GrownTiles::samples(const SampleRange& range, LabelBuffer& buffer
     const std::shared_ptr<const Tile> tile = this->tile(first);
     buffer.held = tile;
     view.grid = tile->grid;
-    view.fibreId = tile->fibreId.get();
-    view.depth = tile->depth.get();
+    view.fibreId = tile->fibreId.data();
+    view.depth = tile->depth.data();
     return view;
   }
   buffer.fibreId.resize(view.grid.size());

@@ -4,6 +4,7 @@
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowthOptions.h"
 #include "growth/LabelSource.h"
+#include "growth/TileStore.h"
 
 #include <array>
 #include <atomic>
@@ -25,18 +26,18 @@ public:
   ~GrownTiles() override;
 
   /// Samples along each edge of a tile.
-  static constexpr int edge = 16;
-  static constexpr std::size_t bytesPerTile = std::size_t(8) * edge * edge * edge;
+  static constexpr int edge = tileEdge;
+  static constexpr std::size_t bytesPerTile = 8 * Tile::size;
 
   const VoxelGrid& grid() const override;
   double gap() const override;
   LabelImageView samples(const SampleRange& range, LabelBuffer& buffer) const override;
+  const KnownFibres* knownFibres() const override;
 
   /// How many tiles were computed, those computed again included.
   std::size_t computed() const { return this->Computed; }
 
 private:
-  struct Tile;
   class Growing;
 
   static void copyTile(const Tile& tile, const VoxelGrid& held, LabelBuffer& buffer);

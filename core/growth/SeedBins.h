@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,6 +20,14 @@ class SeedBins
 public:
   /// Throws OutOfMemory.
   explicit SeedBins(const std::vector<SeedPiece>& pieces);
+
+  /// Of the edge of a bin, µm.
+  double size() const { return this->Size; }
+  /// Pieces in a µm³, on average; those that several bins hold count several times.
+  double density() const
+  {
+    return static_cast<double>(this->Pieces.size()) / (static_cast<double>(this->Offsets.size() - 1) * std::pow(this->Size, 3.0));
+  }
 
   /// visit(piece) for the indices of all pieces whose bounding boxes overlap the box, and others; some of them several times.
   template <typename Visit>

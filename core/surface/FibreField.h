@@ -60,6 +60,8 @@ public:
 
   /// The samples of the whole image.
   const VoxelGrid& grid() const { return this->Image->grid(); }
+  /// Null where only samples tell of fibres.
+  const KnownFibres* knownFibres() const { return this->Image->knownFibres(); }
   /// What the lattice fills.
   const Domain& box() const { return this->Box; }
   const SampleBox& samples() const { return this->Samples; }

@@ -53,7 +53,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Options(options)
   , Filters(filters)
   , Field(image, facts.domain, options.clipToDomain)
-  , Fibres(findFibres(Field, context, sharing))
+  , Places(Field, facts, context, sharing)
   , Spacing(image->grid().spacing)
   , Contours(Field, std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing),
       nudgeFor(Spacing, facts.surfaceTolerance), filters)
@@ -64,7 +64,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
 {
   if (options.smoothingIterations > 0)
   {
-    this->Thin.emplace(this->Field, this->Fibres);
+    this->Thin.emplace(this->Field, this->Places.thinnerThan(ThinFibres::thickTarget * this->Spacing, context, sharing));
   }
 }
 
@@ -80,10 +80,8 @@ bool FibreMesher::movesContours() const
 
 SmoothedField FibreMesher::smoothed(std::int32_t fibreId) const
 {
-  const auto found = this->Fibres.find(fibreId);
   const int passes = this->Options.smoothingIterations;
-  return SmoothedField(this->Field, fibreId,
-    found != this->Fibres.end() ? blocksNear(this->Field, found->second, passes) : NearBlocks(), passes,
+  return SmoothedField(this->Field, fibreId, blocksNear(this->Field, this->Places.find(fibreId), passes), passes,
     this->Thin ? &*this->Thin : nullptr);
 }
 

@@ -4,8 +4,8 @@
 #include "surface/AxonSearch.h"
 #include "surface/FibreContours.h"
 #include "surface/FibreField.h"
+#include "surface/FibrePlaces.h"
 #include "surface/FibreSurfacePair.h"
-#include "surface/FibreSurvey.h"
 #include "surface/MyelinSurfaceOptions.h"
 #include "surface/SurfaceFilters.h"
 #include "surface/SurfaceFinishing.h"
@@ -34,8 +34,7 @@ public:
   FibreMesher& operator=(const FibreMesher&) = delete;
 
   const FibreField& field() const { return this->Field; }
-  /// All that there are.
-  const FoundFibres& fibres() const { return this->Fibres; }
+  const FibrePlaces& places() const { return this->Places; }
 
   SmoothedField smoothed(std::int32_t fibreId) const;
 
@@ -71,7 +70,7 @@ private:
   const MyelinSurfaceOptions& Options;
   const SurfaceFilters* Filters; ///< null for core's own means
   FibreField Field;
-  FoundFibres Fibres;
+  FibrePlaces Places;
   std::optional<ThinFibres> Thin; ///< if surfaces are smoothed
   double Spacing;
   FibreContours Contours;

@@ -5,22 +5,21 @@
 #include "base/Sharing.h"
 #include "mesh/NodeLattice.h"
 #include "surface/FibreField.h"
+#include "surface/ImagePieces.h"
 
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace cactus
 {
 
-/// The box of a fibre's samples in one piece of a label image.
+/// The box of a fibre's samples in one piece of a label image (see ImagePieces).
 struct FoundBox
 {
-  /// Edge of a piece, in samples; pieces begin at its multiples in the image, as tiles do that are made at once.
-  static constexpr int pieceEdge = 16;
-
-  std::uint32_t piece = 0;                ///< number, x fastest
+  std::uint32_t piece = 0;                ///< see ImagePieces
   std::array<std::uint8_t, 3> ends{ {} }; ///< along each axis: the first sample in the piece, and 16 times the last one
 };
 
@@ -41,23 +40,17 @@ using FoundFibres = std::map<std::int32_t, FoundFibre>;
 /// and Cancelled.
 FoundFibres findFibres(const FibreField& field, const Context& context = {}, const Sharing& sharing = Sharing());
 
+/// The same of some fibres, in pieces, increasing, among which are all that hold samples of them.
+FoundFibres findFibres(const FibreField& field, const std::set<std::int32_t>& fibres, const std::vector<std::uint32_t>& pieces,
+  const Context& context = {}, const Sharing& sharing = Sharing());
+
+/// Of one fibre, and for an image that is known to be a proper one.
+FoundFibre findFibre(const FibreField& field, std::int32_t fibre, const std::vector<std::uint32_t>& pieces);
+
 /// The nodes of a box.
 NodeRange nodesOf(const FibreField& field, const FoundBox& box);
 
 /// The numbers of the pieces with the samples that some nodes take their values from.
 std::vector<std::uint32_t> piecesAt(const FibreField& field, const NodeRange& nodes);
-
-/// Blocks of a field's lattice, and where in them and around them a fibre is.
-struct NearBlocks
-{
-  /// So far around a block's nodes is looked for the fibre.
-  static constexpr int around = 4;
-
-  std::vector<std::uint32_t> numbers; ///< increasing
-  std::vector<NodeRange> inside; ///< per block: a box that holds the fibre's samples there; without nodes where there is none
-};
-
-/// All blocks that have a node in a fibre's boxes, or at most `reach` away from them.
-NearBlocks blocksNear(const FibreField& field, const FoundFibre& fibre, int reach);
 
 } // namespace cactus

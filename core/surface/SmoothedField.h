@@ -3,7 +3,7 @@
 
 #include "mesh/NodeLattice.h"
 #include "surface/FibreField.h"
-#include "surface/FibreSurvey.h"
+#include "surface/NearBlocks.h"
 #include "surface/ThinFibres.h"
 
 #include <Eigen/Core>

@@ -41,7 +41,7 @@ std::int32_t idOf(const FibreSurfacePair& pair)
   return pair.fibreId;
 }
 
-std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const FoundFibres& found)
+std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const FibrePlaces& places)
 {
   require(facts.bundleIds.size() == facts.fibreIds.size() && facts.targetRadii.size() == facts.fibreIds.size() &&
             (facts.lengths.empty() || facts.lengths.size() == facts.fibreIds.size()),
@@ -63,7 +63,7 @@ std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const Found
         text("the label image's FibreTable names fibre ", pairs[i].fibreId, ": ids must count from 1 and be unique"));
     }
   }
-  for (const auto& entry : found)
+  for (const auto& entry : places.all())
   {
     const bool known =
       std::binary_search(pairs.begin(), pairs.end(), entry.first, [](const auto& a, const auto& b) { return idOf(a) < idOf(b); });
@@ -89,33 +89,14 @@ std::uint64_t placeNumber(const std::array<int, 3>& place)
   return number;
 }
 
-/// The fibres in such an order by the middle of their boxes, so that samples that neighbours share are at hand.
-std::vector<std::size_t> orderByPlace(
-  const std::vector<FibreSurfacePair>& pairs, const FoundFibres& fibres, const FibreField& field)
+/// The fibres in such an order by their middles, so that samples that neighbours share are at hand.
+std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs, const FibrePlaces& fibres)
 {
   std::vector<std::pair<std::uint64_t, std::size_t>> places;
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
-    std::array<int, 3> middle{ { 0, 0, 0 } };
-    const auto found = fibres.find(pairs[i].fibreId);
-    if (found != fibres.end())
-    {
-      std::array<double, 3> sum{ { 0.0, 0.0, 0.0 } };
-      for (const FoundBox& box : found->second.boxes)
-      {
-        const NodeRange nodes = nodesOf(field, box);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          sum[axis] += nodes.first[axis];
-        }
-      }
-      const auto apart = static_cast<double>(found->second.boxes.size()) * FoundBox::pieceEdge;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        middle[axis] = static_cast<int>(sum[axis] / apart);
-      }
-    }
-    places.emplace_back(placeNumber(middle), i);
+    const auto found = fibres.all().find(pairs[i].fibreId);
+    places.emplace_back(placeNumber(found != fibres.all().end() ? found->second.middle : FibrePlaces::Place().middle), i);
   }
   std::sort(places.begin(), places.end());
   std::vector<std::size_t> order;
@@ -183,8 +164,8 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   , Shared(sharing)
   , Journal(journal != nullptr ? *journal : NoJournal)
   , Mesher(image, facts, options, filters, context, sharing)
-  , Pairs(fibresOf(facts, Mesher.fibres()))
-  , Order(orderByPlace(Pairs, Mesher.fibres(), Mesher.field()))
+  , Pairs(fibresOf(facts, Mesher.places()))
+  , Order(orderByPlace(Pairs, Mesher.places()))
 {
   keepFreedMemory();
 }
@@ -205,10 +186,10 @@ void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* messag
     this->Shared.addUp(made); // a process may know of some that others do not
     for (std::size_t place = 0; place < weights.size(); ++place)
     {
-      const auto found = this->Mesher.fibres().find(this->Pairs[this->Order[place]].fibreId);
-      if (made[place] == 0 && found != this->Mesher.fibres().end())
+      const auto found = this->Mesher.places().all().find(this->Pairs[this->Order[place]].fibreId);
+      if (made[place] == 0 && found != this->Mesher.places().all().end())
       {
-        weights[place] += static_cast<double>(found->second.boxes.size());
+        weights[place] += found->second.size;
       }
     }
   }

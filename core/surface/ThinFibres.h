@@ -13,11 +13,14 @@ namespace cactus
 
 /// The fibres of a label image that smoothing spares, since it would shrink and break them: those of a radius below two voxels
 /// altogether, and less and less of the others up to four voxels. The radius is three times the mean depth of a fibre's samples,
-/// as in a round one.
+/// as in a round one. A fibre that is to have six voxels or more (TargetRadius) is not among them, whatever became of it.
 class ThinFibres
 {
 public:
-  /// `field` has to outlive the object; `fibres` are all that it has.
+  /// Voxels; target radius from which on a fibre is not looked at.
+  static constexpr double thickTarget = 6.0;
+
+  /// `field` has to outlive the object; `fibres` are those that may be thin.
   ThinFibres(const FibreField& field, const FoundFibres& fibres);
 
   /// How much of each pass of smoothing the nodes get that have a node before and behind in the range, from 0 to 1, which is the

@@ -321,6 +321,76 @@ TEST(CapsuleField, IsOneLipschitz)
   }
 }
 
+// However far samples are apart, beside the fibres' radii: what is looked for together is of another size.
+TEST(CapsuleField, SweepsFindTheTwoLargestFields)
+{
+  const Fibres fibres = tangle(16.0, 60, 11);
+  FibreRadialGrowthOptions options;
+  options.surfaceRoughness = 0.2;
+  const CapsuleField field = fieldOf(fibres, options);
+  std::size_t close = 0;
+  for (const double spacing : { 0.05, 0.25, 0.5, 1.0, 2.0, 7.0 })
+  {
+    VoxelGrid grid;
+    grid.spacing = spacing;
+    grid.origin = Eigen::Vector3d(-7.9, -7.8, -7.7);
+    grid.count.fill(std::min(19, int(15.0 / spacing)));
+    FieldRelevance relevance;
+    relevance.bestReach = 0.3;
+    relevance.secondReach = 0.3;
+    relevance.contrast = 0.3;
+    std::vector<float> best(grid.size());
+    std::vector<float> second(grid.size());
+    Context context;
+    context.threads = 2;
+    field.sweep(grid, relevance, context, 0.0, 1.0, "",
+      [&](const FieldCell& cell, int)
+      {
+        for (int k = cell.begin[2]; k < cell.end[2]; ++k)
+        {
+          for (int j = cell.begin[1]; j < cell.end[1]; ++j)
+          {
+            for (int i = cell.begin[0]; i < cell.end[0]; ++i)
+            {
+              const std::size_t at = grid.index(cell.lower[0] + i, cell.lower[1] + j, cell.lower[2] + k);
+              const int n = i + FieldCell::edge * (j + FieldCell::edge * k);
+              best[at] = cell.best[n];
+              second[at] = cell.second[n];
+            }
+          }
+        }
+      });
+    for (int k = 0; k < grid.count[2]; ++k)
+    {
+      for (int j = 0; j < grid.count[1]; ++j)
+      {
+        for (int i = 0; i < grid.count[0]; ++i)
+        {
+          std::vector<double> fields;
+          for (std::size_t rank = 0; rank < field.size(); ++rank)
+          {
+            fields.push_back(field.value(int(rank), grid.position(i, j, k)));
+          }
+          std::nth_element(fields.begin(), fields.begin() + 1, fields.end(), std::greater<double>());
+          const std::size_t at = grid.index(i, j, k);
+          if (fields[0] <= -relevance.bestReach)
+          {
+            ASSERT_LE(best[at], -relevance.bestReach + 1e-5);
+            continue;
+          }
+          ASSERT_NEAR(best[at], fields[0], 1e-5) << spacing;
+          if (fields[0] - fields[1] < relevance.contrast)
+          {
+            ASSERT_NEAR(second[at], fields[1], 1e-5) << spacing;
+            ++close;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(close, 500u);
+}
+
 TEST(FibreRadialGrowth, MatchesTheDefinitionAtEverySample)
 {
   const Fibres fibres = tangle(3.0, 9, 7);

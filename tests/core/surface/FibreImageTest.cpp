@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "growth/FibreRadialGrowth.h"
 #include "surface/FibreSurvey.h"
+#include "surface/NearBlocks.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 #include "surface/FibreSurvey.h"
 #include "base/Error.h"
 #include "surface/MeetingFibres.h"
+#include "surface/NearBlocks.h"
 
 #include <gtest/gtest.h>
 

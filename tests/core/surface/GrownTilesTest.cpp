@@ -12,8 +12,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace
@@ -133,6 +135,72 @@ TEST(GrownTiles, HaveTheBitsOfTheImageOnSeveralThreads)
     {
       // Both threads may have computed the same one at the same time.
       EXPECT_LE(tiles.computed(), 2 * (image.grid.size() / 4096 + 30));
+    }
+  }
+}
+
+/// The tiles of an image that hold samples of each fibre.
+std::map<std::int32_t, std::set<std::array<int, 3>>> tilesWithSamples(const LabelImage& image)
+{
+  std::map<std::int32_t, std::set<std::array<int, 3>>> tiles;
+  const VoxelGrid& grid = image.grid;
+  for (int k = 0; k < grid.count[2]; ++k)
+  {
+    for (int j = 0; j < grid.count[1]; ++j)
+    {
+      for (int i = 0; i < grid.count[0]; ++i)
+      {
+        const std::int32_t id = image.fibreId[grid.index(i, j, k)];
+        if (id != 0)
+        {
+          tiles[id].insert({ { i / GrownTiles::edge, j / GrownTiles::edge, k / GrownTiles::edge } });
+        }
+      }
+    }
+  }
+  return tiles;
+}
+
+TEST(GrownTiles, KnowInWhichTilesAFibreMayBe)
+{
+  Fibres fibres = example::fibresThatMeet();
+  fibres.addFibre(9, 1, 0.3); // passes by outside
+  fibres.addPoint({ 6.0, 0.0, -2.0 }, 0.3);
+  fibres.addPoint({ 6.0, 0.0, 2.0 }, 0.3);
+  for (const double roughness : { 0.0, 0.3 })
+  {
+    for (const double growth : { -0.2, 0.0, 0.4 })
+    {
+      FibreRadialGrowthOptions options;
+      options.voxelSize = 0.02;
+      options.surfaceRoughness = roughness;
+      options.margin = 0.1;
+      const LabelImage image = growFibres(fibres, options, growth, growthGrid(fibres.domain, options));
+      const GrownTiles grown(fibres, options, growth, 1);
+      for (const auto& [id, held] : tilesWithSamples(image))
+      {
+        const std::vector<std::array<int, 3>> tiles = grown.knownFibres()->tilesOf(id);
+        const std::set<std::array<int, 3>> told(tiles.begin(), tiles.end());
+        EXPECT_EQ(told.size(), tiles.size());
+        EXPECT_TRUE(std::includes(told.begin(), told.end(), held.begin(), held.end()));
+        EXPECT_LT(double(told.size()), 2.2 * double(held.size()));
+        for (const std::array<int, 3>& tile : tiles)
+        {
+          EXPECT_TRUE(*std::min_element(tile.begin(), tile.end()) >= 0);
+          EXPECT_LE(*std::max_element(tile.begin(), tile.end()), (image.grid.count[0] - 1) / GrownTiles::edge);
+        }
+      }
+      EXPECT_TRUE(grown.knownFibres()->tilesOf(9).empty());
+      EXPECT_TRUE(grown.knownFibres()->tilesOf(4).empty());
+      const std::vector<FibreOutline> outlines = grown.knownFibres()->outlines();
+      ASSERT_EQ(outlines.size(), 4u);
+      EXPECT_EQ(outlines[1].fibreId, 2);
+      EXPECT_EQ(outlines[1].targetRadius, 0.5);
+      EXPECT_NEAR(outlines[1].length, (fibres.points[3] - fibres.points[2]).norm(), 1e-9);
+      const Eigen::Vector3d middle = 0.5 * (fibres.points[2] + fibres.points[3]);
+      const auto& at = outlines[1].middle;
+      EXPECT_LT((image.grid.position(at[0], at[1], at[2]) - middle).norm(), image.grid.spacing);
+      EXPECT_EQ(outlines[3].length, 0.0);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "base/Constants.h"
 #include "surface/FibreContours.h"
 #include "surface/FibreSurvey.h"
+#include "surface/NearBlocks.h"
 
 #include <gtest/gtest.h>
 

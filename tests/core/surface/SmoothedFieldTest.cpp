@@ -4,6 +4,7 @@
 #include "surface/SmoothedField.h"
 #include "surface/FibreSurvey.h"
 #include "surface/MeetingFibres.h"
+#include "surface/NearBlocks.h"
 
 #include <gtest/gtest.h>
 
