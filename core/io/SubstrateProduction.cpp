@@ -30,8 +30,8 @@ namespace
 {
 
 /// Shares of the work.
-constexpr double growthSolved = 0.03;
-constexpr double surfacesMade = 0.85;
+constexpr double growthSolved = 0.025;
+constexpr double surfacesMade = 0.92;
 
 /// Tiles of the label image that are kept: 1 GB in all processes together, but 128 MB for each thread at least.
 constexpr std::size_t tilesTogether = 32768;

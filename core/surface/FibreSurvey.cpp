@@ -196,7 +196,7 @@ FoundFibres findThem(const FibreField& field, std::size_t count, const PieceAt& 
   for (std::size_t first = 0; first < count; first += piecesAtOnce)
   {
     std::vector<PartsOfPiece> parts(std::min(piecesAtOnce, count - first));
-    const auto done = [&](std::size_t end) { return 0.05 * static_cast<double>(end) / static_cast<double>(count); };
+    const auto done = [&](std::size_t end) { return shareOfLooking * static_cast<double>(end) / static_cast<double>(count); };
     sharing.loop(
       parts.size(), context, [&](std::size_t i) { parts[i] = partsOf(field, pieces, pieceAt(first + i)); },
       [&](std::size_t i) { return bytesOfParts(parts[i]); },

@@ -31,6 +31,9 @@ struct FoundFibre
   std::vector<FoundBox> boxes; ///< by piece, increasing
 };
 
+/// Of the progress of making surfaces, what looking for fibres takes.
+constexpr double shareOfLooking = 0.01;
+
 /// By FibreId.
 using FoundFibres = std::map<std::int32_t, FoundFibre>;
 

@@ -205,7 +205,7 @@ void SurfaceMaker::makeOuter(SurfaceStore& outer, SurfaceStore& inner)
   {
     return;
   }
-  this->Shares = this->isCommon() ? Progress{ 0.45, 0.55 } : Progress{ 0.8, 0.9 };
+  this->Shares = this->isCommon() ? Progress{ 0.45, 0.55 } : Progress{ 0.95, 0.97 };
   this->contour(outer, inner);
   this->Journal.beginSpacing();
   if (this->Filters == nullptr)
@@ -286,7 +286,7 @@ void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
       outer.put(i, std::exchange(pair.outer, TriangleMesh()));
       this->Journal.noteOuter(i, pair);
     },
-    this->isCommon() ? "making outer surfaces" : "making surfaces", 0.05, this->Shares.contoured);
+    this->isCommon() ? "making outer surfaces" : "making surfaces", shareOfLooking, this->Shares.contoured);
 }
 
 /// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again,
