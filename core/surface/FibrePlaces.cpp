@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <mutex>
 
 namespace cactus
@@ -23,17 +22,13 @@ FibrePlaces::FibrePlaces(const FibreField& field, const LabelImageFacts& facts, 
   : Field(field)
   , Pieces(field.samples())
 {
-  for (std::size_t i = 0; i < std::min(facts.fibreIds.size(), facts.targetRadii.size()); ++i)
-  {
-    this->TargetRadii.emplace(facts.fibreIds[i], facts.targetRadii[i]);
-  }
   if (const KnownFibres* source = field.knownFibres())
   {
     this->addKnown(*source);
     return;
   }
   this->Found = findFibres(field, context, sharing);
-  this->addFound();
+  this->addFound(facts);
 }
 
 void FibrePlaces::addKnown(const KnownFibres& source)
@@ -46,11 +41,11 @@ void FibrePlaces::addKnown(const KnownFibres& source)
       place.middle[axis] = std::max(0, (outline.middle[axis] - this->Field.samples().first[axis]) / ImagePieces::edge);
     }
     place.size = outline.length;
-    this->TargetRadii[outline.fibreId] = outline.targetRadius;
+    place.targetRadius = outline.targetRadius;
   }
 }
 
-void FibrePlaces::addFound()
+void FibrePlaces::addFound(const LabelImageFacts& facts)
 {
   for (const auto& [id, fibre] : this->Found)
   {
@@ -68,6 +63,14 @@ void FibrePlaces::addFound()
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       place.middle[axis] = static_cast<int>(sum[axis] / (place.size * ImagePieces::edge));
+    }
+  }
+  for (std::size_t i = 0; i < std::min(facts.fibreIds.size(), facts.targetRadii.size()); ++i)
+  {
+    const auto place = this->Places.find(facts.fibreIds[i]);
+    if (place != this->Places.end())
+    {
+      place->second.targetRadius = facts.targetRadii[i];
     }
   }
 }
@@ -116,23 +119,26 @@ FoundFibres FibrePlaces::thinnerThan(double radius, const Context& context, cons
   double thinSize = 0.0;
   for (const auto& [id, place] : this->Places)
   {
-    const auto known = this->TargetRadii.find(id);
-    const bool isThin = known == this->TargetRadii.end() || !(known->second > 0.0) || known->second < radius;
     size += place.size;
-    if (isThin)
+    if (!(place.targetRadius > 0.0) || place.targetRadius < radius)
     {
       thin.insert(id);
       thinSize += place.size;
     }
   }
-  if (this->Field.knownFibres() != nullptr && thinSize < mostOfAll * size)
+  const bool isKnown = this->Field.knownFibres() != nullptr;
+  if (isKnown && thinSize < mostOfAll * size)
   {
     return findFibres(this->Field, thin, this->piecesOf(thin, context), context, sharing);
   }
-  FoundFibres found = this->Field.knownFibres() != nullptr ? findFibres(this->Field, context, sharing) : this->Found;
-  for (auto fibre = found.begin(); fibre != found.end();)
+  const FoundFibres surveyed = isKnown ? findFibres(this->Field, context, sharing) : FoundFibres();
+  FoundFibres found;
+  for (const auto& fibre : isKnown ? surveyed : this->Found)
   {
-    fibre = thin.count(fibre->first) != 0 ? std::next(fibre) : found.erase(fibre);
+    if (thin.count(fibre.first) != 0)
+    {
+      found.insert(fibre);
+    }
   }
   return found;
 }

@@ -32,6 +32,7 @@ public:
   {
     std::array<int, 3> middle{ { 0, 0, 0 } }; ///< in pieces (see ImagePieces) from where the field begins
     double size = 0.0;
+    double targetRadius = 0.0; ///< µm; 0 where that is not known
   };
   /// All that have samples and, where the source knows its fibres, maybe others. By FibreId.
   const std::map<std::int32_t, Place>& all() const { return this->Places; }
@@ -44,14 +45,13 @@ public:
 
 private:
   void addKnown(const KnownFibres& source);
-  void addFound();
+  void addFound(const LabelImageFacts& facts);
   std::vector<std::uint32_t> piecesOf(const std::set<std::int32_t>& fibres, const Context& context) const;
 
   const FibreField& Field;
   const ImagePieces Pieces;
   FoundFibres Found; ///< all, where the source does not know its fibres
   std::map<std::int32_t, Place> Places;
-  std::map<std::int32_t, double> TargetRadii; ///< µm, those that are known
 };
 
 } // namespace cactus
