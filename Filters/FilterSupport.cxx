@@ -3,6 +3,7 @@
 
 #include "InputBlocks.h"
 #include "Ranks.h"
+#include "StopSignals.h"
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Sharing.h"
@@ -205,14 +206,19 @@ bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::func
   const std::unique_ptr<vtkAlgorithm, void (*)(vtkAlgorithm*)> textless(
     self, [](vtkAlgorithm* done) { done->SetProgressText(nullptr); });
   setProcessesSharingMemory(processesOnThisMachine());
+  const StopSignals signals;
   try
   {
     work();
+    if (StopSignals::areCaught())
+    {
+      throw Cancelled(); // so that what follows in the pipeline does not begin
+    }
     return true;
   }
-  catch (const Cancelled&)
+  catch (const Cancelled& stop)
   {
-    const std::string message = "stopped by the user, and nothing is kept: change a property to run it again";
+    const std::string message = std::string(stop.what()) + ": change a property to run it again";
     leaveEmpty(self, message);
     remember(self, message, true);
     sayStopped(self);
@@ -264,7 +270,7 @@ Context contextFor(vtkAlgorithm* algorithm, int threads)
   // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
   context.cancelled = [algorithm, stopped = std::make_shared<bool>(false)]
   {
-    if (algorithm->GetAbortExecute() != 0)
+    if (algorithm->GetAbortExecute() != 0 || StopSignals::areCaught())
     {
       *stopped = true;
       algorithm->SetAbortExecute(0);

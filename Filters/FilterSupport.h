@@ -17,7 +17,7 @@ namespace cactus
 
 class Sharing;
 
-/// Context whose progress goes to `algorithm` and which stops when the user aborts it.
+/// Context whose progress goes to `algorithm` and which stops when the user aborts it, or a signal comes that ends the process.
 Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
 
 /// Runs `work`, and tells whether it came to its end. Whatever it throws is reported once, as the algorithm's error; all outputs
@@ -26,7 +26,7 @@ Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
 /// Where an input holds that mark, directly or in a block, the fault has been reported: `work` is not run, nothing is said, and
 /// the outputs are marked likewise. The same holds where the pipeline asks again for what has just failed. What the user has
 /// stopped is not started again by whatever asks next, such as a view that is drawn: a warning says so each time, until the
-/// filter or its input is changed.
+/// filter or its input is changed. A signal, too, stops `work`, and is passed on when that has ended (see StopSignals).
 bool attempt(vtkAlgorithm* self, const std::function<void()>& work);
 
 /// The same for RequestData: always 1. After a 0 ParaView's pipeline does not execute again for the next good value, and a server

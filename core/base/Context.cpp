@@ -33,7 +33,7 @@ void Context::checkpoint() const
 {
   if (stopRequested())
   {
-    throw Cancelled("stopped by the user");
+    throw Cancelled();
   }
 }
 

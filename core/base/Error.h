@@ -48,7 +48,10 @@ public:
 class Cancelled : public Error
 {
 public:
-  using Error::Error;
+  explicit Cancelled(const std::string& message = "stopped by the user, and nothing is kept")
+    : Error(message)
+  {
+  }
 };
 
 /// The parts of a message one after the other, numbers with four significant digits, whatever the locale.

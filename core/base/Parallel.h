@@ -58,7 +58,7 @@ public:
     }
     if (this->Stopped)
     {
-      throw Cancelled("stopped by the user");
+      throw Cancelled();
     }
   }
 

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 600
+"""Ctrl-C, kill and the end of a batch job while a filter is at work: it stops in good order, with one message, and the next run goes on."""
+
+import contextlib
+import glob
+import os
+import signal
+import subprocess
+import time
+
+from cactus_testing import CactusTestCase, environment_of_its_own, main
+from chain import Chain
+from folder_content import files
+
+# Makes a substrate, and is stopped by a signal in the middle. With several ranks it is the first that runs this.
+SCRIPT = """
+import os, signal, sys
+from paraview.simple import *
+folder, number = sys.argv[1], int(sys.argv[2])
+if len(sys.argv) > 3:
+    signal.signal(number, lambda *_: print("heard", flush=True))
+fibres = CapsuleOptimizer(Input=BundleInitializer(Side=6, GrownFibreVolumeFraction=0.85))
+made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1)
+filter = made.GetClientSideObject()
+def stop(*_):
+    if number and 0.5 < filter.GetProgress() < 1: # VTK says 1 when the work is done
+        os.kill(os.getpid(), number)
+filter.AddObserver("ProgressEvent", stop)
+made.UpdatePipeline()
+print("end of the script", flush=True)
+"""
+ACKNOWLEDGED = "CACTUS: stopping in good order"
+KEPT = "stopped by the user, and what is finished is kept in {0}.work, where the same run goes on"
+
+
+def wait_for_processes_with(argument):
+    def have_it():
+        for path in glob.glob("/proc/[0-9]*/cmdline"):
+            with contextlib.suppress(OSError), open(path, "rb") as file:
+                if argument.encode() in file.read().split(b"\0"):
+                    return True
+        return False
+
+    while have_it():
+        time.sleep(0.05)
+
+
+class StopSignalsTest(CactusTestCase):
+    def run_script(self, *launcher, folder, number=0, isHeard=False):
+        path = os.path.join(self.folder, "script.py")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(SCRIPT)
+        arguments = [folder, str(int(number)), *(["heard"] if isHeard else [])]
+        done = subprocess.run([*launcher, path, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              env=environment_of_its_own())
+        return done.returncode, done.stdout
+
+    def assertStopped(self, folder, said):
+        self.assertEqual(said.count(KEPT.format(folder)), 1, said)
+        self.assertNotIn("Stack trace", said)
+        self.assertFalse(os.path.exists(folder))
+        self.assertTrue(os.path.exists(folder + ".work/journal"))
+
+    def test_the_process_ends_unless_a_script_hears_of_it(self):
+        whole = os.path.join(self.folder, "whole")
+        self.assertEqual(self.run_script("pvpython", folder=whole)[0], 0)
+        for launcher, number, isHeard in (("pvpython", signal.SIGINT, False), ("pvpython", signal.SIGINT, True),
+                                          ("pvpython", signal.SIGTERM, False), ("pvbatch", signal.SIGTERM, False)):
+            with self.subTest(launcher=launcher, number=number, isHeard=isHeard):
+                folder = os.path.join(self.folder, f"{launcher}-{int(number)}-{isHeard}")
+                code, said = self.run_script(launcher, folder=folder, number=number, isHeard=isHeard)
+                self.assertStopped(folder, said)
+                self.assertEqual(code, 0 if isHeard else -number, said)
+                self.assertEqual("heard\nend of the script" in said, isHeard, said)
+                code, said = self.run_script(launcher, folder=folder)
+                self.assertEqual(code, 0, said)
+                self.assertEqual(files(folder), files(whole))
+
+    def test_ranks_end_together(self):
+        """Where one of them is told to, and where all are, as by Ctrl-C, whose last words mpiexec may not wait for."""
+        folder = os.path.join(self.folder, "ranks")
+        code, said = self.run_script("mpiexec", "-n", "2", "pvbatch", folder=folder, number=signal.SIGTERM)
+        self.assertNotEqual(code, 0)
+        self.assertStopped(folder, said)
+        self.assertEqual(said.count(ACKNOWLEDGED), 1, said)
+        code, said = self.run_script("pvbatch", folder=folder)
+        self.assertEqual(code, 0, said)
+        self.assertFalse(os.path.exists(folder + ".work"))
+        path = os.path.join(self.folder, "all.py")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(SCRIPT.replace("os.kill(os.getpid(), number)", "print('half', flush=True)").replace("Side=6", "Side=30"))
+        folder = os.path.join(self.folder, "all")
+        with subprocess.Popen(["mpiexec", "-n", "2", "pvbatch", path, folder, "1"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, env=environment_of_its_own()) as process:
+            said = process.stdout.readline()
+            while said and not said.endswith("half\n"):
+                said += process.stdout.readline()
+            process.send_signal(signal.SIGINT)
+            said += process.stdout.read()
+        self.assertNotEqual(process.returncode, 0)
+        self.assertNotIn("Stack trace", said)
+        self.assertLessEqual(said.count(ACKNOWLEDGED), 1, said)
+        self.assertLessEqual(said.count("what is finished is kept"), 1, said)
+        wait_for_processes_with(path)  # which mpiexec does not
+        self.assertFalse(os.path.exists(folder))
+
+    def test_nothing_that_follows_is_begun(self):
+        """The optimiser, which keeps its best state where the window stops it, has something to hand on."""
+        heard = []
+        signal.signal(signal.SIGINT, lambda *_: heard.append(1))
+        chain = Chain(self.folder)
+        for stage, following in ((chain.optimizer, chain.growth), (chain.growth, chain.surface), (chain.surface, chain.certificate)):
+            with self.subTest(stage=stage.SMProxy.GetXMLName()):
+                stage.NumberOfThreads = 1
+                algorithm = stage.GetClientSideObject()
+
+                def stop(*_):
+                    if 0 < algorithm.GetProgress() < 1:
+                        os.kill(os.getpid(), signal.SIGINT)
+
+                observer = algorithm.AddObserver("ProgressEvent", stop)
+                begun = []
+                other = following.GetClientSideObject()
+                watcher = other.AddObserver("ProgressEvent", lambda *_: begun.append(other.GetProgress()))
+                heard.clear()
+                with self.assertError("stopped by the user, and nothing is kept"):
+                    following.UpdatePipeline()
+                algorithm.RemoveObserver(observer)
+                other.RemoveObserver(watcher)
+                self.assertEqual(len(heard), 1)
+                self.assertEqual([progress for progress in begun if 0 < progress < 1], [])
+                stage.NumberOfThreads = 2
+                following.UpdatePipeline()
+                self.assertGreater(following.GetClientSideObject().GetOutputDataObject(0).GetNumberOfElements(0) +
+                                   following.GetClientSideObject().GetOutputDataObject(0).GetNumberOfElements(6), 0)
+
+
+main()
