@@ -28,6 +28,8 @@ constexpr double smallestInset = 0.05;
 /// µm that growth has to have left between two fibres, so that contours, which are not quite the zeros of the fields, keep off
 /// each other.
 constexpr double leastRoom = 0.01;
+/// Part of its volume by which an outer surface may change where it is kept apart from others, for the inner one to stay.
+constexpr double negligibleChange = 2e-4;
 /// µm that a distance may lose where points are written in single precision.
 constexpr double rounding = 5e-5;
 
@@ -35,6 +37,18 @@ constexpr double rounding = 5e-5;
 double nudgeFor(double spacing, double tolerance)
 {
   return std::min(0.02 * spacing, 0.2 * std::max(tolerance, 1e-3 * spacing));
+}
+
+/// Whether an outer surface has the volume that it was made with, or next to that.
+bool hasVolumeAsMade(const FibreSurfacePair& pair)
+{
+  return std::abs(pair.outerReport.volume - pair.volumeAsMade) <= negligibleChange * pair.outerReport.volume;
+}
+
+/// Whether there is an inner surface that lies where it would within a somewhat larger outer one, too.
+bool hasFreeInner(const FibreSurfacePair& pair)
+{
+  return pair.state != MyelinState::NoFibre && pair.state != MyelinState::NoAxon && !pair.innerChange.isHemmedIn;
 }
 
 /// Gives back the room that a mesh had to grow in: all fibres' meshes are held at the same time.
@@ -142,7 +156,7 @@ std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) con
     pair.state = MyelinState::NoFibre;
     return {};
   }
-  return placesThatMeet(pair.outer, nullptr);
+  return placesThatMeet(pair.outer);
 }
 
 double FibreMesher::equivalentDiameter(const SmoothedField& field, double outerVolume) const
@@ -174,8 +188,38 @@ void FibreMesher::forgetInner(FibreSurfacePair& pair)
 
 void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) const
 {
+  if (pair.outerReport.volume != pair.volumeAsMade && hasVolumeAsMade(pair))
+  {
+    this->makeInnerWithin(pair.volumeAsMade, field, pair);
+    if (hasFreeInner(pair))
+    {
+      return;
+    }
+  }
+  this->makeInnerWithin(pair.outerReport.volume, field, pair);
+}
+
+bool FibreMesher::keepsInner(FibreSurfacePair& pair) const
+{
+  if (!hasFreeInner(pair) || !hasVolumeAsMade(pair))
+  {
+    return false;
+  }
+  const TriangleTree wall(pair.outer, this->wallOf(pair.outer));
+  if (!liesInside(pair.inner, pair.innerReport, TriangleTree(pair.outer)) ||
+      smallestGap(TriangleTree(pair.inner), wall, this->PromisedMyelin).found())
+  {
+    return false;
+  }
+  pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
+  return true;
+}
+
+/// The inner surface for an outer one as if that had a volume (µm³).
+void FibreMesher::makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair) const
+{
   forgetInner(pair);
-  const double wanted = pair.targetGRatio * pair.targetGRatio * pair.outerReport.volume;
+  const double wanted = pair.targetGRatio * pair.targetGRatio * outerVolume;
   if (!(wanted > 0.0))
   {
     return; // an outer surface, not made here, that encloses no volume
@@ -200,6 +244,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
   const TriangleTree outer(pair.outer);
   const TriangleTree wall(pair.outer, this->wallOf(pair.outer));
   const TriangleTree* within = nullptr;
+  bool isHemmedIn = false;
   double leastStep = 0.1 * this->ThinnestMyelin;
   double level = axon.level;
   while (state != MyelinState::NoAxon)
@@ -211,6 +256,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
       search.field(), { axon.level, level, volume, &outer, {} }, axon.surface, pair.innerReport, pair.innerChange);
     const TriangleMesh& inner = axon.surface.mesh;
     const bool isInside = isSound && liesInside(inner, pair.innerReport, outer);
+    isHemmedIn = isHemmedIn || pair.innerChange.isHemmedIn || !isInside;
     if (isSound && (inner.triangles.empty() || (within != nullptr && !isInside)))
     {
       state = MyelinState::NoAxon;
@@ -228,6 +274,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
     {
       break;
     }
+    isHemmedIn = true;
     // The outer surface lies further in than the field tells, where voxels do not resolve a crease or a neighbour has pushed it.
     state = MyelinState::Thicker;
     const double step = isSound ? std::max(this->PromisedMyelin - gap.distance, leastStep) : this->ThinnestMyelin;
@@ -244,6 +291,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
     return;
   }
   pair.inner = packed(std::move(axon.surface.mesh));
+  pair.innerChange.isHemmedIn = isHemmedIn;
   pair.thickness = level - pair.outerLevel;
   pair.state = state;
   pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);

@@ -54,13 +54,19 @@ public:
   static void forgetInner(FibreSurfacePair& pair);
 
   /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would leave that or
-  /// come nearer to its wall than promised, and without an axon if no thickness prevents that.
+  /// come nearer to its wall than promised, and without an axon if no thickness prevents that. Where the outer one was moved and
+  /// has next to the volume (volumeAsMade) that it had before, the inner one is that of before, unless it is in the way.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
+
+  /// Whether the inner surface of a pair is the one that makeInner() would make now that the outer one was moved. Sets the
+  /// g-ratio if so.
+  bool keepsInner(FibreSurfacePair& pair) const;
 
 private:
   Eigen::AlignedBox3d box() const;
   /// Whether contours that lie a little beside where they are to be are moved there, rather than made again.
   bool movesContours() const;
+  void makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair) const;
   AxonLevels axonLevels(const SmoothedField& field, double volume) const;
   void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   void finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;

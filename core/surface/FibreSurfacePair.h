@@ -25,6 +25,8 @@ struct SurfaceChange
 {
   double largestMove = 0.0;   ///< µm, the largest |field - level| found on the final surface away from caps
   double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
+  /// Of an inner surface: it would lie elsewhere, did the outer one not stand in its way.
+  bool isHemmedIn = false;
 };
 
 /// The surfaces of one fibre and what was measured on them.

@@ -33,6 +33,33 @@ Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
   return (mesh.points[std::size_t(t[0])] + mesh.points[std::size_t(t[1])] + mesh.points[std::size_t(t[2])]) / 3.0;
 }
 
+std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree& tree)
+{
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& pair : selfIntersections(tree))
+  {
+    places.push_back(centreOf(mesh, pair.first));
+    places.push_back(centreOf(mesh, pair.second));
+  }
+  return places;
+}
+
+/// The same, and where it cuts or touches the container of its target, which is written down.
+std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const SurfaceTarget& target, SurfaceChange& change)
+{
+  const TriangleTree tree(mesh);
+  std::vector<Eigen::Vector3d> places = placesThatMeet(mesh, tree);
+  if (target.container != nullptr)
+  {
+    for (const auto& pair : meetingTriangles(tree, *target.container))
+    {
+      places.push_back(centreOf(mesh, pair.first));
+      change.isHemmedIn = true;
+    }
+  }
+  return places;
+}
+
 /// Whether a point is nearer to a face of the box than `distance` (µm): a regular grid bevels the edges of caps, and of the box.
 bool isBeside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p, double distance)
 {
@@ -51,23 +78,9 @@ void toLevel(CappedSurface& surface, const SurfaceTarget& target)
 
 } // namespace
 
-std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree* container)
+std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh)
 {
-  std::vector<Eigen::Vector3d> places;
-  const TriangleTree tree(mesh);
-  for (const auto& pair : selfIntersections(tree))
-  {
-    places.push_back(centreOf(mesh, pair.first));
-    places.push_back(centreOf(mesh, pair.second));
-  }
-  if (container != nullptr)
-  {
-    for (const auto& pair : meetingTriangles(tree, *container))
-    {
-      places.push_back(centreOf(mesh, pair.first));
-    }
-  }
-  return places;
+  return placesThatMeet(mesh, TriangleTree(mesh));
 }
 
 std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& places, double spacing, int attempt)
@@ -101,7 +114,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
   }
   if (this->DecimationError > 0.0)
   {
-    if (this->coarsen(field, target, surface, report))
+    if (this->coarsen(field, target, surface, report, change))
     {
       change.largestMove = this->largestMove(field, surface, target.level);
       return true;
@@ -110,7 +123,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
   }
   report = keepSoundPieces(surface.mesh, change.droppedVolume);
   surface.faces.clear(); // they count the points of before
-  return placesThatMeet(surface.mesh, target.container).empty();
+  return placesThatMeet(surface.mesh, target, change).empty();
 }
 
 void SurfaceFinishing::finishMoved(CappedSurface& surface) const
@@ -122,8 +135,8 @@ void SurfaceFinishing::finishMoved(CappedSurface& surface) const
 }
 
 /// Leaves the surface as it is, and returns false, if it cannot be coarsened.
-bool SurfaceFinishing::coarsen(
-  const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report) const
+bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface,
+  SurfaceReport& report, SurfaceChange& change) const
 {
   SurfaceDecimationOptions decimation;
   decimation.localBounds = target.bounds;
@@ -146,7 +159,7 @@ bool SurfaceFinishing::coarsen(
     moveToVolume(trial, target.volume, this->DecimationError);
     splitNeedles(trial, largestSquaredEdgeRatio);
     report = checkSurface(trial.mesh);
-    const std::vector<Eigen::Vector3d> places = placesThatMeet(trial.mesh, target.container);
+    const std::vector<Eigen::Vector3d> places = placesThatMeet(trial.mesh, target, change);
     if (places.empty() && report.degenerateTriangles == 0 && report.sound())
     {
       surface = std::move(trial);

@@ -12,8 +12,8 @@
 namespace cactus
 {
 
-/// Where a coarsened surface must not stay as it is, since it cuts or touches itself or `container` (may be null).
-std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree* container);
+/// Where a coarsened surface must not stay as it is, since it cuts or touches itself.
+std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh);
 
 /// Bounds for coarsening a surface once more of which something was wrong at some places, for the first time (attempt 0) or
 /// again.
@@ -39,7 +39,7 @@ public:
 
   /// Coarsens a contour, gives it its volume, and checks what comes out. If something is wrong with it, it is made again with
   /// less coarsening around there; what cannot be repaired like that stays as contoured, without pieces that enclose no volume,
-  /// which may leave an empty mesh. Measures it in `report`, and says in `change` what has become of it: adds to what it has
+  /// which may leave an empty mesh. Measures it in `report`, and says in `change` what has become of it, and adds to what was
   /// dropped. Returns whether the surface is as it has to be.
   bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
     SurfaceChange& change) const;
@@ -48,7 +48,8 @@ public:
   void finishMoved(CappedSurface& surface) const;
 
 private:
-  bool coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report) const;
+  bool coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
+    SurfaceChange& change) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
   void reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const;

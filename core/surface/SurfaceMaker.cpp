@@ -210,7 +210,7 @@ void SurfaceMaker::makeOuter(SurfaceStore& outer, SurfaceStore& inner)
   this->Journal.beginSpacing();
   if (this->Filters == nullptr)
   {
-    this->spaceOut(outer);
+    this->spaceOut(outer, inner);
   }
   this->Journal.noteSpaced(this->Pairs);
 }
@@ -291,7 +291,7 @@ void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
 
 /// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again,
 /// coarsened less there and, if surfaces are not coarsened or that does not help, deeper: then there is less to move.
-void SurfaceMaker::spaceOut(SurfaceStore& outer)
+void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
 {
   const double gap = std::max(this->Facts.minimumGap, leastSeparation);
   const bool isCoarsened = this->Options.decimationError > 0.0;
@@ -315,6 +315,7 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer)
   {
     this->Pairs[i].isFlawed = true;
   }
+  this->keepInner(outer, inner);
 }
 
 /// Looks at surfaces that were moved, and returns which of them have to be made again, with bounds where they went wrong.
@@ -327,7 +328,7 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[moved[i]];
-      FibreMesher::forgetInner(pair);
+      pair.isInnerMade = false;
       pair.outer = *outer.get(moved[i]);
       faults[i] = this->Mesher.checkOuter(pair);
       outer.put(moved[i], std::exchange(pair.outer, TriangleMesh()));
@@ -358,12 +359,43 @@ void SurfaceMaker::makeAgain(
     {
       FibreSurfacePair& pair = this->Pairs[which[i]];
       pair.isFlawed = false; // of the surface that goes
+      FibreMesher::forgetInner(pair);
       pair.outer = *outer.get(which[i]);
       this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair, bounds.at(which[i]), deeper);
       outer.put(which[i], std::exchange(pair.outer, TriangleMesh()));
     },
     [&](std::size_t i) { return bytesOf(this->Pairs[which[i]]); },
     [&](std::size_t i, const std::string& bytes) { this->Pairs[which[i]] = pairFrom(bytes); });
+}
+
+/// Looks at the inner surfaces whose outer ones were moved, and forgets those that have to be made again.
+void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& inner)
+{
+  std::vector<std::size_t> looked;
+  for (std::size_t i = 0; i < this->Pairs.size(); ++i)
+  {
+    const FibreSurfacePair& pair = this->Pairs[i];
+    if (!pair.isInnerMade && !std::isnan(pair.volumeAsMade) && pair.state != MyelinState::NoAxon)
+    {
+      looked.push_back(i);
+    }
+  }
+  this->Shared.loop(
+    looked.size(), this->Caller,
+    [&](std::size_t i)
+    {
+      FibreSurfacePair& pair = this->Pairs[looked[i]];
+      pair.outer = *outer.get(looked[i]);
+      pair.inner = *inner.get(looked[i]);
+      pair.isInnerMade = this->Mesher.keepsInner(pair);
+      if (!pair.isInnerMade)
+      {
+        FibreMesher::forgetInner(pair);
+      }
+      pair.outer = pair.inner = TriangleMesh();
+    },
+    [&](std::size_t i) { return bytesOf(this->Pairs[looked[i]]); },
+    [&](std::size_t i, const std::string& bytes) { this->Pairs[looked[i]] = pairFrom(bytes); });
 }
 
 void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
@@ -390,6 +422,10 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
         pair.outer = *outer.get(i);
         this->putInner(i, this->Mesher.smoothed(pair.fibreId), inner);
         pair.outer = TriangleMesh();
+      }
+      else
+      {
+        inner.put(i, TriangleMesh()); // instead of one made before the outer one was found to be nothing
       }
       this->Journal.noteInner(i, pair);
     },

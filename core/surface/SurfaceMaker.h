@@ -57,10 +57,11 @@ private:
   bool isCommon() const { return this->Options.model == GRatioModel::TargetAxonVolumeFraction; }
   void putInner(std::size_t i, const SmoothedField& field, SurfaceStore& inner);
   void contour(SurfaceStore& outer, SurfaceStore& inner);
-  void spaceOut(SurfaceStore& outer);
+  void spaceOut(SurfaceStore& outer, const SurfaceSource& inner);
   std::vector<std::size_t> checkMoved(
     const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds);
   void makeAgain(const std::vector<std::size_t>& which, double deeper, const BoundsOfFibres& bounds, SurfaceStore& outer);
+  void keepInner(const SurfaceSource& outer, const SurfaceSource& inner);
   void makeEachInner(const SurfaceSource& outer, SurfaceStore& inner);
   void makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceStore& inner);
 

@@ -15,6 +15,7 @@ void visitChange(Change& change, Visit&& visit)
 {
   visit(change.largestMove);
   visit(change.droppedVolume);
+  visit(change.isHemmedIn);
 }
 
 /// Calls visit(number) for every number of a pair, which may be const.

@@ -17,6 +17,7 @@
 #include "surface/FibreMesher.h"
 #include "surface/GRatio.h"
 #include "surface/MeetingFibres.h"
+#include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
 
 #include <gtest/gtest.h>
@@ -58,6 +59,16 @@ struct StraightFibre
   }
 };
 
+/// Moves points towards the axis of a StraightFibre near where the x axis is at `x`, by so much at most (µm).
+void pushIn(TriangleMesh& mesh, double x, double by)
+{
+  for (Eigen::Vector3d& p : mesh.points)
+  {
+    const double distance = (p - Eigen::Vector3d(x, 0.0, 0.0)).norm();
+    p[0] -= distance < 0.4 ? by * (1.0 - distance / 0.4) : 0.0;
+  }
+}
+
 TEST(FibreMesher, OuterSurfacesLieAsMuchDeeperAsWanted)
 {
   const StraightFibre fibre;
@@ -98,11 +109,7 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   mesher.makeInner(field, pair);
   EXPECT_EQ(pair.state, MyelinState::AsAsked);
   const double volume = pair.innerReport.volume;
-  for (Eigen::Vector3d& p : pair.outer.points)
-  {
-    const double distance = (p - Eigen::Vector3d(0.6, 0.0, 0.0)).norm();
-    p[0] -= distance < 0.4 ? 0.25 * (1.0 - distance / 0.4) : 0.0; // through the myelin, 0.18 µm thick
-  }
+  pushIn(pair.outer, 0.6, 0.25); // through the myelin, 0.18 µm thick
   EXPECT_FALSE(meetingTriangles(TriangleTree(pair.inner), TriangleTree(pair.outer)).empty());
   EXPECT_TRUE(mesher.checkOuter(pair).empty());
   mesher.makeInner(field, pair);
@@ -112,14 +119,62 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   EXPECT_LT(pair.innerReport.volume, volume);
   EXPECT_GT(pair.innerReport.volume, 0.5 * volume);
   // Pushed in to its middle, the fibre has no room for an axon, and gets none.
-  for (Eigen::Vector3d& p : pair.outer.points)
-  {
-    const double distance = (p - Eigen::Vector3d(0.35, 0.0, 0.0)).norm();
-    p[0] -= distance < 0.4 ? 0.8 * (1.0 - distance / 0.4) : 0.0;
-  }
+  pushIn(pair.outer, 0.35, 0.8);
   mesher.makeInner(field, pair);
   EXPECT_EQ(pair.state, MyelinState::NoAxon);
   EXPECT_TRUE(pair.inner.triangles.empty());
+}
+
+TEST(FibreMesher, AnInnerSurfaceStaysWhereTheOuterOneIsMovedALittle)
+{
+  const StraightFibre fibre;
+  MyelinSurfaceOptions surfaceOptions;
+  surfaceOptions.decimationError = 0.0005; // so that there are points to push
+  const FibreMesher mesher(fibre.source(), fibre.facts, surfaceOptions);
+  const SmoothedField field = mesher.smoothed(1);
+  FibreSurfacePair made;
+  made.fibreId = 1;
+  made.targetGRatio = 0.7;
+  mesher.makeOuter(field, made);
+  made.volumeAsMade = made.outerReport.volume;
+  mesher.makeInner(field, made);
+  ASSERT_EQ(made.state, MyelinState::AsAsked);
+  for (const double by : { 0.0005, 0.25 })
+  {
+    FibreSurfacePair pushed = made;
+    pushIn(pushed.outer, 0.6, by);
+    EXPECT_TRUE(mesher.checkOuter(pushed).empty());
+    EXPECT_LT(pushed.outerReport.volume, made.outerReport.volume);
+    FibreSurfacePair kept = pushed;
+    EXPECT_EQ(mesher.keepsInner(kept), by < 0.1);
+    // Whoever makes it anew for the outer surface as it is now gets the same, or what there is room for.
+    mesher.makeInner(field, pushed);
+    EXPECT_EQ(pushed.inner.points == made.inner.points && pushed.inner.triangles == made.inner.triangles, by < 0.1);
+    if (by < 0.1)
+    {
+      EXPECT_EQ(kept.gRatio, pushed.gRatio);
+      EXPECT_EQ(kept.thickness, pushed.thickness);
+      EXPECT_EQ(kept.state, pushed.state);
+      EXPECT_GT(kept.gRatio, made.gRatio);
+    }
+    else
+    {
+      // Its place is owed to the outer surface, also where that goes back a little.
+      EXPECT_EQ(pushed.state, MyelinState::Thicker);
+      EXPECT_FALSE(mesher.keepsInner(pushed));
+    }
+  }
+  // A fibre that has become thinner all around gets a thinner axon.
+  FibreSurfacePair thinner = made;
+  for (Eigen::Vector3d& p : thinner.outer.points)
+  {
+    p.head<2>() *= 0.997;
+  }
+  EXPECT_TRUE(mesher.checkOuter(thinner).empty());
+  EXPECT_FALSE(mesher.keepsInner(thinner));
+  mesher.makeInner(field, thinner);
+  EXPECT_NEAR(thinner.gRatio, 0.7, 5e-4);
+  EXPECT_LT(thinner.innerReport.volume, 0.996 * made.innerReport.volume);
 }
 
 TEST(FibreMesher, SplitsNeedlesThatMovingHasMade)
@@ -211,19 +266,31 @@ TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
   EXPECT_NEAR(pairs[0].innerReport.volume, 0.49 * pairs[0].outerReport.volume, 0.002 * volume);
 }
 
+/// A bundle that growth has made tight, and by how much it has grown.
+struct TightBundle
+{
+  FibreRadialGrowthOptions growth;
+  Fibres fibres;
+  double by = 0.0;
+
+  TightBundle()
+  {
+    BundleInitializerOptions bundle;
+    bundle.side = 8.0;
+    bundle.meanDispersion = 10.0;
+    fibres = initialiseBundles(bundle);
+    optimise(fibres, {}, {});
+    growth.targetFibreVolumeFraction = 0.93;
+    fibres = aimAtTargetRadii(trimToDomain(fibres), growth);
+    by = growthFor(fibres, growth);
+  }
+};
+
 // Surfaces are moved by much more than coarsening costs; some fold, and are made again.
 TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
 {
-  BundleInitializerOptions bundle;
-  bundle.side = 8.0;
-  bundle.meanDispersion = 10.0;
-  Fibres fibres = initialiseBundles(bundle);
-  optimise(fibres, {}, {});
-  fibres = trimToDomain(fibres);
-  FibreRadialGrowthOptions growth;
-  growth.targetFibreVolumeFraction = 0.93;
-  fibres = aimAtTargetRadii(fibres, growth);
-  const auto pairs = surfacesOf(fibres, growth, growthFor(fibres, growth), 0.06);
+  const TightBundle bundle;
+  const auto pairs = surfacesOf(bundle.fibres, bundle.growth, bundle.by, 0.06);
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
     EXPECT_FALSE(pairs[i].isFlawed) << pairs[i].fibreId;
@@ -233,6 +300,50 @@ TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
     {
       const TriangleTree other(pairs[j].outer);
       EXPECT_FALSE(smallestGap(tree, other, 0.06).found()) << pairs[i].fibreId << ", " << pairs[j].fibreId;
+    }
+  }
+}
+
+// Whether an inner surface was made before the outer one was moved, and stayed, or is made later, as by a filter for other
+// g-ratios.
+TEST(MyelinSurfaces, InnerOnesAreTheSameWheneverTheyAreMade)
+{
+  const TightBundle bundle;
+  const LabelImage image = growFibres(bundle.fibres, bundle.growth, bundle.by, growthGrid(bundle.fibres.domain, bundle.growth));
+  LabelImageFacts facts = labelImageFacts(bundle.fibres, bundle.growth);
+  const auto source = std::make_shared<LabelImageInMemory>(
+    LabelImageView{ image.grid, image.fibreId.data(), image.depth.data(), bundle.growth.gap() });
+  for (const double further : { 0.0002, 0.002, 0.04 })
+  {
+    facts.minimumGap = bundle.growth.minimumGap + further;
+    const MyelinSurfaceOptions options;
+    SurfaceMaker maker(source, facts, options, {});
+    SurfacesInMemory outer(maker.fibres().size());
+    SurfacesInMemory inner(maker.fibres().size());
+    maker.makeOuter(outer, inner);
+    std::size_t moved = 0;
+    std::size_t kept = 0;
+    for (const FibreSurfacePair& pair : maker.fibres())
+    {
+      const bool isMoved = pair.outerReport.volume != pair.volumeAsMade;
+      moved += isMoved ? 1 : 0;
+      kept += isMoved && pair.isInnerMade ? 1 : 0;
+    }
+    EXPECT_GT(moved, 0u) << further;
+    EXPECT_EQ(kept > 0, further < 0.01) << further;
+    maker.makeInner(outer, inner);
+    SurfaceMaker later(source, facts, options, {});
+    SurfacesInMemory innerLater(maker.fibres().size());
+    later.takeOuter(maker.fibres());
+    later.makeInner(outer, innerLater);
+    for (std::size_t i = 0; i < maker.fibres().size(); ++i)
+    {
+      EXPECT_EQ(innerLater.get(i)->points, inner.get(i)->points) << further << ", fibre " << maker.fibres()[i].fibreId;
+      EXPECT_EQ(innerLater.get(i)->triangles, inner.get(i)->triangles);
+      EXPECT_EQ(later.fibres()[i].gRatio, maker.fibres()[i].gRatio);
+      EXPECT_EQ(later.fibres()[i].state, maker.fibres()[i].state);
+      EXPECT_EQ(later.fibres()[i].thickness, maker.fibres()[i].thickness);
+      EXPECT_EQ(later.fibres()[i].largestMove(), maker.fibres()[i].largestMove());
     }
   }
 }
