@@ -137,6 +137,8 @@ void keepFreedMemory()
   constexpr int largestBlock = 32 << 20;
   mallopt(M_MMAP_THRESHOLD, largestBlock);
   mallopt(M_TRIM_THRESHOLD, 2 * largestBlock);
+  // A thread's memory comes in heaps of this size, each of which would be given back as soon as nothing is in it.
+  mallopt(M_TOP_PAD, 2 * largestBlock);
 #endif
 }
 

@@ -22,6 +22,8 @@ namespace
 {
 
 constexpr int cornerCount = 8;
+/// For which there is room at first: a block of those around a tube of a few blocks has about so many.
+constexpr std::size_t pointsOfBlock = 64;
 
 /// The corners of a face of a cell, counterclockwise as seen from outside; face 2·axis is the lower one, 2·axis + 1 the upper.
 std::array<int, 4> cornersOfFace(int face)
@@ -192,10 +194,12 @@ std::uint32_t positives(const float* row, int count)
 class Contourer
 {
 public:
-  explicit Contourer(const NodeLattice& lattice)
+  Contourer(const NodeLattice& lattice, std::size_t blocks)
     : Lattice(lattice)
     , Points(lattice, Surface)
   {
+    this->Surface.mesh.points.reserve(blocks * pointsOfBlock);
+    this->Surface.mesh.triangles.reserve(blocks * 2 * pointsOfBlock);
     const auto& planes = lattice.planes;
     Surface.box = Eigen::AlignedBox3d(Eigen::Vector3d(planes[0].front(), planes[1].front(), planes[2].front()),
       Eigen::Vector3d(planes[0].back(), planes[1].back(), planes[2].back()));
@@ -388,7 +392,7 @@ CappedSurface contour(const NodeLattice& lattice, const std::vector<std::uint32_
   {
     throw InvalidInput("blocks to contour must be increasing and lie in the lattice");
   }
-  Contourer contourer(lattice);
+  Contourer contourer(lattice, blocks.size());
   std::vector<float> buffer;
   for (const std::uint32_t block : blocks)
   {

@@ -38,6 +38,9 @@ constexpr double smallPart = 0.5;
 constexpr double flipGain = 0.95;
 constexpr double flipNeed = 0.2;
 constexpr int sweepsPerError = 10;
+/// All sweeps of a stretch of the surface, of so many times the sampling distance or more, come before those of the next one, so
+/// that what they look at, the field above all, is at hand in the processor's cache.
+constexpr double stretchLength = 16.0;
 /// An edge is not tried again in the sweeps of an error where its squared error was so many times what is allowed, or the field
 /// would be out of its range by this part of the largest error: what changes around it hardly changes that.
 constexpr double farError = 1.5;
@@ -77,12 +80,15 @@ public:
 
   void run()
   {
-    for (const double part : sweepErrors)
+    for (std::vector<std::size_t>& stretch : this->stretches())
     {
-      this->sweeps(part * this->Reach);
+      for (const double part : sweepErrors)
+      {
+        this->sweeps(stretch, part * this->Reach);
+      }
+      this->flipEdges(stretch);
+      this->sweeps(stretch, this->Reach);
     }
-    this->flipEdges();
-    this->sweeps(this->Reach);
     this->repairShapes();
     this->Mesh.compact();
   }
@@ -111,13 +117,36 @@ private:
     bool isFar = false;
   };
 
+  /// The triangles by where they are along the axis along which the surface is longest.
+  std::vector<std::vector<std::size_t>> stretches() const
+  {
+    Eigen::AlignedBox3d around;
+    for (std::size_t p = 0; p < this->Mesh.pointCount(); ++p)
+    {
+      around.extend(this->Mesh.at(std::int32_t(p)));
+    }
+    Eigen::Index axis = 0;
+    const double length = around.isEmpty() ? 0.0 : around.sizes().maxCoeff(&axis);
+    const double count = std::max(1.0, std::floor(length / (stretchLength * this->Options.sampling)));
+    std::vector<std::vector<std::size_t>> found(static_cast<std::size_t>(count));
+    for (std::size_t t = 0; t < this->Mesh.triangleCount(); ++t)
+    {
+      const double along = this->Mesh.at(this->Mesh.cornersOf(t)[0])[axis] - around.min()[axis];
+      found[static_cast<std::size_t>(std::min(count - 1.0, count * along / length))].push_back(t);
+    }
+    return found;
+  }
+
   /// Sweeps until one removes little.
-  void sweeps(double error)
+  void sweeps(std::vector<std::size_t>& stretch, double error)
   {
     ++this->Round;
     for (int sweep = 0; sweep < sweepsPerError; ++sweep)
     {
-      if (this->sweep(error * error, sweep == 0) * 10 < this->Mesh.aliveCount())
+      const std::size_t removed = this->sweep(stretch, error * error, sweep == 0);
+      stretch.erase(
+        std::remove_if(stretch.begin(), stretch.end(), [this](std::size_t t) { return this->Mesh.isDead(t); }), stretch.end());
+      if (removed * 10 < stretch.size())
       {
         return;
       }
@@ -126,11 +155,11 @@ private:
 
   /// Tries every edge once (`all`), or only those near which something has changed since they were tried. Returns the number of
   /// triangles removed.
-  std::size_t sweep(double limit, bool all)
+  std::size_t sweep(const std::vector<std::size_t>& stretch, double limit, bool all)
   {
     const std::size_t before = this->Mesh.aliveCount();
     ++this->Sweep;
-    for (std::size_t t = 0; t < this->Mesh.triangleCount(); ++t)
+    for (const std::size_t t : stretch)
     {
       for (std::size_t i = 0; i < 3 && !this->Mesh.isDead(t); ++i)
       {
@@ -388,9 +417,9 @@ private:
 
   /// Flips edges, away from caps and from places that want less coarsening, so that the surface comes nearer to the field's
   /// level.
-  void flipEdges()
+  void flipEdges(const std::vector<std::size_t>& stretch)
   {
-    for (std::size_t t = 0; t < this->Mesh.triangleCount(); ++t)
+    for (const std::size_t t : stretch)
     {
       for (std::size_t i = 0; i < 3 && !this->Mesh.isDead(t); ++i)
       {

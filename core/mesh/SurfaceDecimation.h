@@ -36,7 +36,7 @@ struct SurfaceDecimationOptions
 /// Coarsens a closed surface by edge collapses, in sweeps of rising error, cheapest first. A point goes where it is nearest to
 /// the planes of the triangles that it replaces (quadrics of Garland and Heckbert 1997, without memory as in Lindstrom and Turk
 /// 1998), and from there along the normal, if that brings the field into its range. Then edges are flipped where that brings the
-/// surface nearer to the level.
+/// surface nearer to the level. Long surfaces are coarsened one stretch after the other.
 ///
 /// Each collapse keeps the surface a closed 2-manifold of the same topology (link condition), turns no triangle over, makes no
 /// needle, and leaves points on the faces of the box in the faces that they lie in. Whether distant parts of the surface come to

@@ -110,6 +110,48 @@ TEST(SurfaceDecimation, FlipsFlatTriangles)
   }
 }
 
+/// Depth in a tube that winds about the z axis, with a period of 9 µm.
+double windingDepth(const Eigen::Vector3d& p)
+{
+  const double turn = 2.0 * pi * p.z() / 9.0;
+  return 0.6 - std::hypot(p.x() - 0.2 * std::cos(turn), p.y() - 0.2 * std::sin(turn));
+}
+
+TEST(SurfaceDecimation, LongSurfacesCostAsManyTrianglesPerLengthAsShortOnes)
+{
+  // The long one is coarsened stretch by stretch: at their ends, too, as much is collapsed, and the surface keeps its distance.
+  std::vector<double> triangles;
+  for (const int periods : { 1, 2, 8 })
+  {
+    NodeLattice lattice = cubeLattice(20, 0.1);
+    lattice.planes[2].clear();
+    for (int k = 0; k <= 90 * periods; ++k)
+    {
+      lattice.planes[2].push_back(0.1 * k);
+    }
+    const auto field = [&](int i, int j, int k) {
+      return windingDepth({ lattice.planes[0][std::size_t(i)], lattice.planes[1][std::size_t(j)], 0.1 * k });
+    };
+    CappedSurface surface = contour(lattice, allBlocks(lattice), sampled(field));
+    const double volume = checkSurface(surface.mesh).volume;
+    SurfaceDecimationOptions options;
+    options.field = windingDepth;
+    decimate(surface, options);
+    const SurfaceReport report = checkSurface(surface.mesh);
+    EXPECT_TRUE(report.closedManifold() && report.outward());
+    EXPECT_NEAR(report.volume, volume, 0.005 * volume);
+    for (const auto& t : surface.mesh.triangles)
+    {
+      const auto corner = [&](std::size_t i) -> const Eigen::Vector3d& { return surface.mesh.points[std::size_t(t[i])]; };
+      const Eigen::Vector3d centroid = (corner(0) + corner(1) + corner(2)) / 3.0;
+      EXPECT_TRUE(surface.isCap(t) || std::abs(windingDepth(centroid)) <= 1.001 * options.maximumError);
+    }
+    triangles.push_back(double(report.triangles));
+  }
+  const double ofAPeriod = triangles[1] - triangles[0]; // without caps
+  EXPECT_NEAR(triangles[2] - triangles[1], 6.0 * ofAPeriod, 0.03 * 6.0 * ofAPeriod);
+}
+
 TEST(SurfaceDecimation, DependsOnTheInputAlone)
 {
   CappedSurface one = sphere(0.7, 0.1, 21);
