@@ -218,7 +218,7 @@ bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::func
   }
   catch (const Cancelled& stop)
   {
-    const std::string message = std::string(stop.what()) + ": change a property to run it again";
+    const std::string message = stop.what();
     leaveEmpty(self, message);
     remember(self, message, true);
     sayStopped(self);

@@ -32,9 +32,11 @@ extern "C" void noteStopSignal(int number)
 {
   static constexpr char acknowledgement[] = "\nCACTUS: stopping in good order; a second signal ends it at once\n";
   caught = number;
-  for (std::size_t i = 0; i < watched.size(); ++i)
+  struct sigaction action = {};
+  action.sa_handler = SIG_DFL;
+  for (const int each : watched)
   {
-    ::sigaction(watched[i], &usual[i], nullptr);
+    ::sigaction(each, &action, nullptr);
   }
   if (isSpeaker)
   {

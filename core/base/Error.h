@@ -48,7 +48,7 @@ public:
 class Cancelled : public Error
 {
 public:
-  explicit Cancelled(const std::string& message = "stopped by the user, and nothing is kept")
+  explicit Cancelled(const std::string& message = "stopped by the user, and nothing is kept: change a property to run it again")
     : Error(message)
   {
   }

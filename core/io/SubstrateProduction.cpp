@@ -271,7 +271,8 @@ ProducedSubstrate produceSubstrate(
       removeWork();
       throw;
     }
-    throw Cancelled("stopped by the user, and what is finished is kept in " + work + ", where the same run goes on");
+    throw Cancelled(
+      "stopped by the user, and what is finished is kept in " + work + ": Write, or the same script, goes on with it");
   }
   catch (...)
   {

@@ -31,7 +31,7 @@ made.UpdatePipeline()
 print("end of the script", flush=True)
 """
 ACKNOWLEDGED = "CACTUS: stopping in good order"
-KEPT = "stopped by the user, and what is finished is kept in {0}.work, where the same run goes on"
+KEPT = "stopped by the user, and what is finished is kept in {0}.work: Write, or the same script, goes on with it"
 
 
 def wait_for_processes_with(argument):
