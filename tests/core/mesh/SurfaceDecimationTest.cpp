@@ -111,7 +111,7 @@ TEST(SurfaceDecimation, FlipsFlatTriangles)
 }
 
 /// Depth in a tube that winds about the z axis, with a period of 9 µm.
-double windingDepth(const Eigen::Vector3d& p)
+double depthInWindingTube(const Eigen::Vector3d& p)
 {
   const double turn = 2.0 * pi * p.z() / 9.0;
   return 0.6 - std::hypot(p.x() - 0.2 * std::cos(turn), p.y() - 0.2 * std::sin(turn));
@@ -130,12 +130,12 @@ TEST(SurfaceDecimation, LongSurfacesCostAsManyTrianglesPerLengthAsShortOnes)
       lattice.planes[2].push_back(0.1 * k);
     }
     const auto field = [&](int i, int j, int k) {
-      return windingDepth({ lattice.planes[0][std::size_t(i)], lattice.planes[1][std::size_t(j)], 0.1 * k });
+      return depthInWindingTube({ lattice.planes[0][std::size_t(i)], lattice.planes[1][std::size_t(j)], 0.1 * k });
     };
     CappedSurface surface = contour(lattice, allBlocks(lattice), sampled(field));
     const double volume = checkSurface(surface.mesh).volume;
     SurfaceDecimationOptions options;
-    options.field = windingDepth;
+    options.field = depthInWindingTube;
     decimate(surface, options);
     const SurfaceReport report = checkSurface(surface.mesh);
     EXPECT_TRUE(report.closedManifold() && report.outward());
@@ -144,7 +144,7 @@ TEST(SurfaceDecimation, LongSurfacesCostAsManyTrianglesPerLengthAsShortOnes)
     {
       const auto corner = [&](std::size_t i) -> const Eigen::Vector3d& { return surface.mesh.points[std::size_t(t[i])]; };
       const Eigen::Vector3d centroid = (corner(0) + corner(1) + corner(2)) / 3.0;
-      EXPECT_TRUE(surface.isCap(t) || std::abs(windingDepth(centroid)) <= 1.001 * options.maximumError);
+      EXPECT_TRUE(surface.isCap(t) || std::abs(depthInWindingTube(centroid)) <= 1.001 * options.maximumError);
     }
     triangles.push_back(double(report.triangles));
   }
