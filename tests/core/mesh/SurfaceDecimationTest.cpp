@@ -129,9 +129,7 @@ TEST(SurfaceDecimation, LongSurfacesCostAsManyTrianglesPerLengthAsShortOnes)
     {
       lattice.planes[2].push_back(0.1 * k);
     }
-    const auto field = [&](int i, int j, int k) {
-      return depthInWindingTube({ lattice.planes[0][std::size_t(i)], lattice.planes[1][std::size_t(j)], 0.1 * k });
-    };
+    const auto field = [](int i, int j, int k) { return depthInWindingTube(0.1 * Eigen::Vector3d(i - 9.5, j - 9.5, k)); };
     CappedSurface surface = contour(lattice, allBlocks(lattice), sampled(field));
     const double volume = checkSurface(surface.mesh).volume;
     SurfaceDecimationOptions options;
