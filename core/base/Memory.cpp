@@ -137,8 +137,10 @@ void keepFreedMemory()
   constexpr int largestBlock = 32 << 20;
   mallopt(M_MMAP_THRESHOLD, largestBlock);
   mallopt(M_TRIM_THRESHOLD, 2 * largestBlock);
-  // A thread's memory comes in heaps of this size, each of which would be given back as soon as nothing is in it.
-  mallopt(M_TOP_PAD, 2 * largestBlock);
+  // A thread's memory comes in heaps of 64 MB, each of which would be given back as soon as nothing is in it. But so much is
+  // asked for each time, too, which is refused where addresses are short.
+  constexpr int usualPad = 128 << 10;
+  mallopt(M_TOP_PAD, availableAddressSpace() == unlimited ? 2 * largestBlock : usualPad);
 #endif
 }
 
