@@ -250,6 +250,7 @@ ProducedSubstrate produceSubstrate(
       spool->remove();
     }
   };
+  const auto isWorkKept = [&] { return spool != nullptr && sharing.isFirst() && !spool->isEmpty(); };
   try
   {
     sharing.together(produce);
@@ -266,17 +267,17 @@ ProducedSubstrate produceSubstrate(
   }
   catch (const Cancelled&)
   {
-    if (spool == nullptr || !sharing.isFirst() || spool->isEmpty())
+    if (isWorkKept())
     {
-      removeWork();
-      throw;
+      throw Cancelled(
+        "stopped by the user, and what is finished is kept in " + work + ": Write, or the same script, goes on with it");
     }
-    throw Cancelled(
-      "stopped by the user, and what is finished is kept in " + work + ": Write, or the same script, goes on with it");
+    removeWork();
+    throw;
   }
   catch (...)
   {
-    if (spool != nullptr && sharing.isFirst() && spool->isEmpty())
+    if (!isWorkKept())
     {
       removeWork();
     }

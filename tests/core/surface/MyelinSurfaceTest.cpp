@@ -95,17 +95,40 @@ TEST(FibreMesher, OuterSurfacesLieAsMuchDeeperAsWanted)
   }
 }
 
-TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
+/// A StraightFibre and its outer surface, coarsened so little that there are points on its wall to move.
+struct FineSurface
 {
   const StraightFibre fibre;
-  MyelinSurfaceOptions surfaceOptions;
-  surfaceOptions.decimationError = 0.0005; // so that there are points to push
-  const FibreMesher mesher(fibre.source(), fibre.facts, surfaceOptions);
-  const SmoothedField field = mesher.smoothed(1);
+  MyelinSurfaceOptions options;
+  const FibreMesher mesher;
+  const SmoothedField field;
   FibreSurfacePair pair;
-  pair.fibreId = 1;
-  pair.targetGRatio = 0.7;
-  mesher.makeOuter(field, pair);
+
+  FineSurface()
+    : options(fineOptions())
+    , mesher(fibre.source(), fibre.facts, options)
+    , field(mesher.smoothed(1))
+  {
+    pair.fibreId = 1;
+    pair.targetGRatio = 0.7;
+    mesher.makeOuter(field, pair);
+  }
+
+private:
+  static MyelinSurfaceOptions fineOptions()
+  {
+    MyelinSurfaceOptions fine;
+    fine.decimationError = 0.0005;
+    return fine;
+  }
+};
+
+TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
+{
+  FineSurface fine;
+  const FibreMesher& mesher = fine.mesher;
+  const SmoothedField& field = fine.field;
+  FibreSurfacePair& pair = fine.pair;
   mesher.makeInner(field, pair);
   EXPECT_EQ(pair.state, MyelinState::AsAsked);
   const double volume = pair.innerReport.volume;
@@ -127,15 +150,10 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
 
 TEST(FibreMesher, AnInnerSurfaceStaysWhereTheOuterOneIsMovedALittle)
 {
-  const StraightFibre fibre;
-  MyelinSurfaceOptions surfaceOptions;
-  surfaceOptions.decimationError = 0.0005; // so that there are points to push
-  const FibreMesher mesher(fibre.source(), fibre.facts, surfaceOptions);
-  const SmoothedField field = mesher.smoothed(1);
-  FibreSurfacePair made;
-  made.fibreId = 1;
-  made.targetGRatio = 0.7;
-  mesher.makeOuter(field, made);
+  FineSurface fine;
+  const FibreMesher& mesher = fine.mesher;
+  const SmoothedField& field = fine.field;
+  FibreSurfacePair& made = fine.pair;
   made.volumeAsMade = made.outerReport.volume;
   mesher.makeInner(field, made);
   ASSERT_EQ(made.state, MyelinState::AsAsked);
@@ -179,13 +197,9 @@ TEST(FibreMesher, AnInnerSurfaceStaysWhereTheOuterOneIsMovedALittle)
 
 TEST(FibreMesher, SplitsNeedlesThatMovingHasMade)
 {
-  const StraightFibre fibre;
-  MyelinSurfaceOptions surfaceOptions;
-  surfaceOptions.decimationError = 0.0005; // so that there are points between the caps
-  const FibreMesher mesher(fibre.source(), fibre.facts, surfaceOptions);
-  FibreSurfacePair pair;
-  pair.fibreId = 1;
-  mesher.makeOuter(mesher.smoothed(1), pair);
+  FineSurface fine;
+  const FibreMesher& mesher = fine.mesher;
+  FibreSurfacePair& pair = fine.pair;
   // A point away from the caps comes to lie next to another one.
   const auto isInside = [&](std::int32_t p) { return std::abs(pair.outer.points[std::size_t(p)].z()) < 0.5; };
   const auto found = std::find_if(pair.outer.triangles.begin(), pair.outer.triangles.end(),
