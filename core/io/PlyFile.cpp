@@ -3,11 +3,13 @@
 
 #include "base/ByteOrder.h"
 #include "base/Error.h"
+#include "mesh/CappedSurface.h"
 
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
+#include <utility>
 
 namespace cactus
 {
@@ -101,16 +103,15 @@ std::string plyText(const TriangleMesh& mesh, const std::string& comment, PlyEnc
 
 TriangleMesh asWritten(TriangleMesh mesh, PlyEncoding encoding)
 {
+  if (encoding == PlyEncoding::Binary)
+  {
+    return inSinglePrecision(std::move(mesh));
+  }
   char number[longestNumber];
   for (Eigen::Vector3d& point : mesh.points)
   {
     for (double& coordinate : point)
     {
-      if (encoding == PlyEncoding::Binary)
-      {
-        coordinate = static_cast<float>(coordinate);
-        continue;
-      }
       std::from_chars(number, writeCoordinate(number, coordinate), coordinate);
     }
   }

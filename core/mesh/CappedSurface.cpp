@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/CappedSurface.h"
 
+#include "base/SinglePrecision.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -13,6 +15,11 @@ namespace
 {
 
 using Eigen::Vector3d;
+
+Vector3d rounded(const Vector3d& point)
+{
+  return { inSinglePrecision(point[0]), inSinglePrecision(point[1]), inSinglePrecision(point[2]) };
+}
 
 /// Per point the sum of twice the area normals of its triangles, without caps; in a face of the box only the part along that
 /// face, so that points move in it.
@@ -60,6 +67,34 @@ std::vector<std::uint8_t> facesOf(const TriangleMesh& mesh, const Eigen::Aligned
     }
   }
   return faces;
+}
+
+void roundPoints(TriangleMesh& mesh, const Eigen::AlignedBox3d& box)
+{
+  for (Vector3d& point : mesh.points)
+  {
+    Vector3d place = rounded(point);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      const bool isOnFace = point[axis] == box.min()[axis] || point[axis] == box.max()[axis];
+      place[axis] = isOnFace ? point[axis] : place[axis];
+    }
+    point = keptInside(box, point, place, 0.0);
+  }
+}
+
+TriangleMesh inSinglePrecision(TriangleMesh mesh)
+{
+  for (Vector3d& point : mesh.points)
+  {
+    point = rounded(point);
+  }
+  return mesh;
+}
+
+bool isInSinglePrecision(const TriangleMesh& mesh)
+{
+  return std::all_of(mesh.points.begin(), mesh.points.end(), [](const Vector3d& point) { return point == rounded(point); });
 }
 
 void dropUnusedPoints(TriangleMesh& mesh, std::vector<std::uint8_t>* faces)

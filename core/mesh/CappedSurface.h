@@ -38,6 +38,17 @@ inline Eigen::Vector3d keptInside(
   return box.isEmpty() ? to : Eigen::Vector3d(to.cwiseMax(lower).cwiseMin(upper));
 }
 
+/// A mesh as files hold it (see io/PlyFile.h), its points rounded to single precision, by which a needle may turn over; and
+/// whether one is the same there.
+TriangleMesh inSinglePrecision(TriangleMesh mesh);
+bool isInSinglePrecision(const TriangleMesh& mesh);
+/// µm that a distance may lose by that.
+constexpr double lostInFiles = 5e-5;
+
+/// Rounds points to single precision, so that what is found of the surface holds for files, too. Points on a face of the box stay
+/// on it, whatever its coordinate, and none leaves the box.
+void roundPoints(TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
+
 /// Removes points that no triangle has, and of `faces`, where given, what is said of them. The others keep their order.
 void dropUnusedPoints(TriangleMesh& mesh, std::vector<std::uint8_t>* faces);
 

@@ -26,13 +26,12 @@ namespace
 
 using Eigen::Vector3d;
 
-/// µm that a pair is moved farther apart than it has to be: rounding, and corners that move askew, take some of it back.
+/// µm that a pair is moved farther apart than it has to be: rounding, and corners that move askew, take some of it back. More than
+/// lostInFiles.
 constexpr double extraDistance = 0.0002;
 /// Surfaces that meet are moved as if they had to keep this distance (µm), or the gap if that is larger: they have to get out of
 /// each other first.
 constexpr double distanceAfterMeeting = 0.005;
-/// µm that a distance may lose where points are written in single precision; extraDistance is more.
-constexpr double rounding = 5e-5;
 /// Most pairs take one or two; corners whose normals point askew, as on a face that cuts a fibre at a small angle, get apart
 /// slowly.
 constexpr int rounds = 48;
@@ -563,7 +562,7 @@ SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& 
   {
     return report;
   }
-  Spacing spacing(surfaces, changed, smallest + rounding, box, context, sharing);
+  Spacing spacing(surfaces, changed, smallest + lostInFiles, box, context, sharing);
   std::set<std::size_t> moved;
   // Most of the work is the first look at all surfaces.
   const double half = 0.5 * (from + to);

@@ -21,19 +21,19 @@ FibreContours::FibreContours(const FibreField& field, double inset, double nudge
 
 CappedSurface FibreContours::contourAt(double inset, const SmoothedField& field, double level) const
 {
+  const NodeLattice& lattice = inset > 0.0 ? this->InnerLattice : this->OuterLattice;
   if (this->Filters != nullptr)
   {
     if (field.blocks().empty())
     {
       return {};
     }
-    const Domain& box = this->Field.box();
-    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(inset);
+    const auto& [x, y, z] = lattice.planes;
     return this->Filters->contour(fibreImage(this->Field, field.fibre(), field.blocks(), level, inset), level,
-      Eigen::AlignedBox3d(box.lower + margin, box.upper - margin));
+      Eigen::AlignedBox3d(Eigen::Vector3d(x.front(), y.front(), z.front()), Eigen::Vector3d(x.back(), y.back(), z.back())));
   }
-  return contour(inset > 0.0 ? this->InnerLattice : this->OuterLattice, field.blocks(),
-    [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
+  return contour(
+    lattice, field.blocks(), [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
 }
 
 CappedSurface FibreContours::outerAt(const SmoothedField& field, double level, double& dropped) const

@@ -2,6 +2,7 @@
 #include "surface/FibreField.h"
 
 #include "base/Error.h"
+#include "base/SinglePrecision.h"
 #include "surface/SmoothingKernels.h"
 
 #include <algorithm>
@@ -128,18 +129,19 @@ NodeLattice FibreField::lattice(double inset) const
   {
     throw InvalidInput("the inset of caps must lie between 0 and a quarter of a voxel");
   }
+  const auto moved = [&](double face, double by) { return inset > 0.0 ? inSinglePrecision(face + by) : face; };
   NodeLattice lattice;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto a = Eigen::Index(axis);
     auto& planes = lattice.planes[axis];
     planes.reserve(std::size_t(this->Samples.count[axis]) + 2);
-    planes.push_back(this->Box.lower[a] + inset);
+    planes.push_back(moved(this->Box.lower[a], inset));
     for (int i = 0; i < this->Samples.count[axis]; ++i)
     {
       planes.push_back(grid.origin[a] + grid.spacing * (this->Samples.first[axis] + i));
     }
-    planes.push_back(this->Box.upper[a] - inset);
+    planes.push_back(moved(this->Box.upper[a], -inset));
   }
   return lattice;
 }

@@ -30,8 +30,6 @@ constexpr double smallestInset = 0.05;
 constexpr double leastRoom = 0.01;
 /// Part of its volume by which an outer surface may change where it is kept apart from others, for the inner one to stay.
 constexpr double negligibleChange = 2e-4;
-/// µm that a distance may lose where points are written in single precision.
-constexpr double rounding = 5e-5;
 
 /// Least distance of the field from its level at a sample, µm.
 double nudgeFor(double spacing, double tolerance)
@@ -74,7 +72,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Finishing(options.decimationError, options.minimumAngle, Spacing, filters)
   , Withdrawal(0.5 * std::max(0.0, leastRoom - image->gap()))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
-  , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + rounding)
+  , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + lostInFiles)
 {
   if (options.smoothingIterations > 0)
   {

@@ -33,13 +33,24 @@ Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
   return (mesh.points[std::size_t(t[0])] + mesh.points[std::size_t(t[1])] + mesh.points[std::size_t(t[2])]) / 3.0;
 }
 
-std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree& tree)
+void addPlacesThatMeet(const TriangleMesh& mesh, const TriangleTree& tree, std::vector<Eigen::Vector3d>& places)
 {
-  std::vector<Eigen::Vector3d> places;
   for (const auto& pair : selfIntersections(tree))
   {
     places.push_back(centreOf(mesh, pair.first));
     places.push_back(centreOf(mesh, pair.second));
+  }
+}
+
+/// In memory or in a file: faces of the box need not be where single precision has a number.
+std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree& tree)
+{
+  std::vector<Eigen::Vector3d> places;
+  addPlacesThatMeet(mesh, tree, places);
+  if (!isInSinglePrecision(mesh))
+  {
+    const TriangleMesh written = inSinglePrecision(mesh);
+    addPlacesThatMeet(written, TriangleTree(written), places);
   }
   return places;
 }
@@ -108,6 +119,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
   if (this->Filters != nullptr)
   {
     this->Filters->finish(surface);
+    roundPoints(surface.mesh, surface.box);
     report = checkSurface(surface.mesh);
     change.largestMove = this->largestMove(field, surface, target.level);
     return true;
@@ -121,6 +133,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
     }
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
+  roundPoints(surface.mesh, surface.box);
   report = keepSoundPieces(surface.mesh, change.droppedVolume);
   surface.faces.clear(); // they count the points of before
   return placesThatMeet(surface.mesh, target, change).empty();
@@ -132,6 +145,7 @@ void SurfaceFinishing::finishMoved(CappedSurface& surface) const
   {
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
+  roundPoints(surface.mesh, surface.box);
 }
 
 /// Leaves the surface as it is, and returns false, if it cannot be coarsened.
@@ -158,6 +172,7 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
     this->reshape(trial, decimation);
     moveToVolume(trial, target.volume, this->DecimationError);
     splitNeedles(trial, largestSquaredEdgeRatio);
+    roundPoints(trial.mesh, trial.box);
     report = checkSurface(trial.mesh);
     const std::vector<Eigen::Vector3d> places = placesThatMeet(trial.mesh, target, change);
     if (places.empty() && report.degenerateTriangles == 0 && report.sound())

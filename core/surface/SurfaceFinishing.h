@@ -12,7 +12,7 @@
 namespace cactus
 {
 
-/// Where a coarsened surface must not stay as it is, since it cuts or touches itself.
+/// Where a coarsened surface must not stay as it is, since it cuts or touches itself, or would in a file, in single precision.
 std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh);
 
 /// Bounds for coarsening a surface once more of which something was wrong at some places, for the first time (attempt 0) or
@@ -29,7 +29,8 @@ struct SurfaceTarget
   std::vector<LocalErrorBound> bounds;     ///< where it is coarsened less
 };
 
-/// Makes surfaces to be kept out of contours of fields. May be used from several threads.
+/// Makes surfaces to be kept out of contours of fields, with points in single precision, as files hold them. May be used from
+/// several threads.
 class SurfaceFinishing
 {
 public:
@@ -44,7 +45,7 @@ public:
   bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
     SurfaceChange& change) const;
 
-  /// Sees to it that moving has left no needles in a coarsened surface.
+  /// Sees to it that moving has left no needles in a coarsened surface, and points in single precision.
   void finishMoved(CappedSurface& surface) const;
 
 private:

@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "28a39c07d95ed6fb73271b078c5f9af781be952a5fe3ceff5c099eb3ebc28dbd",
-           "c12664864c4501e04ca2b1f5ed3e1251eac81dbde890fb1b4589c7dda8abe4c5" },
-         Known{ 20, "fb03d46a7e4fb841744f5e2e4a94c596f4e0a39584925c8342675b87792302eb",
-           "173ebf51433d536c954b701825d7e979189c06e9080a1fecc567afd67f0647dc" },
-         Known{ 38, "fa912dc9e5bdd72e661a59dd405b95e4639b0d828cf1bb213fd49d6ec7c1632e",
-           "8f5352c7e4a31bc588cf6e386e3f3474a2de03e1b492e3514d61d52c292ad34f" },
+         Known{ 1, "92dd5ef75123dccb5dd69ef939f0b3c135159d5d3c05e22df103c42705ed6bd8",
+           "962023fdb7b263359e946e2fbc8e458ec64cd4b3d8e2c25fabbe4824b37b7e4b" },
+         Known{ 20, "c8c9b397ad65b47f14b8f5f90d3457c4fe6add93a0499917c78271d1ac417fde",
+           "eb48a49ef2131e37d9173689dd0b1d8d12e4c5492c808cfb677c0e811e883d1e" },
+         Known{ 38, "ea3a8c980d14897ce49af62d6d31109335f6673466533fcd30b8e249fa83f005",
+           "d7cfc7986f88c3e0fce705e427fa7ad6698639478dca86527e06b20ebaf736fc" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

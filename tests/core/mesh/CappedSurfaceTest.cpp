@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantees: a surface is moved to just the volume asked for, by no more than allowed, and its caps stay in their faces.
-// What is coarsened or moved beside a face of the box stays in the box.
+// What is coarsened, moved or rounded beside a face of the box stays in the box.
 #include "mesh/CappedSurface.h"
 #include "base/Constants.h"
 #include "mesh/ExampleContours.h"
@@ -81,6 +81,56 @@ TEST(CappedSurface, StaysInTheBoxWhereItGrazesAFace)
       const double fromFace = 1.0 - surface.mesh.points[p][0];
       EXPECT_TRUE(surface.faces[p] != 0 ? fromFace == 0.0 : fromFace > 0.0) << x << ": " << fromFace;
     }
+  }
+}
+
+// Faces need not be where single precision has a number.
+TEST(CappedSurface, IsRoundedToWhatFilesHold)
+{
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-0.1, 0.3, 0.0), Eigen::Vector3d(22.3, 22.7, 16.0));
+  ASSERT_LT(double(-0.1F), -0.1) << "rounding leaves the box";
+  TriangleMesh mesh;
+  mesh.points = { { -0.1, 0.3, 0.0 }, { 22.3, 22.7, 16.0 }, { std::nextafter(-0.1, 1.0), 1.0 / 3.0, 1e-9 / 3.0 },
+    { 22.3, 8.5, 16.0 / 3.0 }, { -0.3, 23.1, 16.1 } };
+  TriangleMesh rounded = mesh;
+  roundPoints(rounded, box);
+  EXPECT_EQ(rounded.points[0], mesh.points[0]);
+  EXPECT_EQ(rounded.points[1], mesh.points[1]);
+  EXPECT_EQ(rounded.points[2], Eigen::Vector3d(-0.1, double(1.0F / 3.0F), double(float(1e-9 / 3.0))));
+  EXPECT_EQ(rounded.points[3], Eigen::Vector3d(22.3, 8.5, double(16.0F / 3.0F)));
+  EXPECT_FALSE(isInSinglePrecision(rounded)) << "faces of the box";
+  // Without a box, and beyond it, as where surfaces are not clipped.
+  TriangleMesh free = mesh;
+  roundPoints(free, {});
+  EXPECT_TRUE(isInSinglePrecision(free));
+  EXPECT_EQ(free.points[4], Eigen::Vector3d(double(-0.3F), double(23.1F), double(16.1F)));
+  EXPECT_EQ(inSinglePrecision(mesh).points, free.points);
+}
+
+// Each coordinate, of meshes of any number of points: a compiler may leave out some of a vector's.
+TEST(CappedSurface, IsRoundedWhateverItsSize)
+{
+  for (int count = 1; count < 20; ++count)
+  {
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i)
+    {
+      mesh.points.emplace_back((i + 1) / 23.0, -(i + 1) / 29.0, (i + 1) / 31.0);
+    }
+    TriangleMesh moved = mesh;
+    roundPoints(moved, {});
+    const TriangleMesh written = inSinglePrecision(mesh);
+    EXPECT_EQ(written.points, moved.points);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    {
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_NE(written.points[i][axis], mesh.points[i][axis]) << count;
+        EXPECT_EQ(float(written.points[i][axis]), float(mesh.points[i][axis])) << count;
+      }
+    }
+    EXPECT_TRUE(isInSinglePrecision(written));
+    EXPECT_FALSE(isInSinglePrecision(mesh));
   }
 }
 

@@ -17,6 +17,7 @@
 #include "surface/FibreMesher.h"
 #include "surface/GRatio.h"
 #include "surface/MeetingFibres.h"
+#include "surface/SurfaceFinishing.h"
 #include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
 
@@ -287,10 +288,10 @@ struct TightBundle
   Fibres fibres;
   double by = 0.0;
 
-  TightBundle()
+  explicit TightBundle(double side = 8.0)
   {
     BundleInitializerOptions bundle;
-    bundle.side = 8.0;
+    bundle.side = side;
     bundle.meanDispersion = 10.0;
     fibres = initialiseBundles(bundle);
     optimise(fibres, {}, {});
@@ -316,6 +317,42 @@ TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
       EXPECT_FALSE(smallestGap(tree, other, 0.06).found()) << pairs[i].fibreId << ", " << pairs[j].fibreId;
     }
   }
+}
+
+// Files are in single precision, and nothing of what is found here may be otherwise there; some of these are moved.
+TEST(MyelinSurfaces, AreWhatFilesHold)
+{
+  const TightBundle bundle(6.3);
+  const double face = bundle.fibres.domain.upper[0];
+  ASSERT_NE(double(float(face)), face);
+  for (const FibreSurfacePair& pair : surfacesOf(bundle.fibres, bundle.growth, bundle.by, bundle.growth.minimumGap + 0.002))
+  {
+    for (const TriangleMesh* mesh : { &pair.outer, &pair.inner })
+    {
+      for (const Eigen::Vector3d& p : mesh->points)
+      {
+        for (const double x : p)
+        {
+          EXPECT_TRUE(x == double(float(x)) || std::abs(x) == face) << pair.fibreId << ": " << x;
+        }
+      }
+      const TriangleMesh written = inSinglePrecision(*mesh);
+      EXPECT_TRUE(selfIntersections(TriangleTree(written)).empty()) << pair.fibreId;
+      EXPECT_TRUE(checkSurface(written).sound()) << pair.fibreId;
+    }
+  }
+}
+
+// A lid so flat that single precision has it in one plane with what it lies on.
+TEST(SurfaceFinishing, FindsWhatMeetsInAFileAlone)
+{
+  TriangleMesh mesh;
+  mesh.points = { { 10.0, 10.0, 10.0 }, { 12.0, 10.0, 10.0 }, { 10.0, 12.0, 10.0 }, { 10.5, 10.5, 10.0 + 1e-9 } };
+  mesh.triangles = { { { 0, 2, 1 } }, { { 0, 1, 3 } }, { { 1, 2, 3 } }, { { 2, 0, 3 } } };
+  ASSERT_TRUE(selfIntersections(TriangleTree(mesh)).empty());
+  EXPECT_FALSE(placesThatMeet(mesh).empty());
+  mesh.points[3][2] = 11.0;
+  EXPECT_TRUE(placesThatMeet(mesh).empty());
 }
 
 // Whether an inner surface was made before the outer one was moved, and stayed, or is made later, as by a filter for other
