@@ -104,7 +104,10 @@ void FibreMesher::makeOuter(
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
   const double highest = this->Withdrawal + deeper;
   double level = highest - usualPart * furthest;
+  pair.outer = TriangleMesh(); // of an attempt before
+  pair.outerReport = SurfaceReport();
   pair.outerChange = SurfaceChange();
+  pair.state = MyelinState::NoFibre;
   CappedSurface surface = this->Contours.outerAt(field, level, pair.outerChange.droppedVolume);
   if (surface.mesh.triangles.empty())
   {

@@ -96,6 +96,23 @@ TEST(FibreMesher, OuterSurfacesLieAsMuchDeeperAsWanted)
   }
 }
 
+// As where a sliver of a fibre that met itself when it was moved is made again, deeper.
+TEST(FibreMesher, NothingStaysOfAnOuterSurfaceWhereThereIsNoneSoDeep)
+{
+  const StraightFibre fibre;
+  const MyelinSurfaceOptions options;
+  const FibreMesher mesher(fibre.source(), fibre.facts, options);
+  const SmoothedField field = mesher.smoothed(1);
+  FibreSurfacePair pair;
+  pair.fibreId = 1;
+  mesher.makeOuter(field, pair);
+  ASSERT_EQ(pair.state, MyelinState::NoAxon);
+  mesher.makeOuter(field, pair, {}, 0.7);
+  EXPECT_EQ(pair.state, MyelinState::NoFibre);
+  EXPECT_TRUE(pair.outer.triangles.empty());
+  EXPECT_EQ(pair.outerReport.triangles, 0u);
+}
+
 /// A StraightFibre and its outer surface, coarsened so little that there are points on its wall to move.
 struct FineSurface
 {
