@@ -223,7 +223,8 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   {
     whole = whole.joined(piece.range);
   }
-  const NodeRange beside = besideIn(whole, insideOf(buffer, range, whole.widened(reach).within(range)));
+  // A box around all that is inside may be wider than what is known to be right.
+  const NodeRange beside = besideIn(whole, insideOf(buffer, range, whole.widened(reach).within(range))).within(atMost);
   copyPieces(buffer, range, beside, near, &BlockPlace::unsmoothed);
   const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
   // Each pass leaves one node less on every side: values at the rim become wrong, and are not used. Strides stay.

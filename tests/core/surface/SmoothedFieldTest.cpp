@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: two smoothed fields sum to at most -gap everywhere on the grid, where thin fibres are spared, too; a field is the
-// same whichever blocks are asked for; what is no label image is refused.
+// Guarantees: a smoothed field is what smoothing every node gives, however many passes, or far outside away from the fibre; two
+// sum to at most -gap everywhere on the grid, where thin fibres are spared, too; a field is the same whichever blocks are asked
+// for; what is no label image is refused.
 #include "surface/SmoothedField.h"
+#include "mesh/Isosurface.h"
+#include "mesh/SurfaceCheck.h"
 #include "surface/FibreSurvey.h"
 #include "surface/MeetingFibres.h"
 #include "surface/NearBlocks.h"
@@ -9,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 namespace
 {
@@ -169,6 +173,107 @@ TEST(SmoothedField, InterpolatesTheSamples)
     }
   }
   EXPECT_GT(inside, 1000);
+}
+
+/// A field at the nodes of a lattice and `beyond` more on every side, smoothed there node by node.
+struct SmoothedByHand
+{
+  NodeRange range;
+  std::vector<float> before;
+  std::vector<double> after; ///< right but for as many nodes at the rim as there are passes
+
+  SmoothedByHand(const FibreField& field, int passes, int beyond)
+  {
+    const NodeLattice lattice = field.lattice();
+    range = NodeRange{ {}, { { lattice.nodes(0), lattice.nodes(1), lattice.nodes(2) } } }.widened(beyond);
+    before.resize(range.size());
+    LabelBuffer buffer;
+    field.atNodes(1, range, field.samplesFor(range, buffer), before.data());
+    after.assign(before.begin(), before.end());
+    for (int pass = 0; pass < passes; ++pass)
+    {
+      for (const std::ptrdiff_t step : { range.index(range.first[0] + 1, range.first[1], range.first[2]),
+             range.index(range.first[0], range.first[1] + 1, range.first[2]),
+             range.index(range.first[0], range.first[1], range.first[2] + 1) })
+      {
+        const std::vector<double> from = after;
+        for (std::ptrdiff_t n = step; n + step < std::ptrdiff_t(from.size()); ++n)
+        {
+          after[std::size_t(n)] = 0.25 * (from[std::size_t(n - step)] + 2.0 * from[std::size_t(n)] + from[std::size_t(n + step)]);
+        }
+      }
+    }
+  }
+  bool isInsideNear(int i, int j, int k, int nodes) const
+  {
+    for (int z = k - nodes; z <= k + nodes; ++z)
+    {
+      for (int y = j - nodes; y <= j + nodes; ++y)
+      {
+        for (int x = i - nodes; x <= i + nodes; ++x)
+        {
+          if (before[std::size_t(range.index(x, y, z))] > 0.0f)
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+};
+
+/// A thin fibre that bends on its way through a cube of 3 µm, and not along an axis of it.
+LabelImage bentFibre(std::uint32_t seed, const FibreRadialGrowthOptions& options)
+{
+  std::mt19937 numbers(seed);
+  const auto at = [&] { return 2.4 * (double(numbers()) / std::mt19937::max() - 0.5); };
+  Fibres fibres;
+  fibres.domain = Domain::cube(3.0);
+  fibres.addFibre(1, 1, 0.15);
+  for (const double z : { -2.0, -1.0, 0.0, 1.0, 2.0 })
+  {
+    const double x = at();
+    fibres.addPoint({ x, at(), z }, 0.15);
+  }
+  return growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
+}
+
+TEST(SmoothedField, IsWhatSmoothingEveryNodeGives)
+{
+  FibreRadialGrowthOptions options;
+  options.voxelSize = 0.06;
+  for (const std::uint32_t seed : { 1, 32, 63, 98 })
+  {
+    const LabelImage image = bentFibre(seed, options);
+    const FibreField field({ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, Domain::cube(3.0), true);
+    const FoundFibre found = findFibres(field).at(1);
+    for (const int passes : { 1, 3, 4, 5, 9, 20 })
+    {
+      const SmoothedField smoothed(field, 1, blocksNear(field, found, passes), passes);
+      const SmoothedByHand all(field, passes, passes + 4);
+      int wrong = 0;
+      for (const std::uint32_t block : smoothed.blocks())
+      {
+        const NodeRange range = nodesOfBlock(smoothed.lattice(), block).widened(1);
+        const std::vector<float> values = valuesAt(smoothed, block);
+        for (int n = 0; n < int(values.size()); ++n)
+        {
+          const int i = range.first[0] + n % range.count[0];
+          const int j = range.first[1] + n / range.count[0] % range.count[1];
+          const int k = range.first[2] + n / range.count[0] / range.count[1];
+          const float value = values[std::size_t(n)];
+          const bool isRight = std::abs(value - all.after[std::size_t(all.range.index(i, j, k))]) < 1e-5;
+          wrong += !isRight && (value > -1e5f || all.isInsideNear(i, j, k, 2)) ? 1 : 0;
+        }
+      }
+      EXPECT_EQ(wrong, 0) << "seed " << seed << ", passes " << passes;
+      const CappedSurface surface = contour(smoothed.lattice(), smoothed.blocks(),
+        [&](const NodeRange& around, float* out) { smoothed.values(-0.02, 1e-4, around, out); });
+      EXPECT_TRUE(surface.mesh.triangles.empty() || checkSurface(surface.mesh).closedManifold())
+        << "seed " << seed << ", passes " << passes;
+    }
+  }
 }
 
 } // namespace
