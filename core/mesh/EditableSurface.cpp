@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <stdexcept>
 #include <utility>
 
 namespace cactus
@@ -105,12 +106,14 @@ int EditableSurface::valence(std::int32_t point) const
 
 std::size_t EditableSurface::triangleAlong(std::int32_t from, std::int32_t to) const
 {
-  std::int32_t c = this->firstCorner(from);
-  while (this->cornersOf(std::size_t(c) / 3)[(std::size_t(c) % 3 + 1) % 3] != to)
+  for (std::int32_t c = this->firstCorner(from); c >= 0; c = this->nextCorner(c))
   {
-    c = this->nextCorner(c);
+    if (this->oppositeEdge(c)[0] == to)
+    {
+      return std::size_t(c) / 3;
+    }
   }
-  return std::size_t(c) / 3;
+  throw std::logic_error("a surface is open, so that it cannot be edited");
 }
 
 std::int32_t EditableSurface::thirdCorner(std::size_t triangle, std::int32_t a, std::int32_t b) const

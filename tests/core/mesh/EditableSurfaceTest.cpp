@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: collapses and flips of edges leave a closed, outward 2-manifold of the same topology.
+// Guarantee: collapses and flips of edges leave a closed, outward 2-manifold of the same topology; a surface that is not closed is
+// refused, not searched without end.
 #include "mesh/EditableSurface.h"
 #include "ExampleSurfaces.h"
 #include "mesh/SurfaceCheck.h"
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <stdexcept>
 
 namespace
 {
@@ -93,6 +95,16 @@ TEST(EditableSurface, FlippingTwiceTurnsAnEdgeBack)
   const SurfaceReport report = checkSurface(surface.mesh);
   EXPECT_TRUE(report.closedManifold() && report.outward());
   EXPECT_NEAR(report.volume, volume, 1e-12);
+}
+
+TEST(EditableSurface, SaysWhereASurfaceIsOpen)
+{
+  CappedSurface surface = tube();
+  const std::array<std::int32_t, 3> gone = surface.mesh.triangles.back();
+  surface.mesh.triangles.pop_back();
+  const EditableSurface mesh(surface);
+  EXPECT_NO_THROW(mesh.triangleAlong(gone[1], gone[0]));
+  EXPECT_THROW(mesh.triangleAlong(gone[0], gone[1]), std::logic_error);
 }
 
 } // namespace
