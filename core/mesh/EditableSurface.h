@@ -64,8 +64,8 @@ public:
   bool areLinked(std::int32_t u, std::int32_t v) const;
   /// How many triangles meet at a point.
   int valence(std::int32_t point) const;
-  /// The triangle that runs through an edge from `from` to `to`. Throws std::logic_error where there is none, as in a surface that
-  /// is not closed.
+  /// The triangle that runs through an edge from `from` to `to`. Throws std::logic_error where there is none, as in a surface
+  /// that is not closed.
   std::size_t triangleAlong(std::int32_t from, std::int32_t to) const;
   /// Whether an edge can be collapsed: the points next to both ends are just the two that the edge's triangles have beside it,
   /// and the surface is no tetrahedron.
