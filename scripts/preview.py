@@ -26,7 +26,8 @@ from picture import AXON, MYELIN, moved  # noqa: E402  (which is no room of scri
 
 AXES = "xyz"
 TUBE_SIDES = 8
-SAYS_OF_FORMAT = "the surfaces of a folder for {} are in one file, in metres: ParaView opens them as they are"
+IN_ONE_FILE = ("Camino", "Disimpy", "Surfaces by bundle")  # all surfaces of a kind, or of a bundle
+SAYS_OF_FORMAT = "the surfaces of a folder for {} are in one file: ParaView opens them as they are"
 
 
 def middle_of(manifest):
@@ -36,7 +37,7 @@ def middle_of(manifest):
 
 def surface_files(folder, manifest):
     """(entry of the manifest, path) of each surface that has a file of its own, in µm."""
-    if manifest.get("simulator") in ("Camino", "Disimpy"):
+    if manifest.get("simulator") in IN_ONE_FILE:
         raise Refusal(SAYS_OF_FORMAT.format(manifest["simulator"]))
     found = []
     for entry in manifest["files"]:

@@ -18,7 +18,7 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
-from preview import SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, surface_files, tubes
+from preview import IN_ONE_FILE, SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, surface_files, tubes
 from report_page import page
 from report_profiles import profiles
 from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
@@ -115,7 +115,7 @@ def drawn(folder, manifest, side, path):
 
 def picture(folder, manifest):
     """A cut and a view in three dimensions, as the data URI of a PNG; or None, and why."""
-    if manifest.get("simulator") in ("Camino", "Disimpy"):
+    if manifest.get("simulator") in IN_ONE_FILE:
         return None, f"No picture: {SAYS_OF_FORMAT.format(manifest['simulator'])}."
     domain = manifest["domain"]
     side = max(domain[2 * axis + 1] - domain[2 * axis] for axis in range(3))
@@ -157,7 +157,7 @@ def charts(manifest, fibres, lines):
 
 def profile_charts(folder, manifest, fibres, lines):
     """SVG texts of the diameters along some fibres, on the same axes, with room for the names above the curves."""
-    if lines is None or manifest.get("simulator") in ("Camino", "Disimpy"):
+    if lines is None or manifest.get("simulator") in IN_ONE_FILE:
         return []
     found = profiles(folder, manifest, fibres, lines)
     right = max([length for _, cuts in found for length, _, _ in cuts], default=1.0)

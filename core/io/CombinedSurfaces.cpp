@@ -19,22 +19,25 @@ namespace
 
 constexpr double metre = 1e-6; ///< of one µm
 
-/// Writes a file of a head and of what text(mesh, points before it) gives for each surface, in each of `passes` over them.
-void writeInPasses(const FibreSurfaces& surfaces, const std::string& path, const std::string& head, FolderWriter& writer,
-  const Context& context, const std::vector<std::function<std::string(const TriangleMesh&, std::size_t)>>& passes)
+/// What a file has of a surface, which has so many points before it.
+using SurfaceText = std::function<std::string(const TriangleMesh&, std::size_t)>;
+
+/// Writes a file of a head and of what text() gives for each surface, in each of `passes` over them, and returns its checksum.
+std::string writeInPasses(const FibreSurfaces& surfaces, const std::string& path, const std::string& head, PlyEncoding encoding,
+  const StagingFolder& folder, const Context& context, const std::vector<SurfaceText>& passes)
 {
-  writer.writeBy(path,
+  return folder.writeBy(path,
     [&](const std::string& place)
     {
       AtomicFile file(place);
       file.stream() << head;
-      for (const auto& text : passes)
+      for (const SurfaceText& text : passes)
       {
         std::size_t before = 0;
         for (std::size_t i = 0; i < surfaces.size(); ++i)
         {
           context.checkpoint();
-          const TriangleMesh mesh = asWritten(surfaces.mesh(i));
+          const TriangleMesh mesh = asWritten(surfaces.mesh(i), encoding);
           file.stream() << text(mesh, before);
           before += mesh.points.size();
         }
@@ -43,7 +46,20 @@ void writeInPasses(const FibreSurfaces& surfaces, const std::string& path, const
     });
 }
 
-std::string plyVertices(const TriangleMesh& mesh)
+/// Throws for more points than such a file can number.
+void requireNumbered(const SurfaceBox& box, const std::string& format)
+{
+  constexpr auto most = std::numeric_limits<std::int32_t>::max();
+  if (box.points > std::size_t(most))
+  {
+    throw InvalidInput("Format " + format + " has all surfaces in one file, which numbers " + std::to_string(most) +
+                       " points at most, and these have " + std::to_string(box.points) +
+                       ": write fewer fibres, or choose another Format");
+  }
+}
+
+/// In metres.
+std::string caminoVertices(const TriangleMesh& mesh)
 {
   constexpr int digits = 9;
   std::string text;
@@ -58,18 +74,10 @@ std::string plyVertices(const TriangleMesh& mesh)
   return text;
 }
 
-std::string plyFaces(const TriangleMesh& mesh, std::size_t before)
+std::string faceText(const TriangleMesh& mesh, PlyEncoding encoding, std::size_t before)
 {
   std::string text;
-  for (const auto& triangle : mesh.triangles)
-  {
-    text += '3';
-    for (const std::int32_t corner : triangle)
-    {
-      text += ' ' + std::to_string(before + std::size_t(corner));
-    }
-    text += '\n';
-  }
+  appendPlyFaces(text, mesh, encoding, before);
   return text;
 }
 
@@ -111,22 +119,37 @@ SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context)
 
 std::string caminoHead(const SurfaceBox& box)
 {
-  if (box.points > std::size_t(std::numeric_limits<std::int32_t>::max()))
-  {
-    throw InvalidInput("Format Camino has all surfaces in one file, which numbers " +
-                       std::to_string(std::numeric_limits<std::int32_t>::max()) + " points at most, and these have " +
-                       std::to_string(box.points) + ": write fewer fibres, or choose another Format");
-  }
-  return "ply\nformat ascii 1.0\ncomment closed surface\nelement vertex " + std::to_string(box.points) +
-         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(box.triangles) +
-         "\nproperty list uchar int vertex_indices\nend_header\n";
+  requireNumbered(box, "Camino");
+  return plyHead(box.points, box.triangles, "closed surface", PlyEncoding::Ascii);
 }
 
 void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context)
 {
-  writeInPasses(surfaces, kind + ".ply", caminoHead(surfaceBox(surfaces, context)), writer, context,
-    { [](const TriangleMesh& mesh, std::size_t) { return plyVertices(mesh); },
-      [](const TriangleMesh& mesh, std::size_t before) { return plyFaces(mesh, before); } });
+  const std::string path = kind + ".ply";
+  writer.remember(
+    path, writeInPasses(surfaces, path, caminoHead(surfaceBox(surfaces, context)), PlyEncoding::Ascii, writer.folder(), context,
+            { [](const TriangleMesh& mesh, std::size_t) { return caminoVertices(mesh); },
+              [](const TriangleMesh& mesh, std::size_t before) { return faceText(mesh, PlyEncoding::Ascii, before); } }));
+}
+
+std::string bundleHead(const SurfaceBox& box, const std::string& comment, PlyEncoding encoding)
+{
+  requireNumbered(box, "Surfaces by bundle");
+  return plyHead(box.points, box.triangles, comment, encoding);
+}
+
+std::string writeBundleSurfaces(const FibreSurfaces& surfaces, const std::string& path, const std::string& comment,
+  PlyEncoding encoding, const StagingFolder& folder, const Context& context)
+{
+  const auto vertices = [encoding](const TriangleMesh& mesh, std::size_t)
+  {
+    std::string text;
+    appendPlyVertices(text, mesh, encoding);
+    return text;
+  };
+  const auto faces = [encoding](const TriangleMesh& mesh, std::size_t before) { return faceText(mesh, encoding, before); };
+  return writeInPasses(
+    surfaces, path, bundleHead(surfaceBox(surfaces, context), comment, encoding), encoding, folder, context, { vertices, faces });
 }
 
 void writeDisimpySurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context)
@@ -156,8 +179,10 @@ void writeDisimpySurfaces(const FibreSurfaces& surfaces, const std::string& kind
     }
     return bytes;
   };
-  writeInPasses(surfaces, kind + "_vertices.npy", npyHead("<f8", box.points), writer, context, { vertices });
-  writeInPasses(surfaces, kind + "_faces.npy", npyHead("<i8", box.triangles), writer, context, { faces });
+  const auto write = [&](const std::string& path, const std::string& head, const SurfaceText& text)
+  { writer.remember(path, writeInPasses(surfaces, path, head, PlyEncoding::Ascii, writer.folder(), context, { text })); };
+  write(kind + "_vertices.npy", npyHead("<f8", box.points), vertices);
+  write(kind + "_faces.npy", npyHead("<i8", box.triangles), faces);
 }
 
 } // namespace cactus

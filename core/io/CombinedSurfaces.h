@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All surfaces of one kind in one file. Fibres are taken one after the other, so that no two meshes are held at once; each is
-// made once to be measured, and once or twice to be written.
+// All surfaces of one kind in one file, or those of a bundle. Fibres are taken one after the other, so that no two meshes are
+// held at once; each is made once to be measured, and once or twice to be written.
 #pragma once
 
 #include "base/Context.h"
 #include "io/FolderWriter.h"
+#include "io/PlyFile.h"
 #include "mesh/FibreSurfaces.h"
 
 #include <Eigen/Core>
@@ -34,6 +35,14 @@ std::string caminoHead(const SurfaceBox& box);
 /// `KIND.ply` for Camino: ASCII, metres, with the comment by which it tells inside from outside. Throws as caminoHead() does,
 /// FileError and Cancelled.
 void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context);
+
+/// What a file of a bundle's surfaces begins with. Throws as caminoHead() does.
+std::string bundleHead(const SurfaceBox& box, const std::string& comment, PlyEncoding encoding);
+
+/// One PLY file (µm) of surfaces, one after the other, as plyText() has one; returns its checksum. Throws as bundleHead() does,
+/// FileError and Cancelled.
+std::string writeBundleSurfaces(const FibreSurfaces& surfaces, const std::string& path, const std::string& comment,
+  PlyEncoding encoding, const StagingFolder& folder, const Context& context);
 
 /// `KIND_vertices.npy` (n × 3, float64, metres from the lower corner of the box around them, as Disimpy moves them) and
 /// `KIND_faces.npy` (m × 3, int64). Throws FileError and Cancelled.

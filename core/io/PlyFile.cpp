@@ -43,61 +43,65 @@ void requireComment(const std::string& comment)
   }
 }
 
-void appendAsText(std::string& text, const TriangleMesh& mesh)
+} // namespace
+
+std::string plyHead(std::size_t points, std::size_t triangles, const std::string& comment, PlyEncoding encoding)
 {
-  text.reserve(text.size() + 48 * mesh.points.size() + 26 * mesh.triangles.size());
+  requireComment(comment);
+  return std::string("ply\nformat ") + (encoding == PlyEncoding::Binary ? "binary_little_endian" : "ascii") + " 1.0\ncomment " +
+         comment + "\nelement vertex " + std::to_string(points) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(triangles) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+void appendPlyVertices(std::string& text, const TriangleMesh& mesh, PlyEncoding encoding)
+{
+  const bool isBinary = encoding == PlyEncoding::Binary;
+  text.reserve(text.size() + (isBinary ? 12 : 48) * mesh.points.size());
   char number[longestNumber];
   for (const Eigen::Vector3d& point : mesh.points)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
+      if (isBinary)
+      {
+        appendLittleEndian(text, static_cast<float>(point[axis]));
+        continue;
+      }
       text.append(number, writeCoordinate(number, point[axis]));
       text += axis < 2 ? ' ' : '\n';
     }
   }
-  for (const auto& triangle : mesh.triangles)
-  {
-    text += '3';
-    for (const std::int32_t corner : triangle)
-    {
-      text += ' ';
-      text.append(number, std::to_chars(number, number + sizeof(number), corner).ptr);
-    }
-    text += '\n';
-  }
 }
 
-void appendAsBytes(std::string& bytes, const TriangleMesh& mesh)
+void appendPlyFaces(std::string& text, const TriangleMesh& mesh, PlyEncoding encoding, std::size_t before)
 {
-  bytes.reserve(bytes.size() + 12 * mesh.points.size() + 13 * mesh.triangles.size());
-  for (const Eigen::Vector3d& point : mesh.points)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      appendLittleEndian(bytes, static_cast<float>(point[axis]));
-    }
-  }
+  const bool isBinary = encoding == PlyEncoding::Binary;
+  text.reserve(text.size() + (isBinary ? 13 : 26) * mesh.triangles.size());
+  char number[longestNumber];
   for (const auto& triangle : mesh.triangles)
   {
-    bytes += '\x03';
+    text += isBinary ? '\x03' : '3';
     for (const std::int32_t corner : triangle)
     {
-      appendLittleEndian(bytes, corner);
+      const auto place = static_cast<std::int32_t>(static_cast<std::int64_t>(before) + corner);
+      if (isBinary)
+      {
+        appendLittleEndian(text, place);
+        continue;
+      }
+      text += ' ';
+      text.append(number, std::to_chars(number, number + sizeof(number), place).ptr);
     }
+    text += isBinary ? "" : "\n";
   }
 }
-
-} // namespace
 
 std::string plyText(const TriangleMesh& mesh, const std::string& comment, PlyEncoding encoding)
 {
-  requireComment(comment);
-  const bool isBinary = encoding == PlyEncoding::Binary;
-  std::string text = std::string("ply\nformat ") + (isBinary ? "binary_little_endian" : "ascii") + " 1.0\ncomment " + comment +
-                     "\nelement vertex " + std::to_string(mesh.points.size()) +
-                     "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                     std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  isBinary ? appendAsBytes(text, mesh) : appendAsText(text, mesh);
+  std::string text = plyHead(mesh.points.size(), mesh.triangles.size(), comment, encoding);
+  appendPlyVertices(text, mesh, encoding);
+  appendPlyFaces(text, mesh, encoding);
   return text;
 }
 

@@ -22,6 +22,7 @@ double unitOf(SubstrateFormat format)
     return 1e-3;
   case SubstrateFormat::Reference:
   case SubstrateFormat::Surfaces:
+  case SubstrateFormat::Bundles:
     return 1.0;
   default:
     return 1e-6;

@@ -21,13 +21,14 @@ namespace cactus
 /// Whose reader a substrate folder is for.
 enum class SubstrateFormat
 {
-  Mcdc = 0,      ///< MC/DC: a PLY file per surface (µm), configurations that run as written
-  Reference = 1, ///< the reference program's run folder, as dmipy-sim loads it (µm)
-  Camino = 2,    ///< one PLY file per kind of surface (m)
-  Disimpy = 3,   ///< NumPy arrays of vertices (m) and faces per kind of surface
-  Rms = 4,       ///< RMS: labels of voxels, beside a PLY file per surface (µm)
-  Surfaces = 5,  ///< no simulator's: a PLY file per surface (µm) and nothing beside
-  SpinDoctor = 6 ///< finite elements: one complex of triangles for tetgen, beside a PLY file per surface (µm)
+  Mcdc = 0,       ///< MC/DC: a PLY file per surface (µm), configurations that run as written
+  Reference = 1,  ///< the reference program's run folder, as dmipy-sim loads it (µm)
+  Camino = 2,     ///< one PLY file per kind of surface (m)
+  Disimpy = 3,    ///< NumPy arrays of vertices (m) and faces per kind of surface
+  Rms = 4,        ///< RMS: labels of voxels, beside a PLY file per surface (µm)
+  Surfaces = 5,   ///< no simulator's: a PLY file per surface (µm) and nothing beside
+  SpinDoctor = 6, ///< finite elements: one complex of triangles for tetgen, beside a PLY file per surface (µm)
+  Bundles = 7     ///< no simulator's: a PLY file per bundle and kind of surface (µm) and nothing beside
 };
 
 /// A substrate's fibres that surfaces were made of, where these are not all.
@@ -60,7 +61,8 @@ struct SubstrateFolderContents
 /// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
 inline bool mayBeBinary(SubstrateFormat format)
 {
-  return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor;
+  return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor ||
+         format == SubstrateFormat::Bundles;
 }
 
 /// One surface's file, as the manifest lists it.

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -37,7 +38,7 @@ std::string surfaceFolder(const SubstrateFolderContents& contents, const std::st
 }
 
 /// The file of one surface.
-std::string surfacePath(const SubstrateFolderContents& contents, const std::string& kind, int id)
+std::string surfacePath(const SubstrateFolderContents& contents, const std::string& kind, int id, int bundleId)
 {
   const std::string digits = fiveDigits(std::size_t(id));
   switch (contents.format)
@@ -48,6 +49,8 @@ std::string surfacePath(const SubstrateFolderContents& contents, const std::stri
     return kind + ".ply";
   case SubstrateFormat::Disimpy:
     return kind + "_vertices.npy";
+  case SubstrateFormat::Bundles:
+    return kind + "/bundle_" + fiveDigits(std::size_t(bundleId)) + ".ply";
   default:
     return surfaceFolder(contents, kind, id) + "fibre_" + digits + ".ply";
   }
@@ -106,8 +109,8 @@ std::vector<SubstrateFile> surfaceFiles(
     const auto fibre = std::lower_bound(certificate.fibres.begin(), certificate.fibres.end(), id,
       [](const FibreCertificate& f, int wanted) { return f.fibreId < wanted; });
     const SurfaceReport& report = kind == "outer" ? fibre->outer : fibre->inner;
-    files.push_back({ surfacePath(contents, kind, id), kind, id, surfaces.bundleIds[i], report.triangles, report.volume,
-      report.area, report.sound() });
+    files.push_back({ surfacePath(contents, kind, id, surfaces.bundleIds[i]), kind, id, surfaces.bundleIds[i], report.triangles,
+      report.volume, report.area, report.sound() });
   }
   return files;
 }
@@ -156,6 +159,61 @@ void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateF
   }
 }
 
+/// Those of a bundle.
+struct BundleSurfaces
+{
+  FibreSurfaces surfaces;
+  std::vector<std::size_t> places; ///< among all
+};
+
+/// By bundle. What is given has to outlive the result.
+std::map<int, BundleSurfaces> byBundle(const FibreSurfaces& all)
+{
+  std::map<int, BundleSurfaces> bundles;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    BundleSurfaces& bundle = bundles[all.bundleIds[i]];
+    bundle.surfaces.fibreIds.push_back(all.fibreIds[i]);
+    bundle.surfaces.bundleIds.push_back(all.bundleIds[i]);
+    bundle.places.push_back(i);
+  }
+  for (auto& entry : bundles)
+  {
+    BundleSurfaces& bundle = entry.second;
+    bundle.surfaces.mesh = [&all, &bundle](std::size_t i) { return all.mesh(bundle.places[i]); };
+  }
+  return bundles;
+}
+
+/// Writes the surfaces of each bundle to a file.
+void writeByBundle(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, PlyEncoding encoding,
+  FolderWriter& writer, const SharedRun& run, double from, double to)
+{
+  const std::map<int, BundleSurfaces> bundles = byBundle(surfaces);
+  std::vector<const BundleSurfaces*> inTurn;
+  for (const auto& entry : bundles)
+  {
+    inTurn.push_back(&entry.second);
+  }
+  const auto fileOf = [&](std::size_t i) -> const SubstrateFile& { return files[inTurn[i]->places.front()]; };
+  std::vector<std::string> checksums(inTurn.size());
+  run.sharing.loop(
+    inTurn.size(), run.context,
+    [&](std::size_t i)
+    {
+      const SubstrateFile& file = fileOf(i);
+      const std::string comment =
+        "CACTUS " CACTUS_VERSION ", " + file.surface + " surfaces of bundle " + std::to_string(file.bundleId) + ", micrometres";
+      checksums[i] = writeBundleSurfaces(inTurn[i]->surfaces, file.path, comment, encoding, writer.folder(), run.context);
+    },
+    [&](std::size_t i) { return checksums[i]; }, [&](std::size_t i, const std::string& checksum) { checksums[i] = checksum; },
+    "Writing surfaces", from, to);
+  for (std::size_t i = 0; i < inTurn.size(); ++i)
+  {
+    writer.remember(fileOf(i).path, checksums[i]);
+  }
+}
+
 std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents, const std::string& kind,
   const SubstrateCertificate& certificate, FolderWriter& writer, const SharedRun& run, double from, double to)
 {
@@ -180,7 +238,8 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
     makeFolders(files, writer);
   }
   run.sharing.exchange();
-  writeSeparately(surfaces, files, contents.encoding, writer, run, from, to);
+  const auto write = contents.format == SubstrateFormat::Bundles ? &writeByBundle : &writeSeparately;
+  write(surfaces, files, contents.encoding, writer, run, from, to);
   return files;
 }
 
@@ -238,7 +297,7 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   if (contents.encoding == PlyEncoding::Binary && !mayBeBinary(contents.format))
   {
     throw InvalidInput("Encoding Binary is not for simulators that read PLY files, which take ASCII only: choose Encoding ASCII, "
-                       "or Format Surfaces alone, RMS or SpinDoctor");
+                       "or Format Surfaces alone, Surfaces by bundle, RMS or SpinDoctor");
   }
   if (contents.format == SubstrateFormat::SpinDoctor && contents.outer.size() == 0)
   {

@@ -19,7 +19,7 @@ constexpr char ownChecksum[] = "manifest_sha256";
 constexpr std::size_t checksumDigits = 64;
 /// By SubstrateFormat.
 constexpr const char* simulatorNames[] = { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone",
-  "SpinDoctor" };
+  "SpinDoctor", "Surfaces by bundle" };
 
 /// One line for each property and for each thing in a list, which a person can read and `grep` can find.
 std::string laidOut(const Json& manifest)

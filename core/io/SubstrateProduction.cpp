@@ -85,9 +85,9 @@ void checkSample(const ProductionOrder& order)
   {
     return;
   }
-  require(order.format == SubstrateFormat::Surfaces,
+  require(order.format == SubstrateFormat::Surfaces || order.format == SubstrateFormat::Bundles,
     "SampledFraction is below 1, and Format is a simulator's, which would take the space of all other fibres for extra-axonal: "
-    "choose Surfaces alone, or make all surfaces");
+    "choose Surfaces alone or Surfaces by bundle, or make all surfaces");
   require(order.surfaces.model != GRatioModel::TargetAxonVolumeFraction,
     "SampledFraction is below 1, and the g-ratio for TargetAxonVolumeFraction depends on all fibres: choose another GRatioModel, "
     "or make all surfaces");

@@ -34,6 +34,8 @@ std::string filesFor(SubstrateFormat format)
            "    cd intra && cp .../hpc_code/lib/main.cu . && nvcc main.cu -o main_cuda && ./main_cuda\n";
   case SubstrateFormat::Surfaces:
     return "";
+  case SubstrateFormat::Bundles:
+    return "\nIn a file fibres follow each other by their ids, each with the triangles that manifest.json tells of it.\n";
   case SubstrateFormat::SpinDoctor:
     return "substrate_dir/  all surfaces and the faces of the domain as one complex of triangles, in micrometres\n"
            "compartments.csv   which compartment is which fibre's, with its volume\n\n"
@@ -147,8 +149,8 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
   if (hasOuter)
   {
     text += std::string("outer/          outer surfaces, one ") +
-            (contents.encoding == PlyEncoding::Binary ? "binary" : "ASCII") +
-            " PLY file per fibre, in micrometres, normals outward\n";
+            (contents.encoding == PlyEncoding::Binary ? "binary" : "ASCII") + " PLY file per " +
+            (contents.format == SubstrateFormat::Bundles ? "bundle" : "fibre") + ", in micrometres, normals outward\n";
   }
   if (hasInner)
   {

@@ -26,8 +26,8 @@ namespace
 
 using Eigen::Vector3d;
 
-/// µm that a pair is moved farther apart than it has to be: rounding, and corners that move askew, take some of it back. More than
-/// lostInFiles.
+/// µm that a pair is moved farther apart than it has to be: rounding, and corners that move askew, take some of it back. More
+/// than lostInFiles.
 constexpr double extraDistance = 0.0002;
 /// Surfaces that meet are moved as if they had to keep this distance (µm), or the gap if that is larger: they have to get out of
 /// each other first.

@@ -13,7 +13,7 @@ constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0
 
 // Of what is written.
 const std::vector<std::string> formatNames{ "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone",
-  "SpinDoctor" };
+  "SpinDoctor", "Surfaces by bundle" };
 constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
 constexpr char encodingMeaning[] = "Of PLY files that no simulator reads: text, or bytes, which take half the room";
@@ -220,15 +220,15 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formatNames, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .where("Format", { 4, 5, 6 })
+      .where("Format", { 4, 5, 6, 7 })
       .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
       .where("Format", { 0 })
       .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a voxel of the labels; it has to divide the domain's sides")
       .where("Format", { 4 })
       .add("StartPositions", &Stage::startPositions, startCount, "Points to draw in each compartment, for walkers to start from")
-      .where("Format", { 0, 1, 2, 3, 5 })
+      .where("Format", { 0, 1, 2, 3, 5, 7 })
       .add("Seed", &Stage::seed, limits::seed, "Chooses the random points")
-      .where("Format", { 0, 1, 2, 3, 5 })
+      .where("Format", { 0, 1, 2, 3, 5, 7 })
       .whereGiven("StartPositions")
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
@@ -251,13 +251,13 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formatNames, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .where("Format", { 4, 5, 6 })
+      .where("Format", { 4, 5, 6, 7 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
       .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
         "Part of the fibres whose surfaces are made, drawn at random by Seed, in place among all the others; 1: all. For Format "
-        "Surfaces alone")
-      .where("Format", { 5 })
+        "Surfaces alone and Surfaces by bundle")
+      .where("Format", { 5, 7 })
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;

@@ -65,8 +65,8 @@ public:
   /// What the lattice fills.
   const Domain& box() const { return this->Box; }
   const SampleBox& samples() const { return this->Samples; }
-  /// Planes through the samples; the outermost ones are moved into the box by `inset` (µm, less than a quarter of a voxel), to where
-  /// single precision has a number.
+  /// Planes through the samples; the outermost ones are moved into the box by `inset` (µm, less than a quarter of a voxel), to
+  /// where single precision has a number.
   NodeLattice lattice(double inset = 0.0) const;
 
   /// The image at the samples that a range of nodes takes its values from, and at those up to `more` beyond.

@@ -117,6 +117,22 @@ class SubstrateProductionTest(CactusTestCase):
                 for row in range(found.GetNumberOfRows()):
                     self.assertEqual(found.GetValue(row, column), expected.GetValue(row, column))
 
+    def test_writes_a_file_for_each_bundle_as_the_writer_does(self):
+        crossing = BundleInitializer(Side=5.0, NumberOfBundles=2, FibreVolumeFraction=0.4, MaximumRadius=0.6, GrownFibreVolumeFraction=0.6)
+        growth = {**GROWTH, "TargetFibreVolumeFraction": 0.6}
+        fibres = OutputPort(CapsuleOptimizer(Input=crossing), 0)
+        surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, Seed=3, **growth), **SURFACES)
+        one = os.path.join(self.folder, f"one-{rank()}")
+        other = os.path.join(self.folder, f"other-{rank()}")
+        kind = {"Format": "Surfaces by bundle", "Encoding": "Binary"}
+        SubstrateWriter(Outer=OutputPort(surfaces, 0), FolderName=one, **kind).UpdatePipeline()
+        SubstrateProduction(Input=fibres, FolderName=other, **kind, **growth, **SURFACES).UpdatePipeline()
+        if rank() == 0:
+            expected, found = files(one), files(other)
+            self.assertEqual(len([name for name in found if name.endswith(".ply")]), 4)
+            for name in expected:
+                self.assertTrue(name == "manifest.json" or found[name] == expected[name], name)
+
     def test_writes_surfaces_alone_in_binary_files(self):
         """Which are judged by programs of their own."""
         folder = os.path.join(self.folder, "binary")

@@ -114,6 +114,18 @@ class Writer(CactusTestCase):
         with open(os.path.join(self.target, "start", "intra.txt")) as file:
             self.assertTrue(all(abs(float(number)) < 5 for number in file.read().split()), "µm")
 
+    def test_vtk_reads_a_file_for_each_bundle(self):
+        """Fibres 3 and 5 are of bundle 2, fibre 4, if it were there, of bundle 1."""
+        for encoding in ("ASCII", "Binary"):
+            self.write(Format="Surfaces by bundle", Encoding=encoding)
+            self.assertEqual(os.listdir(os.path.join(self.target, "outer")), ["bundle_00002.ply"])
+            reader = vtkPLYReader()
+            reader.SetFileName(os.path.join(self.target, "outer", "bundle_00002.ply"))
+            reader.Update()
+            mass = vtkMassProperties()
+            mass.SetInputData(reader.GetOutput())
+            self.assertAlmostEqual(mass.GetVolume(), (10 + 22.5) * POLYGON, places=3)
+
     def test_simulators_get_no_binary_files(self):
         for name in ("MC/DC", "Reference program", "Camino", "Disimpy"):
             with self.subTest(Format=name), self.assertError("Encoding Binary is not for simulators that read PLY files"):

@@ -173,8 +173,41 @@ TEST(CombinedSurfaces, SaysWhereAFileCannotNumberItsPoints)
   box.triangles = 4294967290;
   EXPECT_NE(cactus::caminoHead(box).find("vertex 2147483647\n"), std::string::npos);
   EXPECT_NE(cactus::caminoHead(box).find("face 4294967290\n"), std::string::npos);
+  const auto head = [&box] { return cactus::bundleHead(box, "bundle 1", cactus::PlyEncoding::Binary); };
+  EXPECT_NE(head().find("vertex 2147483647\n"), std::string::npos);
+  EXPECT_NE(head().find("face 4294967290\n"), std::string::npos);
   ++box.points;
   EXPECT_THROW(cactus::caminoHead(box), cactus::InvalidInput);
+  EXPECT_THROW(head(), cactus::InvalidInput);
+}
+
+// A file has the fibres of its bundle one after the other, and no others; corners are numbered on.
+TEST_F(SubstrateFolder, HasAFileForEachBundle)
+{
+  this->Contents.outer = surfacesOf({ 2, 5, 9 }, { tetrahedron(1.0), tetrahedron(2.0), tetrahedron(3.0) });
+  this->Contents.outer.bundleIds = { 1, 4, 1 };
+  this->Contents.inner = {};
+  this->Contents.format = cactus::SubstrateFormat::Bundles;
+  const fs::path place = this->Scratch / "s/outer";
+  ASSERT_EQ(this->write(this->Scratch / "s"), "");
+  const std::string first = contentOf(place / "bundle_00001.ply");
+  const std::string body = "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n"
+                           "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n";
+  EXPECT_NE(first.find("outer surfaces of bundle 1, micrometres\nelement vertex 8\n"), std::string::npos);
+  EXPECT_NE(first.find("element face 8\n"), std::string::npos);
+  EXPECT_EQ(first.substr(first.find("end_header")), body);
+  // Alone in its file, a surface has the bytes of a file of its own but for the comment.
+  const auto after = [](const std::string& text) { return text.substr(text.find("element")); };
+  EXPECT_EQ(after(contentOf(place / "bundle_00004.ply")), after(cactus::plyText(tetrahedron(2.0), "")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(place), fs::directory_iterator()), 2);
+  const std::string manifest = contentOf(this->Scratch / "s/manifest.json");
+  EXPECT_NE(manifest.find("\"path\": \"outer/bundle_00001.ply\", \"surface\": \"outer\", \"fibre\": 9"), std::string::npos)
+    << manifest;
+  EXPECT_NE(contentOf(this->Scratch / "s/README.txt").find("one ASCII PLY file per bundle"), std::string::npos);
+  this->Contents.encoding = cactus::PlyEncoding::Binary;
+  ASSERT_EQ(this->write(this->Scratch / "s"), "") << "is replaced";
+  EXPECT_EQ(
+    after(contentOf(place / "bundle_00004.ply")), after(cactus::plyText(tetrahedron(2.0), "", cactus::PlyEncoding::Binary)));
 }
 
 // Of more than a thousand fibres each folder holds a thousand files at most; the lists of MC/DC follow, and the folder is known
