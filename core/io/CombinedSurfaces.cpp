@@ -47,12 +47,12 @@ std::string writeInPasses(const FibreSurfaces& surfaces, const std::string& path
 }
 
 /// Throws for more points than such a file can number.
-void requireNumbered(const SurfaceBox& box, const std::string& format)
+void requireNumbered(const SurfaceBox& box, const std::string& whose)
 {
   constexpr auto most = std::numeric_limits<std::int32_t>::max();
   if (box.points > std::size_t(most))
   {
-    throw InvalidInput("Format " + format + " has all surfaces in one file, which numbers " + std::to_string(most) +
+    throw InvalidInput("Format " + whose + " in one file, which numbers " + std::to_string(most) +
                        " points at most, and these have " + std::to_string(box.points) +
                        ": write fewer fibres, or choose another Format");
   }
@@ -119,7 +119,7 @@ SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context)
 
 std::string caminoHead(const SurfaceBox& box)
 {
-  requireNumbered(box, "Camino");
+  requireNumbered(box, "Camino has all surfaces");
   return plyHead(box.points, box.triangles, "closed surface", PlyEncoding::Ascii);
 }
 
@@ -134,7 +134,7 @@ void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind,
 
 std::string bundleHead(const SurfaceBox& box, const std::string& comment, PlyEncoding encoding)
 {
-  requireNumbered(box, "Surfaces by bundle");
+  requireNumbered(box, "Surfaces by bundle has all surfaces of a bundle");
   return plyHead(box.points, box.triangles, comment, encoding);
 }
 

@@ -191,6 +191,7 @@ void writeByBundle(const FibreSurfaces& surfaces, const std::vector<SubstrateFil
 {
   const std::map<int, BundleSurfaces> bundles = byBundle(surfaces);
   std::vector<const BundleSurfaces*> inTurn;
+  inTurn.reserve(bundles.size());
   for (const auto& entry : bundles)
   {
     inTurn.push_back(&entry.second);

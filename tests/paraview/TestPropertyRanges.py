@@ -36,6 +36,12 @@ def bad_values(one):
         yield from (float("nan"), float("inf"))
 
 
+def switches_of(one):
+    """What of other properties switches one on: of several values (`values`) the first."""
+    found = [(switch, switch.get("value", switch.get("values"))) for switch in one.findall("Hints//PropertyWidgetDecorator")]
+    return [(switch.get("property"), switch.get("inverse") == "1", values.split(" ")[0]) for switch, values in found if values is not None]
+
+
 class PropertyRanges(CactusTestCase):
     expected = UNPARTED
 
@@ -52,14 +58,15 @@ class PropertyRanges(CactusTestCase):
     def make(self, element, one):
         """The source or filter with good inputs, and with what switches the property on."""
         proxy = make(element, {"Outer": self.outer, "vtkPolyData": self.fibres, "vtkImageData": self.image})
-        switches = one.findall("Hints//PropertyWidgetDecorator[@value]")
+        switches = switches_of(one)
         while switches:
-            switch = switches.pop()
-            if switch.get("inverse") == "1":  # any but 0, or none
-                self.give(proxy, switch.get("property"))
+            name, is_inverse, value = switches.pop()
+            if is_inverse:  # any but 0, or none
+                self.give(proxy, name)
             else:
-                vtkSMPropertyHelper(proxy.SMProxy, switch.get("property")).Set(float(switch.get("value")))
-            switches += element.findall(f"*[@name='{switch.get('property')}']/Hints//PropertyWidgetDecorator[@value]")
+                vtkSMPropertyHelper(proxy.SMProxy, name).Set(float(value))
+            for switch in element.findall(f"*[@name='{name}']"):
+                switches += switches_of(switch)
         return proxy
 
     def give(self, proxy, name):
