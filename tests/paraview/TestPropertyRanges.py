@@ -4,7 +4,7 @@
 
 import os
 
-from cactus_testing import UNPARTED, CactusTestCase, fetch, main, make, proxies
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main, make, proxies, switches_of
 from paraview import simple
 from paraview.servermanager import vtkSMPropertyHelper
 from surfaces import two_tubes
@@ -34,12 +34,6 @@ def bad_values(one):
             yield from (min(values) - 1, max(values) + 1)
     if not whole:
         yield from (float("nan"), float("inf"))
-
-
-def switches_of(one):
-    """What of other properties switches one on: of several values (`values`) the first."""
-    found = [(switch, switch.get("value", switch.get("values"))) for switch in one.findall("Hints//PropertyWidgetDecorator")]
-    return [(switch.get("property"), switch.get("inverse") == "1", values.split(" ")[0]) for switch, values in found if values is not None]
 
 
 class PropertyRanges(CactusTestCase):

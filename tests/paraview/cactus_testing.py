@@ -121,6 +121,12 @@ def produce(data):
     return producer
 
 
+def switches_of(one):
+    """(property, whether its opposite is meant, value) of what switches a property of the XML on: of several values the first."""
+    found = [(switch, switch.get("value", switch.get("values"))) for switch in one.findall("Hints//PropertyWidgetDecorator")]
+    return [(switch.get("property"), switch.get("inverse") == "1", values.split(" ")[0]) for switch, values in found if values is not None]
+
+
 def proxies():
     """(group, XML element) of each proxy that the plugin describes."""
     for path in sorted(glob.glob(os.path.join(_ROOT, "xml", "*.xml"))):

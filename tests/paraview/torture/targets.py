@@ -3,7 +3,7 @@
 
 import math
 
-from cactus_testing import proxies
+from cactus_testing import proxies, switches_of
 
 
 class Target:
@@ -45,11 +45,11 @@ class Target:
         """{property: value} of the choices that make a property count."""
         found, pending = {}, [one]
         while pending:
-            for hint in pending.pop().findall("Hints//PropertyWidgetDecorator[@value]"):
-                if hint.get("property") not in found:
-                    needed = self.element.find(f"*[@name='{hint.get('property')}']")
-                    given = RADII if hint.get("property") == "RadiusTableFile" else GIVEN[needed.tag]
-                    found[hint.get("property")] = given if hint.get("inverse") == "1" else float(hint.get("value"))
+            for name, is_inverse, value in switches_of(pending.pop()):
+                if name not in found:
+                    needed = self.element.find(f"*[@name='{name}']")
+                    given = RADII if name == "RadiusTableFile" else GIVEN[needed.tag]
+                    found[name] = given if is_inverse else float(value)
                     pending.append(needed)
         return found
 
