@@ -31,6 +31,10 @@ enum class SubstrateFormat
   Bundles = 7     ///< no simulator's: a PLY file per bundle and kind of surface (µm) and nothing beside
 };
 
+/// What they are called, by their numbers.
+constexpr const char* formatNames[] = { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone", "SpinDoctor",
+  "Surfaces by bundle" };
+
 /// A substrate's fibres that surfaces were made of, where these are not all.
 struct SubstrateSample
 {

@@ -17,9 +17,6 @@ namespace
 constexpr char format[] = "CACTUS substrate folder";
 constexpr char ownChecksum[] = "manifest_sha256";
 constexpr std::size_t checksumDigits = 64;
-/// By SubstrateFormat.
-constexpr const char* simulatorNames[] = { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone",
-  "SpinDoctor", "Surfaces by bundle" };
 
 /// One line for each property and for each thing in a list, which a person can read and `grep` can find.
 std::string laidOut(const Json& manifest)
@@ -132,7 +129,7 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   manifest["certified"] = substrate.certificate.certified();
   manifest["judged"] = judgedSurfaces(substrate.certificate);
   manifest["length_unit"] = "micrometre";
-  manifest["simulator"] = simulatorNames[std::size_t(contents.format)];
+  manifest["simulator"] = formatNames[std::size_t(contents.format)];
   manifest["domain"] = domain;
   manifest["placement_um_to_mm"] = placementRows(contents.placement);
   manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();

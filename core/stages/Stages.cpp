@@ -2,6 +2,9 @@
 #include "stages/Stages.h"
 
 #include "base/Limits.h"
+#include "io/SubstrateContents.h"
+
+#include <iterator>
 
 namespace cactus
 {
@@ -12,8 +15,7 @@ namespace
 constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0: all";
 
 // Of what is written.
-const std::vector<std::string> formatNames{ "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone",
-  "SpinDoctor", "Surfaces by bundle" };
+const std::vector<std::string> formats(std::begin(formatNames), std::end(formatNames));
 constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
 constexpr char encodingMeaning[] = "Of PLY files that no simulator reads: text, or bytes, which take half the room";
@@ -218,7 +220,7 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
     PropertyList<Stage>()
       .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
       .use(PropertyUse::Run)
-      .add("Format", &Stage::format, formatNames, formatMeaning)
+      .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
       .where("Format", { 4, 5, 6, 7 })
       .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
@@ -249,7 +251,7 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // whose Seed takes the place of the other one
       .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
       .use(PropertyUse::Run)
-      .add("Format", &Stage::format, formatNames, formatMeaning)
+      .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
       .where("Format", { 4, 5, 6, 7 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,

@@ -115,7 +115,7 @@ class Writer(CactusTestCase):
             self.assertTrue(all(abs(float(number)) < 5 for number in file.read().split()), "µm")
 
     def test_vtk_reads_a_file_for_each_bundle(self):
-        """Fibres 3 and 5 are of bundle 2, fibre 4, if it were there, of bundle 1."""
+        """Both fibres are of bundle 2."""
         for encoding in ("ASCII", "Binary"):
             self.write(Format="Surfaces by bundle", Encoding=encoding)
             self.assertEqual(os.listdir(os.path.join(self.target, "outer")), ["bundle_00002.ply"])
