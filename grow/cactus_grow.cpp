@@ -4,6 +4,7 @@
 #include "Terminal.h"
 #include "base/Context.h"
 #include "base/Error.h"
+#include "io/SubstrateProduction.h"
 #include "recipe/RecipeReader.h"
 #include "recipe/RecipeRun.h"
 
@@ -16,6 +17,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <variant>
 
 namespace
 {
@@ -136,6 +138,17 @@ int reported(const cactus::WrittenSubstrate& substrate, const std::string& folde
   return isCertified ? certified : faulty;
 }
 
+/// What a run that was stopped says of the work that it leaves behind.
+std::string keptOf(const Job& job)
+{
+  const std::string work = cactus::workFolderOf(job.folder);
+  const bool isStreamed = std::holds_alternative<cactus::SubstrateProductionStage>(job.recipe.stages.back().options);
+  std::error_code ignored;
+  return isStreamed && fs::exists(work, ignored)
+           ? ", what is finished is kept in " + work + ", and the same command goes on with it"
+           : "";
+}
+
 int run(const Job& job, Terminal& terminal)
 {
   if (!job.recipe.version.empty() && job.recipe.version != CACTUS_VERSION)
@@ -156,7 +169,7 @@ int run(const Job& job, Terminal& terminal)
   }
   catch (const cactus::Cancelled&)
   {
-    terminal.say("stopped: " + job.folder + " is as it was");
+    terminal.say("stopped: " + job.folder + " is as it was" + keptOf(job));
     return stopped + caughtSignal;
   }
   catch (const std::bad_alloc&)

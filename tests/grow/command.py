@@ -270,6 +270,24 @@ class Command(unittest.TestCase):
                 self.assertRegex(shown, r"cactus-grow: stopped: large is as it was\r\n$")
                 self.assertEqual(os.listdir(self.folder), ["large.json"])
 
+    def test_goes_on_with_what_a_stopped_run_has_left(self):
+        recipe = self.recipe({"BundleInitializer": {"Side": 14}, "SubstrateProduction": {"TargetFibreVolumeFraction": 0.8}})
+        made = os.path.join(self.folder, "recipe.work", "outer", "*", "*.surface")
+        with subprocess.Popen([PROGRAM, recipe, "-t", "1"], stderr=subprocess.PIPE, text=True, cwd=self.folder) as process:
+            while not glob.glob(made):
+                self.assertIsNone(process.poll(), "ended before it was stopped")
+                time.sleep(0.01)
+            process.send_signal(signal.SIGTERM)
+            shown = process.stderr.read()
+        self.assertEqual(process.returncode, 128 + signal.SIGTERM, shown)
+        self.assertRegex(shown, r"cactus-grow: stopped: (.*/recipe) is as it was, "
+                                r"what is finished is kept in \1\.work, and the same command goes on with it\n$")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["recipe.json", "recipe.work"])
+        for output in ((), ("--output", "at-once")):
+            self.assertEqual(self.run_it(recipe, *output).returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["at-once", "recipe", "recipe.json"])
+        self.assertEqual(*(files(os.path.join(self.folder, name)) for name in ("recipe", "at-once")))
+
     def test_progress_in_the_log_of_a_job(self):
         self.assertEqual(self.run_it(self.recipe(SMALL)).stderr, "", "shorter than a minute")
         recipe = self.recipe({"BundleInitializer": {"Side": 20}})
