@@ -299,10 +299,11 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   std::vector<std::size_t> made(this->Pairs.size());
   std::iota(made.begin(), made.end(), std::size_t(0));
   std::vector<std::size_t> tooNear; // as far as is known, increasing
+  bool isOneGone = false;           // of these
   BoundsOfFibres bounds;
-  for (int attempt = 0; !made.empty(); ++attempt)
+  for (int attempt = 0; !made.empty() || isOneGone; ++attempt)
   {
-    // What was too near is looked at again, since the other one of the pair may be new.
+    // What was too near is looked at again, since the other one of the pair may be new, or gone.
     std::vector<std::size_t> changed;
     std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
     const SpacingReport spacing = keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller,
@@ -310,6 +311,10 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
     tooNear = spacing.tooNear;
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);
     this->makeAgain(made, deeperEachTime * (isCoarsened ? attempt : attempt + 1), bounds, outer);
+    const auto gone = std::remove_if(
+      tooNear.begin(), tooNear.end(), [this](std::size_t i) { return this->Pairs[i].state == MyelinState::NoFibre; });
+    isOneGone = gone != tooNear.end();
+    tooNear.erase(gone, tooNear.end());
   }
   for (const std::size_t i : tooNear)
   {

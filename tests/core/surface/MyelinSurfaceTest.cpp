@@ -9,6 +9,7 @@
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
+#include "judge/SurfaceFaults.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfaceSide.h"
@@ -617,6 +618,56 @@ TEST(MyelinSurfaces, CoarseBundlesAreSoundOrMarked)
     }
     EXPECT_GT(unmarked, 3u);
   }
+}
+
+// Voxels four times as wide as the fibres are thick: what is left of one goes when it is moved, from two others that were too
+// near to it.
+TEST(MyelinSurfaces, AFibreThatGoesIsNoLongerTooNear)
+{
+  BundleInitializerOptions bundle;
+  bundle.side = 6.29273;
+  bundle.seed = 1097183328;
+  bundle.fibreVolumeFraction = 0.518059;
+  bundle.grownFibreVolumeFraction = 0.6653;
+  bundle.radius.model = RadiusModel::Lognormal;
+  bundle.radius.minimum = 0.113802;
+  bundle.radius.maximum = 0.113802;
+  bundle.spacingFactor = 2.77719;
+  bundle.minimumSpacing = 0.23601;
+  bundle.maximumSpacing = 0.7139;
+  bundle.meanDispersion = 0.0;
+  const Fibres fibres = trimToDomain(initialiseBundles(bundle));
+  FibreRadialGrowthOptions growth;
+  growth.voxelSize = 0.478582;
+  growth.targetFibreVolumeFraction = 0.481987;
+  growth.minimumGap = 0.0;
+  growth.surfaceTolerance = 0.00797561;
+  growth.surfaceRoughness = 0.0246807;
+  growth.margin = 0.0929287;
+  growth.seed = 636453594;
+  const Fibres aimed = aimAtTargetRadii(fibres, growth);
+  const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(aimed.domain, growth));
+  MyelinSurfaceOptions options;
+  options.gRatio = 0.608349;
+  options.decimationError = 0.00374472;
+  auto pairs = myelinSurfaces(
+    { image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, labelImageFacts(aimed, growth), options);
+  std::vector<int> marked;
+  std::vector<int> atFault;
+  const auto note = [&](std::vector<int>& ids)
+  {
+    for (const FibreSurfacePair& pair : pairs)
+    {
+      if (pair.isFlawed)
+      {
+        ids.push_back(pair.fibreId);
+      }
+    }
+  };
+  note(marked);
+  markFaults(pairs, aimed.domain, growth.minimumGap, {});
+  note(atFault);
+  EXPECT_EQ(marked, atFault);
 }
 
 TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
