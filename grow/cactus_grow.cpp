@@ -17,7 +17,6 @@
 #include <new>
 #include <string>
 #include <system_error>
-#include <variant>
 
 namespace
 {
@@ -138,17 +137,6 @@ int reported(const cactus::WrittenSubstrate& substrate, const std::string& folde
   return isCertified ? certified : faulty;
 }
 
-/// What a run that was stopped says of the work that it leaves behind.
-std::string keptOf(const Job& job)
-{
-  const std::string work = cactus::workFolderOf(job.folder);
-  const bool isStreamed = std::holds_alternative<cactus::SubstrateProductionStage>(job.recipe.stages.back().options);
-  std::error_code ignored;
-  return isStreamed && fs::exists(work, ignored)
-           ? ", what is finished is kept in " + work + ", and the same command goes on with it"
-           : "";
-}
-
 int run(const Job& job, Terminal& terminal)
 {
   if (!job.recipe.version.empty() && job.recipe.version != CACTUS_VERSION)
@@ -167,9 +155,15 @@ int run(const Job& job, Terminal& terminal)
       cactus::runRecipe(job.recipe, job.folder, context, [&](const std::string& remark) { terminal.say("warning: " + remark); });
     return reported(substrate, job.folder, terminal);
   }
+  catch (const cactus::WorkKept& kept)
+  {
+    terminal.say("stopped: " + job.folder + " is as it was, what is finished is kept in " + kept.folder() +
+                 ", and the same command goes on with it");
+    return stopped + caughtSignal;
+  }
   catch (const cactus::Cancelled&)
   {
-    terminal.say("stopped: " + job.folder + " is as it was" + keptOf(job));
+    terminal.say("stopped: " + job.folder + " is as it was");
     return stopped + caughtSignal;
   }
   catch (const std::bad_alloc&)

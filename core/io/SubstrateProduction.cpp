@@ -269,8 +269,7 @@ ProducedSubstrate produceSubstrate(
   {
     if (isWorkKept())
     {
-      throw Cancelled(
-        "stopped by the user, and what is finished is kept in " + work + ": Write, or the same script, goes on with it");
+      throw WorkKept(work);
     }
     removeWork();
     throw;

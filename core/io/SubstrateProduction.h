@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Error.h"
 #include "base/Team.h"
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowthOptions.h"
@@ -41,6 +42,22 @@ struct ProducedSubstrate
   std::size_t found = 0;                ///< surfaces that an earlier run had left
 };
 
+/// Thrown where the user has stopped a production that can go on from what it has made so far.
+class WorkKept : public Cancelled
+{
+public:
+  explicit WorkKept(const std::string& folder)
+    : Cancelled("stopped by the user, and what is finished is kept in " + folder + ": Write, or the same script, goes on with it")
+    , Folder(folder)
+  {
+  }
+
+  const std::string& folder() const { return this->Folder; } ///< see workFolderOf()
+
+private:
+  std::string Folder;
+};
+
 /// Where a production keeps what it has made so far: beside its folder.
 std::string workFolderOf(const std::string& folder);
 
@@ -54,8 +71,8 @@ std::string workFolderOf(const std::string& folder);
 /// The processes of a team, which are all given the same, share the work, and all get the result; any number of them goes on with
 /// what any other has left. An error in one ends it in all (see Sharing::together()).
 ///
-/// Throws what these do, InvalidInput for a sample that is to be simulated or whose volumes all fibres decide on, for a work
-/// folder of something else, and FileError.
+/// Throws what these do, WorkKept, InvalidInput for a sample that is to be simulated or whose volumes all fibres decide on, for a
+/// work folder of something else, and FileError.
 ProducedSubstrate produceSubstrate(const Fibres& fibres, const ProductionOrder& order, const std::string& folder,
   const Context& context = {}, Team* team = nullptr);
 
