@@ -6,6 +6,7 @@
 #include "base/Checkpoint.h"
 #include "base/Error.h"
 #include "base/PosixFile.h"
+#include "mesh/CappedSurface.h"
 
 #include <algorithm>
 #include <array>
@@ -27,7 +28,7 @@ namespace cactus
 namespace
 {
 
-const std::string surfaceTitle = "CACTUS surface 1\n";
+const std::string surfaceTitle = "CACTUS surface 2\n";
 /// Reads otherwise where bytes have another order.
 constexpr std::uint64_t orderOfBytes = 0x0102030405060708u;
 
@@ -197,7 +198,33 @@ struct SurfaceLayer
   TriangleMesh mesh;
 };
 
-/// The corners' type, so that layers are short.
+/// The coordinates' type, so that layers are short.
+template <typename Coordinate>
+void putPoints(ByteWriter& put, const TriangleMesh& mesh)
+{
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    for (const double coordinate : point)
+    {
+      put(static_cast<Coordinate>(coordinate));
+    }
+  }
+}
+
+template <typename Coordinate>
+void getPoints(ByteReader& get, std::uint32_t count, TriangleMesh& mesh)
+{
+  for (std::uint32_t p = 0; p < count; ++p)
+  {
+    Eigen::Vector3d& point = mesh.points.emplace_back();
+    for (double& coordinate : point)
+    {
+      coordinate = get.get<Coordinate>();
+    }
+  }
+}
+
+/// The corners' type, likewise.
 template <typename Corner>
 void putCorners(ByteWriter& put, const TriangleMesh& mesh)
 {
@@ -237,13 +264,9 @@ std::string layerText(const SurfaceLayer& layer)
   put(static_cast<std::uint32_t>(layer.triangleOf.size()));
   putIncreasing(put, layer.pointOf);
   putIncreasing(put, layer.triangleOf);
-  for (const Eigen::Vector3d& point : layer.mesh.points)
-  {
-    for (const double coordinate : point)
-    {
-      put(coordinate);
-    }
-  }
+  const bool isShort = isInSinglePrecision(layer.mesh);
+  put(isShort);
+  isShort ? putPoints<float>(put, layer.mesh) : putPoints<double>(put, layer.mesh);
   layer.mesh.points.size() <= mostOfShortCorners ? putCorners<std::uint16_t>(put, layer.mesh)
                                                  : putCorners<std::uint32_t>(put, layer.mesh);
   return put.bytes();
@@ -257,14 +280,7 @@ SurfaceLayer layerFrom(const std::string& bytes, const SurfaceFileEnd& end)
   const auto triangles = get.get<std::uint32_t>();
   getIncreasing(get, layer.pointOf, points, end.points);
   getIncreasing(get, layer.triangleOf, triangles, end.triangles);
-  for (std::uint32_t p = 0; p < points; ++p)
-  {
-    Eigen::Vector3d& point = layer.mesh.points.emplace_back();
-    for (double& coordinate : point)
-    {
-      get(coordinate);
-    }
-  }
+  get.get<std::uint8_t>() != 0 ? getPoints<float>(get, points, layer.mesh) : getPoints<double>(get, points, layer.mesh);
   points <= mostOfShortCorners ? getCorners<std::uint16_t>(get, triangles, layer.mesh)
                                : getCorners<std::uint32_t>(get, triangles, layer.mesh);
   if (!get.isAtEnd())
@@ -393,8 +409,8 @@ public:
     get(this->End.layers.count);
     this->require(endText(this->End, this->Seed) == bytes);
     const std::uint64_t left = this->Size - bytesOfEnd - front;
-    // A point takes 25 bytes at least, and a triangle 7.
-    this->require(this->End.points <= left / 25 && this->End.triangles <= left / 7 &&
+    // A point takes 13 bytes at least, and a triangle 7.
+    this->require(this->End.points <= left / 13 && this->End.triangles <= left / 7 &&
                   this->End.layers.count <= left / bytesOfEntry &&
                   this->End.entries == this->Size - bytesOfEnd - bytesOfEntry * this->End.layers.count);
   }

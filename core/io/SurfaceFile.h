@@ -22,8 +22,9 @@ struct SurfaceFileOwner
 ///
 /// Title with the number of the format, a mark for the order of bytes, owner; the surface in layers along z, of 1 µm or more
 /// and 128 triangles or more on average, each with the triangles whose lowest corners are in it and all their corners; for each
-/// layer where it is, how far up it reaches, and the lowest layer that reaches it; the numbers of all; 25 bytes a triangle or
-/// so. Layers, their entries and the rest have each a CRC-64 that holds the owner's, too.
+/// layer where it is, how far up it reaches, and the lowest layer that reaches it; the numbers of all; 17 bytes a triangle or
+/// so, 25 where coordinates are no single-precision numbers. Layers, their entries and the rest have each a CRC-64 that holds
+/// the owner's, too.
 ///
 /// Throws FileError, also where something else is at `path` already, or what has another fingerprint.
 void writeSurface(const std::string& path, const SurfaceFileOwner& owner, const TriangleMesh& surface);
