@@ -6,7 +6,8 @@
 
 --ranks are ranks x threads of each, --predict side (µm) x fibres x cores. Every size is made by SubstrateProduction from the same kind of
 bundle, in folders that are removed again. Processor time is that of all ranks, waiting for each other included; on a machine that does
-other things, too, it says more than the clock. Memory is the largest resident set of a rank.
+other things, too, it says more than the clock. Memory of a rank is its largest resident set, and beside it what it adds to the memory of the
+machine: pages that ranks have in common, which are ParaView's libraries for the most part, count once.
 """
 
 import argparse
@@ -43,6 +44,18 @@ def first_environment():
         return dict(entry.split(b"=", 1) for entry in file.read().split(b"\0") if b"=" in entry)
 
 
+def in_common(processes):
+    """Of the resident sets of processes that live (MB), the pages that others use, too."""
+    found = {}
+    for process in processes:
+        try:
+            with open(f"/proc/{process}/smaps_rollup") as file:
+                found[process] = sum(int(line.split()[1]) / 1024 for line in file if line.startswith(("Shared_Clean:", "Shared_Dirty:")))
+        except OSError:
+            pass
+    return found
+
+
 def ranks_below(process):
     """Processor time (s) and largest resident set (MB) of each pvbatch that a process has started, as far as they live."""
     found, parents = {}, [process]
@@ -65,7 +78,8 @@ def ranks_below(process):
 
 
 def run(ranks, *arguments):
-    """Processor time from beginning to end, the clock's, and the largest memory of a rank, of the script above."""
+    """Processor time from beginning to end, the clock's, and of the rank with the most memory its largest resident set and what it
+    adds to the memory of the machine (MB), of the script above."""
     with tempfile.NamedTemporaryFile("w", suffix=".py") as script:
         script.write(MADE)
         script.flush()
@@ -75,7 +89,7 @@ def run(ranks, *arguments):
         environment = {**first_environment(), **{name.encode(): value.encode() for name, value in settings.items()}}
         process = subprocess.Popen(command, stdout=subprocess.PIPE, env=environment)
         os.set_blocking(process.stdout.fileno(), False)
-        usage, before, said, begun, clock = {}, {}, b"", None, 0.0
+        usage, before, common, said, begun, clock, weighed = {}, {}, {}, b"", None, 0.0, 0.0
         while process.poll() is None:
             usage.update(ranks_below(process.pid))
             said += process.stdout.read() or b""
@@ -83,11 +97,15 @@ def run(ranks, *arguments):
                 begun, before = time.monotonic(), dict(usage)
             if begun is not None and not clock and b"ends" in said:
                 clock = time.monotonic() - begun
+            if begun is not None and not clock and time.monotonic() > weighed + 1.0:
+                common.update(in_common(usage))
+                weighed = time.monotonic()
             time.sleep(0.05)
         if process.returncode != 0:
             raise SystemExit(f"scale: {' '.join(command)} failed")
     seconds = sum(used - before.get(number, (0, 0))[0] for number, (used, _) in usage.items())
-    return seconds, clock, max((memory for _, memory in usage.values()), default=0.0)
+    resident, number = max(((memory, number) for number, (_, memory) in usage.items()), default=(0.0, None))
+    return seconds, clock, resident, resident - common.get(number, 0.0) * (1.0 - 1.0 / ranks)
 
 
 def measure(side, ranks, threads, voxel, folder):
@@ -95,14 +113,14 @@ def measure(side, ranks, threads, voxel, folder):
     strands = folder + ".strands"
     if not os.path.exists(strands):
         run(1, side, 0, folder, voxel)
-    seconds, clock, memory = run(ranks, side, threads, folder, voxel)
+    seconds, clock, memory, own = run(ranks, side, threads, folder, voxel)
     with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
         manifest = json.load(file)
     written = sum(os.path.getsize(os.path.join(path, name)) for path, _, names in os.walk(folder) for name in names)
     shutil.rmtree(folder)
     return {"side": side, "ranks": ranks, "threads": threads, "fibres": manifest["fibres"], "length": 1.01 * side * manifest["fibres"],
             "triangles": manifest["triangles"], "bytes": written, "seconds": seconds, "clock": clock, "memory": memory,
-            "certified": manifest["certified"]}
+            "own": own, "certified": manifest["certified"]}
 
 
 def line(sizes, figures):
@@ -127,7 +145,7 @@ def predicted(constants, side, fibres, cores):
     length = 1.01 * side * fibres
     hours = (constants["seconds"] + constants["seconds_per_um"] * length) / cores / 3600
     triangles = constants["triangles_per_um"] * length
-    return hours, triangles, triangles * constants["bytes_per_triangle"] / 1e9, 24 * triangles / 1e9
+    return hours, triangles, triangles * constants["bytes_per_triangle"] / 1e9, 17 * triangles / 1e9
 
 
 def main():
@@ -138,8 +156,8 @@ def main():
     parser.add_argument("--voxel", type=float, default=0.1, help="VoxelSize, µm (%(default)s)")
     arguments = parser.parse_args()
     rows = []
-    print("| side (µm) | fibres | ranks x threads | processor time (s) | clock (s) | ms per µm of fibre | memory of a rank (MB) | triangles per µm | certified |")
-    print("|" + "---|" * 9, flush=True)
+    print("| side (µm) | fibres | ranks x threads | processor time (s) | clock (s) | ms per µm of fibre | memory of a rank (MB) | its own (MB) | triangles per µm | certified |")
+    print("|" + "---|" * 10, flush=True)
     with tempfile.TemporaryDirectory() as scratch:
         for side in arguments.sides:
             for setting in arguments.ranks:
@@ -147,7 +165,7 @@ def main():
                 row = measure(side, ranks, threads, arguments.voxel, os.path.join(scratch, f"side-{side:g}"))
                 rows.append(row)
                 print(f"| {side:g} | {row['fibres']} | {setting} | {row['seconds']:.1f} | {row['clock']:.1f} | {1000 * row['seconds'] / row['length']:.2f} | "
-                      f"{row['memory']:.0f} | {row['triangles'] / row['length']:.0f} | {'yes' if row['certified'] else 'NO'} |", flush=True)
+                      f"{row['memory']:.0f} | {row['own']:.0f} | {row['triangles'] / row['length']:.0f} | {'yes' if row['certified'] else 'NO'} |", flush=True)
     constants = model(rows)
     print("\n" + "\n".join(f"{name}: {value:.4g}" for name, value in constants.items()))
     print("\n| side (µm) | fibres | cores | hours | triangles (10⁹) | folder (GB) | work folder (GB) |\n|" + "---|" * 7)
