@@ -2,6 +2,7 @@
 #include "FilterSupport.h"
 
 #include "InputBlocks.h"
+#include "ProgressLog.h"
 #include "Ranks.h"
 #include "StopSignals.h"
 #include "base/Error.h"
@@ -253,16 +254,24 @@ bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::func
   return false;
 }
 
+/// As scripts have it: without VTK's "vtk" in front.
+std::string nameOf(vtkAlgorithm* algorithm)
+{
+  return std::string(algorithm->GetClassName()).substr(3);
+}
+
 } // namespace
 
 Context contextFor(vtkAlgorithm* algorithm, int threads)
 {
   Context context;
   context.threads = threads;
-  context.progress = [algorithm](double fraction, const std::string& message)
+  context.progress = [algorithm, log = std::make_shared<ProgressLog>(nameOf(algorithm))](
+                       double fraction, const std::string& message)
   {
     algorithm->SetProgressText(message.c_str());
     algorithm->UpdateProgress(fraction);
+    log->tell(fraction, message);
   };
   // The flag is taken back here and once it is noticed. VTK leaves it set, which would stop the next run at its start; and
   // cleared by others after this run, it would mark the filter as modified and have it run again.

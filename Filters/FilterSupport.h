@@ -17,7 +17,8 @@ namespace cactus
 
 class Sharing;
 
-/// Context whose progress goes to `algorithm` and which stops when the user aborts it, or a signal comes that ends the process.
+/// Context whose progress goes to `algorithm` and, now and then, to standard error (see ProgressLog), and which stops when the
+/// user aborts it, or a signal comes that ends the process. Throws InvalidInput as ProgressLog.
 Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
 
 /// Runs `work`, and tells whether it came to its end. Whatever it throws is reported once, as the algorithm's error; all outputs

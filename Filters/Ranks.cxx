@@ -24,6 +24,11 @@ int processCount()
   return controller() != nullptr ? controller()->GetNumberOfProcesses() : 1;
 }
 
+bool isFirstProcess()
+{
+  return controller() == nullptr || controller()->GetLocalProcessId() == 0;
+}
+
 int processesOnThisMachine()
 {
   return processesOnThisMachine(processCount());

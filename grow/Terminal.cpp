@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Terminal.h"
 
-#include <algorithm>
+#include "base/Numbers.h"
+#include "base/Pace.h"
+
 #include <cstdio>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -29,14 +31,6 @@ std::string shortened(const std::string& text, std::size_t most)
       return text.substr(0, i);
     }
   }
-  return text;
-}
-
-/// Without what would move the cursor: a message may hold what stands in somebody's file.
-std::string onOneLine(std::string text)
-{
-  std::replace_if(
-    text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, ' ');
   return text;
 }
 
@@ -71,23 +65,21 @@ void Terminal::progress(double fraction, const std::string& message)
     return;
   }
   this->LastTime = now;
-  char percent[16];
-  std::snprintf(percent, sizeof(percent), "%3d %%  ", static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0)));
-  const std::string line = percent + message;
+  const std::string line = cactus::progressLine(fraction, message);
   if (!this->IsTerminal)
   {
     this->say(line);
     return;
   }
   this->IsShown = true;
-  std::fprintf(stderr, "\r%s\033[K", shortened(onOneLine(line), width() - 1).c_str());
+  std::fprintf(stderr, "\r%s\033[K", shortened(line, width() - 1).c_str());
   std::fflush(stderr);
 }
 
 void Terminal::say(const std::string& message)
 {
   this->clear();
-  std::fprintf(stderr, "cactus-grow: %s\n", onOneLine(message).c_str());
+  std::fprintf(stderr, "cactus-grow: %s\n", cactus::onOneLine(message).c_str());
 }
 
 void Terminal::clear()

@@ -157,7 +157,19 @@ std::size_t characterLength(std::string_view text)
   return whole ? length : 0;
 }
 
+/// Of the first 128 characters.
+bool isControl(unsigned char letter)
+{
+  return letter < 0x20 || letter == 0x7f;
+}
+
 } // namespace
+
+std::string onOneLine(std::string text)
+{
+  std::replace_if(text.begin(), text.end(), isControl, ' ');
+  return text;
+}
 
 std::string excerpt(std::string_view text)
 {
@@ -167,9 +179,7 @@ std::string excerpt(std::string_view text)
   {
     const std::size_t length = characterLength(text);
     const auto first = static_cast<unsigned char>(text.front());
-    found += first < 0x20 || first == 0x7f ? std::string(" ")
-             : length == 0                 ? std::string("?")
-                                           : std::string(text.substr(0, length));
+    found += isControl(first) ? std::string(" ") : length == 0 ? std::string("?") : std::string(text.substr(0, length));
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return text.empty() ? found : found + "...";

@@ -31,6 +31,9 @@ void skipBlanks(std::string_view& text);
 /// infinite, not a number, or too large for a double.
 bool takeNumber(std::string_view& text, double& value);
 
+/// Without what would move a terminal's cursor, such as the ends of lines: a message may hold what stands in somebody's file.
+std::string onOneLine(std::string text);
+
 /// The first characters of what was found in a file, fit for a message: without control characters, in UTF-8, and not long.
 std::string excerpt(std::string_view text);
 

@@ -14,6 +14,7 @@ namespace
 
 constexpr double leastSeconds = 10.0;
 constexpr double leastFraction = 1e-3;
+constexpr double mostPercent = 99.5; // of two digits
 
 std::string duration(double seconds)
 {
@@ -47,8 +48,23 @@ std::string Pace::at(double seconds, double fraction)
   }
   TextStream words;
   words.precision(2);
-  words << 100.0 * done / spent * 3600.0 << " % an hour, ready in about ";
+  const double anHour = 100.0 * done / spent * 3600.0;
+  if (anHour < mostPercent)
+  {
+    words << anHour << " % an hour, ";
+  }
+  else if (anHour < 60.0 * mostPercent)
+  {
+    words << anHour / 60.0 << " % a minute, ";
+  }
+  words << "ready in about ";
   return words.str() + duration((1.0 - fraction) * spent / done);
+}
+
+std::string progressLine(double fraction, const std::string& message)
+{
+  const std::string percent = std::to_string(static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0)));
+  return std::string(percent.size() < 3 ? 3 - percent.size() : 0, ' ') + percent + " %  " + onOneLine(message);
 }
 
 } // namespace cactus

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// How far long work is, and how fast it goes, in words.
 #pragma once
 
 #include <string>
@@ -6,7 +7,7 @@
 namespace cactus
 {
 
-/// How fast long work goes, in words: "4.2 % an hour, ready in about 12 h 30 min".
+/// How fast it goes: "4.2 % an hour, ready in about 12 h 30 min", "2.5 % a minute, ready in about 30 min".
 class Pace
 {
 public:
@@ -19,5 +20,8 @@ private:
   double FirstSeconds = 0.0;
   double FirstFraction = 0.0;
 };
+
+/// How far it is, in a line: " 34 %  making surfaces".
+std::string progressLine(double fraction, const std::string& message);
 
 } // namespace cactus
