@@ -4,10 +4,10 @@
 #include "Ranks.h"
 #include "base/Error.h"
 #include "base/Pace.h"
+#include "base/WholeNumber.h"
 
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 namespace cactus
@@ -16,30 +16,20 @@ namespace cactus
 namespace
 {
 
-constexpr int usualPause = 60; // s
-
 std::chrono::seconds pauseAsked()
 {
-  const char* asked = std::getenv("CACTUS_PROGRESS");
-  if (asked == nullptr || *asked == '\0')
-  {
-    return std::chrono::seconds(usualPause);
-  }
-  char* end = nullptr;
-  const long seconds = std::strtol(asked, &end, 10);
-  if (end == asked || *end != '\0' || seconds < 0 || seconds > std::numeric_limits<int>::max())
-  {
-    throw InvalidInput(text("the environment variable CACTUS_PROGRESS is '", asked,
-      "': set it to the seconds between two lines of progress, a whole number (0: none), or unset it"));
-  }
-  return std::chrono::seconds(seconds);
+  constexpr const char* variable = "CACTUS_PROGRESS";
+  const char* asked = std::getenv(variable);
+  const bool isAsked = asked != nullptr && *asked != '\0';
+  return std::chrono::seconds(
+    isAsked ? wholeNumber(text("the environment variable ", variable), asked, progressPauses) : usualProgressPause);
 }
 
 } // namespace
 
 ProgressLog::ProgressLog(std::string who)
   : Who(std::move(who))
-  , Pause(pauseAsked())
+  , Pause(isFirstProcess() ? pauseAsked() : std::chrono::seconds(0))
   , LastTime(std::chrono::steady_clock::now())
 {
 }
@@ -47,7 +37,7 @@ ProgressLog::ProgressLog(std::string who)
 void ProgressLog::tell(double fraction, const std::string& message)
 {
   const auto now = std::chrono::steady_clock::now();
-  if (this->Pause.count() > 0 && now - this->LastTime >= this->Pause && isFirstProcess())
+  if (this->Pause.count() > 0 && now - this->LastTime >= this->Pause)
   {
     this->LastTime = now;
     std::fprintf(stderr, "%s: %s\n", this->Who.c_str(), progressLine(fraction, message).c_str());

@@ -13,7 +13,7 @@ class ProgressLog
 {
 public:
   /// who: what lines begin with. Throws InvalidInput where the environment variable CACTUS_PROGRESS, seconds between two lines,
-  /// holds no whole number from 0 upwards; 60 where it is not set, and with 0 there are none.
+  /// holds no whole number of progressPauses; usualProgressPause where it is not set.
   explicit ProgressLog(std::string who);
 
   /// "WHO:  34 %  message", if the last line, or the beginning, is as long ago.
@@ -21,7 +21,7 @@ public:
 
 private:
   std::string Who;
-  std::chrono::seconds Pause;
+  std::chrono::seconds Pause; ///< 0: no lines
   std::chrono::steady_clock::time_point LastTime;
 };
 

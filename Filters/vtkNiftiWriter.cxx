@@ -3,6 +3,7 @@
 
 #include "FilterSupport.h"
 #include "PlacementData.h"
+#include "Ranks.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/AtomicFile.h"
@@ -15,7 +16,6 @@
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
 #include <vtkMatrix4x4.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNIFTIImageHeader.h>
 #include <vtkNIFTIImageWriter.h>
 #include <vtkNew.h>
@@ -153,8 +153,7 @@ int vtkNiftiWriter::FillInputPortInformation(int, vtkInformation* info)
 void vtkNiftiWriter::WriteData()
 {
   // On several ranks the first one writes, as a sink asks for the first piece of one.
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller != nullptr && controller->GetLocalProcessId() > 0)
+  if (!cactus::isFirstProcess())
   {
     return;
   }

@@ -3,6 +3,7 @@
 
 #include "FibreData.h"
 #include "FilterSupport.h"
+#include "Ranks.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
@@ -11,7 +12,6 @@
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
-#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkStrandWriter);
@@ -30,8 +30,7 @@ int vtkStrandWriter::FillInputPortInformation(int, vtkInformation* info)
 void vtkStrandWriter::WriteData()
 {
   // On several ranks each gets all fibres, as a sink asks for the first piece of one; the first writes them.
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller != nullptr && controller->GetLocalProcessId() > 0)
+  if (!cactus::isFirstProcess())
   {
     return;
   }

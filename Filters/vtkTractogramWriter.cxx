@@ -4,6 +4,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "PlacementData.h"
+#include "Ranks.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
@@ -12,7 +13,6 @@
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
-#include <vtkMultiProcessController.h>
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkTractogramWriter);
@@ -31,8 +31,7 @@ int vtkTractogramWriter::FillInputPortInformation(int, vtkInformation* info)
 void vtkTractogramWriter::WriteData()
 {
   // On several ranks each gets all fibres, as a sink asks for the first piece of one; the first writes them.
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  if (controller != nullptr && controller->GetLocalProcessId() > 0)
+  if (!cactus::isFirstProcess())
   {
     return;
   }

@@ -3,9 +3,8 @@
 
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/WholeNumber.h"
 
-#include <cmath>
-#include <string_view>
 #include <vector>
 
 const char* const commandHelp =
@@ -32,21 +31,6 @@ namespace
 {
 
 const std::string advice = ": cactus-grow --help tells more";
-
-/// The value of an option that takes whole numbers.
-int wholeNumber(const std::string& option, const std::string& text, const cactus::Range& range)
-{
-  std::string_view rest = text;
-  double number = 0.0;
-  if (!cactus::takeNumber(rest, number) || !rest.empty() || number != std::floor(number) || !range.holds(number))
-  {
-    throw cactus::InvalidInput(cactus::text(
-      option, " is ", cactus::excerpt(text), ": give a whole number from ", int(range.lowest), " to ", int(range.highest)));
-  }
-  return static_cast<int>(number);
-}
-
-constexpr cactus::Range seconds{ 0.0, 86400.0 }; // a day
 
 /// Takes one argument after the other.
 class Reader
@@ -100,11 +84,11 @@ private:
     }
     else if (name == "-t" || name == "--threads")
     {
-      this->Found.threads = wholeNumber("--threads", this->value(name, sign), cactus::limits::threads);
+      this->Found.threads = cactus::wholeNumber("--threads", this->value(name, sign), cactus::limits::threads);
     }
     else if (name == "-p" || name == "--progress")
     {
-      this->Found.progress = wholeNumber("--progress", this->value(name, sign), seconds);
+      this->Found.progress = cactus::wholeNumber("--progress", this->value(name, sign), cactus::progressPauses);
     }
     else if ((name == "-h" || name == "--help") && sign == std::string::npos)
     {

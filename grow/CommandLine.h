@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/WholeNumber.h"
+
 #include <string>
 
 /// What the command was told.
 struct CommandLine
 {
-  std::string recipe; ///< a file, or a substrate folder
-  std::string output; ///< empty where none is named
-  int threads = 0;    ///< 0: what the recipe says
-  int progress = 60;  ///< seconds between lines of progress where there is no terminal; 0: none
+  std::string recipe;                        ///< a file, or a substrate folder
+  std::string output;                        ///< empty where none is named
+  int threads = 0;                           ///< 0: what the recipe says
+  int progress = cactus::usualProgressPause; ///< seconds between lines of progress where there is no terminal; 0: none
   bool wantsHelp = false;
   bool wantsVersion = false;
 };

@@ -57,11 +57,14 @@ class ProgressLogTest(CactusTestCase):
         self.assertLess(len(lines), seconds, said)
 
     def test_what_is_no_number_of_seconds(self):
-        for progress in "often", "-1", "1.5", "1e9", "99999999999999":
+        for progress in "often", "-1", "1.5", "86401", "99999999999999":
             said, isMade = self.said("wrong", progress, "pvpython", side=8)
             self.assertFalse(isMade)
-            self.assertIn(f"the environment variable CACTUS_PROGRESS is '{progress}': set it to the seconds between two lines", said)
+            self.assertIn(f"the environment variable CACTUS_PROGRESS is {progress}: give a whole number from 0 to 86400", said)
             self.assertEqual(said.count("ERR|"), 1, said)
+        said, isMade = self.said("wrong", "often", "mpiexec", "-n", "2", "pvbatch", side=8)
+        self.assertFalse(isMade)
+        self.assertEqual(said.count("CACTUS_PROGRESS is often"), 1, said)
 
 
 main()
