@@ -7,7 +7,7 @@
 
 Every source, filter, reader and writer of xml/ gets: every kind of data set in each of its inputs, every property at its limits, beyond
 them and far out, odd file names, spoilt files, too little memory, a stop, data that change with time, and faults upstream. What
-is asked of the answer stands in torture/answers.py. CTest runs the short list, about a tenth of all; --all takes every case, and
+is asked of the answer stands in torture/answers.py. CTest runs the short list, about a twentieth of all; --all takes every case, and
 --only those whose names match, for instance --only 'data/MyelinSurface/*'. Cases run in processes of their own, so that one that
 crashes or hangs is known by name.
 
