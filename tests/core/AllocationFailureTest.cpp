@@ -77,22 +77,23 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept
   }
 }
 
-void operator delete(void* memory) noexcept
+// Not inlined, since GCC takes free() beside a new that it does not see through for a mistake.
+[[gnu::noinline]] void operator delete(void* memory) noexcept
 {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::size_t) noexcept
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
 {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::align_val_t) noexcept
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept
 {
   std::free(memory);
 }
 
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
 {
   std::free(memory);
 }
