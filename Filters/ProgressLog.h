@@ -13,7 +13,7 @@ class ProgressLog
 {
 public:
   /// who: what lines begin with. Throws InvalidInput where the environment variable CACTUS_PROGRESS, seconds between two lines,
-  /// holds no whole number of progressPauses; usualProgressPause where it is not set.
+  /// holds no whole number of progressPauses; usualProgressPause where it is not set. The first rank alone reads it.
   explicit ProgressLog(std::string who);
 
   /// "WHO:  34 %  message", if the last line, or the beginning, is as long ago.

@@ -77,23 +77,22 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept
   }
 }
 
-// Not inlined, since GCC takes free() beside a new that it does not see through for a mistake.
-[[gnu::noinline]] void operator delete(void* memory) noexcept
+void operator delete(void* memory) noexcept
 {
   std::free(memory);
 }
 
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
+void operator delete(void* memory, std::size_t) noexcept
 {
   std::free(memory);
 }
 
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept
+void operator delete(void* memory, std::align_val_t) noexcept
 {
   std::free(memory);
 }
 
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
 {
   std::free(memory);
 }

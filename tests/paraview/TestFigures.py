@@ -101,23 +101,22 @@ class Figures(CactusTestCase):
                 self.assertAlmostEqual(float(row[f"{kind}_diameter_um"]), float(row[f"target_{kind}_diameter_um"]), delta=0.1)
 
     def test_what_is_not_ours_stays(self):
-        """Those that are refused are so before anything is made."""
-        capsules = (os.path.join(FOLDER, "capsules.py"), "--side", "5", "--output", self.folder)
-        code, said = self.figures("capsules", *capsules[1:])
+        script, words = os.path.join(FOLDER, "capsules.py"), ("--side", "5", "--output", self.folder)
+        code, said = self.figures("capsules", *words)
         self.assertEqual(code, 0, said)
         picture = os.path.join(self.folder, "capsules.png")
         with open(picture, "ab") as file:
             file.write(b"my own")
         with open(picture, "rb") as file:
             mine = file.read()
-        code, said = self.run_script(*capsules)
+        code, said = self.run_script(script, *words)
         self.assertNotEqual(code, 0)
         self.assertIn("is not as ./cactus figures has written it", said)
         with open(picture, "rb") as file:
             self.assertEqual(file.read(), mine)
         with open(os.path.join(self.folder, "figures.json"), "w", encoding="utf-8") as file:
             file.write("{}")
-        code, said = self.run_script(*capsules)
+        code, said = self.run_script(script, *words)
         self.assertNotEqual(code, 0)
         self.assertIn("figures.json is there already", said)
 

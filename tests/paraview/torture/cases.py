@@ -737,11 +737,10 @@ def sources():
 def all_cases(bench):
     """{name: whether it belongs to the short run} of every case."""
     result = {}
-    part = 0.5  # the short run is to take about a minute of two cores
 
     def add(name, always=True, share=1.0):
         """`share`: how many of such cases the short run takes, picked by their name."""
-        result[name] = always and (zlib.crc32(name.encode()) % 1000) < 1000 * part * share
+        result[name] = always and (zlib.crc32(name.encode()) % 1000) < 1000 * share
 
     from_paraview = list(sources())
     for name, target in bench.targets.items():
@@ -749,11 +748,11 @@ def all_cases(bench):
             add(f"bounds/{name}/{one.get('name')}")
             for value in values(one):
                 important = value in ("nan", "1e300", "-1", "0", "min", "max", "beyond-min", "beyond-max", "2^31-1")
-                add(f"property/{name}/{one.get('name')}/{value}", share=0.35 if important else 0.1)
+                add(f"property/{name}/{one.get('name')}/{value}", share=0.18 if important else 0.05)
         for one in target.texts:
             place = tempfile.mkdtemp()
             for what in playground(place, {}):
-                add(f"text/{name}/{one.get('name')}/{what}", share=0.4)
+                add(f"text/{name}/{one.get('name')}/{what}", share=0.2)
             shutil.rmtree(place)
         if target.reads:
             with open(bench.good_file(target), "rb") as file:
@@ -763,14 +762,14 @@ def all_cases(bench):
             data = bench.good[kind]
             for what in inputs.spoilers(data):
                 if what.count("."):
-                    share = 0.015
+                    share = 0.008
                 elif what.startswith("empty-"):
-                    share = 0.2
+                    share = 0.1
                 else:
-                    share = 0.3 if port in ("Input", "Outer") or what in inputs.COMPOSITES else 0.15
+                    share = 0.15 if port in ("Input", "Outer") or what in inputs.COMPOSITES else 0.08
                 add(f"data/{name}/{port}/{what}", share=share)
             for source in from_paraview:
-                add(f"source/{name}/{port}/{source}", share=0.3)
+                add(f"source/{name}/{port}/{source}", share=0.15)
             add(f"time/{name}/{port}")
             add(f"missing/{name}/{port}")
         for megabytes in MEGABYTES:
