@@ -295,11 +295,7 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
     throw InvalidInput(
       "Format Reference program has both surfaces of each fibre and their centre lines: connect Inner and Fibres");
   }
-  if (contents.encoding == PlyEncoding::Binary && !mayBeBinary(contents.format))
-  {
-    throw InvalidInput("Encoding Binary is not for simulators that read PLY files, which take ASCII only: choose Encoding ASCII, "
-                       "or Format Surfaces alone, Surfaces by bundle, RMS or SpinDoctor");
-  }
+  requireEncoding(contents.format, contents.encoding);
   if (contents.format == SubstrateFormat::SpinDoctor && contents.outer.size() == 0)
   {
     throw InvalidInput("Format SpinDoctor has a compartment outside the fibres: connect MyelinSurface's Outer");
@@ -381,6 +377,13 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
 }
 
 } // namespace
+
+void requireEncoding(SubstrateFormat format, PlyEncoding encoding)
+{
+  require(encoding == PlyEncoding::Ascii || mayBeBinary(format),
+    "Encoding Binary is not for simulators that read PLY files, which take ASCII only: choose Encoding ASCII, or Format Surfaces "
+    "alone, Surfaces by bundle, RMS or SpinDoctor");
+}
 
 WrittenSubstrate writeSubstrateFolder(
   const SubstrateFolderContents& contents, const std::string& folder, const Context& context, const Sharing& sharing)

@@ -10,6 +10,9 @@
 namespace cactus
 {
 
+/// Throws InvalidInput where the files of a format are not to be had in an encoding, see mayBeBinary().
+void requireEncoding(SubstrateFormat format, PlyEncoding encoding);
+
 /// Writes a folder for simulators:
 ///
 ///   outer/fibre_00001.ply, inner/…   PLY, µm, one file per fibre and surface; of more than 1,000 fibres

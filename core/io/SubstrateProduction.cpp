@@ -129,17 +129,25 @@ std::unique_ptr<SurfaceSpool> openSpool(
   }
 }
 
-/// A part of the caller's progress, with the pace of the whole.
-Context partOf(const Context& context, double from, double to, Pace& pace)
+/// Whose progress tells the pace of the whole, too.
+Context paced(const Context& context)
+{
+  Context whole = context;
+  whole.progress = [&context, pace = std::make_shared<Pace>()](double fraction, const std::string& message)
+  {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    const std::string words = pace->at(seconds, fraction);
+    context.report(fraction, words.empty() ? message : message + ": " + words);
+  };
+  return whole;
+}
+
+/// A part of the progress.
+Context partOf(const Context& context, double from, double to)
 {
   Context part = context;
-  part.progress = [&context, &pace, from, to](double fraction, const std::string& message)
-  {
-    const double all = from + (to - from) * fraction;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    const std::string words = pace.at(seconds, all);
-    context.report(all, words.empty() ? message : message + ": " + words);
-  };
+  part.progress = [&context, from, to](double fraction, const std::string& message)
+  { context.report(from + (to - from) * fraction, message); };
   return part;
 }
 
@@ -165,15 +173,11 @@ std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
   return std::max(together / std::size_t(processes), tilesPerThread * std::size_t(threads));
 }
 
-/// made: the fibres, or a sample of them.
-ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
-  const std::string& folder, const Context& context, const Sharing& sharing)
+/// Makes the surfaces of `made`, the fibres or a sample of them, into the spool, and says what is to be written of them.
+SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
+  ProducedSubstrate& result, const Context& context, const Sharing& sharing)
 {
-  ProducedSubstrate result;
-  result.found = spool.found();
-
-  Pace pace;
-  const Context solving = partOf(context, 0.0, growthSolved, pace);
+  const Context solving = partOf(context, 0.0, growthSolved);
   const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving, sharing);
   const double growth = growthFor(aimed, order.growth, solving, sharing);
   auto tiles = std::make_shared<GrownTiles>(
@@ -181,17 +185,19 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const F
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
-  const Context making = partOf(context, growthSolved, surfacesMade, pace);
+  const Context making = partOf(context, growthSolved, surfacesMade);
+  SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
+  maker.makeOuter(spool.outer(), spool.inner());
+  maker.makeInner(spool.outer(), spool.inner());
+  result.fibres = maker.fibres();
+  result.remarks = notAsAsked(maker.fibres(), spacing, facts);
+
   SubstrateFolderContents contents;
+  addMadeSurfaces(maker.fibres(), spool.outer(), spool.inner(), order.growth.minimumGap, contents);
+  if (contents.outer.size() + contents.inner.size() == 0)
   {
-    SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
-    maker.makeOuter(spool.outer(), spool.inner());
-    maker.makeInner(spool.outer(), spool.inner());
-    result.fibres = maker.fibres();
-    result.remarks = notAsAsked(maker.fibres(), spacing, facts);
-    addMadeSurfaces(maker.fibres(), spool.outer(), spool.inner(), order.growth.minimumGap, contents);
+    throw InvalidInput("there are no surfaces to write: " + result.remarks);
   }
-  tiles.reset();
   contents.domain = fibres.domain;
   contents.fibres = &made;
   if (facts.isSample)
@@ -204,12 +210,22 @@ ProducedSubstrate produceFrom(SurfaceSpool& spool, const Fibres& fibres, const F
   contents.voxelSize = spacing;
   contents.allowOpenSurfaces = order.allowOpenSurfaces;
   contents.certificate.minimumGap = order.growth.minimumGap;
-  result.written = writeSubstrateFolder(contents, folder, partOf(context, surfacesMade, 1.0, pace), sharing);
-  if (sharing.isFirst())
+  return contents;
+}
+
+/// Throws what writeSubstrateFolder() does; where it refuses the surfaces, which stay, that says how to go on with them.
+WrittenSubstrate writeMade(
+  const SubstrateFolderContents& contents, const std::string& folder, const Context& context, const Sharing& sharing)
+{
+  try
   {
-    spool.remove();
+    return writeSubstrateFolder(contents, folder, context, sharing);
   }
-  return result;
+  catch (const InvalidInput& error)
+  {
+    throw InvalidInput(std::string(error.what()) + ". The surfaces are made, and kept in " + workFolderOf(folder) +
+                       ": another Format, Encoding or AllowOpenSurfaces writes them; remove it if you do not want them");
+  }
 }
 
 } // namespace
@@ -227,10 +243,12 @@ ProducedSubstrate produceSubstrate(
   const Sharing sharing(team, work + "/stop");
   ProducedSubstrate result;
   std::unique_ptr<SurfaceSpool> spool;
+  bool isMade = false; // all surfaces are
   const auto produce = [&]
   {
     validate(fibres);
     checkSample(order);
+    requireEncoding(order.format, order.encoding);
     require(!folder.empty(), "FolderName is empty: name the folder to write");
     const std::string identity = identityOf(fibres, order);
     requireAlike(identity, folder, sharing);
@@ -241,11 +259,21 @@ ProducedSubstrate produceSubstrate(
     const Fibres sample = order.sampledFraction < 1.0 ? madeOf(fibres, order) : Fibres();
     const Fibres& made = order.sampledFraction < 1.0 ? sample : fibres;
     spool = openSpool(work, identity, made.size(), sharing);
-    result = produceFrom(*spool, fibres, made, order, folder, sharing.watching(context), sharing);
+    result.found = spool->found();
+    const Context watching = sharing.watching(context);
+    const Context whole = paced(watching);
+    const SubstrateFolderContents contents = makeInto(*spool, fibres, made, order, result, whole, sharing);
+    isMade = true;
+    result.written = writeMade(contents, folder, partOf(whole, surfacesMade, 1.0), sharing);
+    if (sharing.isFirst())
+    {
+      spool->remove();
+    }
   };
-  const auto removeWork = [&]
+  // What an earlier run has left, and what another order may write, is of use.
+  const auto removeUseless = [&]
   {
-    if (spool != nullptr && sharing.isFirst())
+    if (spool != nullptr && sharing.isFirst() && !isMade && result.found == 0)
     {
       spool->remove();
     }
@@ -257,12 +285,12 @@ ProducedSubstrate produceSubstrate(
   }
   catch (const InvalidInput&)
   {
-    removeWork(); // nobody will go on with what cannot be made
+    removeUseless(); // nobody will go on with what cannot be made
     throw;
   }
   catch (const Infeasible&)
   {
-    removeWork();
+    removeUseless();
     throw;
   }
   catch (const Cancelled&)
@@ -271,14 +299,14 @@ ProducedSubstrate produceSubstrate(
     {
       throw WorkKept(work);
     }
-    removeWork();
+    removeUseless();
     throw;
   }
   catch (...)
   {
     if (!isWorkKept())
     {
-      removeWork();
+      removeUseless();
     }
     throw;
   }

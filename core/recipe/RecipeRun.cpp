@@ -345,11 +345,28 @@ private:
   WrittenSubstrate Written;
 };
 
+/// Says now what the last stage would refuse after all the others.
+void requireWritable(const Recipe& recipe)
+{
+  for (const RecipeStage& stage : recipe.stages)
+  {
+    if (const auto* writer = std::get_if<SubstrateWriterStage>(&stage.options))
+    {
+      requireEncoding(writer->format, writer->encoding);
+    }
+    if (const auto* production = std::get_if<SubstrateProductionStage>(&stage.options))
+    {
+      requireEncoding(production->format, production->encoding);
+    }
+  }
+}
+
 } // namespace
 
 WrittenSubstrate runRecipe(
   const Recipe& recipe, const std::string& folder, const Context& context, const std::function<void(const std::string&)>& remark)
 {
+  requireWritable(recipe);
   {
     const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
   }

@@ -16,7 +16,8 @@ namespace cactus
 ///
 /// Threads of the context, where it gives a number, count instead of those of the stages. Progress is that of a stage, and its
 /// message begins with the stage's number and name. `remark` is called with what the filters would warn of, one sentence or
-/// several at a time. Throws what the stages do, FileError at once where the folder could not be written, and Cancelled.
+/// several at a time. Throws what the stages do, FileError at once where the folder could not be written, InvalidInput
+/// at once where the format's files are not to be had in the encoding, and Cancelled.
 WrittenSubstrate runRecipe(const Recipe& recipe, const std::string& folder, const Context& context = {},
   const std::function<void(const std::string&)>& remark = {});
 

@@ -294,6 +294,12 @@ class SubstrateProductionTest(CactusTestCase):
             SubstrateProduction(Input=fibres).UpdatePipeline()
         with self.assertError("DecimationError 0.02 is more than the room"):
             SubstrateProduction(Input=fibres, FolderName=folder, DecimationError=0.02).UpdatePipeline()
+        told = []
+        production = SubstrateProduction(Input=fibres, FolderName=folder, Encoding="Binary")
+        production.SMProxy.GetClientSideObject().AddObserver("ProgressEvent", lambda caller, _: told.append(caller.GetProgressText()))
+        with self.assertError("Encoding Binary is not for simulators that read PLY files"):
+            production.UpdatePipeline()
+        self.assertFalse([text for text in told if text], "said before anything is made")
         self.assertFalse(os.path.exists(folder + ".work"))
 
 

@@ -364,6 +364,80 @@ TEST_F(Production, StopsAndGoesOn)
   EXPECT_EQ(filesIn(this->folder("stopped")), this->filesOfStages());
 }
 
+TEST_F(Production, KeepsSurfacesThatCannotBeWrittenAsAsked)
+{
+  this->Order.format = SubstrateFormat::Surfaces;
+  const auto refuses = [](double part)
+  {
+    Context context;
+    context.progress = [part](double fraction, const std::string&)
+    {
+      if (fraction >= part)
+      {
+        throw InvalidInput("a surface is open");
+      }
+    };
+    return context;
+  };
+  EXPECT_THROW(this->produce("early", refuses(0.5)), InvalidInput);
+  EXPECT_FALSE(fs::exists(this->folder("early.work"))) << "what cannot be made is of use to nobody";
+  this->killAt("resumed", 0.6);
+  EXPECT_THROW(this->produce("resumed", refuses(0.0)), InvalidInput);
+  EXPECT_GT(this->produce("resumed").found, 0u) << "but what an earlier run has left is";
+
+  for (const int members : { 1, 3 })
+  {
+    std::string told;
+    try
+    {
+      members > 1 ? told = this->produceInTeam(members, "kept", [&](int) { return refuses(0.95); }).front()
+                  : std::to_string(this->produce("kept", refuses(0.95)).found);
+    }
+    catch (const InvalidInput& error)
+    {
+      told = error.what();
+    }
+    EXPECT_NE(told.find("a surface is open. The surfaces are made, and kept in " + this->folder("kept.work")), std::string::npos)
+      << told;
+    EXPECT_FALSE(fs::exists(this->folder("kept")));
+    this->Order.format = SubstrateFormat::Mcdc;
+    EXPECT_EQ(this->produce("kept").found, this->Fibres_.size()) << "nothing is made again";
+    EXPECT_EQ(filesIn(this->folder("kept")), this->filesOfStages());
+    EXPECT_FALSE(fs::exists(this->folder("kept.work")));
+    fs::remove_all(this->folder("kept"));
+    fs::remove_all(this->folder("stages"));
+    this->Order.format = SubstrateFormat::Surfaces;
+  }
+}
+
+TEST_F(Production, SaysAtOnceWhatCannotBeWritten)
+{
+  this->Order.encoding = PlyEncoding::Binary; // which MC/DC does not read
+  Context context;
+  context.progress = [](double, const std::string& message) { ADD_FAILURE() << message; };
+  EXPECT_THROW(this->produce("binary", context), InvalidInput);
+  EXPECT_FALSE(fs::exists(this->folder("binary.work")));
+}
+
+TEST_F(Production, SaysWhyThereAreNoSurfaces)
+{
+  this->Fibres_.radii.assign(this->Fibres_.radii.size(), 0.001);
+  this->Order.growth.targetFibreVolumeFraction = 0.0;
+  this->Order.growth.growthIterations = 0;
+  try
+  {
+    this->produce("none");
+    FAIL();
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("there are no surfaces to write: 3 of 3 fibres are not as asked"), std::string::npos)
+      << error.what();
+  }
+  EXPECT_FALSE(fs::exists(this->folder("none")));
+  EXPECT_FALSE(fs::exists(this->folder("none.work")));
+}
+
 TEST_F(Production, LeavesTheWorkOfAnotherOneAlone)
 {
   this->killAt("work", 0.6);
