@@ -30,7 +30,8 @@ constexpr std::uintmax_t largestManifest = std::uintmax_t(1) << 29; ///< bytes; 
 const std::set<std::string>& streamedFiles()
 {
   static const std::set<std::string> names{ "fibres.strands", manifestName, "optimized_final.txt", "outer.ply", "inner.ply",
-    "outer_vertices.npy", "outer_faces.npy", "inner_vertices.npy", "inner_faces.npy", "intra/fiber.txt", "extra/fiber.txt" };
+    "outer_vertices.npy", "outer_faces.npy", "inner_vertices.npy", "inner_faces.npy", "intra/fiber.txt", "extra/fiber.txt",
+    "substrate_dir/substrate_mesh.node", "substrate_dir/substrate_mesh.poly" };
   return names;
 }
 
@@ -41,7 +42,7 @@ const std::set<std::string>& wholeFiles()
   {
     std::set<std::string> all{ "README.txt", "certificate.csv", "certificate_fibres.csv", "mcdc/pgse.scheme", "mcdc/intra.conf",
       "mcdc/extra.conf", "mcdc/intra_ply_list.txt", "mcdc/extra_ply_list.txt", "start/intra.txt", "start/myelin.txt",
-      "start/extra.txt" };
+      "start/extra.txt", "compartments.csv", "substrate_cells", "setup_substrate.m" };
     for (const char* rms : { "simParamInput.txt", "diffusivity.txt", "T2.txt", "bval.txt", "bvec.txt" })
     {
       all.insert(std::string("intra/") + rms);
@@ -64,6 +65,13 @@ bool isNumbered(const std::string& path, const std::string& start, const std::st
   return path.substr(start.size(), path.size() - start.size() - end.size()).find_first_not_of("0123456789") == std::string::npos;
 }
 
+/// The file of a bundle's surfaces, whole or not: it is written piece by piece.
+bool isBundleFile(const std::string& name)
+{
+  const std::string whole = name.substr(0, name.find(".partial-"));
+  return isNumbered(whole, "bundle_", ".ply") && (name == whole || isPartialName(name, whole));
+}
+
 /// A path under which the writer has a file, before there is a manifest: in a folder whose writing was ended.
 bool isFileOfWriter(const std::string& path)
 {
@@ -73,8 +81,10 @@ bool isFileOfWriter(const std::string& path)
   for (const std::string kind : { "outer/", "inner/" })
   {
     const std::size_t slash = path.rfind('/');
-    if (isNumbered(path, kind + "fibre_", ".ply") || (slash != std::string::npos && isNumbered(path.substr(0, slash), kind, "") &&
-                                                       isNumbered(path.substr(slash), "/fibre_", ".ply")))
+    const bool isBundle = path.compare(0, kind.size(), kind) == 0 && isBundleFile(path.substr(kind.size()));
+    if (isBundle || isNumbered(path, kind + "fibre_", ".ply") ||
+        (slash != std::string::npos && isNumbered(path.substr(0, slash), kind, "") &&
+          isNumbered(path.substr(slash), "/fibre_", ".ply")))
     {
       return true;
     }
@@ -86,7 +96,7 @@ bool isFileOfWriter(const std::string& path)
 bool isFolderOfWriter(const std::string& path)
 {
   static const std::set<std::string> names{ "outer", "inner", "mcdc", "mcdc/output", "meshes", "meshes/simulations", "start",
-    "intra", "extra" };
+    "intra", "extra", "substrate_dir" };
   return names.count(path) > 0 || isNumbered(path, "outer/", "") || isNumbered(path, "inner/", "");
 }
 

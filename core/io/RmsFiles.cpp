@@ -28,21 +28,11 @@ constexpr double savedMoments = 1000.0;       ///< of which the number of steps 
 /// Which voxels have walkers.
 using WalkerVoxels = std::vector<bool>;
 
-/// The grid, which has to fill the domain.
-void requireFilled(const Domain& domain, const VoxelBoxes& voxels)
+SubstrateSamplerOptions voxelsOf(double voxelSize)
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double side = domain.size()[axis];
-    const int count = voxels.count[std::size_t(axis)];
-    if (std::fabs(count * voxels.spacing - side) > 1e-6 * side)
-    {
-      std::string fitting;
-      appendNumber(fitting, side / count, 9);
-      throw InvalidInput(text("VoxelSize ", voxels.spacing, " µm does not divide the domain's side of ", side,
-        " µm, at whose end RMS mirrors the voxels: choose one that does, such as ", fitting));
-    }
-  }
+  SubstrateSamplerOptions options;
+  options.voxelSize = voxelSize;
+  return options;
 }
 
 /// Inside the axons, or inside the fibres where there are no inner surfaces at all.
@@ -169,12 +159,28 @@ std::string directionText(const McdcOptions& options)
 
 } // namespace
 
+void requireRmsVoxels(const Domain& domain, double voxelSize)
+{
+  const VoxelBoxes voxels = samplerGrid(domain, voxelsOf(voxelSize));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double side = domain.size()[axis];
+    const int count = voxels.count[std::size_t(axis)];
+    if (std::fabs(count * voxels.spacing - side) > 1e-6 * side)
+    {
+      std::string fitting;
+      appendNumber(fitting, side / count, 9);
+      throw InvalidInput(text("VoxelSize ", voxels.spacing, " µm does not divide the domain's side of ", side,
+        " µm, at whose end RMS mirrors the voxels: choose one that does, such as ", fitting));
+    }
+  }
+}
+
 void writeRms(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context)
 {
-  SubstrateSamplerOptions options;
-  options.voxelSize = contents.voxelSize;
-  requireFilled(contents.domain, samplerGrid(contents.domain, options));
-  const SampledSubstrate sampled = sampleSubstrate(contents.domain, contents.outer, contents.inner, nullptr, options, context);
+  requireRmsVoxels(contents.domain, contents.voxelSize);
+  const SampledSubstrate sampled =
+    sampleSubstrate(contents.domain, contents.outer, contents.inner, nullptr, voxelsOf(contents.voxelSize), context);
   const auto simulate = [&](const std::string& folder, const WalkerVoxels& hasWalkers)
   {
     TextStream diffusivity;

@@ -8,6 +8,10 @@
 namespace cactus
 {
 
+/// Throws InvalidInput where voxels of this size (µm) do not fill the domain, at whose faces RMS mirrors the substrate, or are
+/// more than can be counted.
+void requireRmsVoxels(const Domain& domain, double voxelSize);
+
 /// Writes `intra/` and, where there are outer surfaces, `extra/`: two simulations for the realistic microstructure simulator
 /// (RMS; Lee et al. 2021, J Neurosci Methods 350:109018), each with
 ///
@@ -18,9 +22,8 @@ namespace cactus
 ///   bval.txt, bvec.txt  ms/µm² and unit vectors, those of MC/DC's scheme
 ///
 /// A voxel is what most of it is (see SampledSubstrate). Two simulations, since RMS lets walkers go from any label but 0 into any
-/// other. Throws InvalidInput where VoxelSize does not divide the domain, at whose faces RMS mirrors the substrate, where it
-/// leaves no voxel to walkers, and where voxels inside two fibres share a face, through which walkers would go from one into the
-/// other; OutOfMemory, FileError and Cancelled.
+/// other. Throws what requireRmsVoxels() does, InvalidInput where VoxelSize leaves no voxel to walkers, and where voxels inside
+/// two fibres share a face, through which walkers would go from one into the other; OutOfMemory, FileError and Cancelled.
 void writeRms(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context);
 
 } // namespace cactus

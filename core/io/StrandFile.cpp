@@ -244,17 +244,20 @@ Fibres readStrandFile(const std::string& path)
   return readStrandFile(file, path);
 }
 
+bool fitsStrandFile(const Domain& domain)
+{
+  const double side = domain.size()[0];
+  const Domain cube = Domain::cube(side);
+  return (domain.lower - cube.lower).cwiseAbs().maxCoeff() <= 1e-9 * side &&
+         (domain.upper - cube.upper).cwiseAbs().maxCoeff() <= 1e-9 * side;
+}
+
 void writeStrandFile(const Fibres& fibres, const std::string& path)
 {
   validate(fibres);
+  require(fitsStrandFile(fibres.domain),
+    "a strand file can only hold a cube centred on the origin, and the Domain is something else: write .vtp instead");
   const double side = fibres.domain.size()[0];
-  const Domain cube = Domain::cube(side);
-  if ((fibres.domain.lower - cube.lower).cwiseAbs().maxCoeff() > 1e-9 * side ||
-      (fibres.domain.upper - cube.upper).cwiseAbs().maxCoeff() > 1e-9 * side)
-  {
-    throw InvalidInput(
-      "a strand file can only hold a cube centred on the origin, and the Domain is something else: write .vtp instead");
-  }
   constexpr int digits = 9;
   AtomicFile file(path);
   std::string part;

@@ -24,8 +24,11 @@ Fibres readStrandFile(const std::string& path);
 /// The same from a stream; `name` is what messages call it.
 Fibres readStrandFile(std::istream& stream, const std::string& name);
 
+/// Whether the format can say what domain it is: a cube centred on the origin.
+bool fitsStrandFile(const Domain& domain);
+
 /// Writes the same format with 9 significant digits, whatever the locale. The file appears whole or not at all. Throws FileError,
-/// and InvalidInput where the domain is not a centred cube, which the format cannot say.
+/// and InvalidInput where the domain does not fit.
 void writeStrandFile(const Fibres& fibres, const std::string& path);
 
 } // namespace cactus

@@ -7,6 +7,7 @@
 #include "fibres/Fibres.h"
 #include "io/McdcConfiguration.h"
 #include "io/PlyFile.h"
+#include "io/StrandFile.h"
 #include "judge/SubstrateCertificate.h"
 #include "mesh/FibreSurfaces.h"
 
@@ -61,6 +62,12 @@ struct SubstrateFolderContents
   int startPositions = 0; ///< points in each compartment for walkers to start from
   std::uint64_t seed = 1; ///< of their places
 };
+
+/// Whether the folder has the centre lines: a strand file holds them.
+inline bool hasStrandFile(const SubstrateFolderContents& contents)
+{
+  return contents.fibres != nullptr && fitsStrandFile(contents.fibres->domain);
+}
 
 /// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
 inline bool mayBeBinary(SubstrateFormat format)

@@ -296,6 +296,7 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
       "Format Reference program has both surfaces of each fibre and their centre lines: connect Inner and Fibres");
   }
   requireEncoding(contents.format, contents.encoding);
+  requireRoom(contents.format, contents.domain, contents.voxelSize);
   if (contents.format == SubstrateFormat::SpinDoctor && contents.outer.size() == 0)
   {
     throw InvalidInput("Format SpinDoctor has a compartment outside the fibres: connect MyelinSurface's Outer");
@@ -305,7 +306,7 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
 /// Writes everything but the surfaces, the manifest last: where there is one, the folder is whole.
 void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, FolderWriter& writer)
 {
-  if (contents.fibres != nullptr)
+  if (hasStrandFile(contents))
   {
     const bool isReference = contents.format == SubstrateFormat::Reference;
     writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands",
@@ -371,6 +372,12 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
   {
     writeStartPositions(contents, writer, context);
   }
+  if (contents.fibres != nullptr && !hasStrandFile(contents))
+  {
+    substrate.remarks.push_back(
+      "the centre lines are not in the folder: a strand file can only hold a cube centred on the origin, "
+      "and the Domain is something else; save the fibres as .vtp");
+  }
   writeTexts(contents, substrate, writer);
   replacement.commit(context);
   substrate.leftovers = replacement.leftovers();
@@ -383,6 +390,17 @@ void requireEncoding(SubstrateFormat format, PlyEncoding encoding)
   require(encoding == PlyEncoding::Ascii || mayBeBinary(format),
     "Encoding Binary is not for simulators that read PLY files, which take ASCII only: choose Encoding ASCII, or Format Surfaces "
     "alone, Surfaces by bundle, RMS or SpinDoctor");
+}
+
+void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
+{
+  require(format != SubstrateFormat::Reference || fitsStrandFile(domain),
+    "Format Reference program has the fibres in a strand file, which can only hold a cube centred on the origin, and the Domain "
+    "is something else: choose another Format");
+  if (format == SubstrateFormat::Rms)
+  {
+    requireRmsVoxels(domain, voxelSize);
+  }
 }
 
 WrittenSubstrate writeSubstrateFolder(

@@ -13,12 +13,16 @@ namespace cactus
 /// Throws InvalidInput where the files of a format are not to be had in an encoding, see mayBeBinary().
 void requireEncoding(SubstrateFormat format, PlyEncoding encoding);
 
+/// Throws InvalidInput where the files of a format cannot hold a substrate of this domain: the reference program's any other than
+/// a cube centred on the origin, RMS's one that voxels of this size (µm) do not fill.
+void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize);
+
 /// Writes a folder for simulators:
 ///
 ///   outer/fibre_00001.ply, inner/…   PLY, µm, one file per fibre and surface; of more than 1,000 fibres
 ///                                    outer/00000/fibre_00001.ply, where the ids from 0 to 999 are, and so on
 ///   mcdc/intra.conf, mcdc/extra.conf MC/DC configurations that run as written, with lists of the surfaces and a PGSE scheme
-///   fibres.strands                   the centre lines, where given
+///   fibres.strands                   the centre lines, where given, of a domain that is a cube centred on the origin
 ///   certificate.csv, certificate_fibres.csv   what certify() found on the surfaces as written
 ///   manifest.json, README.txt
 ///

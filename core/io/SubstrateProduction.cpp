@@ -78,19 +78,17 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   return sum.digest();
 }
 
-void checkSample(const ProductionOrder& order)
+/// Axons fill less than the fibres, some of which is myelin.
+void requireRoomForMyelin(const Fibres& fibres, const ProductionOrder& order)
 {
-  requireWithin("SampledFraction", order.sampledFraction, limits::sampledFraction);
-  if (order.sampledFraction == 1.0)
+  const double filled = targetFraction(fibres, order.growth);
+  if (order.surfaces.model == GRatioModel::TargetAxonVolumeFraction && filled > 0.0 &&
+      order.surfaces.targetAxonVolumeFraction >= filled)
   {
-    return;
+    throw InvalidInput(
+      text("TargetAxonVolumeFraction ", order.surfaces.targetAxonVolumeFraction, " cannot be reached: fibres are to fill ",
+        filled, " of the domain, with their myelin. Ask for less, or raise TargetFibreVolumeFraction"));
   }
-  require(order.format == SubstrateFormat::Surfaces || order.format == SubstrateFormat::Bundles,
-    "SampledFraction is below 1, and Format is a simulator's, which would take the space of all other fibres for extra-axonal: "
-    "choose Surfaces alone or Surfaces by bundle, or make all surfaces");
-  require(order.surfaces.model != GRatioModel::TargetAxonVolumeFraction,
-    "SampledFraction is below 1, and the g-ratio for TargetAxonVolumeFraction depends on all fibres: choose another GRatioModel, "
-    "or make all surfaces");
 }
 
 /// The fibres whose surfaces are made: one at least.
@@ -213,7 +211,19 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   return contents;
 }
 
-/// Throws what writeSubstrateFolder() does; where it refuses the surfaces, which stay, that says how to go on with them.
+/// What goes on with surfaces that could not be written.
+std::string waysOn(const std::string& message, const std::string& folder)
+{
+  const std::string work = workFolderOf(folder);
+  const bool isOfWork = message.find(work) != std::string::npos; // and says itself what to do
+  return message + (isOfWork ? ""
+                             : ". The surfaces are made, and kept in " + work +
+                                 ": this FolderName goes on with them once that is mended. For "
+                                 "another one, rename " +
+                                 work + " to its name with .work");
+}
+
+/// Throws what writeSubstrateFolder() does; where the surfaces, which stay, cannot be written, that says how to go on with them.
 WrittenSubstrate writeMade(
   const SubstrateFolderContents& contents, const std::string& folder, const Context& context, const Sharing& sharing)
 {
@@ -226,9 +236,33 @@ WrittenSubstrate writeMade(
     throw InvalidInput(std::string(error.what()) + ". The surfaces are made, and kept in " + workFolderOf(folder) +
                        ": another Format, Encoding or AllowOpenSurfaces writes them; remove it if you do not want them");
   }
+  catch (const FileError& error)
+  {
+    throw FileError(waysOn(error.what(), folder));
+  }
+  catch (const OutOfMemory& error)
+  {
+    throw OutOfMemory(waysOn(error.what(), folder));
+  }
 }
 
 } // namespace
+
+void validate(const ProductionOrder& order)
+{
+  validate(order.growth);
+  validate(order.surfaces);
+  requireDecimationRoom(order.surfaces, order.growth.surfaceTolerance);
+  requireEncoding(order.format, order.encoding);
+  requireWithin("SampledFraction", order.sampledFraction, limits::sampledFraction);
+  const bool isSample = order.sampledFraction < 1.0;
+  require(!isSample || order.format == SubstrateFormat::Surfaces || order.format == SubstrateFormat::Bundles,
+    "SampledFraction is below 1, and Format is a simulator's, which would take the space of all other fibres for extra-axonal: "
+    "choose Surfaces alone or Surfaces by bundle, or make all surfaces");
+  require(!isSample || order.surfaces.model != GRatioModel::TargetAxonVolumeFraction,
+    "SampledFraction is below 1, and the g-ratio for TargetAxonVolumeFraction depends on all fibres: choose another GRatioModel, "
+    "or make all surfaces");
+}
 
 std::string workFolderOf(const std::string& folder)
 {
@@ -240,15 +274,16 @@ ProducedSubstrate produceSubstrate(
   const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context, Team* team)
 {
   const std::string work = workFolderOf(folder);
-  const Sharing sharing(team, work + "/stop");
+  const Sharing sharing(team, work + '/' + SurfaceSpool::stopName);
   ProducedSubstrate result;
   std::unique_ptr<SurfaceSpool> spool;
   bool isMade = false; // all surfaces are
   const auto produce = [&]
   {
     validate(fibres);
-    checkSample(order);
-    requireEncoding(order.format, order.encoding);
+    validate(order);
+    requireRoom(order.format, fibres.domain, growthGrid(fibres.domain, order.growth).spacing);
+    requireRoomForMyelin(fibres, order);
     require(!folder.empty(), "FolderName is empty: name the folder to write");
     const std::string identity = identityOf(fibres, order);
     requireAlike(identity, folder, sharing);

@@ -33,6 +33,10 @@ struct ProductionOrder
   std::function<Provenance(double spacing, double growth)> provenance;
 };
 
+/// Throws InvalidInput for options out of their ranges, an encoding that the format's files are not to be had in, and a sample
+/// that is to be simulated or whose volumes all fibres decide on.
+void validate(const ProductionOrder& order);
+
 /// What came of it.
 struct ProducedSubstrate
 {
@@ -71,8 +75,8 @@ std::string workFolderOf(const std::string& folder);
 /// The processes of a team, which are all given the same, share the work, and all get the result; any number of them goes on with
 /// what any other has left. An error in one ends it in all (see Sharing::together()).
 ///
-/// Throws what these do, WorkKept, InvalidInput for a sample that is to be simulated or whose volumes all fibres decide on, for a
-/// work folder of something else, and where no fibre has a surface; and FileError. What cannot be made leaves no work folder but
+/// Throws what these and validate() do, WorkKept, InvalidInput for a work folder of something else and where no fibre has a
+/// surface; and FileError. What cannot be made leaves no work folder but
 /// an earlier run's; what has been made and cannot be written so (an open surface, a format that has no room for it) stays, and
 /// the same call with another format, encoding or allowOpenSurfaces writes it.
 ProducedSubstrate produceSubstrate(const Fibres& fibres, const ProductionOrder& order, const std::string& folder,

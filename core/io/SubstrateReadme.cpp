@@ -156,7 +156,7 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
   {
     text += "inner/          inner surfaces (the axons), likewise\n";
   }
-  if (contents.fibres != nullptr)
+  if (hasStrandFile(contents))
   {
     text += "fibres.strands  centre lines and radii\n";
   }

@@ -108,6 +108,8 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
   {
     makeFolders(this->Folder);
     this->Log.emplace((this->Folder / journalName).string(), identity);
+    std::error_code ignored;
+    std::filesystem::remove(this->Folder / stopName, ignored); // of processes that were killed
   }
   sharing.exchange();
   const std::filesystem::path own =
@@ -271,7 +273,7 @@ void SurfaceSpool::remove()
     }
     std::filesystem::remove(this->Folder / kind, ignored);
   }
-  std::filesystem::remove(this->Folder / "stop", ignored);
+  std::filesystem::remove(this->Folder / stopName, ignored);
   for (const std::filesystem::path& journal : this->journals())
   {
     std::filesystem::remove(journal, ignored);

@@ -23,6 +23,7 @@ namespace cactus
 ///                             is in FOLDER/journal-00001 and so on
 ///   FOLDER/outer/00000/…      outer surfaces as they were contoured, a file each, at most 1,000 in a folder
 ///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
+///   FOLDER/stop               while one process of a team tells the others to end (see Sharing)
 ///
 /// Files appear whole or not at all, and what is in a journal is in its file. One that was never put
 /// is an error. Memory is one surface for each that is asked for, or the part of it (see SurfaceFile.h). Any number of processes
@@ -30,6 +31,8 @@ namespace cactus
 class SurfaceSpool : public SurfaceJournal
 {
 public:
+  static constexpr char stopName[] = "stop";
+
   /// For so many fibres, in a folder that is made, or goes on where one of the same `identity` ended. Throws InvalidInput for a
   /// folder of another identity, and FileError. Processes that share it make theirs together.
   SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing = Sharing());

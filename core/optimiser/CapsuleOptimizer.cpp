@@ -117,7 +117,8 @@ std::optional<StopReason> descend(
     {
       const double first = run.rows.empty() ? row.maximumPenetration : run.rows.front().maximumPenetration;
       around.completed = std::max(around.completed, completedFraction(row, first, around.options));
-      around.context.report(around.completed, describe(row));
+      const std::string& failure = around.checkpoints.failure();
+      around.context.report(around.completed, describe(row) + (failure.empty() ? "" : "; cannot be written down: " + failure));
     }
     const auto reason = reasonToStop(row, run.progress, around.options, moment);
     if (isToBeRefined(run, reason))

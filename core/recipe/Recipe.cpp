@@ -2,6 +2,8 @@
 #include "recipe/Recipe.h"
 
 #include "base/Error.h"
+#include "io/SubstrateFolder.h"
+#include "io/SubstrateProduction.h"
 #include "io/TractogramFile.h"
 #include "stages/StageWork.h"
 
@@ -225,12 +227,14 @@ void checkOptions(const MyelinSurfaceStage& stage)
   validate(stage.options);
 }
 
-void checkOptions(const SubstrateWriterStage&) {}
+void checkOptions(const SubstrateWriterStage& stage)
+{
+  requireEncoding(stage.format, stage.encoding);
+}
 
 void checkOptions(const SubstrateProductionStage& stage)
 {
-  validate(stage.growth);
-  validate(stage.surfaces);
+  validate(productionOrder(stage, {}));
 }
 
 /// Says whose option it is.
@@ -252,6 +256,16 @@ void checkValues(const Stage& options)
 {
   validateProperties(options);
   checkOptions(options);
+}
+
+/// What two stages say together.
+void checkTogether(const Recipe& recipe, const RecipeStage& stage)
+{
+  if (const auto* myelin = std::get_if<MyelinSurfaceStage>(&stage.options))
+  {
+    const RecipeStage& grown = recipe.stages[stage.input("Input").front().stage];
+    requireDecimationRoom(myelin->options, std::get<FibreRadialGrowthStage>(grown.options).options.surfaceTolerance);
+  }
 }
 
 } // namespace
@@ -302,7 +316,12 @@ void check(const Recipe& recipe)
   for (const RecipeStage& stage : recipe.stages)
   {
     checkInputs(recipe, stage);
-    of(stage, [&] { std::visit([](const auto& options) { checkValues(options); }, stage.options); });
+    of(stage,
+      [&]
+      {
+        std::visit([](const auto& options) { checkValues(options); }, stage.options);
+        checkTogether(recipe, stage);
+      });
   }
 }
 

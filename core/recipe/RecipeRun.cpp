@@ -232,7 +232,12 @@ private:
     Fibres fibres = this->fibresFrom(this->stage().input("Input"));
     validate(fibres);
     const OptimisationResult result = optimise(fibres, stage.options, this->contextFor(stage.threads));
-    this->Caller.checkpoint(); // it keeps its best state where it is stopped
+    if (this->Caller.stopRequested())
+    {
+      const std::string remark = remarkOnCheckpoint(result);
+      this->say(remark.empty() ? "" : "CapsuleOptimizer: " + remark);
+      throw Cancelled(); // it keeps its best state, which is no result here
+    }
     std::vector<std::size_t> kept;
     fibres = trimmedFibres(stage, std::move(fibres), kept);
     for (const std::string& remark : remarksOnOptimisation(result, stage.options))
@@ -345,28 +350,11 @@ private:
   WrittenSubstrate Written;
 };
 
-/// Says now what the last stage would refuse after all the others.
-void requireWritable(const Recipe& recipe)
-{
-  for (const RecipeStage& stage : recipe.stages)
-  {
-    if (const auto* writer = std::get_if<SubstrateWriterStage>(&stage.options))
-    {
-      requireEncoding(writer->format, writer->encoding);
-    }
-    if (const auto* production = std::get_if<SubstrateProductionStage>(&stage.options))
-    {
-      requireEncoding(production->format, production->encoding);
-    }
-  }
-}
-
 } // namespace
 
 WrittenSubstrate runRecipe(
   const Recipe& recipe, const std::string& folder, const Context& context, const std::function<void(const std::string&)>& remark)
 {
-  requireWritable(recipe);
   {
     const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
   }

@@ -304,12 +304,17 @@ Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vec
   return fibres;
 }
 
+std::string remarkOnCheckpoint(const OptimisationResult& result)
+{
+  return result.checkpointFailure.empty() ? "" : "the run could not be written down to go on from: " + result.checkpointFailure;
+}
+
 std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, const CapsuleOptimizerOptions& options)
 {
   std::vector<std::string> remarks;
-  if (!result.checkpointFailure.empty())
+  if (const std::string remark = remarkOnCheckpoint(result); !remark.empty())
   {
-    remarks.push_back("the run could not be written down to go on from: " + result.checkpointFailure);
+    remarks.push_back(remark);
   }
   if (result.maximumPenetration > options.overlapTolerance)
   {

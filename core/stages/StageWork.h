@@ -59,6 +59,9 @@ std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
 /// The fibres, trimmed to their domain if the stage says so; `kept` as of trimToDomain(). Throws InvalidInput where none is left.
 Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vector<std::size_t>& kept);
 
+/// Empty where what is to be gone on from could be written down, or was not asked for.
+std::string remarkOnCheckpoint(const OptimisationResult& result);
+
 /// How the optimiser's run fell short, in sentences; empty where it did not.
 std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, const CapsuleOptimizerOptions& options);
 

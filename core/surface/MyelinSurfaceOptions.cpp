@@ -77,4 +77,13 @@ LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOpt
   return facts;
 }
 
+void requireDecimationRoom(const MyelinSurfaceOptions& options, double surfaceTolerance)
+{
+  if (options.decimationError > surfaceTolerance * (1.0 + 1e-9))
+  {
+    throw InvalidInput(text("DecimationError ", options.decimationError, " is more than the room of ", surfaceTolerance,
+      " µm that growth left for moving surfaces: choose a smaller one, or raise SurfaceTolerance in FibreRadialGrowth"));
+  }
+}
+
 } // namespace cactus

@@ -46,6 +46,9 @@ struct MyelinSurfaceOptions
 /// Throws InvalidInput, naming the parameter, for a value out of range.
 void validate(const MyelinSurfaceOptions& options);
 
+/// Throws InvalidInput where coarsening would move surfaces further than growth has left room for, its SurfaceTolerance (µm).
+void requireDecimationRoom(const MyelinSurfaceOptions& options, double surfaceTolerance);
+
 /// What comes with a label image; lengths in µm.
 struct LabelImageFacts
 {

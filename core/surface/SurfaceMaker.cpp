@@ -144,11 +144,7 @@ const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurface
   validate(options);
   requireWithin("MinimumGap of the label image", facts.minimumGap, limits::gap);
   requireWithin("SurfaceTolerance of the label image", facts.surfaceTolerance, limits::surfaceTolerance);
-  if (options.decimationError > facts.surfaceTolerance * (1.0 + 1e-9))
-  {
-    throw InvalidInput(text("DecimationError ", options.decimationError, " is more than the room of ", facts.surfaceTolerance,
-      " µm that growth left for moving surfaces: choose a smaller one, or raise SurfaceTolerance in FibreRadialGrowth"));
-  }
+  requireDecimationRoom(options, facts.surfaceTolerance);
   return facts;
 }
 

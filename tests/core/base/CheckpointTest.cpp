@@ -299,8 +299,11 @@ TEST(Checkpoint, OfARunIsNotLostToAnother)
   options.resume = false;
   std::remove(path.c_str());
   Fibres fibres = start;
-  options.maximumIterations = 5;
-  const std::string failure = optimise(fibres, options, {},
+  options.maximumIterations = 12;
+  Context context;
+  std::string told;
+  context.progress = [&](double, const std::string& message) { told = message; };
+  const std::string failure = optimise(fibres, options, context,
     [&](const ConvergenceRow& row, const Fibres&)
     {
       if (row.iteration == 2)
@@ -309,6 +312,7 @@ TEST(Checkpoint, OfARunIsNotLostToAnother)
       }
     }).checkpointFailure;
   EXPECT_NE(failure.find("not a checkpoint of this program, and is kept"), std::string::npos) << failure;
+  EXPECT_NE(told.find("; cannot be written down: "), std::string::npos) << "and says so meanwhile: " << told;
   EXPECT_EQ(contentOf(path), "my thesis, until now safe here\n");
   std::remove(path.c_str());
 }

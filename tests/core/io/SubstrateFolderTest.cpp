@@ -446,7 +446,8 @@ TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
   this->Contents.voxelSize = 0.5;
   this->Contents.startPositions = 1;
   for (const auto format : { cactus::SubstrateFormat::Mcdc, cactus::SubstrateFormat::Reference, cactus::SubstrateFormat::Camino,
-         cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms, cactus::SubstrateFormat::Surfaces })
+         cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms, cactus::SubstrateFormat::Surfaces,
+         cactus::SubstrateFormat::SpinDoctor, cactus::SubstrateFormat::Bundles })
   {
     this->Contents.format = format;
     const fs::path folder = this->Scratch / std::to_string(int(format));
@@ -458,6 +459,75 @@ TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
     EXPECT_GT(found.files.size(), 5u);
     std::ofstream(folder / "notes.txt") << "mine";
     EXPECT_EQ(cactus::inspectFolder(folder, {}, {}).added, std::vector<std::string>{ "notes.txt" });
+  }
+}
+
+// What a format has no name for is the user's, and would stay.
+TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
+{
+  cactus::Fibres fibres;
+  fibres.domain = this->Contents.domain;
+  fibres.addFibre(2, 1, 1.0);
+  fibres.addPoint({ 0, 0, -15 }, 1.0);
+  fibres.addPoint({ 0, 0, 15 }, 1.0);
+  this->Contents.fibres = &fibres;
+  this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(13.0) });
+  this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
+  this->Contents.voxelSize = 1.5;
+  for (std::size_t format = 0; format < std::size(cactus::formatNames); ++format)
+  {
+    this->Contents.format = static_cast<cactus::SubstrateFormat>(format);
+    int stops = 0;
+    for (int most = 0;; most = most * 3 / 2 + 1)
+    {
+      int asked = 0;
+      cactus::Context context;
+      context.threads = 1;
+      context.cancelled = [&] { return ++asked > most; };
+      try
+      {
+        cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string(), context);
+        break;
+      }
+      catch (const cactus::Cancelled&)
+      {
+        ++stops;
+        EXPECT_TRUE(this->entries().empty()) << cactus::formatNames[format] << ", stopped after " << most;
+      }
+    }
+    EXPECT_GT(stops, 2) << cactus::formatNames[format];
+    fs::remove_all(this->Scratch / "s");
+  }
+}
+
+TEST_F(SubstrateFolder, IsWrittenOfAnyBox)
+{
+  cactus::Fibres fibres;
+  fibres.domain = this->Contents.domain;
+  fibres.domain.upper[2] += 10.0;
+  fibres.addFibre(2, 1, 1.0);
+  fibres.addPoint({ 0, 0, -15 }, 1.0);
+  fibres.addPoint({ 0, 0, 25 }, 1.0);
+  this->Contents.domain = fibres.domain;
+  this->Contents.fibres = &fibres;
+  this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(13.0) });
+  this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
+  this->Contents.voxelSize = 0.5;
+  for (std::size_t format = 0; format < std::size(cactus::formatNames); ++format)
+  {
+    this->Contents.format = static_cast<cactus::SubstrateFormat>(format);
+    const fs::path folder = this->Scratch / std::to_string(format);
+    const bool isReference = this->Contents.format == cactus::SubstrateFormat::Reference;
+    const std::string told = this->write(folder);
+    EXPECT_EQ(told.substr(0, told.find(',')), isReference ? "Format Reference program has the fibres in a strand file" : "") << told;
+    EXPECT_EQ(fs::exists(folder / "manifest.json"), !isReference);
+    EXPECT_FALSE(fs::exists(folder / "fibres.strands"));
+    if (!isReference)
+    {
+      const std::string readme = contentOf(folder / "README.txt");
+      EXPECT_NE(readme.find("the centre lines are not in the folder"), std::string::npos);
+      EXPECT_EQ(readme.find("fibres.strands  centre"), std::string::npos);
+    }
   }
 }
 

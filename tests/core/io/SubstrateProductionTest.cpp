@@ -410,13 +410,72 @@ TEST_F(Production, KeepsSurfacesThatCannotBeWrittenAsAsked)
   }
 }
 
-TEST_F(Production, SaysAtOnceWhatCannotBeWritten)
+TEST_F(Production, SaysAtOnceWhatCannotBeMadeOrWritten)
 {
-  this->Order.encoding = PlyEncoding::Binary; // which MC/DC does not read
   Context context;
   context.progress = [](double, const std::string& message) { ADD_FAILURE() << message; };
-  EXPECT_THROW(this->produce("binary", context), InvalidInput);
-  EXPECT_FALSE(fs::exists(this->folder("binary.work")));
+  const auto refused = [&]
+  {
+    try
+    {
+      this->produce("refused", context);
+    }
+    catch (const InvalidInput& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const ProductionOrder good = this->Order;
+  this->Order.encoding = PlyEncoding::Binary; // which MC/DC does not read
+  EXPECT_NE(refused().find("Encoding Binary"), std::string::npos);
+  this->Order = good;
+  this->Order.surfaces.decimationError = 0.006;
+  EXPECT_NE(refused().find("DecimationError 0.006"), std::string::npos);
+  this->Order = good;
+  this->Order.surfaces.model = GRatioModel::TargetAxonVolumeFraction;
+  this->Order.surfaces.targetAxonVolumeFraction = 0.45;
+  EXPECT_NE(refused().find("TargetAxonVolumeFraction 0.45 cannot be reached"), std::string::npos);
+  this->Order = good;
+  this->Order.format = SubstrateFormat::Reference;
+  this->Fibres_.domain.upper += Eigen::Vector3d(0.0, 0.0, 1.0);
+  EXPECT_NE(refused().find("Format Reference program"), std::string::npos);
+  EXPECT_FALSE(fs::exists(this->folder("refused.work")));
+}
+
+TEST_F(Production, SaysWhatIsKeptWhereTheDiskOrTheFolderIsTheTrouble)
+{
+  fs::create_directories(this->folder("taken"));
+  Context context;
+  context.progress = [&](double fraction, const std::string&)
+  {
+    if (fraction > 0.5) // meanwhile
+    {
+      std::ofstream(this->folder("taken/notes.txt")) << "mine";
+    }
+  };
+  try
+  {
+    this->produce("taken", context);
+    FAIL();
+  }
+  catch (const FileError& error)
+  {
+    const std::string told = error.what();
+    EXPECT_NE(told.find("kept in " + this->folder("taken.work")), std::string::npos) << told;
+  }
+  fs::rename(this->folder("taken.work"), this->folder("another.work"));
+  EXPECT_EQ(this->produce("another").found, this->Fibres_.size());
+  EXPECT_EQ(filesIn(this->folder("another")), this->filesOfStages());
+  EXPECT_EQ(filesIn(this->folder("taken")).size(), 1u);
+}
+
+TEST_F(Production, MindsNoStopOfAnEarlierRun)
+{
+  this->killAt("stopped", 0.5, 3);
+  std::ofstream(this->folder("stopped.work/stop")).flush();
+  const auto told = this->produceInTeam(3, "stopped");
+  EXPECT_NE(told.front().find("certified"), std::string::npos) << told.front();
 }
 
 TEST_F(Production, SaysWhyThereAreNoSurfaces)

@@ -94,23 +94,6 @@ TEST_F(RecipeRuns, SaysAtOnceThatTheFolderIsNotFree)
   EXPECT_FALSE(hasBegun);
 }
 
-TEST_F(RecipeRuns, SaysAtOnceThatAFormatIsNotToBeHadInAnEncoding)
-{
-  const std::string stages(small);
-  for (const char* last : { "SubstrateWriter", "SubstrateProduction" })
-  {
-    std::string recipe = stages.substr(0, stages.rfind('}')) + ", \"" + last + R"(": { "Encoding": "Binary" } })";
-    if (std::string(last) == "SubstrateProduction")
-    {
-      recipe.replace(
-        recipe.find(R"("FibreRadialGrowth")"), std::string::npos, R"("SubstrateProduction": { "Encoding": "Binary" } })");
-    }
-    Context context;
-    context.progress = [](double, const std::string& message) { ADD_FAILURE() << message; };
-    EXPECT_THROW(runRecipe(readRecipe(recipe, ""), this->place("binary"), context), InvalidInput) << recipe;
-  }
-}
-
 TEST_F(RecipeRuns, TellsOfFibresThatStillOverlap)
 {
   std::string remarks;
