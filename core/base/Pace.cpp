@@ -14,6 +14,7 @@ namespace
 
 constexpr double leastSeconds = 10.0;
 constexpr double leastFraction = 1e-3;
+constexpr double window = 600.0;
 constexpr double mostPercent = 99.5; // of two digits
 
 std::string duration(double seconds)
@@ -31,17 +32,21 @@ std::string duration(double seconds)
 
 } // namespace
 
-std::string Pace::at(double seconds, double fraction)
+std::string Pace::at(double seconds, double fraction, const std::string& part)
 {
-  if (!this->IsBegun)
+  const Moment now{ seconds, fraction };
+  if (!this->First || part != this->Part)
   {
-    // What an earlier run has done counts as done, and not for the pace.
-    this->IsBegun = true;
-    this->FirstSeconds = seconds;
-    this->FirstFraction = fraction;
+    this->Part = part;
+    this->First = this->Next = now;
   }
-  const double spent = seconds - this->FirstSeconds;
-  const double done = fraction - this->FirstFraction;
+  if (seconds - this->Next.seconds > window)
+  {
+    this->First = this->Next;
+    this->Next = now;
+  }
+  const double spent = seconds - this->First->seconds;
+  const double done = fraction - this->First->fraction;
   if (spent < leastSeconds || done < leastFraction)
   {
     return {};

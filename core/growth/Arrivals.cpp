@@ -43,8 +43,9 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
 {
   const double first = -largestRadius(fibres) - growthClass;
   const auto classes = std::size_t(std::ceil((reach - first) / growthClass)) + 1;
-  const int threads = context.threadCount();
-  std::vector<std::vector<std::uint64_t>> perThread(std::size_t(threads), std::vector<std::uint64_t>(classes + 1, 0));
+  Context sweeping = context;
+  sweeping.threads = context.threadCount(); // which may say something else the next time
+  std::vector<std::vector<std::uint64_t>> perThread(std::size_t(sweeping.threads), std::vector<std::uint64_t>(classes + 1, 0));
   const auto never = static_cast<int>(classes);
   FieldRelevance relevance;
   relevance.bestReach = reach;
@@ -52,7 +53,7 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   relevance.contrast = options.gap();
   const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, grid.box(), reach + options.gap() + grid.spacing);
   const auto gap = static_cast<float>(options.gap());
-  field.sweep(partOf(grid, sharing), relevance, context, 0.3, 0.5, "finding the growth that reaches the target",
+  field.sweep(partOf(grid, sharing), relevance, sweeping, 0.3, 0.5, "finding the growth that reaches the target",
     [&](const FieldCell& cell, int thread)
     {
       // First the class of each sample, without branches, where those that never arrive have one of their own.

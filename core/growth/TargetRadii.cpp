@@ -74,8 +74,10 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   const Eigen::AlignedBox3d domain(fibres.domain.lower, fibres.domain.upper);
   const double reach = growth + options.gap() + spacing;
   const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, domain, std::max(reach, 0.0));
+  Context sweeping = context;
+  sweeping.threads = context.threadCount(); // which may say something else the next time
   std::vector<std::vector<std::uint64_t>> perThread(
-    static_cast<std::size_t>(context.threadCount()), std::vector<std::uint64_t>(fibres.size(), 0));
+    static_cast<std::size_t>(sweeping.threads), std::vector<std::uint64_t>(fibres.size(), 0));
   const auto gap = static_cast<float>(options.gap());
   const auto lowest = static_cast<float>(-growth);
 
@@ -84,7 +86,7 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   {
     const VoxelGrid grid = slabGrid(fibres.domain, spacing, slab, round);
     const double step = (to - from) / slabs;
-    field.sweep(grid, relevance, context, from + slab * step, from + (slab + 1) * step, "aiming at the target radii",
+    field.sweep(grid, relevance, sweeping, from + slab * step, from + (slab + 1) * step, "aiming at the target radii",
       [&](const FieldCell& cell, int thread)
       {
         auto& counts = perThread[static_cast<std::size_t>(thread)];

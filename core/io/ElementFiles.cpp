@@ -199,21 +199,21 @@ std::string compartmentTable(
 std::string cellText(
   const std::vector<CompartmentSurface>& surfaces, const CompartmentNumbers& numbers, const std::vector<double>& volumes)
 {
+  std::vector<double> within(volumes.size(), 0.0); // volume directly within each compartment
+  for (const CompartmentSurface& surface : surfaces)
+  {
+    within[std::size_t(surface.outside)] += volumes[std::size_t(surface.inside)];
+  }
   std::string text = "# number of cells\n" + std::to_string(numbers.fibres) + "\n# dimension\n2\n# cell x y radius\n";
   for (std::int32_t i = 0; i < numbers.fibres; ++i)
   {
     const CompartmentSurface& outer = surfaces[std::size_t(numbers.axons + i)];
     Eigen::AlignedBox3d box;
-    double volume = 0.0;
     for (const Eigen::Vector3d& point : outer.mesh.points)
     {
       box.extend(point);
     }
-    for (const CompartmentSurface& surface : surfaces)
-    {
-      const bool isPart = &surface == &outer || surface.outside == outer.inside;
-      volume += isPart ? volumes[std::size_t(surface.inside)] : 0.0;
-    }
+    const double volume = within[std::size_t(outer.inside)] + volumes[std::size_t(outer.inside)];
     text += std::to_string(i + 1);
     for (const double number : { box.center()[0], box.center()[1], std::sqrt(volume / (pi * box.sizes().maxCoeff())) })
     {

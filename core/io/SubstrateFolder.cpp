@@ -3,6 +3,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/Memory.h"
 #include "base/Parallel.h"
 #include "io/CertificateText.h"
 #include "io/CombinedSurfaces.h"
@@ -19,10 +20,13 @@
 #include "mesh/SurfaceCheck.h"
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <thread>
 
 namespace cactus
 {
@@ -185,6 +189,21 @@ std::map<int, BundleSurfaces> byBundle(const FibreSurfaces& all)
   return bundles;
 }
 
+/// For what runs in several threads: only the one that made it asks the caller whether to stop.
+Context askedByOne(const Context& context)
+{
+  Context shared = context;
+  shared.cancelled = [&context, own = std::this_thread::get_id(), isStopped = std::make_shared<std::atomic<bool>>(false)]
+  {
+    if (std::this_thread::get_id() == own && context.stopRequested())
+    {
+      *isStopped = true;
+    }
+    return isStopped->load();
+  };
+  return shared;
+}
+
 /// Writes the surfaces of each bundle to a file.
 void writeByBundle(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, PlyEncoding encoding,
   FolderWriter& writer, const SharedRun& run, double from, double to)
@@ -197,15 +216,16 @@ void writeByBundle(const FibreSurfaces& surfaces, const std::vector<SubstrateFil
     inTurn.push_back(&entry.second);
   }
   const auto fileOf = [&](std::size_t i) -> const SubstrateFile& { return files[inTurn[i]->places.front()]; };
+  const Context context = askedByOne(run.context);
   std::vector<std::string> checksums(inTurn.size());
   run.sharing.loop(
-    inTurn.size(), run.context,
+    inTurn.size(), context,
     [&](std::size_t i)
     {
       const SubstrateFile& file = fileOf(i);
       const std::string comment =
         "CACTUS " CACTUS_VERSION ", " + file.surface + " surfaces of bundle " + std::to_string(file.bundleId) + ", micrometres";
-      checksums[i] = writeBundleSurfaces(inTurn[i]->surfaces, file.path, comment, encoding, writer.folder(), run.context);
+      checksums[i] = writeBundleSurfaces(inTurn[i]->surfaces, file.path, comment, encoding, writer.folder(), context);
     },
     [&](std::size_t i) { return checksums[i]; }, [&](std::size_t i, const std::string& checksum) { checksums[i] = checksum; },
     "Writing surfaces", from, to);
@@ -328,6 +348,19 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
     });
 }
 
+/// Format SpinDoctor joins all surfaces in memory.
+void requireMemoryForElements(const SubstrateCertificate& certificate)
+{
+  constexpr double bytesOfTriangle = 80.0; // twice with its part of the points, once with the compartments of its sides
+  double triangles = 0.0;
+  for (const FibreCertificate& fibre : certificate.fibres)
+  {
+    triangles += double(fibre.outer.triangles) + double(fibre.inner.triangles);
+  }
+  requireMemory(bytesOfTriangle * triangles, text("Format SpinDoctor, which joins ", triangles, " triangles"),
+    "choose another Format, or make a smaller substrate");
+}
+
 /// Judges and writes all but what one process has to write by itself.
 WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWriter& writer, const SharedRun& run)
 {
@@ -341,6 +374,10 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
   if (!contents.allowOpenSurfaces)
   {
     requireSound(substrate.certificate);
+  }
+  if (contents.format == SubstrateFormat::SpinDoctor)
+  {
+    requireMemoryForElements(substrate.certificate);
   }
   const double share =
     static_cast<double>(contents.outer.size()) / static_cast<double>(contents.outer.size() + contents.inner.size());

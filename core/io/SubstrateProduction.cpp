@@ -134,7 +134,7 @@ Context paced(const Context& context)
   whole.progress = [&context, pace = std::make_shared<Pace>()](double fraction, const std::string& message)
   {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    const std::string words = pace->at(seconds, fraction);
+    const std::string words = pace->at(seconds, fraction, message);
     context.report(fraction, words.empty() ? message : message + ": " + words);
   };
   return whole;

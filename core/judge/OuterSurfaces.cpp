@@ -11,8 +11,8 @@ namespace
 
 /// Triangles that a box holds, about.
 constexpr std::size_t trianglesOfBranch = 256;
-/// Of a triangle of a tree (see BoxTree).
-constexpr std::size_t bytesOfEntry = 70;
+/// Of a triangle of a tree: its entry (see BoxTree) and its plane.
+constexpr std::size_t bytesOfEntry = 70 + sizeof(TrianglePlane);
 
 std::size_t bytesOf(const TreedSurface& surface)
 {

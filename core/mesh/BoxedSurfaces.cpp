@@ -109,6 +109,8 @@ void BoxJoint::add(const CompartmentSurface& surface)
       {
         Vector3d point = surface.mesh.points[p];
         const FaceBits bits = facesAt(this->Box, point);
+        require(this->Joined.mesh.points.size() < std::size_t(std::numeric_limits<std::int32_t>::max()),
+          "these surfaces have more points than one complex can number: join fewer fibres");
         this->Number[p] = static_cast<std::int32_t>(this->Joined.mesh.points.size());
         for (int face = 0; face < 6; ++face)
         {

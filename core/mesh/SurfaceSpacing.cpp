@@ -117,8 +117,44 @@ struct Pair
   std::vector<std::uint32_t> trianglesOfOther;
 };
 
-/// How far to move each of the points that have to move.
-using Moves = std::map<std::int32_t, double>;
+/// How far (µm) to move each of the points of a surface that have to move, of several distances the largest.
+class Moves
+{
+public:
+  struct Move
+  {
+    std::int32_t point;
+    double distance;
+  };
+
+  void add(std::int32_t point, double distance) { this->All.push_back({ point, distance }); }
+
+  /// After some were added.
+  void sort()
+  {
+    const auto isBefore = [](const Move& a, const Move& b)
+    { return a.point != b.point ? a.point < b.point : a.distance > b.distance; };
+    const auto isSame = [](const Move& a, const Move& b) { return a.point == b.point; };
+    std::sort(this->All.begin(), this->All.end(), isBefore);
+    this->All.erase(std::unique(this->All.begin(), this->All.end(), isSame), this->All.end());
+  }
+
+  /// Precondition for these: sorted.
+  bool has(std::int32_t point) const
+  {
+    const auto isBefore = [](const Move& move, std::int32_t wanted) { return move.point < wanted; };
+    const auto found = std::lower_bound(this->All.begin(), this->All.end(), point, isBefore);
+    return found != this->All.end() && found->point == point;
+  }
+  bool hasAny(const std::array<std::int32_t, 3>& points) const
+  {
+    return this->has(points[0]) || this->has(points[1]) || this->has(points[2]);
+  }
+  const std::vector<Move>& all() const { return this->All; }
+
+private:
+  std::vector<Move> All;
+};
 
 void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox3d& box, double margin)
 {
@@ -127,7 +163,7 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
   std::map<std::int32_t, Vector3d> normals;
   for (const auto& t : mesh.triangles)
   {
-    if (moves.count(t[0]) == 0 && moves.count(t[1]) == 0 && moves.count(t[2]) == 0)
+    if (!moves.hasAny(t))
     {
       continue;
     }
@@ -148,7 +184,7 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
       normals.emplace(corner, Vector3d::Zero()).first->second += normal;
     }
   }
-  for (const auto& [point, distance] : moves)
+  for (const auto& [point, distance] : moves.all())
   {
     const auto found = normals.find(point);
     if (found == normals.end())
@@ -178,8 +214,7 @@ void addMoves(Moves& moves, const SurfacePart& part, const std::vector<std::uint
   {
     for (const std::int32_t corner : part.mesh.triangles[t])
     {
-      double& move = moves.emplace(part.pointOf[std::size_t(corner)], 0.0).first->second;
-      move = std::max(move, distance);
+      moves.add(part.pointOf[std::size_t(corner)], distance);
     }
   }
 }
@@ -220,7 +255,7 @@ void markChanged(const TriangleMesh& mesh, const Moves& moves, const Slabs& slab
 {
   for (const auto& t : mesh.triangles)
   {
-    if (moves.count(t[0]) + moves.count(t[1]) + moves.count(t[2]) > 0)
+    if (moves.hasAny(t))
     {
       const Eigen::AlignedBox3d triangle = boxOf(mesh, t);
       slabs.visitTouched(triangle.min()[2], triangle.max()[2], [&](int slab) { boxes.in(slab).isChanged = true; });
@@ -295,8 +330,8 @@ std::string bytesOf(const std::map<std::size_t, Moves>& moves)
   for (const auto& [surface, ofSurface] : moves)
   {
     put(static_cast<std::uint64_t>(surface));
-    put(static_cast<std::uint64_t>(ofSurface.size()));
-    for (const auto& [point, distance] : ofSurface)
+    put(static_cast<std::uint64_t>(ofSurface.all().size()));
+    for (const auto& [point, distance] : ofSurface.all())
     {
       put(point);
       put(distance);
@@ -305,7 +340,7 @@ std::string bytesOf(const std::map<std::size_t, Moves>& moves)
   return put.bytes();
 }
 
-/// What all processes have found: of several distances for a point the largest, as in one process.
+/// What all processes have found.
 std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
 {
   std::map<std::size_t, Moves> moves;
@@ -316,10 +351,14 @@ std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
       Moves& ofSurface = moves[std::size_t(get.get<std::uint64_t>())];
       for (auto count = get.get<std::uint64_t>(); count > 0; --count)
       {
-        double& move = ofSurface.emplace(get.get<std::int32_t>(), 0.0).first->second;
-        move = std::max(move, get.get<double>());
+        const auto point = get.get<std::int32_t>();
+        ofSurface.add(point, get.get<double>());
       }
     }
+  }
+  for (auto& entry : moves)
+  {
+    entry.second.sort();
   }
   return moves;
 }
@@ -541,14 +580,20 @@ void Spacing::measureSlab(int slab, const std::vector<std::size_t>& held, std::m
     });
   parallelFor(pairs.size(), this->Caller,
     [&](std::size_t p) { measureGap(pairs[p], *parts.at(pairs[p].one).tree, *parts.at(pairs[p].other).tree, this->Gap); });
+  std::set<std::size_t> found;
   for (const Pair& pair : pairs)
   {
     if (pair.missing > 0.0)
     {
+      found.insert({ pair.one, pair.other });
       const double distance = 0.5 * pair.missing + extraDistance;
       addMoves(moves[pair.one], parts.at(pair.one).part, pair.trianglesOfOne, distance);
       addMoves(moves[pair.other], parts.at(pair.other).part, pair.trianglesOfOther, distance);
     }
+  }
+  for (const std::size_t surface : found)
+  {
+    moves[surface].sort();
   }
 }
 

@@ -126,14 +126,13 @@ FoundFibres FibrePlaces::thinnerThan(double radius, const Context& context, cons
       thinSize += place.size;
     }
   }
-  const bool isKnown = this->Field.knownFibres() != nullptr;
-  if (isKnown && thinSize < mostOfAll * size)
+  if (this->Field.knownFibres() != nullptr)
   {
-    return findFibres(this->Field, thin, this->piecesOf(thin, context), context, sharing);
+    return thinSize < mostOfAll * size ? findFibres(this->Field, thin, this->piecesOf(thin, context), context, sharing)
+                                       : findFibres(this->Field, thin, context, sharing);
   }
-  const FoundFibres surveyed = isKnown ? findFibres(this->Field, context, sharing) : FoundFibres();
   FoundFibres found;
-  for (const auto& fibre : isKnown ? surveyed : this->Found)
+  for (const auto& fibre : this->Found)
   {
     if (thin.count(fibre.first) != 0)
     {

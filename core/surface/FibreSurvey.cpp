@@ -225,6 +225,14 @@ FoundFibres findFibres(const FibreField& field, const Context& context, const Sh
     sharing);
 }
 
+FoundFibres findFibres(
+  const FibreField& field, const std::set<std::int32_t>& fibres, const Context& context, const Sharing& sharing)
+{
+  return findThem(
+    field, ImagePieces(field.samples()).count(), [](std::size_t i) { return i; },
+    [&](std::int32_t id) { return fibres.count(id) != 0; }, context, sharing);
+}
+
 FoundFibres findFibres(const FibreField& field, const std::set<std::int32_t>& fibres, const std::vector<std::uint32_t>& pieces,
   const Context& context, const Sharing& sharing)
 {

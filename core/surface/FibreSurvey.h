@@ -43,6 +43,10 @@ using FoundFibres = std::map<std::int32_t, FoundFibre>;
 /// and Cancelled.
 FoundFibres findFibres(const FibreField& field, const Context& context = {}, const Sharing& sharing = Sharing());
 
+/// The same of some fibres.
+FoundFibres findFibres(
+  const FibreField& field, const std::set<std::int32_t>& fibres, const Context& context, const Sharing& sharing);
+
 /// The same of some fibres, in pieces, increasing, among which are all that hold samples of them.
 FoundFibres findFibres(const FibreField& field, const std::set<std::int32_t>& fibres, const std::vector<std::uint32_t>& pieces,
   const Context& context = {}, const Sharing& sharing = Sharing());

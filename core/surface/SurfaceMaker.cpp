@@ -166,33 +166,35 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   keepFreedMemory();
 }
 
-/// In parallel, in each process those that are near each other, which share samples; `isMade` says of which there is nothing left
-/// to do. What becomes of a fibre has to be in its pair, without meshes.
+/// In parallel, in each process those that are near each other, which share samples. `isMade(i)` says whether there is nothing
+/// left to do of a fibre, and completes its pair then; `body(i)` asks it, too. What becomes of a fibre has to be in its pair,
+/// without meshes.
 template <typename IsMade, typename Body>
 void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to)
 {
-  std::vector<double> weights(this->Order.size(), 1.0);
-  if (this->Shared.size() > 1)
+  std::vector<std::uint64_t> made;
+  for (const std::size_t i : this->Order)
   {
-    std::vector<std::uint64_t> made;
-    for (const std::size_t i : this->Order)
-    {
-      made.push_back(isMade(i) ? 1 : 0);
-    }
-    this->Shared.addUp(made); // a process may know of some that others do not
-    for (std::size_t place = 0; place < weights.size(); ++place)
+    made.push_back(isMade(i) ? 1 : 0);
+  }
+  this->Shared.addUp(made); // a process may know of some that others do not
+  std::vector<std::size_t> left;
+  std::vector<double> weights;
+  for (std::size_t place = 0; place < made.size(); ++place)
+  {
+    if (made[place] < std::uint64_t(this->Shared.size()))
     {
       const auto found = this->Mesher.places().all().find(this->Pairs[this->Order[place]].fibreId);
-      if (made[place] == 0 && found != this->Mesher.places().all().end())
-      {
-        weights[place] += found->second.size;
-      }
+      const bool isToBeMade = made[place] == 0 && found != this->Mesher.places().all().end();
+      left.push_back(this->Order[place]);
+      weights.push_back(isToBeMade ? 1.0 + found->second.size : 1.0);
     }
   }
+  const double done = made.empty() ? 0.0 : 1.0 - static_cast<double>(left.size()) / static_cast<double>(made.size());
   this->Shared.loopAlong(
-    weights, this->Caller, [&](std::size_t i) { body(this->Order[i]); },
-    [&](std::size_t i) { return bytesOf(this->Pairs[this->Order[i]]); },
-    [&](std::size_t i, const std::string& bytes) { this->Pairs[this->Order[i]] = pairFrom(bytes); }, message, from, to);
+    weights, this->Caller, [&](std::size_t i) { body(left[i]); }, [&](std::size_t i) { return bytesOf(this->Pairs[left[i]]); },
+    [&](std::size_t i, const std::string& bytes) { this->Pairs[left[i]] = pairFrom(bytes); }, message, from + done * (to - from),
+    to);
 }
 
 void SurfaceMaker::makeOuter(SurfaceStore& outer, SurfaceStore& inner)
@@ -254,20 +256,16 @@ void SurfaceMaker::putInner(std::size_t i, const SmoothedField& field, SurfaceSt
 
 void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
 {
-  const auto isMade = [&](std::size_t i)
-  {
-    FibreSurfacePair known;
-    return this->Journal.recallOuter(i, known);
-  };
+  const auto isMade = [&](std::size_t i) { return this->Journal.recallOuter(i, this->Pairs[i]); };
   this->forEachFibre(
     isMade,
     [&](std::size_t i)
     {
-      FibreSurfacePair& pair = this->Pairs[i];
-      if (this->Journal.recallOuter(i, pair))
+      if (isMade(i))
       {
         return;
       }
+      FibreSurfacePair& pair = this->Pairs[i];
       const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
       this->Mesher.makeOuter(field, pair);
       if (pair.state != MyelinState::NoFibre)
@@ -316,7 +314,10 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   {
     this->Pairs[i].isFlawed = true;
   }
-  this->keepInner(outer, inner);
+  if (!this->isCommon()) // else there is none yet
+  {
+    this->keepInner(outer, inner);
+  }
 }
 
 /// Looks at surfaces that were moved, and returns which of them have to be made again, with bounds where they went wrong.
@@ -402,22 +403,21 @@ void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& in
 void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
 {
   constexpr double anyGRatio = std::numeric_limits<double>::quiet_NaN();
-  const auto recall = [&](std::size_t i, FibreSurfacePair& pair)
-  { return this->Journal.recallInner(i, this->isCommon() ? this->Pairs[i].targetGRatio : anyGRatio, pair); };
   const auto isMade = [&](std::size_t i)
   {
-    FibreSurfacePair known;
-    return this->Pairs[i].isInnerMade || recall(i, known);
+    FibreSurfacePair& pair = this->Pairs[i];
+    return std::isnan(pair.volumeAsMade) || pair.isInnerMade ||
+           this->Journal.recallInner(i, this->isCommon() ? pair.targetGRatio : anyGRatio, pair);
   };
   this->forEachFibre(
     isMade,
     [&](std::size_t i)
     {
-      FibreSurfacePair& pair = this->Pairs[i];
-      if (std::isnan(pair.volumeAsMade) || pair.isInnerMade || recall(i, pair))
+      if (isMade(i))
       {
         return;
       }
+      FibreSurfacePair& pair = this->Pairs[i];
       if (pair.state != MyelinState::NoFibre)
       {
         pair.outer = *outer.get(i);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: the pace is that since the beginning, whatever had been done before, and is told once it is known, in numbers of two
-// digits; a line of progress is one line.
+// Guarantee: the pace is that of the last minutes, whatever had been done before and however long it stood still, and is told
+// once it is known, in numbers of two digits; a line of progress is one line.
 #include "base/Pace.h"
 
 #include <gtest/gtest.h>
@@ -11,21 +11,50 @@ namespace
 TEST(Pace, CountsFromWhereItBegan)
 {
   cactus::Pace pace;
-  EXPECT_EQ(pace.at(1000.0, 0.5), "");
-  EXPECT_EQ(pace.at(1009.0, 0.6), "");
-  EXPECT_EQ(pace.at(1020.0, 0.5005), "");
-  EXPECT_EQ(pace.at(4600.0, 0.6), "10 % an hour, ready in about 4 h 0 min");
-  EXPECT_EQ(pace.at(8200.0, 0.98), "24 % an hour, ready in about 5 min");
+  EXPECT_EQ(pace.at(1000.0, 0.5, "a"), "");
+  EXPECT_EQ(pace.at(1009.0, 0.6, "a"), "");
+  EXPECT_EQ(pace.at(1020.0, 0.5005, "a"), "");
+  EXPECT_EQ(pace.at(1360.0, 0.51, "a"), "10 % an hour, ready in about 4 h 54 min");
+  EXPECT_EQ(pace.at(1540.0, 0.98, "a"), "5.3 % a minute, ready in about 1 min");
+}
+
+TEST(Pace, IsThatOfThePartAtWork)
+{
+  cactus::Pace pace;
+  EXPECT_EQ(pace.at(0.0, 0.0, "looking"), "");
+  EXPECT_EQ(pace.at(360.0, 0.01, "looking"), "10 % an hour, ready in about 9 h 54 min");
+  EXPECT_EQ(pace.at(361.0, 0.4, "making"), "") << "what an earlier run had made";
+  EXPECT_EQ(pace.at(721.0, 0.42, "making"), "20 % an hour, ready in about 2 h 54 min");
+}
+
+TEST(Pace, ForgetsThatItStoodStill)
+{
+  cactus::Pace pace;
+  double fraction = 0.0;
+  double seconds = 0.0;
+  const auto goOn = [&](double until)
+  {
+    std::string told;
+    for (; seconds < until; seconds += 30.0)
+    {
+      told = pace.at(seconds, fraction += 30.0 / 36000.0, "making");
+    }
+    return told;
+  };
+  EXPECT_EQ(goOn(3600.0).substr(0, 12), "10 % an hour");
+  seconds += 20000.0;
+  EXPECT_NE(goOn(seconds + 60.0).substr(0, 12), "10 % an hour");
+  EXPECT_EQ(goOn(seconds + 1300.0).substr(0, 12), "10 % an hour");
 }
 
 TEST(Pace, IsToldInMinutesOfShortWorkAndNotAtAllOfShorter)
 {
   cactus::Pace pace;
-  EXPECT_EQ(pace.at(0.0, 0.0), "");
-  EXPECT_EQ(pace.at(3600.0, 0.99), "99 % an hour, ready in about 1 min");
-  EXPECT_EQ(pace.at(3600.0, 0.996), "1.7 % a minute, ready in about 1 min");
-  EXPECT_EQ(pace.at(60.0, 0.1), "10 % a minute, ready in about 9 min");
-  EXPECT_EQ(pace.at(30.0, 0.75), "ready in about 1 min");
+  EXPECT_EQ(pace.at(0.0, 0.0, ""), "");
+  EXPECT_EQ(pace.at(600.0, 0.165, ""), "99 % an hour, ready in about 51 min");
+  EXPECT_EQ(pace.at(600.0, 0.17, ""), "1.7 % a minute, ready in about 49 min");
+  EXPECT_EQ(pace.at(60.0, 0.1, ""), "10 % a minute, ready in about 9 min");
+  EXPECT_EQ(pace.at(30.0, 0.75, ""), "ready in about 1 min");
 }
 
 TEST(Pace, HasOneLineForHowFarItIs)

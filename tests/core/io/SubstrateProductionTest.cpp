@@ -7,6 +7,7 @@
 #include "../ChildProcess.h"
 #include "../ThreadTeam.h"
 #include "../surface/MeetingFibres.h"
+#include "../surface/VanishingFibre.h"
 #include "base/Error.h"
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
@@ -468,6 +469,22 @@ TEST_F(Production, SaysWhatIsKeptWhereTheDiskOrTheFolderIsTheTrouble)
   EXPECT_EQ(this->produce("another").found, this->Fibres_.size());
   EXPECT_EQ(filesIn(this->folder("another")), this->filesOfStages());
   EXPECT_EQ(filesIn(this->folder("taken")).size(), 1u);
+}
+
+// No inner surface is there yet where all g-ratios wait for all outer surfaces.
+TEST_F(Production, AFibreMayGoBeforeAnyHasItsAxon)
+{
+  this->Fibres_ = example::fibresOfWhichOneGoes();
+  this->Order.growth = example::growthInWhichOneGoes();
+  this->Order.surfaces.decimationError = 0.00374472;
+  this->Order.surfaces.seed = this->Order.growth.seed;
+  this->Order.surfaces.model = GRatioModel::TargetAxonVolumeFraction;
+  this->Order.surfaces.targetAxonVolumeFraction = 0.05;
+  this->Order.allowOpenSurfaces = true;
+  const ProducedSubstrate produced = this->produce("gone");
+  const auto isGone = [](const FibreSurfacePair& pair)
+  { return pair.state == MyelinState::NoFibre && !std::isnan(pair.volumeAsMade); };
+  EXPECT_TRUE(std::any_of(produced.fibres.begin(), produced.fibres.end(), isGone));
 }
 
 TEST_F(Production, MindsNoStopOfAnEarlierRun)

@@ -21,6 +21,7 @@
 #include "surface/SurfaceFinishing.h"
 #include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
+#include "surface/VanishingFibre.h"
 
 #include <gtest/gtest.h>
 
@@ -620,31 +621,11 @@ TEST(MyelinSurfaces, CoarseBundlesAreSoundOrMarked)
   }
 }
 
-// Voxels four times as wide as the fibres are thick: what is left of one goes when it is moved, from two others that were too
-// near to it.
+// Where it is moved, from two others that were too near to it.
 TEST(MyelinSurfaces, AFibreThatGoesIsNoLongerTooNear)
 {
-  BundleInitializerOptions bundle;
-  bundle.side = 6.29273;
-  bundle.seed = 1097183328;
-  bundle.fibreVolumeFraction = 0.518059;
-  bundle.grownFibreVolumeFraction = 0.6653;
-  bundle.radius.model = RadiusModel::Lognormal;
-  bundle.radius.minimum = 0.113802;
-  bundle.radius.maximum = 0.113802;
-  bundle.spacingFactor = 2.77719;
-  bundle.minimumSpacing = 0.23601;
-  bundle.maximumSpacing = 0.7139;
-  bundle.meanDispersion = 0.0;
-  const Fibres fibres = trimToDomain(initialiseBundles(bundle));
-  FibreRadialGrowthOptions growth;
-  growth.voxelSize = 0.478582;
-  growth.targetFibreVolumeFraction = 0.481987;
-  growth.minimumGap = 0.0;
-  growth.surfaceTolerance = 0.00797561;
-  growth.surfaceRoughness = 0.0246807;
-  growth.margin = 0.0929287;
-  growth.seed = 636453594;
+  const Fibres fibres = example::fibresOfWhichOneGoes();
+  const FibreRadialGrowthOptions growth = example::growthInWhichOneGoes();
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
   const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(aimed.domain, growth));
   MyelinSurfaceOptions options;
