@@ -36,6 +36,7 @@ namespace
 {
 
 constexpr const char* grownName = "GrownFibreVolumeFraction";
+constexpr const char* convergedName = "Converged";
 
 /// A one-component array with as many tuples as there are things to describe, or null where there is none of that name.
 vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
@@ -243,10 +244,15 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   addColumn<vtkIntArray>(cells, "FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
   addColumn<vtkIntArray>(cells, "BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
   addColumn<vtkDoubleArray>(cells, "TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
-  fresh->SetFieldData(output->GetFieldData());
+  vtkNew<vtkFieldData> kept; // a field data cannot be copied to itself
+  kept->ShallowCopy(output->GetFieldData());
+  fresh->SetFieldData(kept);
   output->ShallowCopy(fresh);
   setDomain(output, fibres.domain);
-  output->GetFieldData()->RemoveArray(grownName); // of the first of several inputs
+  for (const char* name : { grownName, convergedName }) // of the first of several inputs
+  {
+    output->GetFieldData()->RemoveArray(name);
+  }
   if (fibres.grownFraction > 0.0)
   {
     addNumber(output->GetFieldData(), grownName, fibres.grownFraction);
@@ -311,6 +317,7 @@ void setDomain(vtkDataObject* data, const Domain& domain)
     array->SetValue(2 * axis + 1, domain.upper[axis]);
   }
   data->GetFieldData()->AddArray(array);
+  forgetPlacement(data);
 }
 
 } // namespace cactus

@@ -48,6 +48,7 @@ void addDirectionColours(vtkPolyData* fibres);
 /// InvalidInput where it is missing or has not six finite numbers, or where blocks differ in it.
 bool hasDomain(vtkDataObject* data);
 Domain domainFrom(vtkDataObject* data);
+/// The data lie in the substrate's own space then, wherever those that came in lay.
 void setDomain(vtkDataObject* data, const Domain& domain);
 
 } // namespace cactus

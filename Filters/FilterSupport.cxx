@@ -297,7 +297,8 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
 int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time)
 {
   *time = self->GetMTime();
-  if (self->GetInformation()->Get(stoppedKey()) != 0)
+  // In one of several ranks it would have that one come to an exchange alone.
+  if (processCount() == 1 && self->GetInformation()->Get(stoppedKey()) != 0)
   {
     vtkTimeStamp now;
     now.Modified();

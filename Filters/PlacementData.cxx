@@ -166,6 +166,11 @@ std::optional<Placement> placementOf(vtkDataObject* data)
   return Placement::of(matrix);
 }
 
+void forgetPlacement(vtkDataObject* data)
+{
+  data->GetFieldData()->RemoveArray(placementName);
+}
+
 void setPlacement(vtkDataObject* data, const Placement& placement)
 {
   const std::array<double, 16> matrix = placement.matrix();

@@ -15,6 +15,8 @@ namespace cactus
 /// substrate's own space. Nothing for data in that space. Throws InvalidInput for what is no placement.
 std::optional<Placement> placementOf(vtkDataObject* data);
 void setPlacement(vtkDataObject* data, const Placement& placement);
+/// Takes away what an output in the substrate's own space has of a placed input, as VTK passes field data on.
+void forgetPlacement(vtkDataObject* data);
 
 /// Throws InvalidInput for data that are placed, where a stage works in the substrate's own space on data as large as images.
 void requireNotPlaced(vtkDataObject* data);

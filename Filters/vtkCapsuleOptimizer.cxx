@@ -10,6 +10,7 @@
 #include "RankTeam.h"
 #include "Ranks.h"
 #include "StageProperties.h"
+#include "StopSignals.h"
 #include "WholeData.h"
 #include "base/Context.h"
 #include "base/Error.h"
@@ -72,6 +73,25 @@ void fillTable(const std::vector<cactus::ConvergenceRow>& rows, vtkTable* table)
   addColumn(table, "RadiusCost", rows, &Row::radiusCost);
   addColumn(table, "CompactnessCost", rows, &Row::compactnessCost);
   addColumn(table, "Seconds", rows, &Row::seconds);
+}
+
+/// Of a run that offers its states the times are iterations, which the inputs know nothing of: theirs are of their last time.
+void askForLastTime(vtkInformationVector* inputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
+  {
+    vtkInformation* info = inputs->GetInformationObject(i);
+    const int count = info->Has(Pipeline::TIME_STEPS()) != 0 ? info->Length(Pipeline::TIME_STEPS()) : 0;
+    if (count > 0)
+    {
+      info->Set(Pipeline::UPDATE_TIME_STEP(), info->Get(Pipeline::TIME_STEPS(), count - 1));
+    }
+    else
+    {
+      info->Remove(Pipeline::UPDATE_TIME_STEP());
+    }
+  }
 }
 
 /// Newest change of any input.
@@ -166,6 +186,10 @@ int vtkCapsuleOptimizer::FillOutputPortInformation(int port, vtkInformation* inf
 int vtkCapsuleOptimizer::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
   cactus::requestWholeInputs(inputs, 1);
+  if (this->Stage().keepHistory)
+  {
+    askForLastTime(inputs[0]);
+  }
   return 1;
 }
 
@@ -174,7 +198,11 @@ void vtkCapsuleOptimizer::OfferTimes(vtkInformationVector* outputs) const
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputs->GetInformationObject(port);
-    if (!this->Stage().keepHistory || !this->LastRun || this->LastRun->Failure)
+    if (!this->Stage().keepHistory)
+    {
+      continue; // the input's, if it has any
+    }
+    if (!this->LastRun || this->LastRun->Failure)
     {
       info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
       info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
@@ -192,12 +220,18 @@ int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVecto
   if (this->Stage().keepHistory)
   {
     // Only the run itself says which times there are, and what follows asks for them here, not after RequestData.
+    const cactus::StopSignals signals;
     cactus::quietly(
       [&]
       {
+        askForLastTime(inputs[0]);
         cactus::updateWholeInputs(this, inputs);
         this->EnsureRun(inputs[0]);
       });
+    if (cactus::StopSignals::areCaught() && cactus::RankTeam().place() == 0) // RequestData does not come to say it
+    {
+      vtkWarningMacro(<< cactus::Cancelled().what());
+    }
   }
   this->OfferTimes(outputs);
   return 1;
@@ -221,7 +255,15 @@ void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs)
     run->InputTime = inputTime(inputs);
     try
     {
-      sharing.together([&] { this->Optimise(inputs, *run); });
+      sharing.together(
+        [&]
+        {
+          this->Optimise(inputs, *run);
+          if (cactus::StopSignals::areCaught())
+          {
+            throw cactus::Cancelled(); // what is best so far would be taken for the result
+          }
+        });
     }
     catch (...)
     {

@@ -6,6 +6,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "ImageGrid.h"
+#include "PlacementData.h"
 #include "StageProperties.h"
 #include "SubstrateInputs.h"
 #include "WholeData.h"
@@ -73,13 +74,18 @@ int vtkHistologyMask::ComputePipelineMTime(
   return cactus::pipelineTime(this, time);
 }
 
-int vtkHistologyMask::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkHistologyMask::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::HistologyMaskStage>(this->Properties);
       cactus::validateProperties(stage);
+      if (!cactus::ownsWholeOutput(request, outputs))
+      {
+        vtkImageData::GetData(outputs)->Initialize();
+        return; // one rank cuts; pixels of all ranks would be joined into an image that repeats
+      }
       cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, -1);
       data.fibres = nullptr; // centre lines have no part in a cut
       const cactus::Substrate substrate = cactus::substrateFrom(data);
@@ -87,6 +93,7 @@ int vtkHistologyMask::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
         substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));
       auto* output = vtkImageData::GetData(outputs);
       cactus::setGrid(output, gridOf(mask));
+      cactus::forgetPlacement(output);
       vtkPointData* pixels = output->GetPointData();
       cactus::addColumn<vtkUnsignedCharArray>(
         pixels, "Mask", mask.size(), [&](std::size_t i) { return cactus::greyOfTissue[std::size_t(mask.pixels[i])]; });

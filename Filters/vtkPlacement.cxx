@@ -162,7 +162,7 @@ int vtkPlacement::RequestInformation(vtkInformation*, vtkInformationVector** inp
   return 1;
 }
 
-int vtkPlacement::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+int vtkPlacement::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
@@ -173,6 +173,10 @@ int vtkPlacement::RequestData(vtkInformation*, vtkInformationVector** inputs, vt
       vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
       if (canBePlaced(input) && isEmpty(input))
       {
+        if (!cactus::ownsWholeOutput(request, outputs))
+        {
+          return; // another rank has it
+        }
         throw cactus::InvalidInput("the input is empty: there is nothing to place");
       }
       copyEach(input, vtkDataObject::GetData(outputs),

@@ -60,6 +60,9 @@ public:
   /** Counts as changed after it was stopped, so that it is asked again and says so. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
+  /** Asks a run to stop. That is no change of the filter, see vtkCapsuleOptimizer. */
+  void SetAbortExecute(vtkTypeBool wanted) override { this->AbortExecute = wanted; }
+
 protected:
   vtkSubstrateProduction();
   ~vtkSubstrateProduction() override = default;

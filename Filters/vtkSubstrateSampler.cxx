@@ -143,13 +143,18 @@ int vtkSubstrateSampler::ComputePipelineMTime(
   return cactus::pipelineTime(this, time);
 }
 
-int vtkSubstrateSampler::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkSubstrateSampler::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::SubstrateSamplerStage>(this->Properties);
       cactus::validateProperties(stage);
+      if (!cactus::ownsWholeOutput(request, outputs))
+      {
+        vtkImageData::GetData(outputs)->Initialize();
+        return; // one rank samples; voxels of all ranks would be joined into an image that repeats
+      }
       const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
       const cactus::SampledSubstrate sampled = cactus::sampleSubstrate(substrate.domain, substrate.outer, substrate.inner,
         substrate.fibresOrNull(), stage.options, cactus::contextFor(this, stage.threads));

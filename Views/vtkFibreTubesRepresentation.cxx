@@ -5,14 +5,19 @@
 #include "ObliqueCamera.h"
 
 #include <vtkAlgorithmOutput.h>
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkMapper.h>
 #include <vtkObjectFactory.h>
+#include <vtkPVGeometryFilter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkTrivialProducer.h>
 #include <vtkTubeFilter.h>
+
+#include <numeric>
 
 vtkStandardNewMacro(vtkFibreTubesRepresentation);
 
@@ -23,6 +28,38 @@ namespace
 int sidesFor(vtkIdType points)
 {
   return points <= 100000 ? 12 : points <= 400000 ? 6 : points <= 2000000 ? 4 : 0;
+}
+
+constexpr const char* cellIds = "vtkOriginalCellIds";
+constexpr const char* pointIds = "vtkOriginalPointIds";
+
+void addIds(vtkDataSetAttributes* data, const char* name, vtkIdType count)
+{
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName(name);
+  ids->SetNumberOfValues(count);
+  std::iota(ids->GetPointer(0), ids->GetPointer(0) + count, vtkIdType(0));
+  data->AddArray(ids);
+}
+
+/// With the numbers by which selections name cells and points: those of what is drawn are others.
+vtkSmartPointer<vtkPolyData> withIds(vtkPolyData* fibres)
+{
+  auto numbered = vtkSmartPointer<vtkPolyData>::New();
+  numbered->ShallowCopy(fibres);
+  addIds(numbered->GetCellData(), cellIds, fibres->GetNumberOfCells());
+  addIds(numbered->GetPointData(), pointIds, fibres->GetNumberOfPoints());
+  return numbered;
+}
+
+/// So that what was drawn around the fibres cannot be selected as one of them.
+void forgetIds(vtkDataSetAttributes* data, const char* name, vtkIdType first, vtkIdType count)
+{
+  auto* ids = vtkIdTypeArray::SafeDownCast(data->GetArray(name));
+  for (vtkIdType i = 0; ids != nullptr && i < count; ++i)
+  {
+    ids->SetValue(first + i, -1);
+  }
 }
 
 vtkSmartPointer<vtkPolyData> tubes(vtkPolyData* fibres, int sides)
@@ -46,13 +83,25 @@ vtkAlgorithmOutput* vtkFibreTubesRepresentation::GetInternalOutputPort(int port,
 {
   vtkAlgorithmOutput* input = this->Superclass::GetInternalOutputPort(port, connection);
   auto* fibres = vtkPolyData::SafeDownCast(input->GetProducer()->GetOutputDataObject(input->GetIndex()));
-  if (fibres == nullptr || fibres->GetNumberOfLines() == 0 || fibres->GetPointData()->GetArray("Radius") == nullptr)
+  const bool isFibres =
+    fibres != nullptr && fibres->GetNumberOfLines() > 0 && fibres->GetPointData()->GetArray("Radius") != nullptr;
+  if (auto* geometry = vtkPVGeometryFilter::SafeDownCast(this->GeometryFilter))
+  {
+    geometry->SetPassThroughCellIds(isFibres ? 0 : 1); // else it numbers what is drawn
+    geometry->SetPassThroughPointIds(isFibres ? 0 : 1);
+  }
+  if (!isFibres)
   {
     return input;
   }
+  const vtkSmartPointer<vtkPolyData> numbered = withIds(fibres);
   const int sides = sidesFor(fibres->GetNumberOfPoints());
-  const vtkSmartPointer<vtkPolyData> shape = sides > 0 ? tubes(fibres, sides) : vtkSmartPointer<vtkPolyData>(fibres);
-  this->Tubes->SetOutput(cactus::withDomainBox(shape, fibres->GetFieldData()));
+  const vtkSmartPointer<vtkPolyData> shape = sides > 0 ? tubes(numbered, sides) : numbered;
+  const vtkSmartPointer<vtkPolyData> boxed = cactus::withDomainBox(shape, fibres->GetFieldData());
+  forgetIds(boxed->GetCellData(), cellIds, 0, boxed->GetNumberOfCells() - shape->GetNumberOfCells());
+  const vtkIdType drawn = shape->GetNumberOfPoints();
+  forgetIds(boxed->GetPointData(), pointIds, drawn, boxed->GetNumberOfPoints() - drawn);
+  this->Tubes->SetOutput(boxed);
   return this->Tubes->GetOutputPort();
 }
 

@@ -148,12 +148,18 @@ std::vector<State> states()
   return all;
 }
 
-/// Where to write each convergence table, one after the other; empty for nowhere.
+/// Where to write the convergence of all states, one after the other; empty for nowhere.
 std::string convergencePath;
 
 void writeConvergence(const std::string& name, const std::vector<ConvergenceRow>& rows)
 {
-  std::ofstream file(convergencePath, std::ios::app);
+  static bool isBegun = false;
+  std::ofstream file(convergencePath, isBegun ? std::ios::app : std::ios::trunc);
+  if (!isBegun)
+  {
+    file << "State,Iteration,OverlapCost,MaximumPenetration,OverlappingPairs,CurvatureCost,LengthCost,CompactnessCost,Seconds\n";
+    isBegun = true;
+  }
   for (const ConvergenceRow& row : rows)
   {
     file << name << ',' << row.iteration << ',' << row.overlapCost << ',' << row.maximumPenetration << ',' << row.overlappingPairs

@@ -196,9 +196,8 @@ def main():
 
     here = machine()
     path = os.path.join(arguments.output, "performance.csv")
-    if os.path.exists(path) and arguments.anew:
-        os.remove(path)
-    elif os.path.exists(path):
+    before = arguments.anew and os.path.exists(path)
+    if os.path.exists(path) and not before:
         for row in performance_page.read(path):
             if (row["processor"], row["cores"]) != (here["processor"], str(here["cores"])):
                 sys.exit(f"performance: {path} is of another machine ({row['cores']} cores of {row['processor']}): name another folder with --output")
@@ -206,6 +205,9 @@ def main():
     for settings in plan(arguments):
         rows = sorted((measured(*settings) for _ in range(max(1, arguments.repeats))), key=lambda row: row["clock_s"])
         row = rows[(len(rows) - 1) // 2]
+        if before:
+            os.remove(path)  # now that something takes its place
+            before = False
         add({**here, **row}, path)
         way, side, fraction, voxel, threads = settings
         print(f"{way}, {side:g} µm, {fraction:g}, voxels of {voxel:g} µm, {threads} thread{'s' * (threads > 1)}: {row['clock_s']:.1f} s by the clock, "

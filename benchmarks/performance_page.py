@@ -181,9 +181,7 @@ def section(rows):
 
 def page(rows, now):
     """A whole page: what stands outside the two marks of the one there is now stays."""
-    before, after = "# What substrates take\n\n", ""
-    if BEGIN in now and END in now:
-        before, after = now.split(BEGIN)[0], now.split(END)[1]
+    before, after = ("# What substrates take\n\n", "") if not now else (now.split(BEGIN)[0], now.split(END)[1])
     return before + BEGIN + section(rows) + END + after
 
 
@@ -282,6 +280,8 @@ def write(folder):
     if os.path.exists(path):
         with open(path, encoding="utf-8") as file:
             now = file.read()
+        if BEGIN not in now or END not in now:
+            sys.exit(f"performance: {path} has not the marks of this page: move it, or name another folder with --output")
     with open(path, "w", encoding="utf-8") as file:
         file.write(page(rows, now))
     draw(folder, rows)

@@ -16,7 +16,7 @@ COLOURS = ["#1b6ca8", "#c8553d", "#4f772d", "#6d597a"]
 def read(path):
     """Iterations, costs and pairs of a table."""
     with open(path, encoding="utf-8") as file:
-        rows = [line.rstrip("\n").split(",") for line in file]
+        rows = [line.rstrip("\n").split(",") for line in file if not line.startswith("State,")]
     return [int(row[1]) for row in rows], [float(row[2]) for row in rows], [float(row[4]) for row in rows]
 
 

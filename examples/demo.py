@@ -12,12 +12,17 @@ import time
 
 from paraview import servermanager, simple
 
+from output_folder import first_free, make_folder
 from picture import draw_substrate
+
+FOLDER = "cactus-demo"
+FILES = ("substrate", "fibres.vtp", "fibres.strands", "labels.vti", "outer.vtp", "inner.vtp", "convergence.csv", "fibres.csv", "certificate.csv",
+         "certificate_fibres.csv", "statistics.csv", "substrate.png")
 
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./cactus demo", description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("--output", default="cactus-demo", metavar="DIR", help="folder for everything it writes (default: %(default)s)")
+    parser.add_argument("--output", metavar="DIR", help=f"folder for everything it writes (default: {FOLDER}, or {FOLDER}-2 and so on where one is there)")
     parser.add_argument("--side", type=float, default=30.0, help="side of the cubic domain, µm (default: %(default)s)")
     parser.add_argument("--dispersion", type=float, default=10.0, help="mean dispersion, degrees (default: %(default)s)")
     parser.add_argument("--fvf", type=float, default=0.9, help="fibre volume fraction to grow to (default: %(default)s)")
@@ -77,15 +82,8 @@ def cells(port):
 
 def main():
     wanted = arguments()
-    try:
-        os.makedirs(wanted.output, exist_ok=True)
-    except OSError as error:
-        sys.exit(f"demo: cannot write to {wanted.output}: {error.strerror}")
-    if not os.access(wanted.output, os.W_OK):
-        sys.exit(f"demo: cannot write to {wanted.output}: permission denied")
-
-    def path(name):
-        return os.path.join(wanted.output, name)
+    folder = wanted.output or first_free(FOLDER, FILES)
+    paths = dict(zip(FILES, make_folder("demo", folder, FILES)))
 
     stages = Stages()
     bundle = simple.BundleInitializer(Side=wanted.side, FibreVolumeFraction=min(wanted.fvf, 0.7), GrownFibreVolumeFraction=wanted.fvf, GammaShape=2.4, GammaScale=0.25, MeanDispersion=wanted.dispersion, Seed=wanted.seed)
@@ -117,26 +115,26 @@ def main():
     stages.run("Certificate", certificate, lambda: "certified" if rows(certificate, 0)[0]["Certified"] else "NOT certified")
     checked = rows(certificate, 0)[0]
 
-    writer = simple.SubstrateWriter(Fibres=fibres, Outer=outer, Inner=inner, FolderName=path("substrate"))
+    writer = simple.SubstrateWriter(Fibres=fibres, Outer=outer, Inner=inner, FolderName=paths["substrate"])
     stages.run("PLY folder with MCDC configuration", writer)
 
     print("Other files", flush=True)
     begin = time.perf_counter()
     inline = {"DataMode": "Binary", "CompressorType": "LZ4"}  # Debian's ParaView cannot read appended data back
-    save(path("fibres.vtp"), fibres, **inline)
-    save(path("fibres.strands"), fibres)
-    save(path("labels.vti"), grown, **inline)
-    save(path("outer.vtp"), outer, **inline)
-    save(path("inner.vtp"), inner, **inline)
-    save(path("convergence.csv"), simple.OutputPort(optimised, 1))
-    save(path("fibres.csv"), simple.OutputPort(statistics, 1))
-    save(path("certificate.csv"), simple.OutputPort(certificate, 0))
-    save(path("certificate_fibres.csv"), simple.OutputPort(certificate, 1))
+    save(paths["fibres.vtp"], fibres, **inline)
+    save(paths["fibres.strands"], fibres)
+    save(paths["labels.vti"], grown, **inline)
+    save(paths["outer.vtp"], outer, **inline)
+    save(paths["inner.vtp"], inner, **inline)
+    save(paths["convergence.csv"], simple.OutputPort(optimised, 1))
+    save(paths["fibres.csv"], simple.OutputPort(statistics, 1))
+    save(paths["certificate.csv"], simple.OutputPort(certificate, 0))
+    save(paths["certificate_fibres.csv"], simple.OutputPort(certificate, 1))
     print(f"    {time.perf_counter() - begin:.1f} s", flush=True)
     if not wanted.no_picture:
         print("Picture", flush=True)
         begin = time.perf_counter()
-        draw_substrate(outer, inner, wanted.side, path("substrate.png"))
+        draw_substrate(outer, inner, wanted.side, paths["substrate.png"])
         print(f"    {time.perf_counter() - begin:.1f} s", flush=True)
 
     g = wanted.g_ratio
@@ -162,14 +160,14 @@ def main():
         ("thinnest myelin (um)", None, checked["SmallestMyelin_um"]),
         ("largest squared edge ratio", None, checked["LargestSquaredEdgeRatio"]),
     ]
-    with open(path("statistics.csv"), "w", newline="", encoding="utf-8") as file:
+    with open(paths["statistics.csv"], "w", newline="", encoding="utf-8") as file:
         sheet = csv.writer(file)
         sheet.writerow(["quantity", "asked", "reached"])
         sheet.writerows([name, "" if aim is None else f"{aim:.9g}", f"{value:.9g}"] for name, aim, value in table)
     print(f"\n{'':<34}{'asked':>10}{'reached':>12}")
     for name, aim, value in table:
         print(f"{name:<34}{'-' if aim is None else f'{aim:.4g}':>10}{value:>12.6g}")
-    print(f"\nAll in {os.path.abspath(wanted.output)}, after {time.perf_counter() - stages.start:.0f} s.")
+    print(f"\nAll in {os.path.abspath(folder)}, after {time.perf_counter() - stages.start:.0f} s.")
     if not checked["Certified"]:
         sys.exit("demo: the surfaces are not certified, as the warning above says")
 

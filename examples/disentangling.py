@@ -14,6 +14,7 @@ from paraview import servermanager, simple
 from vtkmodules.vtkFiltersCore import vtkImageAppend
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
+from output_folder import make_folder
 from picture import white_view
 
 PIXELS = 200
@@ -87,11 +88,7 @@ def film_strip(view, times, path):
 
 def main():
     wanted = arguments()
-    files = [os.path.join(wanted.output, name) for name in ("disentangling.ogv", "film-strip.png")]
-    for path in files:
-        if os.path.lexists(path):
-            sys.exit(f"disentangling: {path} is there already: move it, or name another folder with --output")
-    os.makedirs(wanted.output, exist_ok=True)
+    files = make_folder("disentangling", wanted.output, ("disentangling.ogv", "film-strip.png"))
     optimiser = disentangled(wanted)
     table = servermanager.Fetch(optimiser, idx=1)
     pairs = [table.GetValueByName(row, "OverlappingPairs").ToInt() for row in (0, table.GetNumberOfRows() - 1)]

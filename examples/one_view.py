@@ -9,12 +9,12 @@ The fibres and an image of the substrate's fractions go into files that lie in t
 import gzip
 import json
 import math
-import os
 import struct
 import sys
 
 from paraview import servermanager, simple
 from nifti import read_image
+from output_folder import make_folder
 from picture import white_view
 from tract import SIDE, look, write_tract
 
@@ -99,8 +99,8 @@ def draw(image, tract, fibres, outer, filename, pixels=900):
 
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else "cactus-one-view"
-    os.makedirs(folder, exist_ok=True)
-    files = {name: os.path.join(folder, name) for name in ("image.nii.gz", "tract.tck", "fibres.tck", "avf.nii.gz", "one-view.png")}
+    names = ("image.nii.gz", "tract.tck", "fibres.tck", "avf.nii.gz", "one-view.png")
+    files = dict(zip(names, make_folder("one_view", folder, names)))
     write_image(files["image.nii.gz"])
     write_tract(files["tract.tck"])
     tract = simple.TractogramReader(FileName=files["tract.tck"], LengthUnit="Millimetre")

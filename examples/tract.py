@@ -6,12 +6,12 @@ Run it with ./cactus pvpython examples/tract.py [FOLDER]. The tract bends within
 """
 
 import math
-import os
 import struct
 import sys
 
 from paraview import servermanager, simple
 
+from output_folder import make_folder
 from picture import white_view
 
 SIDE = 24.0  # µm
@@ -70,8 +70,7 @@ def draw(tract, fibres, outer, filename, pixels=800):
 
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else "cactus-tract"
-    os.makedirs(folder, exist_ok=True)
-    path = os.path.join(folder, "tract.tck")
+    path, saved, drawn = make_folder("tract", folder, ("tract.tck", "fibres.trx", "tract.png"))
     write_tract(path)
     tract = simple.TractogramReader(FileName=path)
     fibres = simple.TractFibres(Input=tract, Side=SIDE, ScaleFactor=0.001, BundleDiameter=16, MinimumRadius=0.4)
@@ -83,8 +82,8 @@ def main():
     certificate.UpdatePipeline()
     certified = servermanager.Fetch(certificate, idx=0).GetValueByName(0, "Certified").ToInt() == 1
     print(f"{fibres.GetDataInformation().GetNumberOfCells()} fibres, {'certified' if certified else 'NOT certified'}")
-    simple.SaveData(os.path.join(folder, "fibres.trx"), proxy=simple.OutputPort(optimised, 0))
-    draw(tract, fibres, outer, os.path.join(folder, "tract.png"))
+    simple.SaveData(saved, proxy=simple.OutputPort(optimised, 0))
+    draw(tract, fibres, outer, drawn)
     sys.exit(0 if certified else 1)
 
 

@@ -17,6 +17,8 @@ from substrate_folder import Refusal, ended, manifest_path, read_manifest, sha25
 # What a manifest may name: a manifest may come from anybody, and must not run or write anything else.
 WRITERS = ("SubstrateWriter", "SubstrateProduction")
 STAGES = ("BundleInitializer", "StrandReader", "TractogramReader", "TractFibres", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", "Placement", *WRITERS)
+# Files with a line that says which version has written them.
+NAME_THE_VERSION = (".ply", ".node", ".poly", "setup_substrate.m")
 KEPT_NOWHERE = ("CheckpointFile", "Resume", "FolderName")
 
 
@@ -151,22 +153,24 @@ def first_difference(old, new):
     return None
 
 
-def compare(manifest, folder):
-    """The files of surfaces and fibres that are not the same to the bit, or not there."""
-    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
-        again = json.load(file)
+def compared(manifest, version):
+    """The files that have to be the same, by their checksums. What another version says of a substrate may differ."""
+    words = ("README.txt", "certificate.csv", "certificate_fibres.csv") if manifest["version"] != version else ()
+    return {path: checksum for path, checksum in manifest["sha256"].items() if path not in words}
+
+
+def compare(manifest, again, folder):
+    """How many files there are to compare; those that are not the same to the bit, or in one of the two only; and from which data on."""
     header = None
     if again["version"] != manifest["version"]:
-        header = f"CACTUS {again['version']}, ", f"CACTUS {manifest['version']}, "
-    wanted = {path: checksum for path, checksum in manifest["sha256"].items() if path.endswith((".ply", ".strands"))}
-    if not wanted:
-        raise Refusal("the manifest lists no surfaces")
+        header = f"CACTUS {again['version']}", f"CACTUS {manifest['version']}"
+    wanted = compared(manifest, again["version"])
     different = []
     for path, checksum in sorted(wanted.items()):
         here = os.path.join(folder, path)
-        if not os.path.isfile(here) or sha256(here, header if path.endswith(".ply") else None) != checksum:
+        if not os.path.isfile(here) or sha256(here, header if path.endswith(NAME_THE_VERSION) else None) != checksum:
             different.append(path)
-    different += sorted(path for path in again["sha256"] if path.endswith((".ply", ".strands")) and path not in wanted)
+    different += sorted(path for path in compared(again, manifest["version"]) if path not in wanted)
     return len(wanted), different, first_difference(manifest["provenance"], again["provenance"])
 
 
@@ -176,21 +180,23 @@ def rerun(wanted):
     output = os.path.abspath(wanted.output or os.path.dirname(os.path.abspath(path)) + "-rerun")
     if os.path.lexists(output):
         raise Refusal(f"{output} is there already: name another folder with --output")
+    if not manifest["sha256"]:
+        raise Refusal("the manifest lists no files to compare")
     chain = Chain(manifest["provenance"], output)
     chain.check()
     print(f"Making {output}", flush=True)
     chain.run()
     if not os.path.isfile(os.path.join(output, "manifest.json")):
         raise Refusal(f"{chain.last['filter']} has written nothing, as the error above says")
-    count, different, first = compare(manifest, output)
     with open(os.path.join(output, "manifest.json"), encoding="utf-8") as file:
-        version = json.load(file)["version"]
-    if version != manifest["version"]:
-        print(f"The substrate was made by CACTUS {manifest['version']}, this is {version}: results may differ.")
+        again = json.load(file)
+    count, different, first = compare(manifest, again, output)
+    if again["version"] != manifest["version"]:
+        print(f"The substrate was made by CACTUS {manifest['version']}, this is {again['version']}: results may differ.")
     if not different:
-        print(f"The same to the bit: {count} files of surfaces and fibres.")
+        print(f"The same to the bit: {count} files.")
         return 0
-    print(f"{len(different)} of {count} files of surfaces and fibres differ:")
+    print(f"{len(different)} of {count} files differ:")
     for name in different[:20]:
         print(f"    {name}")
     if len(different) > 20:

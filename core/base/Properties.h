@@ -136,6 +136,12 @@ public:
     this->Properties[this->Last].facts.advice = advice;
     return *this;
   }
+  /// What the last property means, where it was included and is for more here.
+  PropertyList& means(const char* meaning)
+  {
+    this->Properties[this->Last].facts.meaning = meaning;
+    return *this;
+  }
   /// What the last property is for, where that is not the result.
   PropertyList& use(PropertyUse use)
   {

@@ -257,11 +257,11 @@ void validate(const ProductionOrder& order)
   requireWithin("SampledFraction", order.sampledFraction, limits::sampledFraction);
   const bool isSample = order.sampledFraction < 1.0;
   require(!isSample || order.format == SubstrateFormat::Surfaces || order.format == SubstrateFormat::Bundles,
-    "SampledFraction is below 1, and Format is a simulator's, which would take the space of all other fibres for extra-axonal: "
-    "choose Surfaces alone or Surfaces by bundle, or make all surfaces");
+    "Format is a simulator's, which would take the space of the fibres that SampledFraction leaves out for extra-axonal: choose "
+    "Surfaces alone or Surfaces by bundle, or make all surfaces (SampledFraction 1)");
   require(!isSample || order.surfaces.model != GRatioModel::TargetAxonVolumeFraction,
-    "SampledFraction is below 1, and the g-ratio for TargetAxonVolumeFraction depends on all fibres: choose another GRatioModel, "
-    "or make all surfaces");
+    "the g-ratio for TargetAxonVolumeFraction depends on all fibres, of which SampledFraction leaves some out: choose another "
+    "GRatioModel, or make all surfaces (SampledFraction 1)");
 }
 
 std::string workFolderOf(const std::string& folder)

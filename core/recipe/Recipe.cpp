@@ -266,6 +266,12 @@ void checkTogether(const Recipe& recipe, const RecipeStage& stage)
     const RecipeStage& grown = recipe.stages[stage.input("Input").front().stage];
     requireDecimationRoom(myelin->options, std::get<FibreRadialGrowthStage>(grown.options).options.surfaceTolerance);
   }
+  const auto* bundle = std::get_if<BundleInitializerStage>(&recipe.stages.front().options);
+  const auto* writer = std::get_if<SubstrateWriterStage>(&stage.options);
+  if (writer != nullptr && bundle != nullptr)
+  {
+    requireRoom(writer->format, Domain::cube(bundle->options.side), writer->voxelSize);
+  }
 }
 
 } // namespace

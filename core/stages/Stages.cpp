@@ -18,7 +18,9 @@ constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0
 const std::vector<std::string> formats(std::begin(formatNames), std::end(formatNames));
 constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
-constexpr char encodingMeaning[] = "Of PLY files that no simulator reads: text, or bytes, which take half the room";
+constexpr char encodingMeaning[] =
+  "Of PLY files that no simulator reads: text, or bytes, which take half the room; Binary is for Format RMS, "
+  "Surfaces alone, SpinDoctor and Surfaces by bundle, and refused for others";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };
 constexpr Range tableFactor{ 1e-6, 1e6 };
 constexpr Range partOfHits{ 0.0, 1.0 };
@@ -222,7 +224,6 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .where("Format", { 4, 5, 6, 7 })
       .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
       .where("Format", { 0 })
       .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a voxel of the labels; it has to divide the domain's sides")
@@ -249,17 +250,20 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
     PropertyList<Stage>()
       .include(&Stage::growth, FibreRadialGrowthOptions::properties())
       .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // whose Seed takes the place of the other one
+      .at("Seed")
+      .means(
+        "Seed of the calibre that SurfaceRoughness gives the fibres, of their g-ratios where GRatioModel is Distributed, and of "
+        "the sample where SampledFraction is below 1")
       .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .where("Format", { 4, 5, 6, 7 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
       .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
-        "Part of the fibres whose surfaces are made, drawn at random by Seed, in place among all the others; 1: all. For Format "
-        "Surfaces alone and Surfaces by bundle")
-      .where("Format", { 5, 7 })
+        "Part of the fibres whose surfaces are made, drawn at random by Seed, in place among all the others; 1: all. Less is for "
+        "Format "
+        "Surfaces alone and Surfaces by bundle, where no g-ratio is for TargetAxonVolumeFraction, and refused otherwise")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;

@@ -26,7 +26,8 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "How thick the myelin is: by one g-ratio, by the axon's diameter (Lee 2019), by a g-ratio drawn for each fibre, or by "
         "the "
         "fraction that the axons fill")
-      .add("GRatio", &Options::gRatio, limits::gRatio, "Diameter of the axon over that of the fibre, or its mean (Distributed)")
+      .add("GRatio", &Options::gRatio, limits::gRatio,
+        "Diameter of the axon over that of the fibre, or its mean (Distributed, from 0.3 to 0.95)")
       .where("GRatioModel", { 0, 2 })
       .add("GRatioDeviation", &Options::gRatioDeviation, limits::gRatioDeviation, "Standard deviation of the g-ratio over fibres")
       .where("GRatioModel", { 2 })

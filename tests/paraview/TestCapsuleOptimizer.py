@@ -6,9 +6,10 @@
 import os
 import tempfile
 
-from cactus_testing import CactusTestCase, fetch, main
+from cactus_testing import CactusTestCase, fetch, main, produce
 from paraview import servermanager
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, CreateView, GetAnimationScene, OutputPort, Show, Transform, Tube)
+from vtkmodules.vtkCommonCore import vtkStringArray
 
 COLUMNS = ["Iteration", "OverlapCost", "MaximumPenetration", "OverlappingPairs", "CurvatureCost", "LengthCost", "RadiusCost",
            "CompactnessCost", "Seconds"]
@@ -165,6 +166,36 @@ class Optimizer(CactusTestCase):
         self.assertGreater(largest[1], largest[2])
         self.assertLessEqual(largest[2], 1e-3)
         self.assertEqual(largest[3:], [largest[1], largest[0]])
+
+    def test_follows_the_time_of_what_comes_in(self):
+        first = CapsuleOptimizer(Input=bundle(), KeepHistory=1, HistoryInterval=20)
+        second = CapsuleOptimizer(Input=OutputPort(first, 0))
+        second.UpdatePipeline()
+        second.UpdatePipelineInformation()
+        times = list(first.TimestepValues)
+        self.assertEqual(list(second.TimestepValues), times)
+        initial = [number(fetch_at(second, time), "InitialMeanDispersion") for time in (times[0], times[-1], times[0])]
+        self.assertNotEqual(initial[0], initial[1])
+        self.assertEqual(initial[0], initial[2])
+        # Its own times are another run's iterations, of which the first one knows nothing.
+        second.KeepHistory = 1
+        second.UpdatePipeline()
+        runs = []
+        second.GetClientSideObject().AddObserver("ProgressEvent", lambda caller, _: runs.append(caller.GetProgressText()))
+        second.UpdatePipelineInformation()
+        for time in second.TimestepValues:
+            self.assertEqual(number(fetch_at(second, time), "InitialMeanDispersion"), initial[1])
+        self.assertEqual([text for text in runs if text and "iteration" in text], [])
+
+    def test_hands_on_what_fields_come_with_the_fibres(self):
+        fibres = fetch(bundle())
+        subject = vtkStringArray()
+        subject.SetName("Subject")
+        subject.InsertNextValue("17")
+        fibres.GetFieldData().AddArray(subject)
+        optimised = fetch(CapsuleOptimizer(Input=produce(fibres)), 0)
+        self.assertEqual(optimised.GetFieldData().GetAbstractArray("Subject").GetValue(0), "17")
+        self.assertAlmostEqual(number(optimised, "GrownFibreVolumeFraction"), number(fibres, "GrownFibreVolumeFraction"))
 
     def test_convergence_leaves_the_view_to_the_fibres_and_can_be_drawn(self):
         optimizer = CapsuleOptimizer(Input=bundle(), MaximumIterations=5)

@@ -9,7 +9,7 @@ import nibabel
 import numpy
 from cactus_testing import CactusTestCase, fetch, main, produce
 from nibabel.streamlines import TckFile
-from paraview.simple import (FibreRadialGrowth, GroupDatasets, MyelinSurface, Placement, SaveData, SubstrateCertificate,
+from paraview.simple import (CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, HistologyMask, MyelinSurface, Placement, SaveData, SubstrateCertificate,
                              SubstrateSampler, SubstrateStatistics, SubstrateWriter, TractogramReader, Transform)
 from scipy.spatial.transform import Rotation
 from surfaces import two_tubes
@@ -224,6 +224,18 @@ class Placing(CactusTestCase):
             one, other = (numpy.array(each.GetColumn(column).GetValue(0), float) for each in tables)
             numpy.testing.assert_allclose(other, one, rtol=1e-5, atol=1e-6, err_msg=tables[0].GetColumnName(column))
         self.assertEqual(fetch(SubstrateCertificate(**placed)).GetColumnByName("Certified").GetValue(0), 1)
+
+    def test_what_stages_make_of_what_is_placed_is_not(self):
+        inputs = {"Outer": Placement(Input=produce(self.outer), **PLACE), "Inner": Placement(Input=produce(self.inner), **PLACE)}
+        sampler = SubstrateSampler(VoxelSize=2, **inputs)
+        for proxy in (sampler, HistologyMask(**inputs), CapsuleOptimizer(Input=Placement(Input=produce(self.lines), **PLACE))):
+            self.assertIsNone(fetch(proxy).GetFieldData().GetAbstractArray("Placement"), proxy.SMProxy.GetXMLName())
+        self.assertSameGrid(fetch(Placement(Input=sampler, **PLACE)), fetch(sampler), affine())
+        SaveData(self.path("sampled.nii.gz"), proxy=sampler, Array="AVF")
+        self.assertEqual(nibabel.load(self.path("sampled.nii.gz")).header.get_xyzt_units()[0], "micron")
+        self.expected = "has not parted"
+        grown = FibreRadialGrowth(Input=Placement(Input=produce(self.lines), **PLACE), VoxelSize=0.5, GrowthIterations=1, TargetFibreVolumeFraction=0)
+        self.assertGreater(fetch(MyelinSurface(Input=grown)).GetNumberOfPoints(), 0)
 
     def test_folders_say_where_the_substrate_lies(self):
         manifests = []

@@ -4,10 +4,12 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 
 from cactus_testing import CactusTestCase, main
+from paraview import servermanager, simple
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
                              SaveData, StrandReader, SubstrateWriter, TractFibres, TractogramReader)
 
@@ -111,7 +113,24 @@ class Rerun(CactusTestCase):
             json.dump(content, file)
         code, said = self.rerun(manifest)
         self.assertEqual(code, 1, said)
-        self.assertRegex(said, r"1 of \d+ files of surfaces and fibres differ:\n    inner/fibre_00001\.ply")
+        self.assertRegex(said, r"1 of \d+ files differ:\n    inner/fibre_00001\.ply")
+
+    def test_files_of_any_format_are_compared(self):
+        chain = self.write(bundle())
+        surfaces = [servermanager.OutputPort(simple.FindSource("MyelinSurface1"), port) for port in (0, 1)]
+        self.assertTrue(os.path.exists(chain))
+        for name, changed in (("Disimpy", "inner_vertices.npy"), ("Reference program", "optimized_final.txt"), ("SpinDoctor", "substrate_dir/substrate_mesh.poly")):
+            folder = os.path.join(self.folder, name.split(" ", maxsplit=1)[0])
+            SubstrateWriter(Outer=surfaces[0], Inner=surfaces[1], FolderName=folder, Format=name).UpdatePipeline()
+            manifest = os.path.join(folder, "manifest.json")
+            with open(manifest, encoding="utf-8") as file:
+                content = json.load(file)
+            content["sha256"][changed] = 64 * "0"
+            with open(manifest, "w", encoding="utf-8") as file:
+                json.dump(content, file)
+            code, said = self.rerun(manifest)
+            self.assertEqual(code, 1, said)
+            self.assertRegex(said, rf"1 of \d+ files differ:\n    {re.escape(changed)}\n")
 
     def test_other_values_make_another_substrate(self):
         """The comparison is one: it finds that the first stage has other values."""

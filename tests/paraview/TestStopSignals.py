@@ -30,6 +30,19 @@ filter.AddObserver("ProgressEvent", stop)
 made.UpdatePipeline()
 print("end of the script", flush=True)
 """
+HISTORY = """
+import os, signal, sys
+from paraview.simple import *
+fibres = CapsuleOptimizer(Input=BundleInitializer(Side=10, MeanDispersion=15, DispersionModel="Watson"), CheckpointFile=sys.argv[1])
+filter = fibres.GetClientSideObject()
+def stop(*_):
+    if "iteration 20:" in str(filter.GetProgressText()):
+        os.kill(os.getpid(), signal.SIGTERM)
+filter.AddObserver("ProgressEvent", stop)
+fibres.KeepHistory = 1
+fibres.UpdatePipeline()
+print("end of the script", flush=True)
+"""
 ACKNOWLEDGED = "CACTUS: stopping in good order"
 KEPT = "stopped by the user, and what is finished is kept in {0}.work: Write, or the same script, goes on with it"
 
@@ -104,6 +117,17 @@ class StopSignalsTest(CactusTestCase):
         self.assertLessEqual(said.count("what is finished is kept"), 1, said)
         wait_for_processes_with(path)  # which mpiexec does not
         self.assertFalse(os.path.exists(folder))
+
+    def test_a_run_that_offers_its_states_stops_too(self):
+        """It is begun by a request for its times."""
+        path, checkpoint = os.path.join(self.folder, "history.py"), os.path.join(self.folder, "run")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(HISTORY)
+        done = subprocess.run(["pvpython", path, checkpoint], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment_of_its_own())
+        self.assertEqual(done.returncode, -signal.SIGTERM, done.stdout)
+        self.assertEqual(done.stdout.count("stopped by the user"), 1, done.stdout)
+        self.assertNotIn("Stack trace", done.stdout)
+        self.assertTrue(os.path.exists(checkpoint))
 
     def test_nothing_that_follows_is_begun(self):
         """The optimiser, which keeps its best state where the window stops it, has something to hand on."""

@@ -35,6 +35,24 @@ made.UpdatePipeline()
 print("peak", [line for line in open("/proc/self/status") if line.startswith("VmHWM")][0].split()[1], flush=True)
 """
 
+# The first rank is asked to stop while it works, and once more when it is too late.
+STOPPED = """
+import os, sys
+from paraview.simple import *
+folder = sys.argv[2]
+fibres = CapsuleOptimizer(Input=BundleInitializer(Side=float(sys.argv[1]), GrownFibreVolumeFraction=0.85))
+made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1)
+filter = made.GetClientSideObject()
+observer = filter.AddObserver("ProgressEvent", lambda *_: filter.SetAbortExecute(1) if 0.3 < filter.GetProgress() < 0.9 else None)
+made.UpdatePipeline()
+print("folder", os.path.exists(folder), flush=True)
+filter.RemoveObserver(observer)
+made.NumberOfThreads = 2
+made.UpdatePipeline()
+filter.SetAbortExecute(1)
+made.UpdatePipeline()
+print("folder", os.path.exists(folder), flush=True)
+"""
 
 # A stage before it fails on one rank, and then on none.
 FAULT = """
@@ -226,6 +244,21 @@ class SubstrateProductionTest(CactusTestCase):
             said = process.stdout.read()
         self.assertEqual(said.count("is more than the room"), 1, said)
         self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("refused")], [])
+
+    @unittest.skipIf(ranks() > 1, "starts processes of its own")
+    def test_stops_where_one_rank_is_asked_to(self):
+        """And nobody waits for the others afterwards, or where it is asked too late."""
+        folder = os.path.join(self.folder, "stopped")
+        with self.on_ranks(2, folder, STOPPED) as process:
+            try:
+                said, _ = process.communicate(timeout=90)
+            except subprocess.TimeoutExpired:
+                process.terminate()
+                raise
+        self.assertEqual(process.returncode, 0, said)
+        self.assertEqual(said.count("stopped by the user, and what is finished is kept"), 1, said)
+        self.assertRegex(said, r"(?m)^folder False$", said)
+        self.assertRegex(said, r"(?m)^folder True$", said)
 
     @unittest.skipIf(ranks() > 1, "starts processes of its own")
     def test_a_fault_before_one_rank_ends_all(self):

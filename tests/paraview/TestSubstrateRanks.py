@@ -7,8 +7,8 @@ import os
 
 from cactus_testing import CactusTestCase, fetch, main
 from paraview import servermanager
-from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate,
-                             SubstrateStatistics, SubstrateWriter, XMLPolyDataReader)
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, HistologyMask, MyelinSurface, OutputPort, Placement,
+                             SubstrateCertificate, SubstrateSampler, SubstrateStatistics, SubstrateWriter, XMLPolyDataReader)
 from surfaces import POLYGON, two_tubes
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
@@ -36,6 +36,21 @@ class Ranks(CactusTestCase):
         table = fetch(SubstrateCertificate(**self.inputs()))
         self.assertEqual(table.GetNumberOfRows(), 1)
         self.assertEqual(table.GetValueByName(0, "Certified").ToInt(), 1)
+
+    def test_images_are_those_of_one_rank(self):
+        inputs = self.inputs()
+        surfaces = {name: inputs[name] for name in ("Outer", "Inner")}
+        for proxy, count in ((SubstrateSampler(VoxelSize=2, **inputs), 5**3), (HistologyMask(PixelSize=0.5, **surfaces), 20**2)):
+            proxy.UpdatePipeline()
+            self.assertEqual(proxy.GetDataInformation().GetNumberOfPoints(), count, proxy.SMProxy.GetXMLName())
+
+    def test_placement(self):
+        """Where only the first rank has something, that is placed, and no other complains."""
+        bundle = BundleInitializer(Side=6, Seed=1)
+        placed = Placement(Input=bundle, PositionX=5)
+        placed.UpdatePipeline()
+        self.assertEqual(placed.GetDataInformation().GetNumberOfCells(), bundle.GetDataInformation().GetNumberOfCells())
+        self.assertIsNone(placed.GetDataInformation().GetFieldDataInformation().GetArrayInformation("Error"))
 
     def test_what_was_updated_by_itself_is_whole_for_the_next_stage(self):
         """An update asks each rank for a piece of its own, and all but the first get nothing: the next stage has to ask again."""

@@ -56,6 +56,36 @@ class Views(CactusTestCase):
         # Both bundles run in the x-z plane at 45 degrees to z.
         self.assertTrue(numpy.all(abs(colours - numpy.array([255 * 0.5**0.5, 0, 255 * 0.5**0.5])) < 1.0))
 
+    def test_what_is_selected_is_the_fibre_under_the_pointer(self):
+        bundle, view = self.bundle(FibreVolumeFraction=0.15, MeanDispersion=0, MinimumRadius=0.4), self.view()
+        simple.Show(bundle, view)
+        simple.Render(view)  # the first time, ParaView moves the camera
+        view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 30], [0, 0, 0], [0, 1, 0]
+        view.CameraParallelProjection, view.CameraParallelScale = 1, SIDE / 2
+        simple.Render(view)
+        fibres = simple.servermanager.Fetch(bundle)
+        inside = 0
+        for fibre in range(fibres.GetNumberOfCells()):
+            first, count = (fibres.GetCell(fibre).GetPointId(0), fibres.GetCell(fibre).GetNumberOfPoints())
+            x, y = (round(150 + 300 / SIDE * coordinate) for coordinate in fibres.GetPoint(first)[:2])
+            if not (10 < x < 290 and 10 < y < 290):
+                continue
+            inside += 1
+            for select, attributes, wanted in ((simple.SelectSurfaceCells, "GetCellData", range(fibre, fibre + 1)),
+                                               (simple.SelectSurfacePoints, "GetPointData", range(first, first + count))):
+                simple.ClearSelection(bundle)
+                reach = 2 if attributes == "GetCellData" else round(270 / SIDE * fibres.GetPointData().GetArray("Radius").GetValue(first))
+                select(Rectangle=[x - reach, y - reach, x + reach, y + reach], View=view)
+                chosen = simple.ExtractSelection(Input=bundle, Selection=bundle.GetSelectionInput(0))
+                found = simple.servermanager.Fetch(chosen)
+                found = found.GetBlock(0) if found.IsA("vtkMultiBlockDataSet") else found
+                name = "vtkOriginalCellIds" if attributes == "GetCellData" else "vtkOriginalPointIds"
+                ids = set(vtk_to_numpy(getattr(found, attributes)().GetArray(name)))
+                self.assertTrue(ids and ids <= set(wanted), f"{name} of fibre {fibre}: {ids}")
+                simple.Delete(chosen)
+        self.assertGreater(inside, 2)
+        simple.ClearSelection(bundle)
+
     def test_a_tube_has_its_fibre_radius(self):
         view = self.view()
         bundle = self.bundle(FibreVolumeFraction=0.0873, RadiusDistribution="Table", RadiusTable="0.5", MeanDispersion=0, Seed=3)

@@ -40,6 +40,20 @@ cactus::TriangleMesh tetrahedron(double size)
   return mesh;
 }
 
+/// From the domain's lower to its upper face, in one line.
+cactus::Fibres fibresAcross(const cactus::Domain& domain, const std::vector<int>& ids)
+{
+  cactus::Fibres fibres;
+  fibres.domain = domain;
+  for (const int id : ids)
+  {
+    fibres.addFibre(id, 1, 1.0);
+    fibres.addPoint({ 0, 0, domain.lower[2] }, 1.0);
+    fibres.addPoint({ 0, 0, domain.upper[2] }, 1.0);
+  }
+  return fibres;
+}
+
 class SubstrateFolder : public ::testing::Test
 {
 protected:
@@ -432,14 +446,7 @@ TEST_F(SubstrateFolder, LeavesNothingBehindWhereItFails)
 // What a writer that was killed has left is known for its own, whatever the format: else it would stay for ever as the user's.
 TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
 {
-  cactus::Fibres fibres;
-  fibres.domain = this->Contents.domain;
-  for (const int id : { 2, 70000 })
-  {
-    fibres.addFibre(id, 1, 1.0);
-    fibres.addPoint({ 0, 0, -15 }, 1.0);
-    fibres.addPoint({ 0, 0, 15 }, 1.0);
-  }
+  const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2, 70000 });
   this->Contents.fibres = &fibres;
   this->Contents.outer = surfacesOf({ 2, 70000 }, { tetrahedron(13.0), tetrahedron(14.0) });
   this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
@@ -465,11 +472,7 @@ TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
 // What a format has no name for is the user's, and would stay.
 TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
 {
-  cactus::Fibres fibres;
-  fibres.domain = this->Contents.domain;
-  fibres.addFibre(2, 1, 1.0);
-  fibres.addPoint({ 0, 0, -15 }, 1.0);
-  fibres.addPoint({ 0, 0, 15 }, 1.0);
+  const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2 });
   this->Contents.fibres = &fibres;
   this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(13.0) });
   this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
@@ -502,13 +505,8 @@ TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
 
 TEST_F(SubstrateFolder, IsWrittenOfAnyBox)
 {
-  cactus::Fibres fibres;
-  fibres.domain = this->Contents.domain;
-  fibres.domain.upper[2] += 10.0;
-  fibres.addFibre(2, 1, 1.0);
-  fibres.addPoint({ 0, 0, -15 }, 1.0);
-  fibres.addPoint({ 0, 0, 25 }, 1.0);
-  this->Contents.domain = fibres.domain;
+  this->Contents.domain.upper[2] += 10.0;
+  const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2 });
   this->Contents.fibres = &fibres;
   this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(13.0) });
   this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
@@ -519,7 +517,8 @@ TEST_F(SubstrateFolder, IsWrittenOfAnyBox)
     const fs::path folder = this->Scratch / std::to_string(format);
     const bool isReference = this->Contents.format == cactus::SubstrateFormat::Reference;
     const std::string told = this->write(folder);
-    EXPECT_EQ(told.substr(0, told.find(',')), isReference ? "Format Reference program has the fibres in a strand file" : "") << told;
+    EXPECT_EQ(told.substr(0, told.find(',')), isReference ? "Format Reference program has the fibres in a strand file" : "")
+      << told;
     EXPECT_EQ(fs::exists(folder / "manifest.json"), !isReference);
     EXPECT_FALSE(fs::exists(folder / "fibres.strands"));
     if (!isReference)
