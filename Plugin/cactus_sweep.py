@@ -88,7 +88,7 @@ def _make_one(make, place, case):
     before = set(_sources())
     try:
         make(place, **case)
-    except Exception:  # a script's own may be any
+    except (Exception, SystemExit):  # a script's own may be any
         traceback.print_exc()
     sources = _sources()
     for number in sorted(set(sources) - before, reverse=True):

@@ -125,7 +125,7 @@ def measure(side, ranks, threads, voxel, folder):
 
 def line(sizes, figures):
     """(at nothing, per size), both not negative."""
-    slope, start = np.polyfit(sizes, figures, 1) if len(sizes) > 1 else (figures[0] / sizes[0], 0.0)
+    slope, start = np.polyfit(sizes, figures, 1) if len(set(sizes)) > 1 else (figures[0] / sizes[0], 0.0)
     return (start, slope) if start > 0 and slope > 0 else (0.0, float(np.dot(sizes, figures) / np.dot(sizes, sizes)))
 
 

@@ -18,7 +18,7 @@ from vtkmodules.vtkFiltersGeneral import vtkContourTriangulator
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter
 
-from substrate_folder import Refusal, ended, manifest_path, read_manifest, read_rows
+from substrate_folder import Refusal, ended, manifest_path, read_manifest, read_rows, sha256
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.append(os.path.join(ROOT, "examples"))
@@ -45,6 +45,16 @@ def surface_files(folder, manifest):
         if entry["path"] in manifest["sha256"] and os.path.isfile(path):
             found.append((entry, path))
     return found
+
+
+def read_surface(path, checksum):
+    """The polygons of a surface's file. Throws Refusal where it is not as it was written: VTK's reader ends the process at one that is cut off."""
+    if sha256(path) != checksum:
+        raise Refusal(f"{path} is not as it was written: if it was not copied as a whole, copy it again")
+    reader = vtkPLYReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
 
 
 def in_middle(polygons, manifest, lift=0.0):
@@ -90,12 +100,10 @@ def cuts_through(folder, manifest, axes):
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)  # the cutter says that it cuts, each time
     together = {axis: {kind: vtkAppendPolyData() for kind in ("outer", "inner")} for axis in axes}
     for entry, path in surface_files(folder, manifest):
-        reader = vtkPLYReader()
-        reader.SetFileName(path)
-        reader.Update()
+        surface = read_surface(path, manifest["sha256"][entry["path"]])
         for axis in axes:
             normal = [float(name == axis) for name in AXES]
-            cut = _filled(reader.GetOutput(), middle_of(manifest), normal)
+            cut = _filled(surface, middle_of(manifest), normal)
             if cut is not None and cut.GetNumberOfCells() > 0:
                 together[axis][entry["surface"]].AddInputData(
                     with_numbers(cut, FibreId=entry["fibre"], BundleId=entry["bundle"], Compartment=int(entry["surface"] == "inner")))
@@ -187,6 +195,9 @@ def preview(wanted):
         raise Refusal("--triangles has to be 1 or more")
     if not hasattr(simple, "StrandReader"):
         raise Refusal("the plugin is not loaded: run this by ./cactus preview")
+    gone = [entry["path"] for entry in manifest["files"] if not os.path.isfile(os.path.join(folder, entry["path"]))]
+    if gone:
+        raise Refusal(f"{len(gone)} of {len(manifest['files'])} surfaces are not in the folder, such as {gone[0]}: copy it again, whole")
     blocks = [("Fibres", tubes(folder, wanted.triangles))]
     for axis, kinds in cuts_through(folder, manifest, AXES).items():
         blocks += [(f"Cut across {axis}, {name}", kinds.get(kind)) for kind, name in (("outer", "fibres"), ("inner", "axons"))]

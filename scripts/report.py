@@ -14,11 +14,10 @@ import tempfile
 
 from paraview import servermanager, simple
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
-from vtkmodules.vtkIOPLY import vtkPLYReader
 
 import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
-from preview import IN_ONE_FILE, SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, surface_files, tubes
+from preview import IN_ONE_FILE, SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, read_surface, surface_files, tubes
 from report_page import page
 from report_profiles import profiles
 from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
@@ -80,22 +79,37 @@ def directions(fibres):
     return found
 
 
-def mean_dispersion(fibres):
-    """Degrees between the fibres and their bundle's axis, by Substrate Statistics."""
-    table = servermanager.Fetch(simple.SubstrateStatistics(Fibres=fibres))
+def in_bundles(lines, manifest, fibres):
+    """The centre lines as a source, each in the bundle that the manifest has its surfaces in, which a file of lines does not tell; None where some
+    have none. `fibres` = rows of the certificate's table."""
+    bundles = {entry["fibre"]: entry["bundle"] for entry in manifest["files"]}
+    data = servermanager.Fetch(lines)
+    ids = sorted(int(row["FibreId"]) for row in fibres)
+    if len(ids) != data.GetNumberOfCells() or not bundles.keys() >= set(ids):
+        return lines if len(set(bundles.values())) == 1 else None
+    for place, fibre in enumerate(ids):
+        data.GetCellData().GetArray("BundleId").SetValue(place, bundles[fibre])
+    source = simple.TrivialProducer()
+    source.GetClientSideObject().SetOutput(data)
+    return source
+
+
+def mean_dispersion(lines, manifest, fibres):
+    """Degrees between the fibres and their bundle's axis, by Substrate Statistics; None where bundles or lines are not known."""
+    known = in_bundles(lines, manifest, fibres) if lines is not None else None
+    if known is None:
+        return None
+    table = servermanager.Fetch(simple.SubstrateStatistics(Fibres=known))
     return table.GetValueByName(0, "MeanDispersion_deg").ToDouble()
 
 
 def surfaces(folder, manifest, kind):
     """All surfaces of a kind as one source, moved so that the domain's middle is the origin; None where there are none."""
     together = vtkAppendPolyData()
-    paths = [path for entry, path in surface_files(folder, manifest) if entry["surface"] == kind]
-    for path in paths:
-        reader = vtkPLYReader()
-        reader.SetFileName(path)
-        reader.Update()
-        together.AddInputData(reader.GetOutput())
-    return moved(together, [-middle for middle in middle_of(manifest)]) if paths else None
+    files = [(path, manifest["sha256"][entry["path"]]) for entry, path in surface_files(folder, manifest) if entry["surface"] == kind]
+    for path, checksum in files:
+        together.AddInputData(read_surface(path, checksum))
+    return moved(together, [-middle for middle in middle_of(manifest)]) if files else None
 
 
 def drawn(folder, manifest, side, path):
@@ -185,16 +199,22 @@ def gathered(folder, manifest_file, with_pictures):
     certificate = read_quantities(os.path.join(folder, "certificate.csv"))
     fibres = read_rows(os.path.join(folder, "certificate_fibres.csv"))
     lines = fibre_lines(folder)
-    shown, why = picture(folder, manifest) if with_pictures else (None, "No picture: --no-pictures.")
     drawn, notes = charts(manifest, fibres, lines)
+    along, shown, why = [], None, "No picture: --no-pictures."
+    try:
+        if with_pictures:
+            shown, why = picture(folder, manifest)
+            along = profile_charts(folder, manifest, fibres, lines)
+    except Refusal as refusal:
+        shown, why = None, f"No picture: {refusal}."
     name = os.path.basename(os.path.abspath(folder))
     with open(manifest_file, "rb") as file:
         content = file.read()
     return {
         "title": f"Substrate {name}", "certified": bool(manifest["certified"]), "sample_of": manifest.get("sample_of_fibres"), "judged": manifest["judged"], "faults": manifest["faults"],
         "changed": changed_files(folder, manifest),
-        "rows": asked_and_reached(manifest, certificate, fibres, mean_dispersion(lines) if lines is not None else None),
-        "picture": shown, "no_picture": why, "charts": drawn, "profiles": profile_charts(folder, manifest, fibres, lines) if with_pictures else [], "notes": notes, "stages": manifest["provenance"],
+        "rows": asked_and_reached(manifest, certificate, fibres, mean_dispersion(lines, manifest, fibres)),
+        "picture": shown, "no_picture": why, "charts": drawn, "profiles": along, "notes": notes, "stages": manifest["provenance"],
         "again": [f"./cactus rerun {name}/manifest.json", "(the same to the bit, with CACTUS " + manifest["version"] + ")"],
         "manifest": data_uri("application/json", content), "citation": citation(),
         "versions": f"Substrate: CACTUS {manifest['version']}. Report: ParaView {servermanager.vtkSMProxyManager.GetVersionMajor()}."

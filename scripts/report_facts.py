@@ -23,13 +23,21 @@ def mean(values):
     return math.fsum(known) / len(known) if known else math.nan
 
 
+def source_of_all(manifest, names):
+    """Those properties of the source of all fibres, or of several that have the same; None where they differ, or some fibres are of another kind
+    of source."""
+    if stages_of(manifest, "StrandReader", "TractFibres"):
+        return None
+    return only({name: source.get(name) for name in names} for source in stages_of(manifest, "BundleInitializer"))
+
+
 class AskedRadii:
-    """The distribution of outer radii (µm) that the sources drew from, where they had one and the same."""
+    """The distribution of outer radii (µm) that all fibres were drawn from."""
 
     NAMES = ("RadiusDistribution", "GammaShape", "GammaScale", "LognormalMean", "LognormalDeviation", "MinimumRadius", "MaximumRadius")
 
     def __init__(self, manifest):
-        self.source = only({name: source.get(name) for name in self.NAMES} for source in stages_of(manifest, "BundleInitializer"))
+        self.source = source_of_all(manifest, self.NAMES)
         self.density = self._density() if self.source else []
 
     def _weight(self, radius):
@@ -76,7 +84,9 @@ def asked_fraction(manifest):
         return None
     target = growth.get("TargetFibreVolumeFraction", 0.0)
     if target < 0.0:
-        # Fibres of files do not say what they were made for.
+        # Fibres of files do not say what they were made for, and those along a tract only of what the tract fills.
+        if stages_of(manifest, "TractFibres"):
+            return None
         shares = [source.get("GrownFibreVolumeFraction", 0.0) for source in stages_of(manifest, "BundleInitializer", "StrandReader")]
         target = math.fsum(shares) if all(share > 0.0 for share in shares) else 0.0
     return target if target > 0.0 else None
@@ -104,7 +114,7 @@ def asked_and_reached(manifest, certificate, fibres, dispersion):
         ("aggregate g-ratio", g, certificate.get("AggregateGRatio")),
         ("mean outer radius (µm)", AskedRadii(manifest).mean(), mean(fibre["OuterRadius_um"] for fibre in fibres)),
         ("mean inner radius (µm)", None, mean(fibre["InnerRadius_um"] for fibre in fibres if math.isfinite(fibre["OuterRadius_um"]))),
-        ("mean dispersion (degrees)", only(source.get("MeanDispersion") for source in stages_of(manifest, "BundleInitializer")), dispersion),
+        ("mean dispersion (degrees)", (source_of_all(manifest, ["MeanDispersion"]) or {}).get("MeanDispersion"), dispersion),
         ("smallest gap between fibres (µm)", certificate.get("MinimumGap_um"), certificate.get("SmallestGap_um")),
         ("thinnest myelin (µm)", None, certificate.get("SmallestMyelin_um")),
         ("triangles", None, certificate.get("Triangles")),

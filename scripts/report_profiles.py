@@ -7,9 +7,8 @@ from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
-from vtkmodules.vtkIOPLY import vtkPLYReader
 
-from preview import surface_files, with_numbers
+from preview import read_surface, surface_files, with_numbers
 
 CUTS = 80  # along the side of the domain
 
@@ -60,10 +59,8 @@ def _surfaces(folder, manifest, kind, wanted):
     together = vtkAppendPolyData()
     for entry, path in surface_files(folder, manifest):
         if entry["surface"] == kind and entry["fibre"] in wanted:
-            reader = vtkPLYReader()
-            reader.SetFileName(path)
-            reader.Update()
-            together.AddInputData(with_numbers(reader.GetOutput(), FibreId=entry["fibre"], BundleId=entry["bundle"]))
+            surface = read_surface(path, manifest["sha256"][entry["path"]])
+            together.AddInputData(with_numbers(surface, FibreId=entry["fibre"], BundleId=entry["bundle"]))
     if together.GetNumberOfInputConnections(0) == 0:
         return None
     together.Update()

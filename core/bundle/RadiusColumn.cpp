@@ -39,6 +39,10 @@ bool takeLine(std::istream& stream, const std::string& name, std::string& line)
       throw FileError("RadiusTableFile " + name + " has a line of more than 1 MB: this is no table");
     }
   }
+  if (stream.bad())
+  {
+    throw FileError("RadiusTableFile " + name + " cannot be read");
+  }
   return !line.empty();
 }
 

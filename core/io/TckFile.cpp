@@ -21,8 +21,10 @@ namespace cactus
 namespace
 {
 
-constexpr std::size_t longestLine = 4096;
-constexpr std::size_t mostLines = 10000;
+constexpr char firstLine[] = "mrtrix tracks";
+constexpr std::size_t longestFirstLine = 64;
+constexpr std::size_t longestLine = 1 << 20; ///< command_history has whole commands, with all their files
+constexpr std::size_t longestHeader = 64 << 20;
 /// Points that are read at once.
 constexpr std::size_t block = 4096;
 
@@ -32,17 +34,24 @@ struct TckHeader
   double count = 0.0; ///< 0 where it is not said
 };
 
+/// Without blanks at its end: MRtrix leaves four after the first line, where an END was before the header was written.
+std::string readLine(BinaryReader& reader, std::size_t longest)
+{
+  const std::string line = reader.line(longest);
+  return line.substr(0, line.find_last_not_of(" \t") + 1);
+}
+
 /// The lines `key: value` up to END; of keys that come twice the last.
 std::map<std::string, std::string> readLines(BinaryReader& reader)
 {
-  if (reader.size() == 0 || reader.line(longestLine) != "mrtrix tracks")
+  if (reader.size() == 0 || readLine(reader, longestFirstLine) != firstLine)
   {
     reader.fail("this is no .tck file: its first line is not 'mrtrix tracks'");
   }
   std::map<std::string, std::string> lines;
-  for (std::size_t i = 0; i < mostLines; ++i)
+  while (reader.position() < longestHeader)
   {
-    const std::string line = reader.line(longestLine);
+    const std::string line = readLine(reader, longestLine);
     if (line == "END")
     {
       return lines;

@@ -179,8 +179,8 @@ HistologyMask maskGrid(const Domain& domain, const HistologyMaskOptions& options
   mask.pixelSize = options.pixelSize;
   for (std::size_t i = 0; i < 2; ++i)
   {
-    // A domain that the pixels divide up to rounding needs no more of them.
-    const double count = std::max(1.0, std::ceil(domain.size()[mask.axes[i]] / options.pixelSize - 1e-6));
+    // Those whose middle lies within the domain: beyond it is no tissue, which would hide that a fibre reaches the border.
+    const double count = std::max(1.0, std::ceil(domain.size()[mask.axes[i]] / options.pixelSize - 0.5 - 1e-6));
     if (count > mostPixels)
     {
       throw InvalidInput(

@@ -75,7 +75,8 @@ class Package(unittest.TestCase):
     def test_everything_is_where_debian_has_it(self):
         for pattern in ("usr/bin/cactus-grow", "usr/share/man/man1/cactus-grow.1.gz", "usr/share/doc/cactus-paraview/copyright",
                         "usr/share/doc/cactus-paraview/changelog.gz", "usr/share/doc/cactus-paraview/README.md*",
-                        "usr/share/doc/cactus-paraview/docs/cactus-grow.md*", "usr/share/doc/cactus-paraview/examples/recipes/bundle.json"):
+                        "usr/share/doc/cactus-paraview/docs/cactus-grow.md*", "usr/share/doc/cactus-paraview/examples/recipes/bundle.json",
+                        "usr/share/doc/cactus-paraview/scripts/report.py"):
             self.one(pattern)
         self.assertEqual(sorted(os.listdir(self.root)), ["usr"])
         self.assertEqual(sorted(os.listdir(os.path.join(self.root, "usr"))), ["bin", "lib", "share"])
@@ -98,6 +99,14 @@ class Package(unittest.TestCase):
         environment = {**os.environ, "PV_PLUGIN_CONFIG_FILE": self.one(f"usr/lib/*/{PARAVIEW}/plugins/cactus.plugins.xml"), "PV_PLUGIN_PATH": ""}
         self.assertRegex(output("pvpython", script, env=environment), r"fibres [1-9]")
         self.assertIn(VERSION, output(os.path.join(self.root, "usr/bin/cactus-grow"), "--version"))
+
+    def test_its_scripts_find_each_other(self):
+        documents = os.path.join(self.root, "usr/share/doc/cactus-paraview")
+        script = os.path.join(self.root, "imports.py")
+        with open(script, "w", encoding="utf-8") as file:
+            file.write(f"import sys\nsys.path[:0] = [{documents!r} + '/examples/figures', {documents!r} + '/scripts']\nimport paper_figure, report, rerun, preview\nprint('found')\n")
+        self.addCleanup(os.remove, script)
+        self.assertIn("found", output("pvpython", script, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}))
 
     @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed")
     def test_lintian_is_content(self):

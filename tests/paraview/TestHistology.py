@@ -102,6 +102,10 @@ class Histology(CactusTestCase):
         for grey, name in ((255, "AVF"), (127, "MVF")):
             found = numpy.mean([(mask == grey).mean() for mask in masks])
             self.assertAlmostEqual(found, sampled.GetPointData().GetArray(name).GetValue(0), delta=0.03)
+        # Pixels that do not divide the side: what a face cuts off reaches the border.
+        cut = pixels(fetch(HistologyMask(Outer=surfaces, PixelSize=0.13)))
+        self.assertEqual(cut.shape, (46, 46))
+        self.assertTrue(all(edge.any() for edge in (cut[0], cut[-1], cut[:, 0], cut[:, -1])))
         one, two = (pixels(fetch(HistologyMask(Outer=surfaces, PixelSize=0.05, NumberOfThreads=n))) for n in (1, 2))
         numpy.testing.assert_array_equal(one, two)
 

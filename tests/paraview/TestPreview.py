@@ -107,6 +107,23 @@ class Preview(CactusTestCase):
                 self.assertEqual(file.read(), "mine")
             os.remove(existing)
 
+    def test_what_was_not_copied_as_a_whole_is_refused(self):
+        folder = os.path.join(self.folder, "copy")
+        shutil.copytree(self.substrate, folder)
+        path = sorted(glob.glob(os.path.join(folder, "inner", "*.ply")))[0]
+        with open(path, "rb") as file:
+            content = file.read()
+        with open(path, "wb") as file:
+            file.write(content[: len(content) // 2])
+        code, said = self.preview(folder)
+        self.assertEqual(code, 2, said)
+        self.assertRegex(said, r"inner/.*\.ply is not as it was written: if it was not copied as a whole, copy it again")
+        os.remove(path)
+        code, said = self.preview(folder)
+        self.assertEqual(code, 2, said)
+        self.assertRegex(said, r"1 of \d+ surfaces are not in the folder, such as inner/")
+        self.assertEqual(os.listdir(self.folder), ["copy"])
+
     def test_refusals(self):
         for words, reason in ((("--output", os.path.join(self.substrate, "a.vtm")), "in the folder itself"),
                               (("--output", os.path.join(self.folder, "a.vtp")), "does not end with .vtm"),

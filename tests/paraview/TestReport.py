@@ -161,6 +161,27 @@ class Report(CactusTestCase):
         low, high = reader.GetOutput().GetPointData().GetScalars().GetRange()
         self.assertLess(low + 100, high)  # something is drawn
 
+    def test_bundles_have_axes_of_their_own(self):
+        """Which a file of centre lines does not tell."""
+        folder = os.path.join(self.folder, "crossing")
+        bundles = simple.BundleInitializer(Side=6, NumberOfBundles=2, CrossingAngle=90, FibreVolumeFraction=0.3, MaximumRadius=0.6, GrownFibreVolumeFraction=0.4)
+        fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundles), 0)
+        surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
+        simple.SubstrateWriter(Outer=simple.OutputPort(surfaces, 0), FolderName=folder).UpdatePipeline()
+        rows = {row[0]: row[1:] for row in Page(self.made(folder, "--no-pictures")).rows}
+        asked, reached = map(float, rows["mean dispersion (degrees)"])
+        self.assertEqual(asked, 5)
+        self.assertAlmostEqual(reached, 5, delta=2)
+
+    def test_what_was_asked_of_all_fibres(self):
+        """Not of those of one source beside others."""
+        with open(os.path.join(self.substrate, "manifest.json"), encoding="utf-8") as file:
+            stages = json.load(file)["provenance"]
+        folder = self.changed(provenance=[{"id": "0", "filter": "TractFibres", "properties": {"GrownFibreVolumeFraction": 0.5}}, *stages])
+        rows = {row[0]: row[1:] for row in Page(self.made(folder, "--no-pictures")).rows}
+        for name in ("fibre volume fraction (FVF)", "mean outer radius (µm)", "mean dispersion (degrees)"):
+            self.assertNotRegex(rows[name][0], r"\d", name)
+
     def test_a_sample(self):
         folder = os.path.join(self.folder, "sample")
         fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=5, MinimumRadius=0.3)), 0)
@@ -178,6 +199,10 @@ class Report(CactusTestCase):
             file.write("\n")
         page = Page(self.made(folder, "--no-pictures"))
         self.assertRegex(page.verdict, r"^CHANGED SINCE: 1 files.*outer/fibre_00001\.ply")
+        os.truncate(os.path.join(folder, "outer", "fibre_00001.ply"), 5000)
+        page = Page(self.made(folder))
+        self.assertRegex(page.verdict, r"^CHANGED SINCE: 1 files.*outer/fibre_00001\.ply")
+        self.assertRegex(page.words, r"No picture: .*fibre_00001\.ply is not as it was written")
 
     def test_what_is_not_certified_is_said_with_its_reasons(self):
         page = Page(self.made(self.changed(certified=False, faults=["2 pairs of surfaces meet"]), "--no-pictures"))

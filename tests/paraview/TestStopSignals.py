@@ -129,6 +129,25 @@ class StopSignalsTest(CactusTestCase):
         self.assertNotIn("Stack trace", done.stdout)
         self.assertTrue(os.path.exists(checkpoint))
 
+    def test_kill_reaches_what_the_launcher_runs(self):
+        """It is the same process, and its display goes with it."""
+        root = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
+        if os.path.realpath(os.environ.get("CACTUS_TOOLS", "")) != os.path.join(root, "build", "release", "bin"):
+            self.skipTest("the launcher runs another build")
+        path = os.path.join(self.folder, "who.py")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("import os, sys\nprint(os.getpid(), os.environ['DISPLAY'])\nsys.exit(7)\n")
+        environment = {name: value for name, value in environment_of_its_own().items() if name not in ("DISPLAY", "XAUTHORITY")}
+        with subprocess.Popen([os.path.join(root, "cactus"), "pvpython", path], stdout=subprocess.PIPE, text=True, env=environment) as process:
+            said = process.stdout.read().split()
+        self.assertEqual(process.returncode, 7)
+        self.assertEqual(said[0], str(process.pid))
+        self.assertRegex(said[1], r"^:\d+$")
+        end = time.monotonic() + 20
+        while os.path.exists("/tmp/.X11-unix/X" + said[1][1:]) and time.monotonic() < end:
+            time.sleep(0.1)
+        self.assertFalse(os.path.exists("/tmp/.X11-unix/X" + said[1][1:]))
+
     def test_nothing_that_follows_is_begun(self):
         """The optimiser, which keeps its best state where the window stops it, has something to hand on."""
         heard = []

@@ -15,19 +15,22 @@ from cactus_testing import CactusTestCase, environment_of_its_own, main
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "sweep.py")
 TINY = ("--side", "5", "--voxel-size", "0.2", "--dispersions", "0", "8", "--fractions", "0.5", "--seeds", "1")
 OWN = """
+import sys
 from paraview import simple
 from cactus_sweep import sweep
 
 def make(folder, style, seed, angle):
     if seed == 2:
         raise ValueError("no such seed")
+    if seed == 4:
+        sys.exit("as a script of its own ends")
     bundle = simple.BundleInitializer(Side=6, MaximumRadius=0.8, NumberOfBundles=2, CrossingAngle=angle, CrossingStyle=style, Seed=seed, GrownFibreVolumeFraction=0.5, FibreVolumeFraction=0.4)
     fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
     grown = simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.2)
     simple.SubstrateWriter(Outer=simple.OutputPort(simple.MyelinSurface(Input=grown), 0), FolderName=folder).UpdatePipeline()
 
 kept = simple.Sphere()
-sweep(make, "mine", reached=("FVF", "MeanFancy", "Certified"), style="Sheets", seed=(seed for seed in (1, 2, 3)), angle=60)
+sweep(make, "mine", reached=("FVF", "MeanFancy", "Certified"), style="Sheets", seed=(seed for seed in (1, 2, 4, 3)), angle=60)
 """
 RANKS = ("mpiexec", "-n", "2", "pvbatch")
 
@@ -98,7 +101,8 @@ class Sweep(CactusTestCase):
         said = done.stdout + done.stderr.replace("ERR|", "")
         self.assertNotEqual(done.returncode, 0, said)
         self.assertIn("ValueError: no such seed", said)
-        self.assertIn("2 of 3 cases are in", said)
+        self.assertIn("as a script of its own ends", said)
+        self.assertIn("2 of 4 cases are in", said)
         self.assertIn("not every case came out", said)
         self.assertRegex(said, r"left \['Sphere1'\] 1")
         rows = self.rows("mine")

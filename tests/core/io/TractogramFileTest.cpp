@@ -77,6 +77,21 @@ TEST(Tck, IsReadInEachTypeAndOrder)
   }
 }
 
+// It writes END right after the first line, then the rest of the header, and then blanks over that END.
+TEST(Tck, IsReadAsMrtrixWritesIt)
+{
+  std::string header = "mrtrix tracks    \ncommand_history: tckedit " + std::string(100000, 'x') + "\nmax_num_tracks: 2\t\ndatatype: Float32LE \nfile: . ";
+  const std::size_t offset = (header.size() + 65 + 3) / 4 * 4;
+  header += std::to_string(offset) + "\ncount: 2\ntotal_count: 2\nEND\n";
+  ASSERT_LT(header.size(), offset);
+  const std::string plain = tckText("Float32LE", "", false);
+  const std::string body = plain.substr(plain.find("END\n") + 4);
+  const Tractogram tracks = tck(header + std::string(offset - header.size(), '\0') + body);
+  EXPECT_EQ(tracks.offsets, (Offsets{ 0, 2, 4 }));
+  EXPECT_EQ(tracks.points.size(), 12u);
+  EXPECT_TRUE(tracks.remarks.empty());
+}
+
 TEST(Tck, AWrongCountIsRemarked)
 {
   const Tractogram tracks = tck(tckText("Float32LE", "count: 0000000005\n"));
