@@ -80,7 +80,8 @@ TEST(Tck, IsReadInEachTypeAndOrder)
 // It writes END right after the first line, then the rest of the header, and then blanks over that END.
 TEST(Tck, IsReadAsMrtrixWritesIt)
 {
-  std::string header = "mrtrix tracks    \ncommand_history: tckedit " + std::string(100000, 'x') + "\nmax_num_tracks: 2\t\ndatatype: Float32LE \nfile: . ";
+  std::string header = "mrtrix tracks    \ncommand_history: tckedit " + std::string(100000, 'x') +
+                       "\nmax_num_tracks: 2\t\ndatatype: Float32LE \nfile: . ";
   const std::size_t offset = (header.size() + 65 + 3) / 4 * 4;
   header += std::to_string(offset) + "\ncount: 2\ntotal_count: 2\nEND\n";
   ASSERT_LT(header.size(), offset);
