@@ -38,6 +38,14 @@ public:
 
 } // namespace cactus
 
+/// Asks a run to stop. That is no change of the filter: of several ranks, one that was asked too late would else run again, and
+/// wait for the others.
+#define CACTUS_ABORT_IS_NO_CHANGE                                                                                                \
+  void SetAbortExecute(vtkTypeBool wanted) override                                                                              \
+  {                                                                                                                              \
+    this->AbortExecute = wanted;                                                                                                 \
+  }
+
 // Set and Get methods of a class with a member `std::unique_ptr<cactus::FilterProperties> Properties`.
 #define CACTUS_NUMBER_PROPERTY(name)                                                                                             \
   virtual void Set##name(double value)                                                                                           \

@@ -294,10 +294,15 @@ bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
   return attemptTogether(self, Sharing(), work);
 }
 
+void noteStopped(vtkAlgorithm* self, const std::string& message)
+{
+  remember(self, message, true);
+  sayStopped(self);
+}
+
 int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time)
 {
   *time = self->GetMTime();
-  // In one of several ranks it would have that one come to an exchange alone.
   if (processCount() == 1 && self->GetInformation()->Get(stoppedKey()) != 0)
   {
     vtkTimeStamp now;

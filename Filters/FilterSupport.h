@@ -37,8 +37,12 @@ int guarded(vtkAlgorithm* self, const std::function<void()>& work);
 /// The same where all ranks share `work`, and all of them come here: where it is not run in one of them, it is in none.
 int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work);
 
+/// For work that was stopped before RequestData, which a signal may not let come: says so, and RequestData then says it no more.
+void noteStopped(vtkAlgorithm* self, const std::string& message);
+
 /// The same as vtkAlgorithm::ComputePipelineMTime, but for a filter that was stopped: it counts as changed until it has run, so
-/// that whatever asks for its output gets the warning. What follows in the pipeline would not ask again.
+/// that whatever asks for its output gets the warning. What follows in the pipeline would not ask again. Not of several ranks, of
+/// which one would come to an exchange alone: these ask again after a change, or by Write.
 int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time);
 
 /// Runs `work` for RequestInformation and RequestUpdateExtent, which say nothing of what it throws: RequestData fails in the same

@@ -73,11 +73,10 @@ public:
   CACTUS_NUMBER_PROPERTY(MaximumSpacing)
   CACTUS_WHOLE_PROPERTY(Seed)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
-  /** Asks a run to stop. That is no change of the filter, see vtkCapsuleOptimizer. */
-  void SetAbortExecute(vtkTypeBool wanted) override { this->AbortExecute = wanted; }
+  CACTUS_ABORT_IS_NO_CHANGE
 
 protected:
   vtkBundleInitializer();

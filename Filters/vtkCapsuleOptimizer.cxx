@@ -228,10 +228,7 @@ int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVecto
         cactus::updateWholeInputs(this, inputs);
         this->EnsureRun(inputs[0]);
       });
-    if (cactus::StopSignals::areCaught() && cactus::RankTeam().place() == 0) // RequestData does not come to say it
-    {
-      vtkWarningMacro(<< cactus::Cancelled().what());
-    }
+    this->NoteStop();
   }
   this->OfferTimes(outputs);
   return 1;
@@ -242,6 +239,26 @@ bool vtkCapsuleOptimizer::IsRunKnown(vtkInformationVector* inputs)
   const bool isKept = this->Stage().keepHistory || (cactus::processCount() > 1 && this->LastRun && !this->LastRun->Failure);
   return isKept && this->LastRun && this->LastRun->ParameterTime == this->GetMTime() &&
          this->LastRun->InputTime == inputTime(inputs);
+}
+
+void vtkCapsuleOptimizer::NoteStop()
+{
+  if (!this->LastRun || !this->LastRun->Failure || !cactus::StopSignals::areCaught())
+  {
+    return;
+  }
+  try
+  {
+    std::rethrow_exception(this->LastRun->Failure);
+  }
+  catch (const cactus::Cancelled& stop)
+  {
+    cactus::noteStopped(this, stop.what());
+  }
+  catch (...)
+  {
+    return; // RequestData says what was wrong
+  }
 }
 
 void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs)

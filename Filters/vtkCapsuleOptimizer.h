@@ -84,9 +84,7 @@ public:
   /** The same as a number, which scripts can ask for. */
   int GetHasNews() { return this->GetNeedsUpdate() ? 1 : 0; }
 
-  /** Asks a run to stop. That is no change of the filter: of several ranks, one that was asked too late would else run again, and
-   * wait for the others. */
-  void SetAbortExecute(vtkTypeBool wanted) override { this->AbortExecute = wanted; }
+  CACTUS_ABORT_IS_NO_CHANGE
 
   /** Ends a run in the background: what it shows next is its best state, which is its result. */
   void StopNow();
@@ -113,6 +111,7 @@ private:
   const cactus::CapsuleOptimizerStage& Stage() const;
   /** Runs the optimisation, which all ranks share, unless LastRun holds it in all of them; throws what it throws, or threw. */
   void EnsureRun(vtkInformationVector* inputs);
+  void NoteStop();
   /** Whether LastRun holds what would come out. */
   bool IsRunKnown(vtkInformationVector* inputs);
   /** Runs the optimisation. */

@@ -43,7 +43,7 @@ public:
   CACTUS_SWITCH_PROPERTY(ClipToDomain)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:

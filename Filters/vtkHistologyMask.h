@@ -31,7 +31,7 @@ public:
   CACTUS_NUMBER_PROPERTY(PixelSize)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:

@@ -24,6 +24,8 @@ public:
 
   CACTUS_FILE_PROPERTY(FileName)
 
+  CACTUS_ABORT_IS_NO_CHANGE
+
 protected:
   vtkStrandReader();
   ~vtkStrandReader() override = default;

@@ -31,8 +31,10 @@ public:
   CACTUS_WHOLE_PROPERTY(LengthUnit)
   CACTUS_NUMBER_PROPERTY(Radius)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so. */
+  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+
+  CACTUS_ABORT_IS_NO_CHANGE
 
 protected:
   vtkTractogramReader();

@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Parallel.h"
+#include "fibres/SelectFibres.h"
 #include "io/CertificateText.h"
 #include "io/CombinedSurfaces.h"
 #include "io/ElementFiles.h"
@@ -24,6 +25,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <thread>
@@ -323,14 +325,26 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   }
 }
 
+/// By increasing id, as certificate and manifest have them: a strand file has no ids, and pieces of a fibre that left the domain
+/// have theirs at the end.
+Fibres byId(const Fibres& fibres)
+{
+  std::vector<std::size_t> order(fibres.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(
+    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fibres.fibreIds[a] < fibres.fibreIds[b]; });
+  return selectFibres(fibres, order);
+}
+
 /// Writes everything but the surfaces, the manifest last: where there is one, the folder is whole.
 void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, FolderWriter& writer)
 {
   if (hasStrandFile(contents))
   {
     const bool isReference = contents.format == SubstrateFormat::Reference;
+    const bool isSorted = std::is_sorted(contents.fibres->fibreIds.begin(), contents.fibres->fibreIds.end());
     writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands",
-      [&](const std::string& path) { writeStrandFile(*contents.fibres, path); });
+      [&](const std::string& path) { writeStrandFile(isSorted ? *contents.fibres : byId(*contents.fibres), path); });
   }
   if (contents.format == SubstrateFormat::Mcdc)
   {
@@ -357,7 +371,8 @@ void requireMemoryForElements(const SubstrateCertificate& certificate)
   {
     triangles += double(fibre.outer.triangles) + double(fibre.inner.triangles);
   }
-  requireMemory(bytesOfTriangle * triangles, text("Format SpinDoctor, which joins ", triangles, " triangles"),
+  requireMemory(bytesOfTriangle * triangles,
+    "Format SpinDoctor, which joins " + std::to_string(std::uint64_t(triangles)) + " triangles,",
     "choose another Format, or make a smaller substrate");
 }
 

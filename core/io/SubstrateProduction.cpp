@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <new>
 #include <utility>
 
 namespace cactus
@@ -244,6 +245,10 @@ WrittenSubstrate writeMade(
   {
     throw OutOfMemory(waysOn(error.what(), folder));
   }
+  catch (const std::bad_alloc&)
+  {
+    throw OutOfMemory(waysOn("out of memory: let other programs end, or use fewer threads", folder));
+  }
 }
 
 } // namespace
@@ -313,20 +318,25 @@ ProducedSubstrate produceSubstrate(
       spool->remove();
     }
   };
+  const auto whereKept = [&]
+  {
+    return !isMade && result.found > 0 ? ". What an earlier run has made is kept in " + work + ": remove it if it is of no use"
+                                       : "";
+  };
   const auto isWorkKept = [&] { return spool != nullptr && sharing.isFirst() && !spool->isEmpty(); };
   try
   {
     sharing.together(produce);
   }
-  catch (const InvalidInput&)
+  catch (const InvalidInput& error)
   {
     removeUseless(); // nobody will go on with what cannot be made
-    throw;
+    throw InvalidInput(error.what() + whereKept());
   }
-  catch (const Infeasible&)
+  catch (const Infeasible& error)
   {
     removeUseless();
-    throw;
+    throw Infeasible(error.what() + whereKept());
   }
   catch (const Cancelled&)
   {

@@ -404,9 +404,11 @@ std::vector<double> BoxedSurfaces::volumes(std::size_t compartments) const
   for (std::size_t t = 0; t < this->mesh.triangles.size(); ++t)
   {
     const auto& corners = this->mesh.triangles[t];
-    const Vector3d& a = this->mesh.points[std::size_t(corners[0])];
-    const Vector3d& b = this->mesh.points[std::size_t(corners[1])];
-    const Vector3d& c = this->mesh.points[std::size_t(corners[2])];
+    // About one of its own points, so that it does not matter how far from the origin the box lies.
+    const Vector3d& origin = this->mesh.points.front();
+    const Vector3d a = this->mesh.points[std::size_t(corners[0])] - origin;
+    const Vector3d b = this->mesh.points[std::size_t(corners[1])] - origin;
+    const Vector3d c = this->mesh.points[std::size_t(corners[2])] - origin;
     const double part = a.dot(b.cross(c)) / 6.0;
     for (const int side : { 0, 1 })
     {

@@ -28,7 +28,7 @@ void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std:
   std::vector<std::array<std::int32_t, 3>> kept;
   for (std::size_t t = 0; t < pieceOf.size(); ++t)
   {
-    if (isKept[pieceOf[t]])
+    if (pieceOf[t] < isKept.size() && isKept[pieceOf[t]]) // one that uses a point twice may have no piece
     {
       kept.push_back(mesh.triangles[t]);
     }

@@ -166,7 +166,7 @@ private:
   double errorAround(const Vector3d& a, const Vector3d& b) const { return std::fabs(this->field(0.5 * (a + b))); }
   void relax();
   Vector3d relaxedPlace(std::int32_t point) const;
-  bool moveIfBetter(std::int32_t point, const Vector3d& place, double enough);
+  bool moveIfBetter(std::int32_t point, const Vector3d& wanted, double enough);
   double worstAngleAt(std::int32_t point, const Vector3d& place, bool& isTurned) const;
   bool finishAngles();
   bool finishTriangle(std::size_t triangle);
@@ -474,8 +474,17 @@ Vector3d Remeshing::relaxedPlace(std::int32_t point) const
 }
 
 /// Moves a point, unless that turns a triangle over or makes the smallest angle there smaller, and than `enough` (radians).
-bool Remeshing::moveIfBetter(std::int32_t point, const Vector3d& place, double enough)
+bool Remeshing::moveIfBetter(std::int32_t point, const Vector3d& wanted, double enough)
 {
+  // What lies on a face stays there, also where nothing is left of its cap.
+  Vector3d place = wanted;
+  for (int bit = 0; bit < 6; ++bit)
+  {
+    if ((this->Mesh.facesOf(point) >> bit & 1) != 0)
+    {
+      place[bit / 2] = this->at(point)[bit / 2];
+    }
+  }
   bool wasTurned = false;
   bool isTurned = false;
   const double before = this->worstAngleAt(point, this->at(point), wasTurned);

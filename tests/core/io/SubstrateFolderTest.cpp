@@ -503,6 +503,17 @@ TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
   }
 }
 
+// Pieces of fibres have ids beyond all others, and follow the fibre that they are of.
+TEST_F(SubstrateFolder, HasCentreLinesInTheOrderOfIds)
+{
+  cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2, 5, 4 });
+  fibres.radii = { 0.2, 0.2, 0.5, 0.5, 0.4, 0.4 };
+  this->Contents.fibres = &fibres;
+  EXPECT_EQ(this->write(this->Scratch / "s"), "");
+  const cactus::Fibres read = cactus::readStrandFile((this->Scratch / "s/fibres.strands").string());
+  EXPECT_EQ(read.radii, (std::vector<double>{ 0.2, 0.2, 0.4, 0.4, 0.5, 0.5 }));
+}
+
 TEST_F(SubstrateFolder, IsWrittenOfAnyBox)
 {
   this->Contents.domain.upper[2] += 10.0;
