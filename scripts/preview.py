@@ -47,9 +47,9 @@ def surface_files(folder, manifest):
     return found
 
 
-def read_surface(path, checksum):
-    """The polygons of a surface's file. Throws Refusal where it is not as it was written: VTK's reader ends the process at one that is cut off."""
-    if sha256(path) != checksum:
+def read_surface(manifest, entry, path):
+    """The polygons of a surface's file, as surface_files() has it. Throws Refusal where it is not as it was written: VTK's reader ends the process at one that is cut off."""
+    if sha256(path) != manifest["sha256"][entry["path"]]:
         raise Refusal(f"{path} is not as it was written: if it was not copied as a whole, copy it again")
     reader = vtkPLYReader()
     reader.SetFileName(path)
@@ -100,7 +100,7 @@ def cuts_through(folder, manifest, axes):
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)  # the cutter says that it cuts, each time
     together = {axis: {kind: vtkAppendPolyData() for kind in ("outer", "inner")} for axis in axes}
     for entry, path in surface_files(folder, manifest):
-        surface = read_surface(path, manifest["sha256"][entry["path"]])
+        surface = read_surface(manifest, entry, path)
         for axis in axes:
             normal = [float(name == axis) for name in AXES]
             cut = _filled(surface, middle_of(manifest), normal)

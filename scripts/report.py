@@ -17,7 +17,7 @@ from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
 import report_charts
 from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
-from preview import IN_ONE_FILE, SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, read_surface, surface_files, tubes
+from preview import IN_ONE_FILE, SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, read_surface, surface_files, tubes, with_numbers
 from report_page import page
 from report_profiles import profiles
 from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
@@ -87,6 +87,7 @@ def in_bundles(lines, manifest, fibres):
     ids = sorted(int(row["FibreId"]) for row in fibres)
     if len(ids) != data.GetNumberOfCells() or not bundles.keys() >= set(ids):
         return lines if len(set(bundles.values())) == 1 else None
+    with_numbers(data, BundleId=0)  # the array that is there may be the reader's own
     for place, fibre in enumerate(ids):
         data.GetCellData().GetArray("BundleId").SetValue(place, bundles[fibre])
     source = simple.TrivialProducer()
@@ -106,9 +107,9 @@ def mean_dispersion(lines, manifest, fibres):
 def surfaces(folder, manifest, kind):
     """All surfaces of a kind as one source, moved so that the domain's middle is the origin; None where there are none."""
     together = vtkAppendPolyData()
-    files = [(path, manifest["sha256"][entry["path"]]) for entry, path in surface_files(folder, manifest) if entry["surface"] == kind]
-    for path, checksum in files:
-        together.AddInputData(read_surface(path, checksum))
+    files = [(entry, path) for entry, path in surface_files(folder, manifest) if entry["surface"] == kind]
+    for entry, path in files:
+        together.AddInputData(read_surface(manifest, entry, path))
     return moved(together, [-middle for middle in middle_of(manifest)]) if files else None
 
 

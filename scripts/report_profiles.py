@@ -59,7 +59,7 @@ def _surfaces(folder, manifest, kind, wanted):
     together = vtkAppendPolyData()
     for entry, path in surface_files(folder, manifest):
         if entry["surface"] == kind and entry["fibre"] in wanted:
-            surface = read_surface(path, manifest["sha256"][entry["path"]])
+            surface = read_surface(manifest, entry, path)
             together.AddInputData(with_numbers(surface, FibreId=entry["fibre"], BundleId=entry["bundle"]))
     if together.GetNumberOfInputConnections(0) == 0:
         return None

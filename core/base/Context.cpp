@@ -29,6 +29,17 @@ int Context::threadCount() const
   return startThreads(count);
 }
 
+Context Context::part(double from, double to) const
+{
+  Context part = *this;
+  if (progress)
+  {
+    part.progress = [whole = progress, from, to](double fraction, const std::string& message)
+    { whole(from + (to - from) * fraction, message); };
+  }
+  return part;
+}
+
 void Context::checkpoint() const
 {
   if (stopRequested())

@@ -30,6 +30,8 @@ struct Context
       progress(fraction, message);
     }
   }
+  /// The same for a part of the work, from one fraction of the whole to another.
+  Context part(double from, double to) const;
   bool stopRequested() const { return cancelled && cancelled(); }
   /// Throws Cancelled once the caller wants the operation to stop.
   void checkpoint() const;

@@ -76,6 +76,12 @@ bool isPartialName(const std::string& candidate, const std::string& name)
          isHexadecimal(candidate.substr(start.size() + digits + 1));
 }
 
+std::string wholeName(const std::string& candidate)
+{
+  const std::string name = candidate.substr(0, candidate.rfind(marker));
+  return isPartialName(candidate, name) ? name : candidate;
+}
+
 bool lockForWriting(int descriptor)
 {
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;

@@ -16,6 +16,9 @@ std::string partialName(const std::string& name);
 /// Whether a thing has a name that partialName(name) gives.
 bool isPartialName(const std::string& candidate, const std::string& name);
 
+/// The name of which this is a partial one, where it is one of a name that was not cut short; else itself.
+std::string wholeName(const std::string& candidate);
+
 /// Takes the lock that says that this process, which lives, uses the file; it ends with the process. Gives false where another
 /// has it, or the file system knows no locks.
 bool lockForWriting(int descriptor);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/SelectFibres.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace cactus
 {
 
@@ -25,6 +28,14 @@ Fibres selectFibres(const Fibres& fibres, const std::vector<std::size_t>& which)
     }
   }
   return selected;
+}
+
+std::vector<std::size_t> orderById(const Fibres& fibres)
+{
+  std::vector<std::size_t> order(fibres.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fibres.fibreIds[a] < fibres.fibreIds[b]; });
+  return order;
 }
 
 } // namespace cactus

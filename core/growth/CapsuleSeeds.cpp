@@ -2,10 +2,10 @@
 #include "growth/CapsuleSeeds.h"
 
 #include "base/Memory.h"
+#include "fibres/SelectFibres.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace cactus
@@ -13,14 +13,6 @@ namespace cactus
 
 namespace
 {
-
-std::vector<std::size_t> byFibreId(const Fibres& fibres)
-{
-  std::vector<std::size_t> order(fibres.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fibres.fibreIds[a] < fibres.fibreIds[b]; });
-  return order;
-}
 
 /// How many pieces the segment from control point p to the next is cut into.
 int pieceCount(const Fibres& fibres, const Calibre& calibre, std::size_t p)
@@ -42,7 +34,7 @@ bool isInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& r
 } // namespace
 
 CapsuleSeeds::CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach)
-  : fibreOfRank(byFibreId(fibres))
+  : fibreOfRank(orderById(fibres))
 {
   double total = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)

@@ -65,32 +65,23 @@ bool isNumbered(const std::string& path, const std::string& start, const std::st
   return path.substr(start.size(), path.size() - start.size() - end.size()).find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// The file of a bundle's surfaces, whole or not: it is written piece by piece.
-bool isBundleFile(const std::string& name)
-{
-  const std::string whole = name.substr(0, name.find(".partial-"));
-  return isNumbered(whole, "bundle_", ".ply") && (name == whole || isPartialName(name, whole));
-}
-
 /// A path under which the writer has a file, before there is a manifest: in a folder whose writing was ended.
 bool isFileOfWriter(const std::string& path)
 {
-  const auto& streamed = streamedFiles();
-  const auto isPart = [&](const std::string& name) { return isPartialName(path, name); };
+  const std::string whole = wholeName(path); // of what is written piece by piece
   const std::string strand = "meshes/simulations/strand_";
   for (const std::string kind : { "outer/", "inner/" })
   {
     const std::size_t slash = path.rfind('/');
-    const bool isBundle = path.compare(0, kind.size(), kind) == 0 && isBundleFile(path.substr(kind.size()));
-    if (isBundle || isNumbered(path, kind + "fibre_", ".ply") ||
+    if (isNumbered(whole, kind + "bundle_", ".ply") || isNumbered(path, kind + "fibre_", ".ply") ||
         (slash != std::string::npos && isNumbered(path.substr(0, slash), kind, "") &&
           isNumbered(path.substr(slash), "/fibre_", ".ply")))
     {
       return true;
     }
   }
-  return wholeFiles().count(path) > 0 || streamed.count(path) > 0 || std::any_of(streamed.begin(), streamed.end(), isPart) ||
-         isNumbered(path, strand, "_outer_erode_0.ply") || isNumbered(path, strand, "_inner_erode_0.ply");
+  return wholeFiles().count(path) > 0 || streamedFiles().count(whole) > 0 || isNumbered(path, strand, "_outer_erode_0.ply") ||
+         isNumbered(path, strand, "_inner_erode_0.ply");
 }
 
 bool isFolderOfWriter(const std::string& path)

@@ -25,7 +25,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <thread>
@@ -325,26 +324,17 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   }
 }
 
-/// By increasing id, as certificate and manifest have them: a strand file has no ids, and pieces of a fibre that left the domain
-/// have theirs at the end.
-Fibres byId(const Fibres& fibres)
-{
-  std::vector<std::size_t> order(fibres.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(
-    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fibres.fibreIds[a] < fibres.fibreIds[b]; });
-  return selectFibres(fibres, order);
-}
-
 /// Writes everything but the surfaces, the manifest last: where there is one, the folder is whole.
 void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, FolderWriter& writer)
 {
   if (hasStrandFile(contents))
   {
     const bool isReference = contents.format == SubstrateFormat::Reference;
-    const bool isSorted = std::is_sorted(contents.fibres->fibreIds.begin(), contents.fibres->fibreIds.end());
-    writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands",
-      [&](const std::string& path) { writeStrandFile(isSorted ? *contents.fibres : byId(*contents.fibres), path); });
+    // By id, as certificate and manifest have them: a strand file has no ids, and pieces of a fibre have theirs at the end.
+    const std::vector<int>& ids = contents.fibres->fibreIds;
+    const bool isSorted = std::is_sorted(ids.begin(), ids.end());
+    writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands", [&](const std::string& path)
+      { writeStrandFile(isSorted ? *contents.fibres : selectFibres(*contents.fibres, orderById(*contents.fibres)), path); });
   }
   if (contents.format == SubstrateFormat::Mcdc)
   {
@@ -381,11 +371,10 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
 {
   // Judging takes about as long as writing.
   constexpr double judged = 0.5;
-  Context judging = run.context;
-  judging.progress = [&run](double fraction, const std::string& message) { run.context.report(judged * fraction, message); };
   WrittenSubstrate substrate;
-  substrate.certificate = certify(contents.domain, asWritten(contents.outer, contents.encoding),
-    asWritten(contents.inner, contents.encoding), contents.fibres, contents.certificate, judging, run.sharing);
+  substrate.certificate =
+    certify(contents.domain, asWritten(contents.outer, contents.encoding), asWritten(contents.inner, contents.encoding),
+      contents.fibres, contents.certificate, run.context.part(0.0, judged), run.sharing);
   if (!contents.allowOpenSurfaces)
   {
     requireSound(substrate.certificate);

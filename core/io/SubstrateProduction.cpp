@@ -141,15 +141,6 @@ Context paced(const Context& context)
   return whole;
 }
 
-/// A part of the progress.
-Context partOf(const Context& context, double from, double to)
-{
-  Context part = context;
-  part.progress = [&context, from, to](double fraction, const std::string& message)
-  { context.report(from + (to - from) * fraction, message); };
-  return part;
-}
-
 /// Else they would make different things into one folder.
 void requireAlike(const std::string& identity, const std::string& folder, const Sharing& sharing)
 {
@@ -176,7 +167,7 @@ std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
 SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
   ProducedSubstrate& result, const Context& context, const Sharing& sharing)
 {
-  const Context solving = partOf(context, 0.0, growthSolved);
+  const Context solving = context.part(0.0, growthSolved);
   const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving, sharing);
   const double growth = growthFor(aimed, order.growth, solving, sharing);
   auto tiles = std::make_shared<GrownTiles>(
@@ -184,7 +175,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
-  const Context making = partOf(context, growthSolved, surfacesMade);
+  const Context making = context.part(growthSolved, surfacesMade);
   SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
   maker.makeOuter(spool.outer(), spool.inner());
   maker.makeInner(spool.outer(), spool.inner());
@@ -212,16 +203,16 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   return contents;
 }
 
-/// What goes on with surfaces that could not be written.
-std::string waysOn(const std::string& message, const std::string& folder)
+/// The message, and how to go on with surfaces that could not be written.
+std::string withWaysOn(const std::string& message, const std::string& folder)
 {
   const std::string work = workFolderOf(folder);
-  const bool isOfWork = message.find(work) != std::string::npos; // and says itself what to do
-  return message + (isOfWork ? ""
-                             : ". The surfaces are made, and kept in " + work +
-                                 ": this FolderName goes on with them once that is mended. For "
-                                 "another one, rename " +
-                                 work + " to its name with .work");
+  if (message.find(work) != std::string::npos)
+  {
+    return message; // it is of the work folder itself, and says what to do
+  }
+  return message + ". The surfaces are made, and kept in " + work +
+         ": this FolderName goes on with them once that is mended. For another one, rename " + work + " to its name with .work";
 }
 
 /// Throws what writeSubstrateFolder() does; where the surfaces, which stay, cannot be written, that says how to go on with them.
@@ -239,15 +230,15 @@ WrittenSubstrate writeMade(
   }
   catch (const FileError& error)
   {
-    throw FileError(waysOn(error.what(), folder));
+    throw FileError(withWaysOn(error.what(), folder));
   }
   catch (const OutOfMemory& error)
   {
-    throw OutOfMemory(waysOn(error.what(), folder));
+    throw OutOfMemory(withWaysOn(error.what(), folder));
   }
   catch (const std::bad_alloc&)
   {
-    throw OutOfMemory(waysOn("out of memory: let other programs end, or use fewer threads", folder));
+    throw OutOfMemory(withWaysOn("out of memory: let other programs end, or use fewer threads", folder));
   }
 }
 
@@ -304,7 +295,7 @@ ProducedSubstrate produceSubstrate(
     const Context whole = paced(watching);
     const SubstrateFolderContents contents = makeInto(*spool, fibres, made, order, result, whole, sharing);
     isMade = true;
-    result.written = writeMade(contents, folder, partOf(whole, surfacesMade, 1.0), sharing);
+    result.written = writeMade(contents, folder, whole.part(surfacesMade, 1.0), sharing);
     if (sharing.isFirst())
     {
       spool->remove();

@@ -76,9 +76,9 @@ std::string workFolderOf(const std::string& folder);
 /// what any other has left. An error in one ends it in all (see Sharing::together()).
 ///
 /// Throws what these and validate() do, WorkKept, InvalidInput for a work folder of something else and where no fibre has a
-/// surface; and FileError. What cannot be made leaves no work folder but
-/// an earlier run's; what has been made and cannot be written so (an open surface, a format that has no room for it) stays, and
-/// the same call with another format, encoding or allowOpenSurfaces writes it.
+/// surface; and FileError. What cannot be made leaves no work folder but an earlier run's; what has been made and cannot be
+/// written so (an open surface, a format that has no room for it) stays, and the same call with another format, encoding or
+/// allowOpenSurfaces writes it.
 ProducedSubstrate produceSubstrate(const Fibres& fibres, const ProductionOrder& order, const std::string& folder,
   const Context& context = {}, Team* team = nullptr);
 

@@ -93,6 +93,8 @@ TEST_F(AtomicFile, IsThereOnceCommitted)
     file.stream() << std::string(1 << 20, 'x') << 1234.5;
     EXPECT_FALSE(fs::exists(this->File));
     EXPECT_TRUE(cactus::isPartialName(this->entries().at(0), "a.strands")) << this->entries().at(0);
+    EXPECT_EQ(cactus::wholeName(this->entries().at(0)), "a.strands");
+    EXPECT_EQ(cactus::wholeName("a.strands.partial-mine"), "a.strands.partial-mine");
     file.commit();
   }
   EXPECT_EQ(fs::file_size(this->File), (1u << 20) + 6);

@@ -72,6 +72,14 @@ protected:
     fs::remove_all(this->Scratch);
   }
 
+  /// Fibre 2 alone, with both surfaces.
+  void takeFibre(const cactus::Fibres& fibres)
+  {
+    this->Contents.fibres = &fibres;
+    this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(13.0) });
+    this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
+  }
+
   std::string write(const fs::path& folder)
   {
     try
@@ -473,9 +481,7 @@ TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
 TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
 {
   const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2 });
-  this->Contents.fibres = &fibres;
-  this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(13.0) });
-  this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
+  this->takeFibre(fibres);
   this->Contents.voxelSize = 1.5;
   for (std::size_t format = 0; format < std::size(cactus::formatNames); ++format)
   {
@@ -518,9 +524,7 @@ TEST_F(SubstrateFolder, IsWrittenOfAnyBox)
 {
   this->Contents.domain.upper[2] += 10.0;
   const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2 });
-  this->Contents.fibres = &fibres;
-  this->Contents.outer = surfacesOf({ 2 }, { tetrahedron(13.0) });
-  this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
+  this->takeFibre(fibres);
   this->Contents.voxelSize = 0.5;
   for (std::size_t format = 0; format < std::size(cactus::formatNames); ++format)
   {
