@@ -52,7 +52,7 @@ void BackgroundOptimisation::run(const CapsuleOptimizerOptions& options, int thr
 void BackgroundOptimisation::show(const ConvergenceRow& row, const Fibres& fibres, int interval)
 {
   this->Rows.push_back(row);
-  if (row.iteration % interval != 0)
+  if (row.iteration % interval != 0 && this->IsFirstThere) // which nobody else sets; a run may go on from any iteration
   {
     return;
   }

@@ -25,7 +25,7 @@ public:
     std::vector<ConvergenceRow> rows; ///< up to the one of this state
   };
 
-  /// Starts. States of every `interval`-th iteration are shown.
+  /// Starts. The first state and those of every `interval`-th iteration are shown.
   BackgroundOptimisation(Fibres fibres, const CapsuleOptimizerOptions& options, int threads, int interval);
   BackgroundOptimisation(const BackgroundOptimisation&) = delete;
   BackgroundOptimisation& operator=(const BackgroundOptimisation&) = delete;

@@ -171,6 +171,11 @@ std::vector<std::pair<std::string, std::vector<DataOrigin>>> originsOf(vtkAlgori
   return origins;
 }
 
+bool isAsMade(vtkDataObject* data)
+{
+  return isAsMade(originOf(data));
+}
+
 void setProvenance(vtkDataObject* data, const Provenance& records, int port)
 {
   vtkNew<vtkStringArray> array;

@@ -28,6 +28,9 @@ Provenance recordOf(vtkAlgorithm* self, const std::string& filter, const Stage& 
   return provenanceOf({ filter, Stage::properties().states(stage), std::move(reached), {}, originsOf(self, ports) });
 }
 
+/// Whether data, or all parts of them, are as the last stage has left them that they tell of.
+bool isAsMade(vtkDataObject* data);
+
 /// Puts the records into the field data of what comes out at a port, all else of which has to be there.
 void setProvenance(vtkDataObject* data, const Provenance& records, int port);
 

@@ -195,8 +195,15 @@ bool isKnownToFail(vtkAlgorithm* self, const Sharing& sharing)
   return true;
 }
 
-/// See attempt(), and guarded() for several ranks.
-bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work)
+/// As scripts have it: without VTK's "vtk" in front.
+std::string nameOf(vtkAlgorithm* algorithm)
+{
+  return std::string(algorithm->GetClassName()).substr(3);
+}
+
+} // namespace
+
+bool attempt(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work)
 {
   if (isKnownToFail(self, sharing))
   {
@@ -211,10 +218,6 @@ bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::func
   try
   {
     work();
-    if (StopSignals::areCaught())
-    {
-      throw Cancelled(); // so that what follows in the pipeline does not begin
-    }
     return true;
   }
   catch (const Cancelled& stop)
@@ -254,14 +257,6 @@ bool attemptTogether(vtkAlgorithm* self, const Sharing& sharing, const std::func
   return false;
 }
 
-/// As scripts have it: without VTK's "vtk" in front.
-std::string nameOf(vtkAlgorithm* algorithm)
-{
-  return std::string(algorithm->GetClassName()).substr(3);
-}
-
-} // namespace
-
 Context contextFor(vtkAlgorithm* algorithm, int threads)
 {
   Context context;
@@ -291,7 +286,7 @@ Context contextFor(vtkAlgorithm* algorithm, int threads)
 
 bool attempt(vtkAlgorithm* self, const std::function<void()>& work)
 {
-  return attemptTogether(self, Sharing(), work);
+  return attempt(self, Sharing(), work);
 }
 
 void noteStopped(vtkAlgorithm* self, const std::string& message)
@@ -314,13 +309,20 @@ int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time)
 
 int guarded(vtkAlgorithm* self, const std::function<void()>& work)
 {
-  attempt(self, work);
-  return 1;
+  return guarded(self, Sharing(), work);
 }
 
 int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work)
 {
-  attemptTogether(self, sharing, work);
+  attempt(self, sharing,
+    [&]
+    {
+      work();
+      if (StopSignals::areCaught())
+      {
+        throw Cancelled(); // so that what follows in the pipeline does not begin
+      }
+    });
   return 1;
 }
 

@@ -30,11 +30,13 @@ Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
 /// filter or its input is changed. A signal, too, stops `work`, and is passed on when that has ended (see StopSignals).
 bool attempt(vtkAlgorithm* self, const std::function<void()>& work);
 
-/// The same for RequestData: always 1. After a 0 ParaView's pipeline does not execute again for the next good value, and a server
-/// and its client wait for each other.
-int guarded(vtkAlgorithm* self, const std::function<void()>& work);
-
 /// The same where all ranks share `work`, and all of them come here: where it is not run in one of them, it is in none.
+bool attempt(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work);
+
+/// The same for RequestData: always 1. After a 0 ParaView's pipeline does not execute again for the next good value, and a server
+/// and its client wait for each other. A signal that has left `work` something to hand on, or came with its last moments, empties
+/// the outputs as well, so that what follows does not begin; what writes files says attempt(), and keeps them.
+int guarded(vtkAlgorithm* self, const std::function<void()>& work);
 int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work);
 
 /// For work that was stopped before RequestData, which a signal may not let come: says so, and RequestData then says it no more.

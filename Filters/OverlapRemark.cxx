@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlapRemark.h"
 
+#include "DataProvenance.h"
 #include "InputBlocks.h"
 #include "stages/StageWork.h"
 
@@ -17,14 +18,14 @@ namespace cactus
 namespace
 {
 
-/// What the optimiser has said in each part of the input: Converged, 1 or 0.
+/// What the optimiser has said in each part of the input: Converged, 1 or 0. Of what was changed since it says nothing.
 std::vector<bool> verdictsOfOptimiser(const std::vector<vtkDataObject*>& parts)
 {
   std::vector<bool> verdicts;
   for (vtkDataObject* part : parts)
   {
     vtkDataArray* converged = part->GetFieldData()->GetArray("Converged");
-    if (converged != nullptr && converged->GetNumberOfTuples() > 0)
+    if (converged != nullptr && converged->GetNumberOfTuples() > 0 && isAsMade(part))
     {
       verdicts.push_back(converged->GetComponent(0, 0) != 0.0);
     }

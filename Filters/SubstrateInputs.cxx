@@ -48,6 +48,12 @@ Filter* makerOf(vtkAlgorithm* consumer, int port, int wantedOutput)
 
 } // namespace
 
+vtkDataObject* fibresOfImage(vtkAlgorithm* consumer, int port)
+{
+  auto* growth = makerOf<vtkFibreRadialGrowth>(consumer, port, 0);
+  return growth != nullptr ? growth->GrownFibres() : nullptr;
+}
+
 SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort)
 {
   SubstrateData data{ connectedTo(self, outerPort), connectedTo(self, innerPort), connectedTo(self, fibrePort) };
@@ -60,10 +66,9 @@ SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, 
   {
     data.inner = unlessReleased(surfaces->GetOutputDataObject(1));
   }
-  auto* growth = makerOf<vtkFibreRadialGrowth>(surfaces, 0, 0);
-  if (data.fibres == nullptr && growth != nullptr)
+  if (data.fibres == nullptr)
   {
-    data.fibres = unlessReleased(connectedTo(growth, 0));
+    data.fibres = surfaces->GrownFibres();
   }
   return data;
 }

@@ -23,8 +23,11 @@ struct SubstrateData
   vtkDataObject* fibres = nullptr;
 };
 
+/// The fibres that the label image at a port was grown from; null where it does not come straight from FibreRadialGrowth.
+vtkDataObject* fibresOfImage(vtkAlgorithm* consumer, int port);
+
 /// What is connected to the ports `Outer`, `Inner` and `Fibres` of a filter. Where Outer comes straight from MyelinSurface, what
-/// is not connected is that filter's own: its inner surfaces, and the fibres that FibreRadialGrowth was given before it. So who
+/// is not connected is that filter's own: its inner surfaces, and the fibres that were grown before it, as they were then. So who
 /// connects the outer surfaces alone has the whole substrate judged, not a half of it. A port of -1 is none.
 SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort);
 

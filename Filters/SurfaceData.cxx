@@ -292,7 +292,10 @@ void requireSameDomain(const Domain& domain, vtkDataObject* surfaces, const std:
   const Domain other = domainFrom(surfaces);
   if ((other.lower - domain.lower).cwiseAbs().maxCoeff() > 1e-6 || (other.upper - domain.upper).cwiseAbs().maxCoeff() > 1e-6)
   {
-    throw InvalidInput(port + " has another Domain than the other inputs: connect fibres and surfaces of one substrate");
+    throw InvalidInput(
+      port +
+      " has another Domain than the other inputs: connect fibres and surfaces of one substrate (of a label image that was cut, "
+      "surfaces have the Domain that is left)");
   }
 }
 

@@ -162,6 +162,8 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       const cactus::FibreRadialGrowthOptions& options = stage.options;
       auto* input = vtkDataObject::GetData(inputs[0]);
       const cactus::Fibres fibres = cactus::fibresFrom(input);
+      this->Fibres.TakeReference(input->NewInstance());
+      this->Fibres->ShallowCopy(input);
       const cactus::Context context = cactus::contextFor(this, stage.threads);
       vtkInformation* info = outputs->GetInformationObject(0);
       const cactus::VoxelGrid grid = requestedGrid(fibres.domain, options, info);

@@ -29,7 +29,9 @@
 #include "CactusFiltersModule.h"
 #include "FilterProperties.h"
 
+#include <vtkDataObject.h>
 #include <vtkImageAlgorithm.h>
+#include <vtkSmartPointer.h>
 
 #include <memory>
 
@@ -56,6 +58,9 @@ public:
   CACTUS_WHOLE_PROPERTY(Seed)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
+  /** The fibres that the image was made of, which what comes in now need not be any more; null before. */
+  vtkDataObject* GrownFibres() const { return this->Fibres; }
+
   /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
@@ -72,6 +77,7 @@ private:
   void operator=(const vtkFibreRadialGrowth&) = delete;
 
   std::unique_ptr<cactus::FilterProperties> Properties;
+  vtkSmartPointer<vtkDataObject> Fibres; ///< which shares the input's arrays
 
   /// Finds how far which fibres grow, where neither they nor a property are as they were the last time.
   void solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::Context& context);

@@ -4,6 +4,7 @@
 #include "Columns.h"
 #include "DataProvenance.h"
 #include "FilterSupport.h"
+#include "PlacementData.h"
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
@@ -14,12 +15,14 @@
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkTable.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -31,9 +34,15 @@ namespace
 /// Grey values half way between those of AxonDeepSeg.
 constexpr double leastMyelin = 64.0;
 constexpr double leastAxon = 191.0;
+constexpr double mostGrey = 255.0;
 
 cactus::Tissue tissueOf(double grey)
 {
+  if (!(grey <= mostGrey))
+  {
+    throw cactus::InvalidInput("the mask has grey values above 255, and 0 background, 127 myelin and 255 axon are expected: make "
+                               "these of them; those of 16 bits are to be divided by 257, by Calculator, say");
+  }
   return grey >= leastAxon ? cactus::Tissue::Axon : grey >= leastMyelin ? cactus::Tissue::Myelin : cactus::Tissue::Background;
 }
 
@@ -52,6 +61,18 @@ vtkDataArray* greysOf(vtkImageData* image)
   throw cactus::InvalidInput("the input has no grey values: give a mask as AxonDeepSeg or HistologyMask makes it");
 }
 
+/// A mask of HistologyMask's knows how large its pixels are, also where they were made larger or smaller since.
+void requirePixelSize(vtkImageData* image, double pixelSize)
+{
+  const auto placement = cactus::placementOf(image);
+  const double width = image->GetSpacing()[0] / (placement ? placement->scale : 1.0);
+  if (image->GetFieldData()->HasArray("PixelSize_um") != 0 && std::abs(width - pixelSize) > 1e-3 * width)
+  {
+    throw cactus::InvalidInput(cactus::text(
+      "the mask's pixels have an edge of ", width, " µm, and PixelSize is ", pixelSize, " µm: set PixelSize to ", width));
+  }
+}
+
 cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
 {
   auto* image = vtkImageData::SafeDownCast(input);
@@ -60,6 +81,7 @@ cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
     throw cactus::InvalidInput(
       std::string("the input is a ") + input->GetClassName() + ", and one mask is expected: 0 background, 127 myelin, 255 axon");
   }
+  requirePixelSize(image, pixelSize);
   vtkDataArray* greys = greysOf(image);
   const int* size = image->GetDimensions();
   const int less = greys->GetNumberOfTuples() == image->GetNumberOfPoints() ? 0 : 1; // cells lie between points

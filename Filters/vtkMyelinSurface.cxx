@@ -7,6 +7,7 @@
 #include "InputBlocks.h"
 #include "LabelImageData.h"
 #include "StageProperties.h"
+#include "SubstrateInputs.h"
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
 #include "SurfaceTable.h"
@@ -117,7 +118,7 @@ void giveOut(std::vector<cactus::FibreSurfacePair>& fibres, cactus::TriangleMesh
 }
 
 /// The table, and what the certificate and a user want to know of the surfaces.
-void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, const cactus::LabelImageFacts& facts,
+void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, double minimumGap, const cactus::Domain& domain,
   const cactus::Provenance& provenance, vtkInformationVector* outputs)
 {
   cactus::fillSurfaceTable(vtkTable::GetData(outputs, 2), fibres);
@@ -129,11 +130,11 @@ void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, const 
       wanted.push_back(fibre.fibreId);
     }
   }
-  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 0), wanted, facts.minimumGap);
-  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 1), {}, facts.minimumGap);
+  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 0), wanted, minimumGap);
+  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 1), {}, minimumGap);
   for (int port = 0; port < 3; ++port)
   {
-    cactus::setDomain(vtkDataObject::GetData(outputs, port), facts.domain);
+    cactus::setDomain(vtkDataObject::GetData(outputs, port), domain);
     cactus::setProvenance(vtkDataObject::GetData(outputs, port), provenance, port);
   }
 }
@@ -198,6 +199,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       }
       cactus::validate(options);
       auto* image = cactus::requireImage(vtkDataObject::GetData(inputs[0]));
+      this->Fibres = cactus::fibresOfImage(this, 0);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         if (stage.releaseInput)
@@ -216,9 +218,10 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       cactus::SurfaceMaker maker(
         std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context, byVtk ? &filters : nullptr);
       auto fibres = this->makeSurfaces(maker, cactus::changeTime(image), vtkPolyData::GetData(outputs, 0));
+      const cactus::Domain domain = options.clipToDomain ? maker.box() : facts.domain; // of an image that was cut
       if (byVtk)
       {
-        cactus::markFaults(fibres, facts.domain, facts.minimumGap, context);
+        cactus::markFaults(fibres, domain, facts.minimumGap, context);
       }
       const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
       const std::string remarks = cactus::notAsAsked(fibres, labels.view.grid.spacing, facts, byVtk);
@@ -227,7 +230,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
         releaseImage(this);
       }
       giveOut(fibres, &cactus::FibreSurfacePair::inner, 1, vtkPolyData::GetData(outputs, 1));
-      addSurfaceFacts(fibres, facts, provenance, outputs);
+      addSurfaceFacts(fibres, facts.minimumGap, domain, provenance, outputs);
       if (!remarks.empty())
       {
         vtkWarningMacro(<< remarks);

@@ -28,7 +28,9 @@
 #include "CactusFiltersModule.h"
 #include "FilterProperties.h"
 
+#include <vtkDataObject.h>
 #include <vtkPolyDataAlgorithm.h>
+#include <vtkSmartPointer.h>
 
 #include <memory>
 #include <vector>
@@ -79,6 +81,9 @@ public:
   CACTUS_SWITCH_PROPERTY(ReleaseInput)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
+  /** The fibres that the label image was grown from, as they were then; null where it comes straight from no growth. */
+  vtkDataObject* GrownFibres() const { return this->Fibres; }
+
   /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
@@ -102,6 +107,7 @@ private:
 
   std::unique_ptr<cactus::FilterProperties> Properties;
   std::unique_ptr<KeptOuter> Kept;
+  vtkSmartPointer<vtkDataObject> Fibres;
 };
 
 #endif

@@ -56,7 +56,7 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
 {
   cactus::RankTeam ranks;
   const cactus::Sharing sharing(&ranks);
-  return cactus::guarded(this, sharing,
+  cactus::attempt(this, sharing,
     [&]
     {
       if (!sharing.isEverywhere(this->Kept.isWritten(this)))
@@ -75,6 +75,7 @@ int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationV
         vtkTable::GetData(outputs, 1)->ShallowCopy(this->Fibres);
       }
     });
+  return 1;
 }
 
 void vtkSubstrateProduction::Produce()

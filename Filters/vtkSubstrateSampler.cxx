@@ -158,6 +158,11 @@ int vtkSubstrateSampler::RequestData(vtkInformation* request, vtkInformationVect
       const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
       const cactus::SampledSubstrate sampled = cactus::sampleSubstrate(substrate.domain, substrate.outer, substrate.inner,
         substrate.fibresOrNull(), stage.options, cactus::contextFor(this, stage.threads));
+      if (sampled.openSurfaces > 0)
+      {
+        vtkWarningMacro(<< sampled.openSurfaces
+                        << " surfaces are not closed, outward 2-manifolds; what they fill is not to be relied on");
+      }
       auto* output = vtkImageData::GetData(outputs);
       cactus::setGrid(output, gridOf(sampled.voxels));
       fillFractions(output->GetPointData(), sampled);

@@ -71,7 +71,7 @@ int vtkSubstrateWriter::ComputePipelineMTime(
 
 int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  return cactus::guarded(this,
+  cactus::attempt(this,
     [&]
     {
       cactus::validateProperties(cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties));
@@ -94,6 +94,7 @@ int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVecto
       this->WrittenFiles->ShallowCopy(table);
       this->Kept.noteWritten(this, newestInput(this));
     });
+  return 1;
 }
 
 void vtkSubstrateWriter::WriteFolder(vtkTable* files)

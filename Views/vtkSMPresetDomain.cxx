@@ -10,6 +10,7 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
+#include <vtkSMVectorProperty.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
@@ -109,6 +110,10 @@ std::vector<vtkSMPresetDomain::Value> vtkSMPresetDomain::valuesOf(int preset)
       values.push_back({ this->GetRequiredProperty(name.c_str()), numberOf(value) });
     }
   }
+  else if (this->IsInherited)
+  {
+    values = this->Defaults;
+  }
   return values;
 }
 
@@ -132,6 +137,15 @@ int vtkSMPresetDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElemen
   for (const cactus::Preset& preset : cactus::presets())
   {
     this->AddEntry(preset.name.c_str(), ++number);
+  }
+  for (const Value& value : this->valuesOf(1))
+  {
+    this->Defaults.push_back({ value.property, checkedOf(value.property) });
+    // With another size for a moment it counts as never set, so that setting it to what it is changes its time as well. Preset
+    // itself has no default for the same reason.
+    auto* property = vtkSMVectorProperty::SafeDownCast(value.property);
+    property->SetNumberOfElements(2);
+    property->SetNumberOfElements(1);
   }
   return 1;
 }
@@ -169,6 +183,7 @@ void vtkSMPresetDomain::applyChoice()
       vtkSMUncheckedPropertyHelper(value.property).Set(value.number);
     }
   }
+  this->IsInherited = this->IsInherited && preset == this->Former;
   if (isApplied && preset != this->Former)
   {
     const int former = this->Former;
@@ -187,6 +202,7 @@ void vtkSMPresetDomain::dropChoice(vtkSMProperty* changed)
   {
     return;
   }
+  this->IsInherited = false;
   if (checkedOf(changed) == uncheckedOf(changed))
   {
     this->choice()->SetElement(0, 0);
@@ -194,27 +210,27 @@ void vtkSMPresetDomain::dropChoice(vtkSMProperty* changed)
   this->choice()->SetUncheckedElement(0, 0);
 }
 
-void vtkSMPresetDomain::Take(int preset, vtkMTimeType since)
+void vtkSMPresetDomain::Start(int preset, vtkMTimeType since)
 {
   this->IsBusy = true;
-  bool isWhole = true;
-  for (const Value& value : this->valuesOf(preset))
+  const bool takes = preset != 0 && this->choice()->GetMTime() <= since;
+  this->IsInherited = takes;
+  for (const Value& value : takes ? this->valuesOf(preset) : this->Defaults)
   {
-    if (value.property->GetMTime() <= since)
-    {
-      setChecked(value.property, value.number);
-    }
-    isWhole = isWhole && checkedOf(value.property) == value.number;
+    const bool isGiven = value.property->GetMTime() > since;
+    vtkSMPropertyHelper(value.property).Set(takes && !isGiven ? value.number : checkedOf(value.property));
+    this->IsGiven = this->IsGiven || isGiven;
+    this->IsInherited = this->IsInherited && checkedOf(value.property) == value.number;
   }
-  this->choice()->SetElement(0, isWhole ? preset : 0);
-  this->Former = preset;
+  this->choice()->SetElement(0, this->IsInherited ? preset : this->Applied());
+  this->Former = takes ? preset : this->Former;
   this->IsBusy = false;
 }
 
 bool vtkSMPresetDomain::isUntouched()
 {
-  const std::vector<Value> values = this->valuesOf(1);
-  return std::all_of(values.begin(), values.end(), [](const Value& value) { return value.property->IsValueDefault(); });
+  return !this->IsGiven && std::all_of(this->Defaults.begin(), this->Defaults.end(),
+                             [](const Value& value) { return value.property->IsValueDefault(); });
 }
 
 void vtkSMPresetDomain::leadOthers(int former, int preset)
@@ -236,6 +252,7 @@ void vtkSMPresetDomain::leadOthers(int former, int preset)
       if (domain != nullptr && (domain->Applied() == 0 ? domain->isUntouched() : domain->Applied() == former))
       {
         domain->choice()->SetElement(0, preset);
+        domain->IsInherited = true;
         other->UpdateVTKObjects();
       }
     }

@@ -3,12 +3,15 @@
  * @class vtkSMPresetDomain
  * @brief the presets to choose from, and what a choice does: it gives the properties of its proxy their values
  *
- * For an integer property that is called Preset and has no command. In XML, `stage` names the stage whose values are meant (see
- * core/stages/Presets.h, where all of them stand). Value 0 is "None".
+ * For an integer property that is called Preset and has neither a command nor a default. In XML, `stage` names the stage whose
+ * values are meant (see core/stages/Presets.h, where all of them stand). Value 0 is "None".
  *
  * A preset that is chosen in a panel shows in the panel at once, and becomes the proxy's with Apply. As soon as one of its values
  * is another one, the choice is None: it never names what is not so. When another preset is applied, the stages that follow in
  * the pipeline take it as well, where they had the former one or nobody has touched their values.
+ *
+ * None leaves values as they are, but where a stage has its preset from the stages before it: there they become defaults. A
+ * Python state of ParaView's makes stages anew, names their choices, and then what differs from defaults.
  */
 #ifndef vtkSMPresetDomain_h
 #define vtkSMPresetDomain_h
@@ -39,8 +42,11 @@ public:
   /** The preset that was chosen last, also where one of its values has been changed since: what follows starts with it. */
   int Chosen() const { return this->Former; }
 
-  /** Applies a preset to all properties that have not been changed since that time; it is named where none had been. */
-  void Take(int preset, vtkMTimeType since);
+  /**
+   * For a new proxy: applies a preset, unless it is 0 or a choice was made since that time, to all properties that were given no
+   * value since; it is named where none was.
+   */
+  void Start(int preset, vtkMTimeType since);
 
   /** Keeps the preset and its values together after a change of any of them. */
   void Update(vtkSMProperty* changed) override;
@@ -69,7 +75,10 @@ private:
   void leadOthers(int former, int preset);
 
   std::string Stage;
-  int Former = 0; ///< the preset that was chosen last
+  std::vector<Value> Defaults;
+  int Former = 0;           ///< the preset that was chosen last
+  bool IsGiven = false;     ///< a value was given when the proxy was made
+  bool IsInherited = false; ///< the preset is that of the stages before, and nobody has chosen it here or changed a value
   bool IsBusy = false;
 };
 

@@ -4,7 +4,6 @@
 #include "vtkSMPresetDomain.h"
 
 #include <vtkObjectFactory.h>
-#include <vtkSMProperty.h>
 #include <vtkSMProxy.h>
 
 #include <set>
@@ -38,14 +37,10 @@ vtkSMPresetHelper::~vtkSMPresetHelper() = default;
 
 void vtkSMPresetHelper::PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement*, vtkMTimeType initializationTimeStamp)
 {
-  vtkSMPresetDomain* domain = vtkSMPresetDomain::Of(proxy);
   std::set<int> presets;
   collectPresets(proxy, presets);
-  if (presets.size() == 1 && *presets.begin() != 0 && domain->GetProperty()->GetMTime() <= initializationTimeStamp)
-  {
-    domain->Take(*presets.begin(), initializationTimeStamp);
-    proxy->UpdateVTKObjects();
-  }
+  vtkSMPresetDomain::Of(proxy)->Start(presets.size() == 1 ? *presets.begin() : 0, initializationTimeStamp);
+  proxy->UpdateVTKObjects();
 }
 
 void vtkSMPresetHelper::PrintSelf(ostream& os, vtkIndent indent)

@@ -5,6 +5,7 @@
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
 #include "WholePanels.h"
+#include "WriteButtons.h"
 
 #include <pqInterfaceTracker.h>
 #include <pqPVApplicationCore.h>
@@ -26,6 +27,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::WholePanels(core);
         new cactus::BarUnits(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
+        core->interfaceTracker()->addInterface(new cactus::WriteButtons(core));
       }
     });
 }

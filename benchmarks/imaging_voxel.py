@@ -46,7 +46,7 @@ def facts_of(folder, manifest):
         "side (µm)": f"{domain[1] - domain[0]:g}",
         "fibres": f"{len(fibres):,}" + (f" of {manifest['sample_of_fibres']:,}" if "sample_of_fibres" in manifest else ""),
         "FVF": f"{whole['FVF']:.4f}",
-        "mean radius: target, reached (µm)": f"{AskedRadii(manifest).mean():.3f}, {mean(radii):.3f}",
+        "mean radius: target, reached (µm)": f"{AskedRadii(manifest).mean() or math.nan:.3f}, {mean(radii):.3f}",
         "KS distance": f"{ks_distance(radii, density):.3f}",
         "smallest gap (µm)": f"{whole['SmallestGap_um']:.4f}",
         "triangles": f"{manifest['triangles']:,}",

@@ -1,9 +1,8 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws convergence tables that ./cactus bench quality --convergence FILE.csv has written: overlap cost and overlapping pairs by
 iteration, one curve per table, as SVG on standard output.
 
-    benchmarks/plot_convergence.py LABEL=FILE.csv... > docs/convergence.svg
+    python3 benchmarks/plot_convergence.py LABEL=FILE.csv... > docs/images/convergence.svg
 """
 
 import math

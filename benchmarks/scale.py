@@ -84,9 +84,7 @@ def run(ranks, *arguments):
         script.write(MADE)
         script.flush()
         command = ["mpiexec", "-n", str(ranks), "pvbatch", script.name, *map(str, arguments)]
-        settings = {"OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
-                    "OMP_NUM_THREADS": str(max(1, int(arguments[1])))}
-        environment = {**first_environment(), **{name.encode(): value.encode() for name, value in settings.items()}}
+        environment = {**first_environment(), b"OMP_NUM_THREADS": str(max(1, int(arguments[1]))).encode()}  # MPI's settings are the launcher's
         process = subprocess.Popen(command, stdout=subprocess.PIPE, env=environment)
         os.set_blocking(process.stdout.fileno(), False)
         usage, before, common, said, begun, clock, weighed = {}, {}, {}, b"", None, 0.0, 0.0

@@ -210,6 +210,7 @@ def preview(wanted):
     writer = vtkXMLMultiBlockDataWriter()
     writer.SetFileName(output)
     writer.SetInputData(shown)
+    writer.SetDataModeToBinary()  # Debian's ParaView cannot read the appended data that is the default
     if writer.Write() != 1 or not os.path.isfile(output):
         raise Refusal(f"cannot write {output}")
     print(f"Wrote {output}: " + "; ".join(name for name, block in blocks if block is not None))

@@ -40,32 +40,39 @@ class AskedRadii:
         self.source = source_of_all(manifest, self.NAMES)
         self.density = self._density() if self.source else []
 
-    def _weight(self, radius):
+    def _log_weight(self, radius):
         values = self.source
         if values.get("RadiusDistribution") == "Gamma":
-            return radius ** (values["GammaShape"] - 1.0) * math.exp(-radius / values["GammaScale"])
-        variance = math.log(1.0 + (values["LognormalDeviation"] / values["LognormalMean"]) ** 2)
+            return (values["GammaShape"] - 1.0) * math.log(radius) - radius / values["GammaScale"]
+        variance = math.log1p((values["LognormalDeviation"] / values["LognormalMean"]) ** 2)
         middle = math.log(values["LognormalMean"]) - 0.5 * variance
-        return math.exp(-0.5 * (math.log(radius) - middle) ** 2 / variance) / radius
+        return -0.5 * (math.log(radius) - middle) ** 2 / variance - math.log(radius)
 
     def _density(self, count=400):
-        """[(radius, density)], cut to its limits. Nothing for a table, which has none."""
+        """[(radius, density)], cut to its limits. Nothing for a table, which has none, and for one radius."""
         if self.source.get("RadiusDistribution") not in ("Gamma", "Lognormal"):
             return []
         low, high = self.source["MinimumRadius"], self.source["MaximumRadius"]
+        if low == high:
+            return []
         step = (high - low) / count
-        points = [(low + (i + 0.5) * step, self._weight(low + (i + 0.5) * step)) for i in range(count)]
+        points = [(low + (i + 0.5) * step, self._log_weight(low + (i + 0.5) * step)) for i in range(count)]
+        largest = max(weight for _, weight in points)
+        points = [(radius, math.exp(weight - largest)) for radius, weight in points]
         whole = math.fsum(weight for _, weight in points) * step
         return [(radius, weight / whole) for radius, weight in points]
 
     def mean(self):
         if not self.density:
-            return None
+            low, high = ((self.source or {}).get(name) for name in ("MinimumRadius", "MaximumRadius"))
+            return low if low == high else None
         return math.fsum(radius * weight for radius, weight in self.density) / math.fsum(weight for _, weight in self.density)
 
 
 def ks_distance(radii, density):
-    """Kolmogorov-Smirnov distance of radii to the distribution that they were drawn from, [(radius, density)] at equal steps."""
+    """Kolmogorov-Smirnov distance of radii to the distribution that they were drawn from, [(radius, density)] at equal steps; NaN where it has none."""
+    if not density:
+        return math.nan
     step = density[1][0] - density[0][0]
     below_it, largest, count = 0.0, 0.0, 0
     radii = sorted(radii)

@@ -29,6 +29,14 @@ def arguments():
     return parser.parse_args()
 
 
+def named_by(value, path):
+    """What a property of this value has named, of which a file was read: that file, or a folder that holds it."""
+    name, named = os.path.basename(value.rstrip("/")), path
+    while os.path.basename(named) not in ("", name):
+        named = os.path.dirname(named)
+    return named if os.path.basename(named) else path
+
+
 class Chain:
     """The stages of a manifest as ParaView has them, the last of which writes the folder `output`."""
 
@@ -112,8 +120,7 @@ class Chain:
             # The clock and the user stop elsewhere the next time.
             values["MaximumIterations"], values["TimeBudget"] = reached["Iterations"], 0
         for read in stage.get("files", []):
-            if not os.path.isdir(values.get(read["property"], "")):  # of a folder, all its files are listed
-                values[read["property"]] = read["path"]
+            values[read["property"]] = named_by(values.get(read["property"], ""), read["path"])
         names = set(proxy.ListProperties()) - set(KEPT_NOWHERE)
         for name, value in values.items():
             if name not in names:

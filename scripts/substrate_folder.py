@@ -19,7 +19,7 @@ def ended(name, run):
         return run()
     except Refusal as refusal:
         print(f"{name}: {refusal}", file=sys.stderr)
-    except (KeyError, TypeError, AttributeError, ValueError) as error:
+    except (KeyError, TypeError, AttributeError, ValueError, ArithmeticError) as error:
         print(f"{name}: the manifest or a table is damaged ({error!r})", file=sys.stderr)
     return 2
 

@@ -113,9 +113,23 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
   const double tilt = options.meanDispersion * degree;
   double density = asked * std::cos(tilt) * (1.0 - 0.5 * std::tan(tilt));
   std::optional<Fibres> best;
-  for (int round = 0; round < 6; ++round)
+  const auto isNear = [&] { return best && std::abs(report.fibreVolumeFraction - asked) <= 0.05 * asked; };
+  constexpr int rounds = 6;
+  for (int round = 0; round < rounds || (round < 2 * rounds && !isNear()); ++round)
   {
-    const std::vector<Bundle> bundles = packCrossing(options, density, context);
+    std::vector<Bundle> bundles;
+    try
+    {
+      bundles = packCrossing(options, density, context.part(0.5 * round / rounds, 0.5 * (round + 1) / rounds));
+    }
+    catch (const Infeasible&)
+    {
+      if (isNear())
+      {
+        break; // the one before will do
+      }
+      throw;
+    }
     Fibres fibres = fibresOf(bundles, options);
     const double reached = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
     if (!best || std::abs(reached - asked) < std::abs(report.fibreVolumeFraction - asked))
@@ -129,13 +143,14 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
       report.meanDispersion = angles / static_cast<double>(fibres.size());
       best = std::move(fibres);
     }
-    if (std::abs(reached - asked) <= 0.004 || reached <= 0.0)
+    if (std::abs(reached - asked) <= std::min(0.004, 0.05 * asked) || reached <= 0.0)
     {
       break;
     }
-    density = std::min(0.95, density * asked / reached);
+    // By half where it goes to and fro between two numbers of fibres.
+    density = std::min(0.95, density * (round < rounds ? asked / reached : std::sqrt(asked / reached)));
   }
-  if (std::abs(report.fibreVolumeFraction - asked) > 0.05 * asked)
+  if (!isNear())
   {
     TextStream message;
     message.precision(3);

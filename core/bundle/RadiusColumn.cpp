@@ -111,6 +111,13 @@ std::vector<double> readRadiusColumn(std::istream& stream, const std::string& na
       continue;
     }
     const std::vector<std::string> cells = cellsOf(line, separator);
+    const auto isFilled = [](const std::string& cell) { return !cell.empty(); };
+    if (separator == ',' && cells.size() > names.size() &&
+        std::any_of(cells.begin() + std::ptrdiff_t(names.size()), cells.end(), isFilled))
+    {
+      throw FileError("RadiusTableFile " + name + ", line " + std::to_string(number) +
+                      ", has more cells than the first line has names: numbers with a decimal comma, or names left out?");
+    }
     std::string_view cell = place < cells.size() ? std::string_view(cells[place]) : std::string_view();
     double value = 0.0;
     if (!takeNumber(cell, value) || !cell.empty() || !std::isfinite(value))

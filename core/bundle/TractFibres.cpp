@@ -272,7 +272,9 @@ Fibres layTractFibres(
     reached.ends += endsWithin(stretch, fibres.domain);
     const TractPath path = pathThrough(stretch, sizes.reach, radius);
     const int bundleId = streamlines.bundleIds.empty() ? static_cast<int>(p) + 1 : streamlines.bundleIds[place.streamline];
-    addBundle(path, circlesWithin(radius, sizes, p, owed, context), bundleId, options, sizes.thinning, fibres);
+    const double share = 1.0 / static_cast<double>(chosen.places.size());
+    const Context part = context.part(static_cast<double>(p) * share, static_cast<double>(p + 1) * share);
+    addBundle(path, circlesWithin(radius, sizes, p, owed, part), bundleId, options, sizes.thinning, fibres);
   }
   if (fibres.size() == 0)
   {

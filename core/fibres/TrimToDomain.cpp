@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibres/TrimToDomain.h"
 
+#include "base/Error.h"
+
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cactus
@@ -28,7 +31,16 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
   {
     kept->clear();
   }
-  int nextId = fibres.fibreIds.empty() ? 1 : *std::max_element(fibres.fibreIds.begin(), fibres.fibreIds.end()) + 1;
+  int largestId = fibres.fibreIds.empty() ? 0 : *std::max_element(fibres.fibreIds.begin(), fibres.fibreIds.end());
+  const auto freeId = [&]
+  {
+    if (largestId == std::numeric_limits<int>::max())
+    {
+      throw InvalidInput(text(
+        "a fibre comes back into the domain, and there is no FibreId free above ", largestId, ": give the fibres smaller ids"));
+    }
+    return ++largestId;
+  };
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     std::vector<std::pair<std::size_t, std::size_t>> pieces; // first and last control point
@@ -53,7 +65,7 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
       pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.second - a.first < b.second - b.first; });
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
     {
-      trimmed.addFibre(piece == longest ? fibres.fibreIds[f] : nextId++, fibres.bundleIds[f], fibres.targetRadii[f]);
+      trimmed.addFibre(piece == longest ? fibres.fibreIds[f] : freeId(), fibres.bundleIds[f], fibres.targetRadii[f]);
       for (std::size_t i = piece->first; i <= piece->second; ++i)
       {
         trimmed.addPoint(fibres.points[i], fibres.radii[i]);

@@ -43,7 +43,7 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
     }
     const double spacing = size[0] / count;
     const Eigen::Array3d counts = (size / spacing).array().round();
-    if ((counts < 1.0).any() || ((size / spacing).array() - counts).abs().maxCoeff() > 1e-6 * counts.maxCoeff())
+    if ((counts < 1.0).any() || ((size / spacing).array() - counts).abs().maxCoeff() > std::min(1e-3, 1e-6 * counts.maxCoeff()))
     {
       continue;
     }

@@ -2,6 +2,7 @@
 #include "growth/TargetRadii.h"
 
 #include "base/Error.h"
+#include "base/Limits.h"
 #include "growth/Arrivals.h"
 #include "growth/CapsuleField.h"
 #include "growth/Crowding.h"
@@ -240,7 +241,7 @@ Fibres aimAtTargetRadii(
       aim.factors[f] = boundedFactor(f, aim.factors, wished[f], crowding);
       for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
       {
-        aimed.radii[p] = aim.factors[f] * fibres.radii[p];
+        aimed.radii[p] = std::clamp(aim.factors[f] * fibres.radii[p], limits::radius.lowest, limits::radius.highest);
       }
     }
     if (round == rounds)

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cactus
@@ -48,11 +49,18 @@ double volumeInDomain(const Fibres& fibres, std::size_t f, double factor)
     const Eigen::Vector3d along = fibres.points[p + 1] - fibres.points[p];
     const double length = along.norm();
     const double radius = factor * std::min(fibres.radii[p], fibres.radii[p + 1]);
-    const int steps = static_cast<int>(std::min(std::ceil(2.0 * length / radius), 1000.0));
+    constexpr double mostSteps = 1000.0;
+    const double wanted = std::ceil(2.0 * length / radius);
+    // Of what is longer only the part in the domain.
+    const std::array<double, 2> part = wanted <= mostSteps ? std::array<double, 2>{ { 0.0, 1.0 } }
+                                                           : fibres.domain.clip(fibres.points[p], fibres.points[p + 1],
+                                                               factor * std::max(fibres.radii[p], fibres.radii[p + 1]));
+    const double share = std::max(0.0, part[1] - part[0]);
+    const int steps = static_cast<int>(std::min(std::ceil(share * wanted), mostSteps));
     for (int n = 0; n < steps; ++n)
     {
-      const double t = (n + 0.5) / steps;
-      volume += length / steps *
+      const double t = part[0] + share * ((n + 0.5) / steps);
+      volume += share * length / steps *
                 discInDomain(fibres.domain, fibres.points[p] + t * along, along / length,
                   factor * ((1.0 - t) * fibres.radii[p] + t * fibres.radii[p + 1]));
     }

@@ -8,8 +8,10 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <fcntl.h>
 #include <memory>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <vector>
 
 namespace cactus
@@ -25,6 +27,17 @@ std::string realPath(const fs::path& path)
 {
   const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
   return real ? real.get() : "";
+}
+
+/// Whether a file system, or a part of one that files cannot be renamed into, begins there.
+bool isMountPoint(const fs::path& place)
+{
+  struct statx folder;
+  struct stat parent;
+  return ::statx(AT_FDCWD, place.c_str(), AT_SYMLINK_NOFOLLOW | AT_NO_AUTOMOUNT, STATX_BASIC_STATS, &folder) == 0 &&
+         ((folder.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 ||
+           (::stat(folderOf(place).c_str(), &parent) == 0 &&
+             parent.st_dev != ::makedev(folder.stx_dev_major, folder.stx_dev_minor)));
 }
 
 } // namespace
@@ -70,7 +83,7 @@ fs::path placeOf(const std::string& folder)
   return fs::path(parent) / name;
 }
 
-void requireElsewhere(const fs::path& place)
+void requireMovable(const fs::path& place)
 {
   const std::string here = realPath(".");
   const std::string within = place == "/" ? "/" : place.string() + "/";
@@ -78,6 +91,11 @@ void requireElsewhere(const fs::path& place)
   {
     throw FileError("FolderName " + place.string() + " is " + (here == place ? "" : "above ") +
                     "the folder that this program runs in, and cannot be replaced: name a folder inside it");
+  }
+  if (isMountPoint(place))
+  {
+    throw FileError(
+      "FolderName " + place.string() + " is where a file system is mounted, and cannot be replaced: name a folder inside it");
   }
 }
 

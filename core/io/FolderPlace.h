@@ -19,8 +19,9 @@ bool isThere(const std::filesystem::path& path);
 /// The place that a FolderName names: whole, without links and dots. Throws if there cannot be a folder.
 std::filesystem::path placeOf(const std::string& folder);
 
-/// Throws for a folder that this process runs in, or that holds it: exchanged for another, it would be gone under its feet.
-void requireElsewhere(const std::filesystem::path& place);
+/// Throws for a folder that this process runs in, or that holds it: exchanged for another, it would be gone under its feet. And
+/// for one at which a file system is mounted, which cannot be exchanged.
+void requireMovable(const std::filesystem::path& place);
 
 /// Throws if a program runs in the folder, such as a simulation that has yet to write its results into it.
 void requireNobodyIn(const std::filesystem::path& place);

@@ -74,7 +74,7 @@ FolderReplacement::FolderReplacement(const std::string& folder, const Context& c
   {
     this->Place = placeOf(folder);
     recoverStaging(this->Place, this->Leftovers);
-    requireElsewhere(this->Place);
+    requireMovable(this->Place);
     context.report(0.0, "Comparing the folder that is there with its manifest");
     this->inspectPlace(context);
     this->Staging.emplace(this->Place);

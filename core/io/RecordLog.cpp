@@ -52,7 +52,9 @@ RecordLog::RecordLog(const std::string& path, const std::string& identity)
   }
   if (!lockForWriting(this->File.get()))
   {
-    this->fail("another process is at work with it, or the file system knows no locks");
+    this->fail(errno == EWOULDBLOCK ? "another process is at work with it"
+                                    : "its file system knows no locks (" + systemMessage(errno) +
+                                        "): choose a folder on another one, or mount it with them (Lustre: -o flock)");
   }
   const std::size_t good = this->read();
   if (::ftruncate(this->File.get(), static_cast<off_t>(good)) != 0 ||

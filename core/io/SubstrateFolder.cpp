@@ -67,7 +67,7 @@ bool isCombined(SubstrateFormat format)
   return format == SubstrateFormat::Camino || format == SubstrateFormat::Disimpy;
 }
 
-void requireSound(const SurfaceReport& report, const std::string& what)
+void requireSound(const SurfaceReport& report, const std::string& what, const std::string& wayOut)
 {
   if (report.sound())
   {
@@ -83,21 +83,21 @@ void requireSound(const SurfaceReport& report, const std::string& what)
   {
     why = " is pinched at " + std::to_string(report.pinchedPoints) + " points";
   }
-  throw InvalidInput(what + why + ", and walkers would leak: mend it, or turn on AllowOpenSurfaces to write it all the same");
+  throw InvalidInput(what + why + wayOut);
 }
 
 /// Throws for the first surface, in the order of fibres, that is not sound.
-void requireSound(const SubstrateCertificate& certificate)
+void requireSound(const SubstrateCertificate& certificate, const std::string& wayOut)
 {
   for (const FibreCertificate& fibre : certificate.fibres)
   {
     if (fibre.hasOuter)
     {
-      requireSound(fibre.outer, "the outer surface of fibre " + std::to_string(fibre.fibreId));
+      requireSound(fibre.outer, "the outer surface of fibre " + std::to_string(fibre.fibreId), wayOut);
     }
     if (fibre.hasInner)
     {
-      requireSound(fibre.inner, "the inner surface of fibre " + std::to_string(fibre.fibreId));
+      requireSound(fibre.inner, "the inner surface of fibre " + std::to_string(fibre.fibreId), wayOut);
     }
   }
 }
@@ -377,7 +377,12 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
       contents.fibres, contents.certificate, run.context.part(0.0, judged), run.sharing);
   if (!contents.allowOpenSurfaces)
   {
-    requireSound(substrate.certificate);
+    requireSound(
+      substrate.certificate, ", and walkers would leak: mend it, or turn on AllowOpenSurfaces to write it all the same");
+  }
+  else if (contents.startPositions > 0)
+  {
+    requireSound(substrate.certificate, ", so that nobody knows which StartPositions are inside: mend it, or set them to 0");
   }
   if (contents.format == SubstrateFormat::SpinDoctor)
   {

@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Pace.h"
+#include "base/PartialName.h"
 #include "base/Random.h"
 #include "base/Sha256.h"
 #include "fibres/SelectFibres.h"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <utility>
@@ -262,15 +264,16 @@ void validate(const ProductionOrder& order)
 
 std::string workFolderOf(const std::string& folder)
 {
-  const std::size_t end = folder.find_last_not_of('/');
-  return folder.substr(0, end == std::string::npos ? 0 : end + 1) + ".work";
+  const std::string place = std::filesystem::path(folder).lexically_normal().string();
+  return place.substr(0, place.find_last_not_of('/') + 1) + ".work";
 }
 
 ProducedSubstrate produceSubstrate(
   const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context, Team* team)
 {
   const std::string work = workFolderOf(folder);
-  const Sharing sharing(team, work + '/' + SurfaceSpool::stopName);
+  // Of this run alone: another one that fails, since this one has the folder, does not end it.
+  const Sharing sharing(team, work + '/' + Sharing(team).fromFirst(partialName(SurfaceSpool::stopName)));
   ProducedSubstrate result;
   std::unique_ptr<SurfaceSpool> spool;
   bool isMade = false; // all surfaces are

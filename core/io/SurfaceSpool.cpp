@@ -2,6 +2,7 @@
 #include "io/SurfaceSpool.h"
 
 #include "base/Error.h"
+#include "base/PartialName.h"
 #include "base/Sha256.h"
 #include "io/NumberedName.h"
 #include "surface/SurfaceNumbers.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <utility>
 
 namespace cactus
@@ -41,6 +43,29 @@ void makeFolders(const std::filesystem::path& folder)
   }
 }
 
+std::string surfaceName(std::size_t index)
+{
+  return fiveDigits(index) + ".surface";
+}
+
+/// Removes the files of some names, and those that have such a name to come.
+void removeFrom(const std::filesystem::path& folder, const std::set<std::string>& names)
+{
+  std::vector<std::filesystem::path> found;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(folder, ignored), end; !ignored && entry != end; entry.increment(ignored))
+  {
+    if (names.count(wholeName(entry->path().filename().string())) > 0)
+    {
+      found.push_back(entry->path());
+    }
+  }
+  for (const std::filesystem::path& file : found)
+  {
+    std::filesystem::remove(file, ignored);
+  }
+}
+
 } // namespace
 
 SurfaceSpool::Files::Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count)
@@ -54,7 +79,7 @@ SurfaceSpool::Files::Files(std::filesystem::path folder, std::string kind, std::
 std::string SurfaceSpool::Files::pathOf(std::size_t index) const
 {
   const std::string kind = this->isSpaced[index] != 0 ? "spaced" : this->Kind;
-  return (this->Folder / kind / fiveDigits(index / filesInAFolder) / (fiveDigits(index) + ".surface")).string();
+  return (this->Folder / kind / fiveDigits(index / filesInAFolder) / surfaceName(index)).string();
 }
 
 /// What `read(path, owner)` reads of a surface's file. Throws FileError, which says what to do.
@@ -108,8 +133,6 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
   {
     makeFolders(this->Folder);
     this->Log.emplace((this->Folder / journalName).string(), identity);
-    std::error_code ignored;
-    std::filesystem::remove(this->Folder / stopName, ignored); // of processes that were killed
   }
   sharing.exchange();
   const std::filesystem::path own =
@@ -265,15 +288,17 @@ void SurfaceSpool::remove()
     for (std::size_t first = 0; first < this->Count; first += filesInAFolder)
     {
       const std::filesystem::path folder = this->Folder / kind / fiveDigits(first / filesInAFolder);
+      std::set<std::string> own;
       for (std::size_t i = first; i < std::min(this->Count, first + filesInAFolder); ++i)
       {
-        std::filesystem::remove(folder / (fiveDigits(i) + ".surface"), ignored);
+        own.insert(surfaceName(i));
       }
+      removeFrom(folder, own);
       std::filesystem::remove(folder, ignored);
     }
     std::filesystem::remove(this->Folder / kind, ignored);
   }
-  std::filesystem::remove(this->Folder / stopName, ignored);
+  removeFrom(this->Folder, { stopName });
   for (const std::filesystem::path& journal : this->journals())
   {
     std::filesystem::remove(journal, ignored);

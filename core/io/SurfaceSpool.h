@@ -23,7 +23,7 @@ namespace cactus
 ///                             is in FOLDER/journal-00001 and so on
 ///   FOLDER/outer/00000/…      outer surfaces as they were contoured, a file each, at most 1,000 in a folder
 ///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
-///   FOLDER/stop               while one process of a team tells the others to end (see Sharing)
+///   FOLDER/stop.partial-…     while one process of a team tells the others to end (see Sharing)
 ///
 /// Files appear whole or not at all, and what is in a journal is in its file. One that was never put
 /// is an error. Memory is one surface for each that is asked for, or the part of it (see SurfaceFile.h). Any number of processes
@@ -52,7 +52,7 @@ public:
   bool recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const override;
   void noteInner(std::size_t index, const FibreSurfacePair& pair) override;
 
-  /// Removes all that is its own; the folder, too, if nothing else is in it.
+  /// Removes all that is its own, with what a killed process has left half-written; the folder, too, if nothing else is in it.
   void remove();
 
 private:

@@ -92,9 +92,9 @@ void summarise(const Domain& domain, const FibreSurfaces& outer, const FibreSurf
   all.aggregateGRatio = hasOuter && hasInner ? gRatioOf(innerVolume, outerVolume) : notANumber;
   if (reach > clipTolerance)
   {
-    all.remarks.push_back("surfaces reach " + std::to_string(reach) +
-                          " µm out of the domain, so that their volumes are no fractions of it and none are given: turn on "
-                          "ClipToDomain in MyelinSurface to have them");
+    all.remarks.push_back(text("surfaces reach ", reach,
+      " µm out of the domain, so that their volumes are no fractions of it and none are given: turn on ClipToDomain in "
+      "MyelinSurface to have them"));
   }
   all.trianglesPerArea = area > 0.0 ? static_cast<double>(all.triangles) / area : notANumber;
 }

@@ -43,8 +43,9 @@ TriangleMesh joined(const FibreSurfaces& surfaces, const Context& context)
     context.checkpoint();
     const TriangleMesh mesh = surfaces.mesh(i);
     const auto first = static_cast<std::int32_t>(all.points.size());
-    requireMemory(bytesPerTriangle * static_cast<double>(mesh.triangles.size()), "a walk outside the surfaces",
-      "switch ExtraAxonalWalkers off, or cut a smaller substrate");
+    // The tree over all of them comes last.
+    requireMemory(bytesPerTriangle * static_cast<double>(all.triangles.size() + mesh.triangles.size()),
+      "a walk outside the surfaces", "switch ExtraAxonalWalkers off, or cut a smaller substrate");
     if (all.points.size() + mesh.points.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     {
       throw Infeasible("the surfaces have too many points for a walk outside them: switch ExtraAxonalWalkers off");

@@ -3,6 +3,7 @@
 
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "mesh/CappedSurface.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfacePieces.h"
@@ -101,7 +102,8 @@ std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre,
     if (fibre.hasOuter)
     {
       fibre.gRatio = gRatioOf(fibre.inner.volume, fibre.outer.volume);
-      const std::vector<std::uint32_t> wall = wallTriangles(outer->mesh, this->Box);
+      // In a file caps lie where the number is that it has for the face.
+      const std::vector<std::uint32_t> wall = wallTriangles(outer->mesh, this->Box, lostInFiles);
       const SurfaceGap gap = smallestGap(inner->tree, TriangleTree(outer->mesh, wall));
       fibre.myelinThickness = gap.found() ? gap.distance : notANumber;
       // Unless every piece can be shown to lie strictly inside. Where a gap is, the wall is not met.

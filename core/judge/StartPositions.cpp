@@ -2,6 +2,7 @@
 #include "judge/StartPositions.h"
 
 #include "base/Error.h"
+#include "base/Memory.h"
 #include "base/Parallel.h"
 #include "base/Random.h"
 #include "mesh/SurfaceSide.h"
@@ -98,21 +99,26 @@ void take(const Eigen::Vector3d& point, std::size_t count, std::vector<Eigen::Ve
 StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, std::size_t count,
   std::uint64_t seed, const Context& context)
 {
-  constexpr int rounds = 4;
+  constexpr std::uint64_t mostDrawn = 85; // for a start position
+  constexpr std::uint64_t mostAtOnce = std::uint64_t(1) << 22;
   const bool hasMyelin = outer.size() > 0 && inner.size() > 0;
   const bool hasExtra = outer.size() > 0;
+  requireMemory(120.0 * double(count), text("StartPositions ", count), "ask for fewer");
   StartPositions found;
-  std::uint64_t number = 0;
   const auto isDone = [&]
   {
     return found.intra.size() >= count && (!hasMyelin || found.myelin.size() >= count) &&
            (!hasExtra || found.extra.size() >= count);
   };
-  // Every surface is made once a round: each draws more points than the one before.
-  std::size_t drawn = 8 * count + 64;
-  for (int round = 0; round < rounds && !isDone(); ++round, drawn *= 4)
+  // Every surface is made once a round: each draws more points than the one before, as far as memory allows.
+  const std::uint64_t first = 8 * std::uint64_t(count) + 64;
+  const std::uint64_t most = mostDrawn * first;
+  std::uint64_t number = 0;
+  for (std::uint64_t wanted = first; number < most && !isDone(); wanted *= 4)
   {
+    const auto drawn = std::size_t(std::min({ wanted, mostAtOnce, most - number }));
     std::vector<Eigen::Vector3d> candidates;
+    candidates.reserve(drawn);
     for (std::size_t i = 0; i < drawn; ++i)
     {
       candidates.push_back(candidate(domain, seed, number++));

@@ -7,6 +7,7 @@
 #include "base/Parallel.h"
 #include "judge/SphericalHarmonics.h"
 #include "judge/VoxelDirections.h"
+#include "mesh/SurfaceCheck.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -25,7 +26,7 @@ namespace
 
 /// Fibres that are sampled side by side before what they have is added up in their order.
 constexpr std::size_t batch = 64;
-/// Parts of a voxel below which a fibre is not in it: what rounding leaves of exact sums.
+/// Parts of the largest voxel in the domain below which a fibre is not in one: what rounding leaves of exact sums.
 constexpr double nothing = 1e-9;
 
 /// One fibre in the voxels around it.
@@ -36,6 +37,7 @@ struct SampledFibre
   VoxelVolumes outer; ///< of the inner surface where there is no outer one
   VoxelVolumes inner;
   VoxelDirections directions; ///< of the voxels of `outer`
+  int openSurfaces = 0;
 };
 
 template <typename Visit>
@@ -58,8 +60,10 @@ void visitVoxels(const VoxelVolumes& block, const VoxelBoxes& voxels, Visit&& vi
 class Collector
 {
 public:
-  Collector(SampledSubstrate& sampled, bool withDirections, bool withPeaks)
+  /// largestPart: of a voxel in the domain, µm³.
+  Collector(SampledSubstrate& sampled, double largestPart, bool withDirections, bool withPeaks)
     : Sampled(sampled)
+    , LargestPart(largestPart)
     , WithPeaks(withPeaks)
     , Largest(sampled.voxels.size(), 0.0)
     , Tensors(withDirections ? sampled.voxels.size() : 0, Eigen::Matrix3d::Zero())
@@ -79,7 +83,7 @@ public:
   void add(const SampledFibre& fibre)
   {
     const VoxelBoxes& voxels = this->Sampled.voxels;
-    const double least = nothing * voxels.spacing * voxels.spacing * voxels.spacing;
+    const double least = nothing * this->LargestPart;
     std::vector<double>& bundle = this->Sampled.bundleFraction[fibre.bundleId];
     bundle.resize(voxels.size(), 0.0);
     visitVoxels(fibre.outer, voxels,
@@ -216,6 +220,7 @@ private:
   }
 
   SampledSubstrate& Sampled;
+  double LargestPart;
   bool WithPeaks;
   std::vector<double> Largest; ///< volume of one fibre
   std::vector<Eigen::Matrix3d> Tensors;
@@ -288,12 +293,12 @@ public:
     if (innerPlace)
     {
       fibre.bundleId = this->Inner.bundleIds[*innerPlace];
-      fibre.inner = voxelVolumes(this->Inner.mesh(*innerPlace), this->Voxels);
+      fibre.inner = this->volumesOf(this->Inner.mesh(*innerPlace), fibre);
     }
     if (outerPlace)
     {
       fibre.bundleId = this->Outer.bundleIds[*outerPlace];
-      fibre.outer = voxelVolumes(this->Outer.mesh(*outerPlace), this->Voxels);
+      fibre.outer = this->volumesOf(this->Outer.mesh(*outerPlace), fibre);
     }
     else
     {
@@ -312,6 +317,12 @@ public:
   }
 
 private:
+  VoxelVolumes volumesOf(const TriangleMesh& mesh, SampledFibre& fibre) const
+  {
+    fibre.openSurfaces += checkSurface(mesh).sound() ? 0 : 1;
+    return voxelVolumes(mesh, this->Voxels);
+  }
+
   const VoxelBoxes& Voxels;
   const FibreSurfaces& Outer;
   const FibreSurfaces& Inner;
@@ -371,13 +382,14 @@ SampledSubstrate sampleSubstrate(const Domain& domain, const FibreSurfaces& oute
   }
   const FibreSampler sampler(sampled.voxels, outer, inner, fibres, order);
   require(sampler.size() > 0, "there are no surfaces to sample: connect MyelinSurface's Outer and Inner");
-  const std::set<int> bundles(fibres != nullptr ? fibres->bundleIds.begin() : outer.bundleIds.end(),
-    fibres != nullptr ? fibres->bundleIds.end() : outer.bundleIds.end());
+  std::set<int> bundles(outer.bundleIds.begin(), outer.bundleIds.end());
+  bundles.insert(inner.bundleIds.begin(), inner.bundleIds.end());
   const double each = (fibres != nullptr ? 160.0 : 56.0) + (order > 0 ? 12.0 * double(harmonicCount(order)) : 0.0) +
-                      (options.peaks ? 108.0 + 72.0 * double(bundles.size()) : 0.0);
+                      (options.peaks ? 108.0 : 0.0) + (options.peaks ? 84.0 : 12.0) * double(bundles.size());
   const double bytes = each * double(sampled.voxels.size());
   requireMemory(bytes, text("VoxelSize ", options.voxelSize), "choose a larger VoxelSize");
-  Collector collector(sampled, fibres != nullptr, options.peaks);
+  const std::vector<double> volumes = volumesInDomain(domain, sampled.voxels);
+  Collector collector(sampled, *std::max_element(volumes.begin(), volumes.end()), fibres != nullptr, options.peaks);
   for (std::size_t begin = 0; begin < sampler.size(); begin += batch)
   {
     std::vector<SampledFibre> some(std::min(batch, sampler.size() - begin));
@@ -387,10 +399,11 @@ SampledSubstrate sampleSubstrate(const Domain& domain, const FibreSurfaces& oute
       share(begin + some.size()));
     for (const SampledFibre& fibre : some)
     {
+      sampled.openSurfaces += fibre.openSurfaces;
       collector.add(fibre);
     }
   }
-  collector.finish(volumesInDomain(domain, sampled.voxels));
+  collector.finish(volumes);
   return sampled;
 }
 

@@ -57,6 +57,7 @@ struct SampledSubstrate
   std::vector<Compartment> compartment;              ///< that with the largest fraction
   std::vector<int> fibreId;                          ///< with the largest volume, where compartment is not extra-axonal; else 0
   std::vector<int> fibreCount;                       ///< fibres that have a part in the voxel
+  int openSurfaces = 0; ///< that are no closed, outward 2-manifolds, and whose volumes are not to be relied on
   /// Of the fibres' centre lines, each weighted with its fibre's volume in the voxel: the axis that they lie closest to in least
   /// squares (unit, z not negative), and the angle (degrees) to it whose squared cosine is the mean of theirs. Empty without
   /// centre lines; zero and NaN where there is no fibre.

@@ -43,12 +43,17 @@ void markFaults(std::vector<FibreSurfacePair>& pairs, const Domain& domain, doub
 {
   SubstrateCertificateOptions options;
   options.minimumGap = minimumGap;
-  const SubstrateCertificate certificate = certify(
-    domain, surfacesOf(pairs, &FibreSurfacePair::outer), surfacesOf(pairs, &FibreSurfacePair::inner), nullptr, options, context);
+  const FibreSurfaces outer = surfacesOf(pairs, &FibreSurfacePair::outer);
+  const FibreSurfaces inner = surfacesOf(pairs, &FibreSurfacePair::inner);
   for (FibreSurfacePair& pair : pairs)
   {
     pair.isFlawed = false;
   }
+  if (outer.size() + inner.size() == 0)
+  {
+    return; // all fibres have vanished, which is another remark
+  }
+  const SubstrateCertificate certificate = certify(domain, outer, inner, nullptr, options, context);
   for (const FibreCertificate& fibre : certificate.fibres)
   {
     const auto pair = std::lower_bound(

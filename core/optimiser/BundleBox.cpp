@@ -100,7 +100,7 @@ std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
 
 void spreadBundles(Fibres& fibres, double packingLimit)
 {
-  const std::vector<BundleBox> tight = bundleBoxes(fibres, 1.0);
+  const std::vector<BundleBox> tight = bundleBoxes(fibres, std::numeric_limits<double>::infinity());
   const std::vector<BundleBox> wide = bundleBoxes(fibres, packingLimit);
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {

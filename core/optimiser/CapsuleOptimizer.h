@@ -34,7 +34,7 @@ struct OptimisationResult
 
 /// Moves control points (and, where allowed, radii) until no two capsules of different fibres penetrate by more than the
 /// tolerance, or until iterations or time run out or they make no progress any more; then `fibres` holds the state with the
-/// smallest largest penetration. Where most control points lie nearly straight between their neighbours and radii are kept, every
+/// smallest cost of overlap. Where most control points lie nearly straight between their neighbours and radii are kept, every
 /// second of these is moved alone at first, and the others with it (see CoarseFibres): rows tell of the overlap of those few
 /// until all are moved. End points slide in the plane across their bundle's axis. Same bits on any number of threads. `observe`,
 /// where given, is called with each iteration's row and state, the first included. Throws InvalidInput (fibres, options, a

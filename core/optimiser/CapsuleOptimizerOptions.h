@@ -49,7 +49,7 @@ struct CapsuleOptimizerOptions
   /// Where to write down the state of the run every now and then, and when it ends; empty for nowhere. A file that is there must
   /// be a checkpoint of this run (see resume): anything else is kept, and refused before the run begins.
   std::string checkpointFile;
-  /// Seconds between two checkpoints at least; 0 for one at every neighbour search.
+  /// Seconds between two checkpoints at least; 0 for one at every iteration.
   double checkpointInterval = 600.0;
   /// Go on from checkpointFile where there is one. It must have been written for the same fibres and the same parameters, but for
   /// maximumIterations and timeBudget. The result has the same bits as that of a run that was never interrupted. Where it is off,

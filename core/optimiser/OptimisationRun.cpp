@@ -4,6 +4,7 @@
 #include "base/Bytes.h"
 #include "base/SharedCheckpoint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -66,7 +67,7 @@ void OptimisationRun::save(const std::string& path, std::uint64_t fingerprint) c
 {
   SharedCheckpointWriter file(path, { fingerprint, this->iteration }, this->sharing);
   file.put(static_cast<std::uint8_t>(this->level));
-  file.put(this->seconds);
+  file.put(this->rows.empty() ? this->seconds : std::max(this->seconds, this->rows.back().seconds));
   file.put(this->bestCost);
   file.put(this->progress.lowestCost);
   file.put(this->progress.lowestPenetration);

@@ -182,6 +182,10 @@ private:
   {
     const Json values = this->has(name.c_str()) ? this->Text[name] : Json::array();
     const Json several = values.is_array() ? values : Json::array({ values });
+    if (several.empty() && this->has(name.c_str()))
+    {
+      throw InvalidInput(name + " is an empty list: leave it out, or say what to make");
+    }
     std::vector<RecipeSource> made;
     for (const Json& one : several)
     {

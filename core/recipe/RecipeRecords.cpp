@@ -36,10 +36,16 @@ std::string textOf(const Json& object, const char* name)
   return member.is_string() ? member.get<std::string>() : "";
 }
 
-bool namesFolder(const Json& value)
+/// What a property of this value has named, of which a file was read: that file, or a folder that holds it.
+std::string namedBy(const std::string& value, const std::string& file)
 {
-  std::error_code error;
-  return value.is_string() && std::filesystem::is_directory(value.get<std::string>(), error);
+  const std::filesystem::path name = (std::filesystem::path(value) / "").parent_path().filename();
+  std::filesystem::path named = file;
+  while (named.filename() != name && named.has_relative_path())
+  {
+    named = named.parent_path();
+  }
+  return named.has_relative_path() ? named.string() : file;
 }
 
 [[noreturn]] void failDamaged(const std::string& where)
@@ -197,7 +203,9 @@ private:
     for (const Json& file : memberOf(record, "files"))
     {
       const std::string path = textOf(file, "path");
-      const std::optional<std::string> checksum = sha256OfFile(path);
+      std::error_code error;
+      const bool isFile = std::filesystem::is_regular_file(path, error);
+      const std::optional<std::string> checksum = isFile ? sha256OfFile(path) : std::nullopt;
       if (!checksum)
       {
         throw InvalidInput(path + ", which it has read, is missing: put it back there");
@@ -208,10 +216,8 @@ private:
                            "): put the old one there");
       }
       const std::string property = textOf(file, "property");
-      if (!namesFolder(memberOf(memberOf(record, "properties"), property.c_str()))) // all files of a folder are listed
-      {
-        setProperty(options, property, Json(path), true);
-      }
+      const std::string value = textOf(memberOf(record, "properties"), property.c_str());
+      setProperty(options, property, Json(namedBy(value, path)), true);
     }
   }
 

@@ -19,6 +19,8 @@ namespace
 
 /// A sample nearer to a face than this part of a voxel is left out: the cells between them would be too flat.
 constexpr double thinnestCell = 0.3;
+/// Voxels between an image's face and the domain's that are one.
+constexpr double sameFace = 1e-3;
 
 /// How far from a sample its field is looked for, see FibreField::nearest().
 constexpr int farthestNeighbour = 2;
@@ -100,12 +102,12 @@ FibreField::FibreField(std::shared_ptr<const LabelSource> image, const Domain& d
     const double imageUpper = imageLower + h * grid.count[axis];
     Box.lower[a] = clipToDomain ? std::max(domain.lower[a], imageLower) : imageLower;
     Box.upper[a] = clipToDomain ? std::min(domain.upper[a], imageUpper) : imageUpper;
-    // Where image and domain end together, they may differ by rounding.
-    if (clipToDomain && std::abs(imageLower - domain.lower[a]) < 1e-6 * h)
+    // Where image and domain end together, they may differ by rounding, also that of a file with six digits.
+    if (clipToDomain && std::abs(imageLower - domain.lower[a]) < sameFace * h)
     {
       Box.lower[a] = domain.lower[a];
     }
-    if (clipToDomain && std::abs(imageUpper - domain.upper[a]) < 1e-6 * h)
+    if (clipToDomain && std::abs(imageUpper - domain.upper[a]) < sameFace * h)
     {
       Box.upper[a] = domain.upper[a];
     }

@@ -116,7 +116,7 @@ void FibreMesher::makeOuter(
   SurfaceMeasure now = measure(surface);
   double volume = now.volume;
   double right = level;
-  if (furthest > 0.0)
+  if (furthest > 0.0 && now.freeArea > 0.0) // else all of it are caps
   {
     volume = measure(this->Contours.unsmoothed(field)).volume - deeper * now.freeArea;
     right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
@@ -251,7 +251,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
   while (state != MyelinState::NoAxon)
   {
     const double volume = state == MyelinState::AsAsked ? search.volume() : axon.volume;
-    level = axon.level + (axon.volume - volume) / axon.area;
+    level = axon.area > 0.0 ? axon.level + (axon.volume - volume) / axon.area : axon.level;
     pair.innerChange = SurfaceChange();
     const bool isSound = this->Finishing.finish(
       search.field(), { axon.level, level, volume, &outer, {} }, axon.surface, pair.innerReport, pair.innerChange);

@@ -234,7 +234,8 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
   case GRatioModel::Constant:
     return this->Options.gRatio;
   case GRatioModel::LogLinear:
-    return logLinearGRatio(this->Mesher.equivalentDiameter(field, pair.volumeAsMade));
+    // Another library's filters may leave a surface that holds nothing.
+    return pair.volumeAsMade > 0.0 ? logLinearGRatio(this->Mesher.equivalentDiameter(field, pair.volumeAsMade)) : smallestGRatio;
   case GRatioModel::Distributed:
     return distributedGRatio(this->Options.gRatio, this->Options.gRatioDeviation, this->Options.seed, pair.fibreId);
   default:

@@ -32,6 +32,8 @@ public:
 
   /// All fibres, by increasing id, and what is known of them; their meshes are in the stores.
   const std::vector<FibreSurfacePair>& fibres() const { return this->Pairs; }
+  /// In which surfaces are: the domain as far as the image reaches, or all of the image where surfaces are not clipped.
+  const Domain& box() const { return this->Mesher.field().box(); }
 
   /// Makes the outer surfaces and keeps them apart; and with each, from the same field, the inner one, if g-ratios do not depend
   /// on all fibres.

@@ -26,11 +26,11 @@ std::string adviceFor(const std::vector<FibreSurfacePair>& pairs, double voxelSi
   double thickest = 0.0;
   for (const FibreSurfacePair& pair : pairs)
   {
-    thinnest = std::min(thinnest, pair.targetRadius);
+    thinnest = pair.targetRadius > 0.0 ? std::min(thinnest, pair.targetRadius) : thinnest; // else not known
     thickest = std::max(thickest, pair.targetRadius);
   }
   std::string advice;
-  const std::string radii = text(" for fibres of radii ", thinnest, " to ", thickest, " µm");
+  const std::string radii = thickest > 0.0 ? text(" for fibres of radii ", thinnest, " to ", thickest, " µm") : std::string();
   if (voxelSize > coarsestVoxel * thinnest)
   {
     advice = text(
@@ -53,7 +53,7 @@ std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, double voxelS
   const auto count = [&](auto&& is) { return std::count_if(pairs.begin(), pairs.end(), is); };
   const auto in = [&](MyelinState state)
   { return count([state](const FibreSurfacePair& pair) { return pair.state == state && pair.isWanted; }); };
-  const auto wanted = count([](const FibreSurfacePair& pair) { return pair.isWanted; });
+  const auto all = count([](const FibreSurfacePair& pair) { return pair.isWanted || pair.isFlawed; });
   const auto bad =
     count([](const FibreSurfacePair& pair) { return pair.isFlawed || (pair.isWanted && pair.state != MyelinState::AsAsked); });
   if (bad == 0)
@@ -69,7 +69,7 @@ std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, double voxelS
   add(in(MyelinState::Thinner), "with thinner myelin (1)");
   add(count([](const FibreSurfacePair& pair) { return pair.isFlawed; }),
     "with a surface that meets itself or is nearer than MinimumGap to another fibre (Flawed)");
-  return text(bad, " of ", wanted, " fibres are not as asked, see Fibre statistics: ", ways, "; ",
+  return text(bad, " of ", all, " fibres are not as asked, see Fibre statistics: ", ways, "; ",
     byFilters ? adviceOnFilters : adviceFor(pairs, voxelSize, facts));
 }
 

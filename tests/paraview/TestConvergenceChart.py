@@ -35,6 +35,7 @@ class ConvergenceChart(CactusTestCase):
             axis = chart.GetAxis(place)
             self.assertLessEqual(axis.GetUnscaledMinimum(), first)
             self.assertGreaterEqual(axis.GetUnscaledMaximum(), first)
+        self.assertGreater(chart.GetAxis(vtkAxis.RIGHT).GetUnscaledMaximum(), 5.7e7)  # what 500 µm begin with
 
     def test_stays_logarithmic_when_its_ranges_are_reset(self):
         """The window does so for the first data that a view shows. They end at no overlapping pairs, which have no logarithm."""

@@ -8,7 +8,7 @@ import random
 
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, OutputPort, StrandReader
+from paraview.simple import BundleInitializer, Calculator, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, OutputPort, StrandReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
 
@@ -126,6 +126,14 @@ class FibreRadialGrowthTest(CactusTestCase):
         growth.Input = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         fetch(growth)
         fetch(FibreRadialGrowth(Input=BundleInitializer(Side=6, MeanDispersion=0), VoxelSize=0.2))
+
+    def test_parted_fibres_that_were_changed_since_are_warned_of(self):
+        bundle = BundleInitializer(Side=6, MeanDispersion=10, DispersionModel="Watson", GrownFibreVolumeFraction=0)
+        parted = OutputPort(CapsuleOptimizer(Input=bundle), 0)
+        thinner, thicker = (Calculator(Input=parted, ResultArrayName="Radius", Function=f"Radius*{factor}") for factor in (0.9, 1.3))
+        fetch(FibreRadialGrowth(Input=thinner, VoxelSize=0.2, GrowthIterations=1))
+        with self.assertError(r"pairs of capsules.*overlap, the worst by [1-9]\d* %"):
+            fetch(FibreRadialGrowth(Input=thicker, VoxelSize=0.2, GrowthIterations=1))
 
     def test_bundles_that_were_parted_each_for_itself_are_warned_of(self):
         parted = [OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed)), 0) for seed in (1, 2)]

@@ -6,8 +6,8 @@ import os
 
 import numpy
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import (BundleInitializer, CapsuleOptimizer, CSVReader, FibreRadialGrowth, HistologyMask, HistologyRadii,
-                             MyelinSurface, OpenDataFile, OutputPort, SaveData, SubstrateSampler)
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, CSVReader, ExtractSubset, FibreRadialGrowth, HistologyMask,
+                             HistologyRadii, MyelinSurface, OpenDataFile, OutputPort, SaveData, SubstrateSampler)
 from PIL import Image
 from scipy import ndimage
 from surfaces import POLYGON, two_tubes
@@ -179,6 +179,13 @@ class Histology(CactusTestCase):
                 HistologyMask(Outer=produce(outer), **properties).UpdatePipeline()
         with self.assertError("no axons"):
             HistologyRadii(Input=image_of(numpy.full((4, 5), 127, "u1"))).UpdatePipeline()
+        mask = HistologyMask(Outer=produce(outer), PixelSize=0.05)
+        with self.assertError("edge of 0.05 µm, and PixelSize is 0.1 µm: set PixelSize to 0.05"):
+            HistologyRadii(Input=mask).UpdatePipeline()
+        with self.assertError("edge of 0.1 µm, and PixelSize is 0.05 µm"):
+            HistologyRadii(Input=ExtractSubset(Input=mask, VOI=[0, 199, 0, 199, 0, 0], SampleRateI=2, SampleRateJ=2), PixelSize=0.05).UpdatePipeline()
+        with self.assertError("grey values above 255.*divided by 257"):
+            HistologyRadii(Input=image_of(rings((60, 60), {(30, 30): (9, 14.5)}).astype("u2") * 257)).UpdatePipeline()
         with self.assertError("is a vtkPolyData, and one mask is expected"):
             HistologyRadii(Input=produce(vtkPolyData())).UpdatePipeline()
         solid = vtkImageData()

@@ -4,6 +4,7 @@
 """CapsuleOptimizer shows its fibres while it works: states on the way, then the result, with the same bits; it can be stopped and keeps its best
 state. GetNeedsUpdate() is what ParaView's window asks every 200 ms."""
 
+import os
 import time
 
 import numpy
@@ -94,6 +95,16 @@ class LiveLook(CactusTestCase):
         Delete(live)
         del live
         self.assertLess(time.monotonic() - start, 10)
+
+    def test_a_resumed_run_is_shown_at_once(self):
+        """Whatever iteration it goes on from."""
+        bundle, path = self.bundle(30), os.path.join(self.folder, "run")
+        with self.assertError("MaximumIterations were used up"):
+            fetch(CapsuleOptimizer(Input=bundle, CheckpointFile=path, MaximumIterations=7))
+        live = CapsuleOptimizer(Input=bundle, CheckpointFile=path, Resume=1, ShowEvery=1000)
+        self.assertTrue(self.running(live))
+        Delete(live)
+        del live
 
     def test_a_fault_is_said_once(self):
         live = CapsuleOptimizer(Input=self.bundle(), ShowEvery=5, CheckpointFile="/nowhere/checkpoint")

@@ -2,6 +2,7 @@
 """Images that scripts show beside a substrate lie where nibabel has them, and a header that cannot be true is one error."""
 
 import gzip
+import math
 import os
 import struct
 import sys
@@ -62,6 +63,16 @@ class NiftiImages(CactusTestCase):
             with self.subTest(unit=unit):
                 self.assertInItsPlace(self.save(TURNED, unit=unit), millimetres)
 
+    def test_numbers_are_those_that_the_header_means(self):
+        path = self.save(TURNED, "image.nii")
+        for scale, wanted in (((0.5, -3), (-3, 56.5)), ((-2, 0), (-238, 0)), ((1, 7), (7, 126)), ((0, 7), (0, 119))):
+            with self.subTest(scale=scale):
+                with open(path, "r+b") as file:
+                    file.seek(112)
+                    file.write(struct.pack("<2f", *scale))
+                self.assertInItsPlace(path)
+                self.assertEqual(fetch(read_image(path)).GetPointData().GetArray("NIFTI").GetRange(), wanted)
+
     def test_a_header_that_lies_is_one_error(self):
         with open(self.save(TURNED, "good.nii"), "rb") as file:
             good = file.read()
@@ -86,6 +97,8 @@ class NiftiImages(CactusTestCase):
             (changed(72, "<h", 64), "type 4 with 64 bits"),
             (changed(108, "<f", 1e9), "truncated, or its header wrong"),
             (changed(108, "<f", nan), "from byte nan on"),
+            (changed(112, "<f", nan), "scaled by nan and moved by 0"),
+            (changed(116, "<f", -math.inf), "scaled by 1.0 and moved by -inf"),
             (changed(80, "<f", nan), r"voxels of \(nan, 3\.0, 0\.5\)"),
             (changed(84, "<f", 0.0), "voxels of"),
             (changed(280, "<4f", nan, 0, 0, 0), "leaves the image no volume"),

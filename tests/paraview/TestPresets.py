@@ -6,7 +6,7 @@ import os
 import sys
 
 from cactus_testing import CactusTestCase, fetch, main
-from paraview import servermanager, simple
+from paraview import servermanager, simple, smstate
 from paraview.servermanager import vtkSMPropertyHelper
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples"))
@@ -63,6 +63,33 @@ class Presets(CactusTestCase):
         self.assertEqual((other.MinimumGap, other.VoxelSize, other.Preset), (0.03, 0.2, "None"))
         chosen = simple.FibreRadialGrowth(Input=growth.Input, Preset=FIXED)
         self.assertEqual((chosen.MinimumGap, chosen.SurfaceTolerance, chosen.Preset), (0.02, 0.0065, FIXED))
+
+    def test_a_default_that_a_script_gives_is_its_own_too(self):
+        initial, growth, _ = self.chain(Preset=TARGET + "b")
+        given = {"GRatioModel": "Constant", "GRatio": 0.7}
+        made = [simple.MyelinSurface(**said) for said in ({"Input": growth, **given}, {**given, "Input": growth}, {"Input": growth, "Preset": "None"})]
+        made.append(simple.SubstrateProduction(Input=growth.Input, **given))
+        for one in made:
+            self.assertEqual((one.GRatioModel, one.GRatio, one.Preset), ("Constant", 0.7, "None"))
+        initial.Preset = TARGET + "a"
+        for one in (made[0], made[1], made[3]):
+            self.assertEqual((one.GRatioModel, one.Preset), ("Constant", "None"))
+        initial.Preset = ALIVE
+        narrow = simple.FibreRadialGrowth(Input=growth.Input, MinimumGap=0.02)
+        self.assertEqual((narrow.MinimumGap, narrow.Preset), (0.02, "None"))
+
+    def test_none_of_a_filter_that_follows_is_its_defaults(self):
+        initial, growth, myelin = self.chain(Preset=TARGET + "b")
+        myelin.Preset = "None"
+        self.assertEqual((myelin.GRatioModel, myelin.TargetAxonVolumeFraction), ("Constant", 0))
+        initial.Preset = ALIVE
+        edit(growth, "Preset", 0)
+        self.assertEqual((unchecked(growth, "MinimumGap"), growth.MinimumGap), (0.02, 0.04))
+        edit(growth, "MinimumGap", 0.03)
+        self.apply(growth, ["Preset", "MinimumGap", "SurfaceTolerance"])
+        self.assertEqual((growth.MinimumGap, growth.Preset), (0.03, "None"))
+        initial.Preset = "None"
+        self.assertEqual(initial.GrownFibreVolumeFraction, 0.8)
 
     def test_a_changed_value_is_no_preset(self):
         initial, growth, myelin = self.chain(Preset=ALIVE)
@@ -138,6 +165,27 @@ class Presets(CactusTestCase):
         self.assertEqual({each: found["BundleInitializer"].GetPropertyValue(each) for each in before}, before)
         self.assertEqual((found["FibreRadialGrowth"].Preset, found["FibreRadialGrowth"].MinimumGap), (ALIVE, 0.04))
         self.assertEqual((found["MyelinSurface"].Preset, found["MyelinSurface"].GRatio), ("None", 0.65))
+
+    def test_a_python_state_brings_back_the_same(self):
+        """Which says nothing of a value that is the default."""
+        _, growth, myelin = self.chain(Preset=TARGET + "b")
+        myelin.GRatioModel = "Constant"
+        myelin.SmoothingIterations = 3
+        simple.RenameSource("plain", simple.FibreRadialGrowth(Input=growth.Input, MinimumGap=0.03))
+        simple.RenameSource("behind", simple.MyelinSurface(Input=growth))
+        before = self.values_of_all()
+        state = smstate.get_state()
+        for proxy in list(simple.GetSources().values()):
+            simple.Delete(proxy)
+        exec(compile(state, "state.py", "exec"), {})  # as ParaView's window does
+        self.assertEqual(self.values_of_all(), before)
+
+    def values_of_all(self):
+        return {
+            name: {each: proxy.GetPropertyValue(each) for each in proxy.ListProperties() if each != "Input"}
+            for (name, _), proxy in simple.GetSources().items()
+            if proxy.GetProperty("Preset") is not None
+        }
 
     def test_several_bundles_have_one_preset_or_none(self):
         for second, expected in ((ALIVE, ALIVE), (FIXED, "None"), ("None", "None")):

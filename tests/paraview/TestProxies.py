@@ -18,7 +18,7 @@ def numbers(element):
 
 
 def defaults(one):
-    return [float(word) for word in (one.get("default_values") or "").split()]
+    return [float(word) for word in (one.get("default_values") or "").split() if word != "none"]
 
 
 def text(element):

@@ -48,6 +48,11 @@ class RandomWalk(CactusTestCase):
         free = 2 * dt * (1 - 8 / (3 * math.pi**0.5) * dt**0.5 / length)
         self.assertAlmostEqual(z / free, 1.0, delta=4 * (2 / walkers) ** 0.5)
 
+    def test_says_where_there_is_no_room_to_start(self):
+        folder = self.straight_fibre(4.0, damage=lambda inner: tube(0, 0, 0.005, 3.96))
+        with self.assertRaisesRegex(AssertionError, "only . of 5 walkers found room to start: inner"):
+            random_walk(folder, walkers=5, steps=1)
+
     def test_finds_a_hole(self):
         with self.assertError(r"not certified: 1 surfaces are not closed"):
             folder = self.straight_fibre(4.0, damage=lambda inner: without(inner, range(1600, 1620)), AllowOpenSurfaces=1)

@@ -182,6 +182,18 @@ class Report(CactusTestCase):
         for name in ("fibre volume fraction (FVF)", "mean outer radius (µm)", "mean dispersion (degrees)"):
             self.assertNotRegex(rows[name][0], r"\d", name)
 
+    def test_radii_that_hardly_differ(self):
+        with open(os.path.join(self.substrate, "manifest.json"), encoding="utf-8") as file:
+            stages = json.load(file)["provenance"]
+        asked = stages[0]["properties"]
+        for values, mean in (({"MinimumRadius": 0.5, "MaximumRadius": 0.5}, 0.5), ({"GammaShape": 1000, "GammaScale": 0.001}, 1.0), ({"GammaShape": 1100, "GammaScale": 0.001}, 1.1),
+                             ({"RadiusDistribution": "Lognormal", "LognormalMean": 0.6, "LognormalDeviation": 1e-5}, 0.6)):
+            stages[0]["properties"] = {**asked, **values}
+            folder = self.changed(provenance=stages)
+            rows = {row[0]: row[1:] for row in Page(self.made(folder, "--no-pictures")).rows}
+            self.assertAlmostEqual(float(rows["mean outer radius (µm)"][0]), mean, delta=0.003)
+            shutil.rmtree(folder)
+
     def test_a_sample(self):
         folder = os.path.join(self.folder, "sample")
         fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=5, MinimumRadius=0.3)), 0)

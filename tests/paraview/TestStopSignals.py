@@ -9,9 +9,11 @@ import signal
 import subprocess
 import time
 
-from cactus_testing import CactusTestCase, environment_of_its_own, main
+from cactus_testing import CactusTestCase, environment_of_its_own, fetch, main, produce
 from chain import Chain
 from folder_content import files
+from paraview.simple import SubstrateWriter
+from surfaces import two_tubes
 
 # Makes a substrate, and is stopped by a signal in the middle. With several ranks it is the first that runs this.
 SCRIPT = """
@@ -135,11 +137,32 @@ class StopSignalsTest(CactusTestCase):
                 self.assertNotIn("Stack trace", done.stdout)
                 os.remove(checkpoint)
 
+    def test_what_is_written_stays(self):
+        """A signal that comes with the last words on the folder, which is in its place."""
+        heard, sent = [], []
+        signal.signal(signal.SIGINT, lambda *_: heard.append(1))
+
+        def stop(*_):
+            if not sent:
+                sent.append(1)
+                os.kill(os.getpid(), signal.SIGINT)
+
+        folder = os.path.join(self.folder, "substrate")
+        writer = SubstrateWriter(Outer=produce(two_tubes()[1]), FolderName=folder, MinimumGap=10)  # which it has not
+        writer.GetClientSideObject().AddObserver("WarningEvent", stop)
+        table = fetch(writer)
+        self.assertEqual(heard, [1])
+        self.assertIn("manifest.json", os.listdir(folder))
+        self.assertEqual(table.GetNumberOfRows(), 2)
+
     def test_kill_reaches_what_the_launcher_runs(self):
         """It is the same process, and its display goes with it."""
         root = os.path.realpath(os.path.join(os.path.dirname(__file__), "..", ".."))
         if os.path.realpath(os.environ.get("CACTUS_TOOLS", "")) != os.path.join(root, "build", "release", "bin"):
             self.skipTest("the launcher runs another build")
+        with open(os.path.join(root, "build", "release", "CMakeCache.txt"), encoding="utf-8") as file:
+            if ("CACTUS_QUICK_BUILD:BOOL=ON" in file.read()) != bool(os.environ.get("CI")):
+                self.skipTest("the launcher would configure first")
         if "no work to do" not in subprocess.run(["ninja", "-n", "-C", os.path.join(root, "build", "release"), "CACTUS"], capture_output=True, text=True).stdout:
             self.skipTest("the launcher would build first")
         path = os.path.join(self.folder, "who.py")

@@ -4,7 +4,8 @@
 import os
 
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import OpenDataFile, SaveData, StrandReader
+from paraview.simple import BundleInitializer, OpenDataFile, SaveData, StrandReader
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 STRANDS = """30
 2
@@ -60,6 +61,17 @@ class StrandFiles(CactusTestCase):
         for a, b in zip(before, after):
             self.assertLessEqual(abs(a - b), 1e-9 * abs(a))
         self.assertEqual(sorted(os.listdir(self.folder)), ["again.strands", "some.strands"])
+
+    def test_vtp_keeps_what_strand_files_do_not(self):
+        path = os.path.join(self.folder, "fibres.vtp")
+        fibres = BundleInitializer(Side=6, NumberOfBundles=2, CrossingAngle=60, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6)
+        SaveData(path, proxy=fibres, DataMode="Binary")
+        before, after = fetch(fibres), fetch(OpenDataFile(path))
+        for kind, names in (("GetPointData", ["Radius"]), ("GetCellData", ["FibreId", "BundleId", "TargetRadius"]),
+                            ("GetFieldData", ["Domain", "GrownFibreVolumeFraction"])):
+            for name in names:
+                one, other = (vtk_to_numpy(getattr(data, kind)().GetArray(name)).tolist() for data in (before, after))
+                self.assertEqual(one, other, name)
 
     def test_truncated_file(self):
         for lines in range(1, STRANDS.count("\n")):

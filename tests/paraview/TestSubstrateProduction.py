@@ -171,7 +171,7 @@ class SubstrateProductionTest(CactusTestCase):
         heads = 260 * len(manifest["files"])
         self.assertLess((size - heads) / triangles, 19.5)
         walked = random_walk(folder, walkers=5, steps=2000, step=0.1)
-        self.assertEqual([walked[name]["leaked"] for name in ("inner", "myelin", "outside")], [0, 0, 0])
+        self.assertEqual([(walked[name]["walkers"], walked[name]["leaked"]) for name in ("inner", "myelin", "outside")], 3 * [(5, 0)])
 
     def script(self, folder, margin):
         """SCRIPT in a process of its own."""

@@ -14,7 +14,7 @@ from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGro
                              SubstrateSampler, SubstrateStatistics)
 from scipy.spatial.transform import Rotation
 from scipy.special import sph_harm
-from surfaces import POLYGON, two_tubes
+from surfaces import POLYGON, surfaces, tube, two_tubes, without
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -97,6 +97,11 @@ class Sampler(CactusTestCase):
             image = fetch(SubstrateSampler(Outer=surfaces, VoxelSize=voxel))  # the rest comes from MyelinSurface itself
             for name in ("AVF", "MVF"):
                 self.assertAlmostEqual(array(image, name).mean(), table.GetColumnByName(name).GetValue(0), 6)
+        # As one voxel of an image, of which they fill little.
+        one = fetch(SubstrateSampler(Outer=surfaces, VoxelSize=2000))
+        for name in ("AVF", "MVF"):
+            self.assertAlmostEqual(array(one, name)[0, 0, 0], table.GetColumnByName(name).GetValue(0), 6)
+        self.assertEqual(array(one, "FibreCount")[0, 0, 0], len(set(vtk_to_numpy(fetch(surfaces).GetCellData().GetArray("FibreId")))))
         bundles = [array(image, f"BundleFraction_{n}") for n in (1, 2)]
         numpy.testing.assert_allclose(bundles[0] + bundles[1], 1 - array(image, "ExtraAxonalFraction"), atol=1e-5)
         # Bundles cross at 90°: where one is alone, its fibres point along its axis.
@@ -185,6 +190,11 @@ class Sampler(CactusTestCase):
                     numpy.testing.assert_allclose(form, affine, atol=1e-6)
                     self.assertEqual(code, wanted_code)
         self.assertEqual(sorted(os.listdir(self.folder)), ["image.nii", "image.nii.gz"])
+
+    def test_open_surfaces(self):
+        leaking = surfaces({3: without(tube(-2, 0, 1, 10), [7]), 5: tube(2, 0, 1.5, 10)}, 0, 10)
+        with self.assertError(r"1 surfaces are not closed, outward 2-manifolds"):
+            SubstrateSampler(Outer=produce(leaking)).UpdatePipeline()
 
     def test_bad_requests(self):
         sampler = self.tubes()

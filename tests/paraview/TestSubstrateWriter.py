@@ -304,6 +304,9 @@ class Writer(CactusTestCase):
         with self.assertError(r"Domain"):
             self.write()
         self.assertEqual(os.listdir(self.folder), [])
+        with self.assertError(r"not closed \(3 open.* which StartPositions are inside"):
+            self.write(Outer=produce(leaking), AllowOpenSurfaces=1, StartPositions=3)
+        self.assertEqual(os.listdir(self.folder), [])
         with self.assertError(r"not certified: 1 surfaces are not closed \(fibre 3 first\)"):
             self.write(Outer=produce(leaking), AllowOpenSurfaces=1)
         self.assertEqual(os.listdir(self.folder), ["substrate"])

@@ -9,6 +9,7 @@ import os
 import numpy
 from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, produce
 from paraview.simple import BundleInitializer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate, SubstrateStatistics
+from surfaces import fibres as polylines
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 SIDE = 4.0
@@ -179,9 +180,16 @@ class VtkMeshingTest(CactusTestCase):
     def test_coarse_voxels(self):
         for size in (0.5, 1.0, 2.0):
             growth = FibreRadialGrowth(Input=produce(self.fibres), TargetFibreVolumeFraction=0.7, VoxelSize=size)
-            table = self.made(MyelinSurface(Input=growth, Meshing="VTK filters"))
-            has_outer = column(table, "OuterTriangles") > 0
-            self.assertTrue((has_outer == (column(table, "Myelin") != 4)).all())
+            for model in ("Constant", "LogLinear"):
+                table = self.made(MyelinSurface(Input=growth, Meshing="VTK filters", GRatioModel=model))
+                has_outer = column(table, "OuterTriangles") > 0
+                self.assertTrue((has_outer == (column(table, "Myelin") != 4)).all())
+
+    def test_fibres_between_all_samples(self):
+        thin = polylines({1: (0.05, [(0.01, 0.02, z) for z in (-3.0, 3.0)])}, SIDE)
+        growth = FibreRadialGrowth(Input=produce(thin), VoxelSize=0.5, GrowthIterations=0, MinimumGap=0, SurfaceTolerance=0)
+        surface = MyelinSurface(Input=growth, Meshing="VTK filters")
+        self.assertEqual(list(column(self.made(surface), "Myelin")), [4])
 
 
 if __name__ == "__main__":

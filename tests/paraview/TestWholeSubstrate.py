@@ -61,6 +61,16 @@ class WholeSubstrate(CactusTestCase):
         different = [name for name in files(whole) if not filecmp.cmp(os.path.join(whole, name), os.path.join(alone, name), shallow=False)]
         self.assertEqual(different, ["manifest.json"])  # which tells of the connections
 
+    def test_fibres_are_those_that_have_grown(self):
+        """Whatever state the optimiser before them was asked for since."""
+        optimizer = simple.CapsuleOptimizer(Input=self.fibres, KeepHistory=1, HistoryInterval=10)
+        surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=simple.OutputPort(optimizer, 0), VoxelSize=0.2))
+        before, after = os.path.join(self.folder, "before"), os.path.join(self.folder, "after")
+        simple.SubstrateWriter(Outer=simple.OutputPort(surfaces, 0), FolderName=before).UpdatePipeline()
+        optimizer.UpdatePipeline(0)
+        simple.SubstrateWriter(Outer=simple.OutputPort(surfaces, 0), FolderName=after).UpdatePipeline()
+        self.assertTrue(filecmp.cmp(os.path.join(before, "fibres.strands"), os.path.join(after, "fibres.strands"), shallow=False))
+
     def test_save_data(self):
         """As by File > Save Data: the same folder as the filter's."""
         saved, written = os.path.join(self.folder, "saved.substrate"), os.path.join(self.folder, "written")

@@ -437,6 +437,8 @@ enum Compartment
   Outside
 };
 
+constexpr std::array<const char*, 3> compartmentNames{ "inner", "myelin", "outside" };
+
 Compartment compartmentOf(const Walls& walls, const std::vector<int>& inside)
 {
   const bool isInner =
@@ -494,6 +496,7 @@ void move(const Walls& walls, Walker& walker, Vector by)
   }
 }
 
+/// As many walkers as wanted in each compartment (inner: where there are inner surfaces); throws where one has no room.
 std::vector<std::vector<Walker>> start(const Walls& walls, const Options& options)
 {
   std::mt19937_64 random(options.seed);
@@ -522,6 +525,16 @@ std::vector<std::vector<Walker>> start(const Walls& walls, const Options& option
       here.push_back(walker);
     }
   }
+  const bool hasInner =
+    std::any_of(walls.surfaces().begin(), walls.surfaces().end(), [](const Surface& surface) { return surface.inner; });
+  for (std::size_t c = hasInner ? Inner : Myelin; c < walkers.size(); ++c)
+  {
+    if (walkers[c].size() < options.walkers)
+    {
+      throw std::runtime_error("only " + std::to_string(walkers[c].size()) + " of " + std::to_string(options.walkers) +
+                               " walkers found room to start: " + compartmentNames[c]);
+    }
+  }
   return walkers;
 }
 
@@ -545,7 +558,6 @@ void run(const Options& options)
 {
   const Walls walls(options.folder);
   auto compartments = start(walls, options);
-  const char* names[] = { "inner", "myelin", "outside" };
   std::cout.precision(9);
   std::cout << "{\"surfaces\": " << walls.surfaces().size() << ", \"triangles\": " << walls.triangles()
             << ", \"steps\": " << options.steps << ", \"step_um\": " << options.step;
@@ -568,7 +580,7 @@ void run(const Options& options)
       reflections += walker.reflections;
     }
     squares = (1.0 / std::max<double>(1.0, double(walkers.size()))) * squares;
-    std::cout << ",\n\"" << names[c] << "\": {\"walkers\": " << walkers.size() << ", \"leaked\": " << leaked
+    std::cout << ",\n\"" << compartmentNames[c] << "\": {\"walkers\": " << walkers.size() << ", \"leaked\": " << leaked
               << ", \"reflections\": " << reflections << ", \"squared_displacement_um2\": [" << squares.x << ", " << squares.y
               << ", " << squares.z << "]}";
   }

@@ -611,6 +611,19 @@ TEST(BundleInitializer, CrossingBundlesFillTheDomainAsAsked)
   }
 }
 
+TEST(BundleInitializer, FewCrossingFibresAreAsManyAsAsked)
+{
+  DrawnRadii options;
+  options.numberOfBundles = 2;
+  options.fibreVolumeFraction = 0.05;
+  for (options.seed = 1; options.seed <= 30; ++options.seed)
+  {
+    BundleInitializerReport report;
+    EXPECT_NO_THROW(initialiseBundles(options, {}, &report)) << options.seed;
+    EXPECT_NEAR(report.fibreVolumeFraction, 0.05, 0.0025) << options.seed;
+  }
+}
+
 TEST(BundleInitializer, SheetsTooThinForAFibreAreRefused)
 {
   EXPECT_EQ(errorOf(

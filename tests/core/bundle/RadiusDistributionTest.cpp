@@ -3,6 +3,7 @@
 
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "bundle/RadiusColumn.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <sstream>
 
 using namespace cactus;
 
@@ -131,6 +133,28 @@ TEST(RadiusDistribution, AreaIsMet)
       area += cactus::pi * r * r;
     }
     EXPECT_NEAR(area, 630.0, 630.0 * 0.005) << seed;
+  }
+}
+
+TEST(RadiusDistribution, AColumnOfAnotherWidthIsNamed)
+{
+  const auto read = [](const std::string& text)
+  {
+    std::istringstream stream(text);
+    return readRadiusColumn(stream, "a.csv", "r");
+  };
+  EXPECT_EQ(read("r\n1.25\n\n0.5,\n"), (std::vector<double>{ 1.25, 0.5 }));
+  for (const char* text : { "r\n1,25\n1,75\n", "r,d\n7,0.5,0.6\n" })
+  {
+    try
+    {
+      read(text);
+      FAIL() << text;
+    }
+    catch (const FileError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("line 2, has more cells"), std::string::npos) << error.what();
+    }
   }
 }
 

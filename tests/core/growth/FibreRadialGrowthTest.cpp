@@ -8,6 +8,7 @@
 #include "base/Random.h"
 #include "growth/CapsuleField.h"
 #include "growth/GrowthTarget.h"
+#include "growth/VolumeInDomain.h"
 #include "surface/FibreField.h"
 
 #include <gtest/gtest.h>
@@ -707,6 +708,12 @@ TEST(FibreRadialGrowth, GridFillsTheDomain)
   EXPECT_EQ(growthGrid(box, options).count, (std::array<int, 3>{ { 100, 100, 300 } }));
   options.voxelSize = 0.11; // 10/0.11 = 90.9, and 30/0.11 = 272.7: 91 and 273 fit
   EXPECT_EQ(growthGrid(box, options).count, (std::array<int, 3>{ { 91, 91, 273 } }));
+  // Of many voxels, too, none is left that ends beside the face.
+  const FibreRadialGrowthOptions fine;
+  Domain large = Domain::cube(100.0);
+  large.upper.x() = large.lower.x() + 1000.0;
+  large.upper.z() = large.lower.z() + 100.0005;
+  EXPECT_NE(messageOf<InvalidInput>([&] { growthGrid(large, fine); }).find("VoxelSize"), std::string::npos);
   box.upper.z() = -5.0 + 10.0 * std::sqrt(2.0);
   EXPECT_NE(messageOf<InvalidInput>([&] { growthGrid(box, options); }).find("VoxelSize"), std::string::npos);
 }
@@ -808,6 +815,13 @@ TEST(FibreRadialGrowth, FibresFarAwayOrLongerThanTheDomainAreNoTrouble)
   const LabelImage image = grown(fibres, options);
   expectMatchesDefinition(fibres, options, 0.2, image);
   EXPECT_EQ(std::count(image.fibreId.begin(), image.fibreId.end(), 2), 0);
+  // What of it is in the domain, and counts for a target, is what a short one has there.
+  for (const double reach : { 1.5, 500.0, 20000.0 })
+  {
+    Fibres one = emptyFibres(4.0);
+    addStraight(one, { 0, 0, -2.0 - reach }, { 0, 0, 2.0 + reach }, 0.5);
+    EXPECT_NEAR(volumeInDomain(one, 0, 1.0), pi, 0.1) << reach;
+  }
   // A domain without any fibre in it is all outside.
   Fibres away = emptyFibres(4.0);
   addStraight(away, { 90, 0, -2 }, { 90, 0, 2 }, 0.5);

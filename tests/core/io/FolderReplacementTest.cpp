@@ -293,6 +293,7 @@ TEST_F(FolderReplacement, FindsItsPlace)
   EXPECT_TRUE(contains(write("~/s"), "only a shell"));
   EXPECT_TRUE(contains(write("/"), "the folder that this program runs in"));
   EXPECT_TRUE(contains(write("/usr"), "not a substrate folder"));
+  EXPECT_TRUE(contains(write("/proc"), "is where a file system is mounted"));
   EXPECT_TRUE(contains(write("/proc/s"), "cannot write folder"));
   put(this->Scratch / "file", "precious");
   EXPECT_TRUE(contains(write(this->Scratch / "file"), "not a folder"));

@@ -9,6 +9,7 @@
 #include "../surface/MeetingFibres.h"
 #include "../surface/VanishingFibre.h"
 #include "base/Error.h"
+#include "base/PartialName.h"
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
 #include "io/SubstrateFolder.h"
@@ -479,9 +480,27 @@ TEST_F(Production, AFibreMayGoBeforeAnyHasItsAxon)
 TEST_F(Production, MindsNoStopOfAnEarlierRun)
 {
   this->killAt("stopped", 0.5, 3);
-  std::ofstream(this->folder("stopped.work/stop")).flush();
+  for (const std::string name : { std::string("stop"), partialName("stop") })
+  {
+    std::ofstream(this->folder("stopped.work/" + name)).flush();
+  }
+  // Nor what a process on another machine was writing.
+  std::ofstream(this->folder("stopped.work/outer/00000/" + partialName("00001.surface"))) << "half";
   const auto told = this->produceInTeam(3, "stopped");
   EXPECT_NE(told.front().find("certified"), std::string::npos) << told.front();
+  EXPECT_FALSE(fs::exists(this->folder("stopped.work")));
+}
+
+TEST_F(Production, WorksBesideAFolderHoweverItIsNamed)
+{
+  fs::create_directories(this->folder("named"));
+  for (const char* name : { "named/.", "named/", "./named" })
+  {
+    this->killAt(name, 0.6);
+    EXPECT_TRUE(fs::exists(this->folder("named.work"))) << name;
+    this->produce(name);
+    EXPECT_EQ(filesIn(this->folder("named")), this->filesOfStages()) << name;
+  }
 }
 
 TEST_F(Production, SaysWhyThereAreNoSurfaces)

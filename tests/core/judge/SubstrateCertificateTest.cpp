@@ -5,6 +5,7 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "judge/CertificateTables.h"
+#include "mesh/CappedSurface.h"
 #include "mesh/SurfaceDistance.h"
 
 #include <gtest/gtest.h>
@@ -109,6 +110,21 @@ TEST(SubstrateCertificate, CertifiesWhatIsSound)
   {
     EXPECT_EQ(column.values.size(), 5U) << column.name;
   }
+}
+
+// A file of single numbers has the face of a domain somewhere else, by more than what is taken for rounding.
+TEST(SubstrateCertificate, KnowsCapsInAFile)
+{
+  const double face = 35.1;
+  ASSERT_LT(double(float(face)), face - 1e-6);
+  cactus::SubstrateCertificateOptions options;
+  options.minimumGap = 0.02;
+  const auto inFile = [](const TriangleMesh& mesh) { return cactus::inSinglePrecision(mesh); };
+  const auto certificate =
+    cactus::certify(cactus::Domain::cube(2 * face), surfaces({ { 1, inFile(tube(0, 0, 0.5, -face, face)) } }),
+      surfaces({ { 1, inFile(tube(0, 0, 0.35, -face + 0.02, face - 0.02)) } }), nullptr, options);
+  EXPECT_TRUE(certificate.certified()) << certificate.faults.front();
+  EXPECT_NEAR(certificate.smallestMyelin, 0.15 * std::cos(cactus::pi / 24.0), 1e-5);
 }
 
 TEST(SubstrateCertificate, WantsTheGapAskedFor)

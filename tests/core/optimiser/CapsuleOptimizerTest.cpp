@@ -15,9 +15,13 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace
 {
@@ -264,7 +268,7 @@ TEST(BundleBox, SpreadsWhatIsTooDense)
   const Fibres before = randomBundle(17, 50, 12, 6.0, 0.0);
   const auto density = [](const Fibres& bundle)
   {
-    const cactus::BundleBox box = cactus::bundleBoxes(bundle, 1.0).front();
+    const cactus::BundleBox box = cactus::bundleBoxes(bundle, 1e9).front();
     double volume = 0.0;
     for (std::size_t f = 0; f < bundle.size(); ++f)
     {
@@ -287,6 +291,14 @@ TEST(BundleBox, SpreadsWhatIsTooDense)
       EXPECT_NEAR((fibres.points[i] - before.points[i] - shift).norm(), 0.0, 1e-12);
     }
   }
+  Fibres dense = before;
+  for (double& radius : dense.radii)
+  {
+    radius *= std::sqrt(1.5 / density(before));
+  }
+  ASSERT_GT(density(dense), 1.2);
+  cactus::spreadBundles(dense, 0.7);
+  EXPECT_LT(density(dense), 0.9);
   Fibres loose = before;
   cactus::spreadBundles(loose, std::min(1.0, 1.01 * density(before)));
   EXPECT_EQ(loose.points, before.points);
@@ -343,6 +355,7 @@ TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
           EXPECT_THROW(cactus::optimise(part, options, context,
                          [&](const cactus::ConvergenceRow& row, const Fibres&)
                          {
+                           std::this_thread::sleep_for(std::chrono::milliseconds(row.iteration == until - 1 ? 100 : 0));
                            if (row.iteration == until)
                            {
                              throw std::runtime_error("killed");
@@ -363,6 +376,7 @@ TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
           for (std::size_t i = 0; i < result.convergence.size(); ++i)
           {
             ASSERT_EQ(result.convergence[i].iteration, expected.convergence[i].iteration);
+            ASSERT_GE(result.convergence[i].seconds, i > 0 ? result.convergence[i - 1].seconds : 0.0) << i;
             ASSERT_EQ(result.convergence[i].overlapCost, expected.convergence[i].overlapCost);
             ASSERT_EQ(result.convergence[i].maximumPenetration, expected.convergence[i].maximumPenetration);
           }
@@ -530,6 +544,21 @@ TEST(TrimToDomain, KeepsAFibreWholeThatComesBackAtOnce)
   ASSERT_EQ(trimmed.size(), 1u);
   EXPECT_EQ(trimmed.points.size(), fibres.points.size());
   EXPECT_EQ(cactus::measureOverlap(trimmed, 1e-3, 1).overlappingPairs, 0u);
+}
+
+TEST(TrimToDomain, RefusesWhereNoIdIsFreeForAPiece)
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  fibres.addFibre(std::numeric_limits<int>::max(), 1, 0.5);
+  for (int i = 0; i <= 40; ++i)
+  {
+    const double x = -10.0 + 0.5 * i;
+    fibres.addPoint({ x, 0.0, std::abs(x) < 2.0 ? 9.0 : 0.0 }, 0.5);
+  }
+  EXPECT_THROW(cactus::trimToDomain(fibres), cactus::InvalidInput);
+  fibres.fibreIds[0] -= 1;
+  EXPECT_EQ(cactus::trimToDomain(fibres).fibreIds.back(), std::numeric_limits<int>::max());
 }
 
 // Trimming keeps the domain filled, cuts what is outside, and gives a fibre that comes back an id of its own.

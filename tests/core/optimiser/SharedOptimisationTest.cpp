@@ -407,6 +407,14 @@ TEST(SharedOptimisation, EndsItsTimeInAllProcessesAtOnce)
   options.maximumIterations = 1000000;
   const auto told = inTeam(3, [&](Team& team) { return optimised(smallBundle(8.0), options, 1, &team); });
   EXPECT_TRUE(told[0] == told[1] && told[0] == told[2]);
+  options.timeBudget = 1e-6;
+  const auto reasons = inTeam(3,
+    [&](Team& team)
+    {
+      Fibres fibres = smallBundle(8.0);
+      return std::to_string(int(optimise(fibres, options, {}, {}, &team).reason));
+    });
+  EXPECT_EQ(reasons, std::vector<std::string>(3, std::to_string(int(StopReason::TimeBudget))));
 }
 
 TEST(SharedOptimisation, ShowsEveryStateToWhoeverLooks)

@@ -4,9 +4,12 @@
 
 #include "ScratchPath.h"
 #include "base/Error.h"
+#include "base/Sha256.h"
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -115,6 +118,36 @@ TEST(RecipeReader, NamesTheLikelyProperty)
   EXPECT_EQ(
     refusal(R"({"FibreRadialGrowth": {"Voxelsize": 1}})"), "FibreRadialGrowth: there is no property Voxelsize: is it VoxelSize?");
   EXPECT_EQ(refusal(R"({"FibreRadialGrowth": {"GRatio": 1}})"), "FibreRadialGrowth: there is no property GRatio");
+}
+
+TEST(RecipeReader, AnEmptyListIsNoSource)
+{
+  const auto refuses = [](const std::string& text, const std::string& name)
+  { EXPECT_EQ(refusal(text), name + " is an empty list: leave it out, or say what to make"); };
+  refuses(R"({"BundleInitializer": []})", "BundleInitializer");
+  refuses(R"({"StrandReader": []})", "StrandReader");
+  refuses(R"({"TractogramReader": {"FileName": "a.tck"}, "TractFibres": []})", "TractFibres");
+  refuses(R"({"TractogramReader": [], "TractFibres": {}})", "TractogramReader");
+}
+
+TEST(RecipeReader, FilesAreThoseThatWereRead)
+{
+  const auto folder = std::filesystem::path(cactus_testing::scratchPath("recipe-files")) / "tract.trx";
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "positions.3.float32").string();
+  std::ofstream(file) << "abc";
+  const auto manifest = [](const std::string& path)
+  {
+    return R"({"provenance": [{"id": "a", "filter": "TractogramReader", "properties": {"FileName": "tract.trx"}, "files": [)"
+           R"({"property": "FileName", "path": ")" +
+           path + R"(", "sha256": ")" + sha256("abc") +
+           R"("}]}, {"id": "b", "filter": "TractFibres", "properties": {}, "inputs": {"Input": [{"stage": "a"}]}}, )"
+           R"({"id": "c", "filter": "SubstrateProduction", "properties": {}, "inputs": {"Input": [{"stage": "b"}]}}]})";
+  };
+  // Of a folder, by where its files were, and not by where the program runs.
+  EXPECT_EQ(stageIn<TractogramReaderStage>(readRecipe(manifest(file), ""), 0).fileName, folder.string());
+  EXPECT_NE(refusal(manifest("/dev/null")).find("is missing"), std::string::npos);
+  std::filesystem::remove_all(folder.parent_path());
 }
 
 TEST(RecipeReader, RecordsInARingOrWithoutEndAreRefused)

@@ -672,12 +672,54 @@ TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
                      "myelin (2), 1 with a"),
     0u)
     << two;
+  pairs[2].isFlawed = true;
+  EXPECT_EQ(notAsAsked(pairs, lost.view().grid.spacing, lost.facts).find("3 of 3 fibres"), 0u);
+  auto unknown = pairs;
+  for (auto& pair : unknown)
+  {
+    pair.targetRadius = 0.0;
+  }
+  const std::string any = notAsAsked(unknown, lost.view().grid.spacing, lost.facts);
+  EXPECT_NE(any.find("choose a smaller VoxelSize (it is 0.1 µm) in"), std::string::npos) << any;
   lost.facts.minimumGap = 0.3;
   lost.image.grid.spacing = 0.3;
   const std::string three = notAsAsked(pairs, lost.view().grid.spacing, lost.facts);
   EXPECT_NE(three.find("VoxelSize 0.3 µm is coarse for fibres of radii 0.5 to 0.5 µm: choose 0.25 or less"), std::string::npos)
     << three;
   EXPECT_NE(three.find("MinimumGap 0.3"), std::string::npos) << three;
+}
+
+// Of a fibre thicker than the domain nothing but caps is seen.
+TEST(MyelinSurfaces, AFibreMayFillTheDomain)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(2.0);
+  fibres.addFibre(1, 1, 5.0);
+  fibres.addPoint({ 0.0, 0.0, -9.0 }, 5.0);
+  fibres.addPoint({ 0.0, 0.0, 9.0 }, 5.0);
+  const FibreRadialGrowthOptions options;
+  const LabelImage image = growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
+  LabelImageFacts facts;
+  facts.domain = fibres.domain;
+  facts.fibreIds = facts.bundleIds = { 1 };
+  facts.targetRadii = { 5.0 };
+  const auto pairs =
+    myelinSurfaces(LabelImageView{ image.grid, image.fibreId.data(), image.depth.data(), options.gap() }, facts, {});
+  EXPECT_NEAR(pairs[0].outerReport.volume, 8.0, 1e-9);
+  EXPECT_TRUE(std::isfinite(pairs[0].outerLevel));
+  EXPECT_TRUE(std::isfinite(pairs[0].thickness));
+}
+
+// Files with six digits leave an image a little beside its domain; surfaces end at the domain all the same.
+TEST(MyelinSurfaces, EndWhereTheDomainDoes)
+{
+  StraightFibre straight;
+  const FibreField whole(straight.source(), straight.facts.domain, true);
+  straight.image.grid.origin += Eigen::Vector3d(4e-5, -4e-5, 4e-5);
+  straight.image.grid.spacing *= 1.0 - 1e-6;
+  const FibreField moved(straight.source(), straight.facts.domain, true);
+  EXPECT_EQ(moved.box().lower, whole.box().lower);
+  EXPECT_EQ(moved.box().upper, whole.box().upper);
 }
 
 TEST(MyelinSurfaces, RefusesMoreSmoothingThanFibresBear)

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "WriteButtons.h"
+
+#include "PluginProxies.h"
+
+#include <pqPropertyWidget.h>
+#include <pqProxyWidget.h>
+#include <vtkSMProperty.h>
+#include <vtkSMProxy.h>
+
+#include <QPushButton>
+
+#include <cstring>
+
+namespace cactus
+{
+namespace
+{
+
+/// Gives a proxy all that the panel around `widget` shows, as Apply does, but without an update.
+void applyPanelAround(const QWidget* widget)
+{
+  while ((widget = widget->parentWidget()) != nullptr)
+  {
+    if (const pqProxyWidget* panel = qobject_cast<const pqProxyWidget*>(widget))
+    {
+      panel->apply();
+      return;
+    }
+  }
+}
+
+} // namespace
+
+WriteButtons::WriteButtons(QObject* parent)
+  : QObject(parent)
+{
+}
+
+void WriteButtons::createDefaultWidgetDecorators(pqPropertyWidget* widget)
+{
+  const QPushButton* button = widget->findChild<QPushButton*>();
+  if (button == nullptr || !isOfThisPlugin(widget->proxy()) || std::strcmp(widget->property()->GetXMLName(), "Write") != 0)
+  {
+    return;
+  }
+  // Slots are called in the order in which they were connected.
+  QObject::disconnect(button, SIGNAL(clicked()), widget, SLOT(buttonClicked()));
+  QObject::connect(button, &QPushButton::clicked, widget, [widget] { applyPanelAround(widget); });
+  QObject::connect(button, SIGNAL(clicked()), widget, SLOT(buttonClicked()));
+}
+
+} // namespace cactus
