@@ -171,7 +171,7 @@ std::vector<std::pair<std::string, std::vector<DataOrigin>>> originsOf(vtkAlgori
   return origins;
 }
 
-bool isAsMade(vtkDataObject* data)
+bool areAsMade(vtkDataObject* data)
 {
   return isAsMade(originOf(data));
 }

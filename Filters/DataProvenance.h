@@ -29,7 +29,7 @@ Provenance recordOf(vtkAlgorithm* self, const std::string& filter, const Stage& 
 }
 
 /// Whether data, or all parts of them, are as the last stage has left them that they tell of.
-bool isAsMade(vtkDataObject* data);
+bool areAsMade(vtkDataObject* data);
 
 /// Puts the records into the field data of what comes out at a port, all else of which has to be there.
 void setProvenance(vtkDataObject* data, const Provenance& records, int port);

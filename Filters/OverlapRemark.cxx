@@ -25,7 +25,7 @@ std::vector<bool> verdictsOfOptimiser(const std::vector<vtkDataObject*>& parts)
   for (vtkDataObject* part : parts)
   {
     vtkDataArray* converged = part->GetFieldData()->GetArray("Converged");
-    if (converged != nullptr && converged->GetNumberOfTuples() > 0 && isAsMade(part))
+    if (converged != nullptr && converged->GetNumberOfTuples() > 0 && areAsMade(part))
     {
       verdicts.push_back(converged->GetComponent(0, 0) != 0.0);
     }
