@@ -480,7 +480,7 @@ TEST_F(Production, AFibreMayGoBeforeAnyHasItsAxon)
 TEST_F(Production, MindsNoStopOfAnEarlierRun)
 {
   this->killAt("stopped", 0.5, 3);
-  for (const std::string name : { std::string("stop"), partialName("stop") })
+  for (const std::string& name : { std::string("stop"), partialName("stop") })
   {
     std::ofstream(this->folder("stopped.work/" + name)).flush();
   }
