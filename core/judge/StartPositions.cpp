@@ -111,10 +111,10 @@ StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& out
            (!hasExtra || found.extra.size() >= count);
   };
   // Every surface is made once a round: each draws more points than the one before, as far as memory allows.
-  const std::uint64_t first = 8 * std::uint64_t(count) + 64;
-  const std::uint64_t most = mostDrawn * first;
+  std::uint64_t wanted = 8 * std::uint64_t(count) + 64;
+  const std::uint64_t most = mostDrawn * wanted;
   std::uint64_t number = 0;
-  for (std::uint64_t wanted = first; number < most && !isDone(); wanted *= 4)
+  for (; number < most && !isDone(); wanted = std::min(4 * wanted, mostAtOnce))
   {
     const auto drawn = std::size_t(std::min({ wanted, mostAtOnce, most - number }));
     std::vector<Eigen::Vector3d> candidates;
