@@ -5,6 +5,7 @@
 
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cactus
@@ -21,6 +22,7 @@ public:
 
   /// What was in the file when it was opened.
   const std::vector<std::string>& records() const { return this->Records; }
+  std::vector<std::string> takeRecords() { return std::exchange(this->Records, {}); }
   /// What is in a file that another process may have open, or has left. Throws as the constructor does, but for a file that is
   /// not there or empty, which has no records.
   static std::vector<std::string> recordsOf(const std::string& path, const std::string& identity);

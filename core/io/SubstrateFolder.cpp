@@ -125,6 +125,7 @@ struct SharedRun
 {
   const Context& context;
   const Sharing& sharing;
+  const Recollection& known;
 };
 
 /// The folders that these files are in, the outer ones first.
@@ -374,7 +375,9 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
   WrittenSubstrate substrate;
   substrate.certificate =
     certify(contents.domain, asWritten(contents.outer, contents.encoding), asWritten(contents.inner, contents.encoding),
-      contents.fibres, contents.certificate, run.context.part(0.0, judged), run.sharing);
+      contents.fibres, contents.certificate, run.context.part(0.0, judged), run.sharing,
+      run.known.part(text(
+        contents.encoding == PlyEncoding::Binary ? "binary" : "ASCII", ", cuts ", exactText(contents.certificate.cutSpacing))));
   if (!contents.allowOpenSurfaces)
   {
     requireSound(
@@ -449,8 +452,8 @@ void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
   }
 }
 
-WrittenSubstrate writeSubstrateFolder(
-  const SubstrateFolderContents& contents, const std::string& folder, const Context& context, const Sharing& sharing)
+WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, const std::string& folder, const Context& context,
+  const Sharing& sharing, const Recollection& known)
 {
   WrittenSubstrate substrate;
   std::optional<FolderReplacement> replacement; // the first process's, who removes what nobody writes into any more
@@ -465,7 +468,7 @@ WrittenSubstrate writeSubstrateFolder(
       const std::string container = sharing.fromFirst(replacement ? replacement->staging().container().string() : std::string());
       const StagingFolder joined(folder, container);
       FolderWriter writer(replacement ? replacement->staging() : joined);
-      substrate = judgeAndWrite(contents, writer, { context, sharing });
+      substrate = judgeAndWrite(contents, writer, { context, sharing, known });
       if (sharing.isFirst())
       {
         finish(contents, substrate, writer, *replacement, context);

@@ -34,8 +34,8 @@ void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
 /// Throws InvalidInput (no surfaces, an encoding that the simulator cannot read, a surface that is not a closed outward
 /// 2-manifold, unless allowed; the message names the fibre), FileError, and Cancelled when stopped.
 /// Processes that share it judge and write the surfaces together, and all get the result; what else is in the folder the first
-/// one writes.
+/// one writes. What is `known` of these very surfaces and centre lines is not judged again.
 WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, const std::string& folder,
-  const Context& context = {}, const Sharing& sharing = Sharing());
+  const Context& context = {}, const Sharing& sharing = Sharing(), const Recollection& known = {});
 
 } // namespace cactus

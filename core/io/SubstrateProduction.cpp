@@ -218,12 +218,12 @@ std::string withWaysOn(const std::string& message, const std::string& folder)
 }
 
 /// Throws what writeSubstrateFolder() does; where the surfaces, which stay, cannot be written, that says how to go on with them.
-WrittenSubstrate writeMade(
-  const SubstrateFolderContents& contents, const std::string& folder, const Context& context, const Sharing& sharing)
+WrittenSubstrate writeMade(const SubstrateFolderContents& contents, const std::string& folder, const Context& context,
+  const Sharing& sharing, const Recollection& known)
 {
   try
   {
-    return writeSubstrateFolder(contents, folder, context, sharing);
+    return writeSubstrateFolder(contents, folder, context, sharing, known);
   }
   catch (const InvalidInput& error)
   {
@@ -298,7 +298,7 @@ ProducedSubstrate produceSubstrate(
     const Context whole = paced(watching);
     const SubstrateFolderContents contents = makeInto(*spool, fibres, made, order, result, whole, sharing);
     isMade = true;
-    result.written = writeMade(contents, folder, whole.part(surfacesMade, 1.0), sharing);
+    result.written = writeMade(contents, folder, whole.part(surfacesMade, 1.0), sharing, spool->findings().part("judged"));
     if (sharing.isFirst())
     {
       spool->remove();

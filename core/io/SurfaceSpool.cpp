@@ -25,7 +25,6 @@ constexpr char spaced = 's';
 constexpr char spacingDone = 'S';
 constexpr char innerMade = 'i';
 
-constexpr char journalName[] = "journal";
 constexpr const char* kinds[] = { "outer", "spaced", "inner" };
 
 std::uint64_t fingerprintOf(const std::string& identity)
@@ -93,8 +92,9 @@ auto SurfaceSpool::Files::from(std::size_t index, Read&& read) const
   }
   catch (const Error&)
   {
-    throw FileError("the surface " + path + " is damaged, or cannot be read: remove the folder " + this->Folder.string() +
-                    " and make all of it again");
+    throw FileError("the surface " + path + " is damaged, or cannot be read: remove " +
+                    (this->isFinal ? "the folder " + this->Folder.string() + " and make all of it again"
+                                   : "it and run again, to make the surfaces of this fibre again"));
   }
 }
 
@@ -119,7 +119,6 @@ void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
 
 SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing)
   : Folder(folder)
-  , Identity(identity)
   , Count(count)
   , IsFirst(sharing.isFirst())
   , Outer(folder, "outer", fingerprintOf(identity), count)
@@ -128,25 +127,14 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
   , SpacedNotes(count)
   , InnerNotes(count)
 {
-  // The first one's journal is locked before any other process looks into the folder, and nobody adds before all have read.
   if (this->IsFirst)
   {
     makeFolders(this->Folder);
-    this->Log.emplace((this->Folder / journalName).string(), identity);
   }
-  sharing.exchange();
-  const std::filesystem::path own =
-    this->Folder / (journalName + (this->IsFirst ? "" : '-' + fiveDigits(std::size_t(sharing.place()))));
-  if (!this->IsFirst)
-  {
-    this->Log.emplace(own.string(), identity);
-  }
-  sharing.exchange();
-  for (const std::filesystem::path& journal : this->journals())
-  {
-    this->read(journal == own ? this->Log->records() : RecordLog::recordsOf(journal.string(), identity));
-  }
-  sharing.exchange();
+  this->Log.emplace(this->Folder, "journal", identity, sharing);
+  this->Findings.emplace(this->Folder, identity, sharing);
+  this->read(this->Log->takeRecords());
+  this->Outer.isFinal = this->Inner.isFinal = this->IsSpacingDone;
   if (!this->IsSpacingDone)
   {
     // What was moved is moved again, from what was contoured.
@@ -158,34 +146,6 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
                                              : !this->OuterNotes[i].empty();
     this->Found += isFound ? 1 : 0;
   }
-}
-
-/// Those of all processes that have ever worked here, sorted.
-std::vector<std::filesystem::path> SurfaceSpool::journals() const
-{
-  std::vector<std::filesystem::path> found;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(this->Folder, error), end; !error && entry != end; entry.increment(error))
-  {
-    const std::string name = entry->path().filename().string();
-    if (name == journalName || name.compare(0, sizeof(journalName), std::string(journalName) + '-') == 0)
-    {
-      found.push_back(entry->path());
-    }
-  }
-  if (error)
-  {
-    throw FileError("cannot read the folder " + this->Folder.string() + ": " + error.message());
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-bool SurfaceSpool::isEmpty() const
-{
-  const std::vector<std::filesystem::path> all = this->journals();
-  return std::all_of(all.begin(), all.end(),
-    [this](const std::filesystem::path& journal) { return RecordLog::recordsOf(journal.string(), this->Identity).empty(); });
 }
 
 void SurfaceSpool::read(const std::vector<std::string>& records)
@@ -223,12 +183,17 @@ void SurfaceSpool::note(char step, std::size_t index, const FibreSurfacePair& pa
 
 bool SurfaceSpool::recallOuter(std::size_t index, FibreSurfacePair& pair) const
 {
-  const auto& notes = this->OuterNotes[index];
-  if (!notes.empty())
+  if (this->OuterNotes[index].empty())
   {
-    pair = pairFrom(notes.back());
+    return false;
   }
-  return !notes.empty();
+  FibreSurfacePair found = pairFrom(this->OuterNotes[index].back());
+  if (!this->Outer.has(index) || (found.isInnerMade && !this->Inner.has(index)))
+  {
+    return false; // somebody has removed what was damaged
+  }
+  pair = std::move(found);
+  return true;
 }
 
 void SurfaceSpool::noteOuter(std::size_t index, const FibreSurfacePair& pair)
@@ -247,6 +212,7 @@ bool SurfaceSpool::recallSpaced(std::vector<FibreSurfacePair>& pairs) const
 
 void SurfaceSpool::noteSpaced(const std::vector<FibreSurfacePair>& pairs)
 {
+  this->Outer.isFinal = this->Inner.isFinal = true;
   if (!this->IsFirst)
   {
     return; // each process knows all of them
@@ -281,7 +247,6 @@ void SurfaceSpool::noteInner(std::size_t index, const FibreSurfacePair& pair)
 
 void SurfaceSpool::remove()
 {
-  this->Log.reset();
   std::error_code ignored; // what is left is named by who finds it
   for (const char* kind : kinds)
   {
@@ -299,10 +264,8 @@ void SurfaceSpool::remove()
     std::filesystem::remove(this->Folder / kind, ignored);
   }
   removeFrom(this->Folder, { stopName });
-  for (const std::filesystem::path& journal : this->journals())
-  {
-    std::filesystem::remove(journal, ignored);
-  }
+  this->Findings->remove();
+  this->Log->remove();
   std::filesystem::remove(this->Folder, ignored);
 }
 

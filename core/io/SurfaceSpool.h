@@ -2,8 +2,9 @@
 #pragma once
 
 #include "base/Sharing.h"
-#include "io/RecordLog.h"
+#include "io/FindingsFile.h"
 #include "io/SurfaceFile.h"
+#include "io/TeamLog.h"
 #include "mesh/SurfaceStore.h"
 #include "surface/SurfaceJournal.h"
 
@@ -19,15 +20,17 @@ namespace cactus
 
 /// Surfaces on the disk while they are made, and the journal of how far they have come:
 ///
-///   FOLDER/journal            what is known of each fibre (see RecordLog); what processes of a team beside the first have made
-///                             is in FOLDER/journal-00001 and so on
+///   FOLDER/journal            what is known of each fibre, and FOLDER/findings what was found when surfaces were looked at, to
+///                             keep them apart and to judge them; of processes of a team beside the first in
+///                             FOLDER/journal-00001 and so on (see TeamLog)
 ///   FOLDER/outer/00000/…      outer surfaces as they were contoured, a file each, at most 1,000 in a folder
 ///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
 ///   FOLDER/stop.partial-…     while one process of a team tells the others to end (see Sharing)
 ///
 /// Files appear whole or not at all, and what is in a journal is in its file. One that was never put
-/// is an error. Memory is one surface for each that is asked for, or the part of it (see SurfaceFile.h). Any number of processes
-/// goes on with what any other has left.
+/// is an error. A file that is gone before surfaces are kept apart is that of a fibre of which nothing is known. Memory is one
+/// surface for each that is asked for, or the part of it (see SurfaceFile.h). Any number of processes goes on with what any other
+/// has left.
 class SurfaceSpool : public SurfaceJournal
 {
 public:
@@ -42,7 +45,7 @@ public:
   /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
   std::size_t found() const { return this->Found; }
   /// Whether nothing of any fibre is in any journal. Only while no other process is at work.
-  bool isEmpty() const;
+  bool isEmpty() const { return this->Log->isEmpty(); }
 
   bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
   void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;
@@ -51,6 +54,7 @@ public:
   void noteSpaced(const std::vector<FibreSurfacePair>& pairs) override;
   bool recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const override;
   void noteInner(std::size_t index, const FibreSurfacePair& pair) override;
+  Recollection findings() override { return Recollection(*this->Findings); }
 
   /// Removes all that is its own, with what a killed process has left half-written; the folder, too, if nothing else is in it.
   void remove();
@@ -63,12 +67,14 @@ private:
     Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count);
 
     std::size_t size() const override { return this->isSpaced.size(); }
+    bool has(std::size_t index) const { return std::filesystem::exists(this->pathOf(index)); }
     std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
     SurfacePart part(std::size_t index, double lower, double upper) const override;
     void put(std::size_t index, TriangleMesh surface) override;
     void putElsewhere(std::size_t index) override { this->isSpaced[index] = this->isSpacing ? 1 : 0; }
 
     bool isSpacing = false;
+    bool isFinal = false;       ///< surfaces are kept apart, so that one of them alone is not made again
     std::vector<char> isSpaced; ///< whether it was put while isSpacing
 
   private:
@@ -82,16 +88,15 @@ private:
     std::uint64_t Fingerprint;
   };
 
-  std::vector<std::filesystem::path> journals() const;
   void read(const std::vector<std::string>& records);
   void note(char step, std::size_t index, const FibreSurfacePair& pair, bool isMoved);
 
   std::filesystem::path Folder;
-  std::string Identity;
   std::size_t Count;
   std::size_t Found = 0;
   bool IsFirst;
-  std::optional<RecordLog> Log;
+  std::optional<TeamLog> Log;
+  std::optional<FindingsFile> Findings;
   Files Outer;
   Files Inner;
   bool IsSpacingDone = false;

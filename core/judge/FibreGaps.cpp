@@ -38,50 +38,64 @@ class GapSearch
 public:
   GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certificate);
 
-  void run(const Context& context, double from, const Sharing& sharing)
+  void run(const Context& context, double from, const Sharing& sharing, const Recollection& known)
   {
     const double middle = from + neighboursShare * (1.0 - from);
     std::vector<std::vector<std::size_t>> near(this->Present.size());
-    sharing.loop(
-      near.size(), context,
+    known.part("neighbours")
+      .loop(
+        sharing, near.size(), context,
+        [&](std::size_t rank)
+        {
+          this->Bound[rank] = this->gapToLikeliest(rank);
+          near[rank] = this->thoseWithin(rank, this->Bound[rank]);
+          this->addThoseAround(rank, near[rank]);
+        },
+        [&](std::size_t rank)
+        {
+          ByteWriter put;
+          put(this->Bound[rank]);
+          put(near[rank]);
+          return put.bytes();
+        },
+        [&](std::size_t rank, const std::string& bytes)
+        {
+          ByteReader get(bytes);
+          get(this->Bound[rank]);
+          get(near[rank]);
+        },
+        "Measuring gaps", from, middle);
+    std::vector<std::vector<FibrePair>> pairs = this->pairsOf(near);
+    known.part("gaps").loop(
+      sharing, pairs.size(), context,
       [&](std::size_t rank)
       {
-        this->Bound[rank] = this->gapToLikeliest(rank);
-        near[rank] = this->thoseWithin(rank, this->Bound[rank]);
-        this->addThoseAround(rank, near[rank]);
+        for (FibrePair& pair : pairs[rank])
+        {
+          this->measure(pair);
+        }
       },
       [&](std::size_t rank)
       {
         ByteWriter put;
-        put(this->Bound[rank]);
-        put(near[rank]);
+        for (const FibrePair& pair : pairs[rank])
+        {
+          put(pair.gap);
+          put(pair.nested);
+        }
         return put.bytes();
       },
       [&](std::size_t rank, const std::string& bytes)
       {
         ByteReader get(bytes);
-        get(this->Bound[rank]);
-        get(near[rank]);
-      },
-      "Measuring gaps", from, middle);
-    std::vector<FibrePair> pairs = this->pairsOf(near);
-    sharing.loop(
-      pairs.size(), context, [&](std::size_t i) { this->measure(pairs[i]); },
-      [&](std::size_t i)
-      {
-        ByteWriter put;
-        put(pairs[i].gap);
-        put(pairs[i].nested);
-        return put.bytes();
-      },
-      [&](std::size_t i, const std::string& bytes)
-      {
-        ByteReader get(bytes);
-        get(pairs[i].gap);
-        get(pairs[i].nested);
+        for (FibrePair& pair : pairs[rank])
+        {
+          get(pair.gap);
+          get(pair.nested);
+        }
       },
       "Measuring gaps", middle, 1.0);
-    this->enter(std::move(pairs));
+    this->enter(pairs);
   }
 
 private:
@@ -95,11 +109,11 @@ private:
   std::vector<std::size_t> thoseWithin(std::size_t rank, double distance) const;
   void addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const;
   std::vector<std::size_t> thoseOnAllSides(const Eigen::Vector3d& point) const;
-  std::vector<FibrePair> pairsOf(const std::vector<std::vector<std::size_t>>& near) const;
+  std::vector<std::vector<FibrePair>> pairsOf(const std::vector<std::vector<std::size_t>>& near) const;
   void measure(FibrePair& pair) const;
   bool hasPieceInside(
     const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const;
-  void enter(std::vector<FibrePair> pairs);
+  void enter(const std::vector<std::vector<FibrePair>>& pairsOfRanks);
 
   const OuterSurfaces& Outer;
   SubstrateCertificate& Result;
@@ -247,8 +261,8 @@ std::vector<std::size_t> GapSearch::thoseOnAllSides(const Eigen::Vector3d& point
   return all;
 }
 
-/// Each pair once, those near each other one after the other.
-std::vector<FibrePair> GapSearch::pairsOf(const std::vector<std::vector<std::size_t>>& near) const
+/// Each pair once, with that of its fibres which has the smaller rank.
+std::vector<std::vector<FibrePair>> GapSearch::pairsOf(const std::vector<std::vector<std::size_t>>& near) const
 {
   std::vector<std::pair<std::size_t, std::size_t>> ranks;
   for (std::size_t rank = 0; rank < near.size(); ++rank)
@@ -260,13 +274,12 @@ std::vector<FibrePair> GapSearch::pairsOf(const std::vector<std::vector<std::siz
   }
   std::sort(ranks.begin(), ranks.end());
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-  std::vector<FibrePair> pairs;
-  pairs.reserve(ranks.size());
+  std::vector<std::vector<FibrePair>> pairs(near.size());
   for (const auto& [one, other] : ranks)
   {
     // The smaller place first: the last bits of a distance depend on it.
     const bool isInOrder = this->Present[one] < this->Present[other];
-    pairs.push_back({ isInOrder ? one : other, isInOrder ? other : one });
+    pairs[one].push_back({ isInOrder ? one : other, isInOrder ? other : one });
   }
   return pairs;
 }
@@ -289,12 +302,15 @@ bool GapSearch::hasPieceInside(
          anyLiesInside(inside.mesh, this->findings(insideRank).outer, around.tree);
 }
 
-void GapSearch::enter(std::vector<FibrePair> pairs)
+void GapSearch::enter(const std::vector<std::vector<FibrePair>>& pairsOfRanks)
 {
-  for (FibrePair& pair : pairs)
+  std::vector<FibrePair> pairs; // by places
+  for (const std::vector<FibrePair>& ofRank : pairsOfRanks)
   {
-    pair.a = this->Present[pair.a];
-    pair.b = this->Present[pair.b];
+    for (const FibrePair& pair : ofRank)
+    {
+      pairs.push_back({ this->Present[pair.a], this->Present[pair.b], pair.gap, pair.nested });
+    }
   }
   std::sort(
     pairs.begin(), pairs.end(), [](const FibrePair& p, const FibrePair& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
@@ -330,10 +346,10 @@ void GapSearch::enter(std::vector<FibrePair> pairs)
 
 } // namespace
 
-void findGaps(
-  const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context, double from, const Sharing& sharing)
+void findGaps(const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context, double from,
+  const Sharing& sharing, const Recollection& known)
 {
-  GapSearch(outer, certificate).run(context, from, sharing);
+  GapSearch(outer, certificate).run(context, from, sharing, known);
 }
 
 } // namespace cactus

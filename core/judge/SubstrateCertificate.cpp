@@ -86,7 +86,7 @@ void SubstrateCertificateOptions::validate() const
 }
 
 SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres,
-  const SubstrateCertificateOptions& options, const Context& context, const Sharing& sharing)
+  const SubstrateCertificateOptions& options, const Context& context, const Sharing& sharing, const Recollection& known)
 {
   options.validate();
   if (fibres != nullptr)
@@ -104,8 +104,8 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
   OuterSurfaces surfaces(count, std::max(leastBytesOfSurfaces, bytesOfSurfaces / std::size_t(sharing.size())),
     [&](std::size_t f) { return examination.outerOf(certificate.fibres[f].fibreId); });
   std::vector<double> reach(count, 0.0);
-  sharing.loop(
-    count, context, [&](std::size_t f) { surfaces.enter(f, examination.examine(certificate.fibres[f], reach[f])); },
+  known.part("fibres").loop(
+    sharing, count, context, [&](std::size_t f) { surfaces.enter(f, examination.examine(certificate.fibres[f], reach[f])); },
     [&](std::size_t f) { return bytesOf(certificate.fibres[f], reach[f], surfaces.branches(f)); },
     [&](std::size_t f, const std::string& bytes)
     {
@@ -114,7 +114,7 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
       surfaces.enter(f, std::move(branches));
     },
     "Looking at surfaces", 0.0, surfacesDone);
-  findGaps(surfaces, certificate, context, surfacesDone, sharing);
+  findGaps(surfaces, certificate, context, surfacesDone, sharing, known);
   const double requiredGap = options.minimumGap < 0.0 ? outer.promisedGap : options.minimumGap;
   summarise(domain, outer, inner, requiredGap, count > 0 ? *std::max_element(reach.begin(), reach.end()) : 0.0, certificate);
   listFaults(certificate);

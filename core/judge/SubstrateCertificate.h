@@ -4,6 +4,7 @@
 #include "base/Context.h"
 #include "base/Domain.h"
 #include "base/Properties.h"
+#include "base/Recollection.h"
 #include "base/Sharing.h"
 #include "fibres/Fibres.h"
 #include "judge/CertificateFindings.h"
@@ -32,9 +33,11 @@ struct SubstrateCertificateOptions
 ///
 /// The outer surfaces used last are held in memory, 1 GiB of them in all processes together but 256 MiB in each at least, with
 /// about 100 bytes a triangle; inner ones one per thread. Pairs of fibres are sorted out by their boxes, and triangles by trees
-/// of boxes. The result does not depend on the number of threads, nor of processes, which share the work and all get it. Throws
-/// InvalidInput (a surface that is damaged, which is named) and Cancelled.
+/// of boxes. The result does not depend on the number of threads, nor of processes, which share the work and all get it. What is
+/// `known` of these very surfaces, domain, centre lines and distance of cuts is not looked for again. Throws InvalidInput (a
+/// surface that is damaged, which is named) and Cancelled.
 SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres,
-  const SubstrateCertificateOptions& options = {}, const Context& context = {}, const Sharing& sharing = Sharing());
+  const SubstrateCertificateOptions& options = {}, const Context& context = {}, const Sharing& sharing = Sharing(),
+  const Recollection& known = {});
 
 } // namespace cactus

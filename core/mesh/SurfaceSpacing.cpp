@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -340,7 +341,7 @@ std::string bytesOf(const std::map<std::size_t, Moves>& moves)
   return put.bytes();
 }
 
-/// What all processes have found.
+/// What was found here and there, each from bytesOf().
 std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
 {
   std::map<std::size_t, Moves> moves;
@@ -391,19 +392,27 @@ public:
 
   /// How far points of surfaces have to move. Only those pairs are looked at, and only in those slabs, where one of the two is
   /// given and one has changed since the last time; elsewhere the same would be found again, which is nothing. `report(part)`
-  /// gets how much of the work is done.
+  /// gets how much of the work is done. What is `known` of slabs depends on which of the pairs are this process's.
   template <typename Report>
-  std::map<std::size_t, Moves> measure(Report&& report)
+  std::map<std::size_t, Moves> measure(const Recollection& known, Report&& report)
   {
-    std::map<std::size_t, Moves> moves;
+    const Recollection own = known.part(std::to_string(this->Shared.place()) + " of " + std::to_string(this->Shared.size()));
+    std::vector<std::string> found; // in each slab
     std::vector<std::vector<std::size_t>> held = this->surfacesBySlab();
     for (int slab = 0; slab < this->InSlabs.count; ++slab)
     {
-      this->measureSlab(slab, held[std::size_t(slab)], moves);
+      const Recollection ofSlab = own.part(std::to_string(slab));
+      std::optional<std::string> moves = ofSlab.recall();
+      if (!moves)
+      {
+        moves = bytesOf(this->movesInSlab(slab, held[std::size_t(slab)]));
+        ofSlab.note(*moves);
+      }
+      found.push_back(*std::move(moves));
       held[std::size_t(slab)] = {};
       report(double(slab + 1) / this->InSlabs.count);
     }
-    return this->Shared.size() > 1 ? joined(this->Shared.exchange(bytesOf(moves))) : moves;
+    return joined(this->Shared.size() > 1 ? this->Shared.exchange(bytesOf(joined(found))) : found);
   }
 
   void move(const std::vector<std::size_t>& moving, const std::map<std::size_t, Moves>& moves)
@@ -455,7 +464,7 @@ private:
   }
   std::vector<std::vector<std::size_t>> surfacesBySlab();
   std::vector<Pair> neighbours(int slab, const std::vector<std::size_t>& held);
-  void measureSlab(int slab, const std::vector<std::size_t>& held, std::map<std::size_t, Moves>& moves);
+  std::map<std::size_t, Moves> movesInSlab(int slab, const std::vector<std::size_t>& held);
 
   SurfaceStore& Surfaces;
   double Gap;
@@ -550,9 +559,9 @@ std::vector<Pair> Spacing::neighbours(int slab, const std::vector<std::size_t>& 
   return pairs;
 }
 
-/// Adds, per surface, how far points have to move for those pairs in a slab that are this process's: a run of them, since pairs
-/// that follow each other have surfaces in common.
-void Spacing::measureSlab(int slab, const std::vector<std::size_t>& held, std::map<std::size_t, Moves>& moves)
+/// Per surface, how far points have to move for those pairs in a slab that are this process's: a run of them, since pairs that
+/// follow each other have surfaces in common.
+std::map<std::size_t, Moves> Spacing::movesInSlab(int slab, const std::vector<std::size_t>& held)
 {
   std::vector<Pair> pairs = this->neighbours(slab, held);
   const auto startOf = [&](int place)
@@ -580,27 +589,28 @@ void Spacing::measureSlab(int slab, const std::vector<std::size_t>& held, std::m
     });
   parallelFor(pairs.size(), this->Caller,
     [&](std::size_t p) { measureGap(pairs[p], *parts.at(pairs[p].one).tree, *parts.at(pairs[p].other).tree, this->Gap); });
-  std::set<std::size_t> found;
+  std::map<std::size_t, Moves> moves;
   for (const Pair& pair : pairs)
   {
     if (pair.missing > 0.0)
     {
-      found.insert({ pair.one, pair.other });
       const double distance = 0.5 * pair.missing + extraDistance;
       addMoves(moves[pair.one], parts.at(pair.one).part, pair.trianglesOfOne, distance);
       addMoves(moves[pair.other], parts.at(pair.other).part, pair.trianglesOfOther, distance);
     }
   }
-  for (const std::size_t surface : found)
+  for (auto& entry : moves)
   {
-    moves[surface].sort();
+    entry.second.sort();
   }
+  return moves;
 }
 
 } // namespace
 
 SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& changed, double smallest,
-  const Eigen::AlignedBox3d& box, const Context& context, double from, double to, const Sharing& sharing)
+  const Eigen::AlignedBox3d& box, const Context& context, double from, double to, const Sharing& sharing,
+  const Recollection& known)
 {
   SpacingReport report;
   if (!(smallest > 0.0))
@@ -613,7 +623,7 @@ SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& 
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {
-    const std::map<std::size_t, Moves> moves = spacing.measure(
+    const std::map<std::size_t, Moves> moves = spacing.measure(known.part("round " + std::to_string(round)),
       [&](double part) { context.report((round == 0 ? from : half) + (half - from) * part, "keeping fibres apart"); });
     std::vector<std::size_t> moving;
     moving.reserve(moves.size());

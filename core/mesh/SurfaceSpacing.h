@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Recollection.h"
 #include "base/Sharing.h"
 #include "mesh/SurfaceStore.h"
 
@@ -36,10 +37,11 @@ struct SpacingReport
 ///
 /// Only pairs with a surface among those in `changed` (increasing), or one that is moved, are looked at: the others are taken to
 /// be apart.
-/// Progress runs from `from` to `to`. Throws Cancelled. Processes that share it have the store in common.
+/// Progress runs from `from` to `to`. Throws Cancelled. Processes that share it have the store in common. What `known` has of a
+/// slab is not measured again; the surfaces have to be what they were then.
 SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& changed, double gap,
   const Eigen::AlignedBox3d& box, const Context& context = {}, double from = 0.0, double to = 1.0,
-  const Sharing& sharing = Sharing());
+  const Sharing& sharing = Sharing(), const Recollection& known = {});
 
 /// All of them.
 SpacingReport keepApart(SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context = {},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Recollection.h"
 #include "surface/FibreSurfacePair.h"
 
 #include <cstddef>
@@ -28,6 +29,8 @@ public:
   /// Whether a fibre's inner surface has been made, for `gRatio` unless that is NaN.
   virtual bool recallInner(std::size_t, double, FibreSurfacePair&) const { return false; }
   virtual void noteInner(std::size_t, const FibreSurfacePair&) {}
+  /// What was found while surfaces were kept apart.
+  virtual Recollection findings() { return {}; }
 };
 
 } // namespace cactus

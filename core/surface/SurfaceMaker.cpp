@@ -302,7 +302,8 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
     std::vector<std::size_t> changed;
     std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
     const SpacingReport spacing = keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller,
-      attempt == 0 ? this->Shares.contoured : this->Shares.spaced, this->Shares.spaced, this->Shared);
+      attempt == 0 ? this->Shares.contoured : this->Shares.spaced, this->Shares.spaced, this->Shared,
+      this->Journal.findings().part(text("apart ", attempt)));
     tooNear = spacing.tooNear;
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);
     this->makeAgain(made, deeperEachTime * (isCoarsened ? attempt : attempt + 1), bounds, outer);

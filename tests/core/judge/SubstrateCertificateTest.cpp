@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/SubstrateCertificate.h"
 
+#include "../FindingsInMemory.h"
 #include "ExampleSurfaces.h"
 #include "base/Constants.h"
 #include "base/Error.h"
@@ -401,6 +402,59 @@ TEST(SubstrateCertificate, GapsAreThoseOfAllPairsOnAnyNumberOfThreads)
       EXPECT_EQ(std::memcmp(wanted[c].values.data(), found[c].values.data(), wanted[c].values.size() * sizeof(double)), 0)
         << wanted[c].name;
     }
+  }
+}
+
+// What a run that was killed has found is not looked for again.
+TEST(SubstrateCertificate, LooksAtNothingThatIsKnown)
+{
+  Substrate substrate;
+  substrate.outer[6] = tube(0.5, -1.2, 0.3, -halfSide, halfSide);
+  substrate.outer[7] = tube(0.5, -1.2, 0.1, -1.0, 1.0); // inside the sixth
+  cactus_testing::FindingsInMemory findings;
+  const auto looks = [&](cactus::SubstrateCertificate& certificate)
+  {
+    std::size_t count = 0;
+    const auto counted = [&](const Meshes& meshes)
+    {
+      cactus::FibreSurfaces all = surfaces(meshes);
+      all.mesh = [&count, mesh = all.mesh](std::size_t i)
+      {
+        ++count;
+        return mesh(i);
+      };
+      return all;
+    };
+    cactus::Context context;
+    context.threads = 1;
+    certificate = cactus::certify(cactus::Domain::cube(2 * halfSide), counted(substrate.outer), counted(substrate.inner), nullptr,
+      {}, context, cactus::Sharing(), cactus::Recollection(findings).part("judged"));
+    return count;
+  };
+  cactus::SubstrateCertificate wanted;
+  EXPECT_EQ(looks(wanted), 12u);
+  ASSERT_EQ(wanted.nestedPairs, 1u);
+  const auto all = findings.kept;
+  const auto expectSame = [&](const cactus::SubstrateCertificate& found)
+  {
+    EXPECT_EQ(found.faults, wanted.faults);
+    const auto columns = cactus::fibreColumns(wanted);
+    const auto same = cactus::fibreColumns(found);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+    {
+      EXPECT_EQ(std::memcmp(columns[c].values.data(), same[c].values.data(), columns[c].values.size() * sizeof(double)), 0)
+        << columns[c].name;
+    }
+  };
+  cactus::SubstrateCertificate found;
+  for (const char* kept : { "judged/", "judged/fibres/", "judged/fibres/3", "judged/n", "" })
+  {
+    findings.kept = all;
+    findings.beginAgain([&](const std::string& name) { return name.rfind(kept, 0) == 0; });
+    const std::size_t looked = looks(found);
+    expectSame(found);
+    EXPECT_EQ(looked == 0, std::string("judged/").rfind(kept, 0) == 0) << kept;
+    EXPECT_EQ(findings.kept.empty(), looked == 0) << kept;
   }
 }
 

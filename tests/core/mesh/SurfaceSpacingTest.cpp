@@ -3,6 +3,8 @@
 // are looked at; others keep every bit. What is read of surfaces does not grow faster than they do.
 #include "mesh/SurfaceSpacing.h"
 
+#include "../FindingsInMemory.h"
+#include "../ThreadTeam.h"
 #include "ExampleSurfaces.h"
 #include "base/Error.h"
 #include "mesh/SurfaceCheck.h"
@@ -409,6 +411,50 @@ TEST(SurfaceSpacing, LooksAgainOnlyWhereAnythingWasMoved)
     const bool isMoved = of.second > 199.0 && of.second < 201.0;
     EXPECT_EQ(times > 1, isMoved) << "surface " << of.first << " above " << of.second;
   }
+}
+
+// What a run that was killed has measured is not measured again.
+TEST(SurfaceSpacing, MeasuresNoSlabThatIsKnown)
+{
+  const std::vector<TriangleMesh> tubes = longTubes(100.0, 23.0, 27.0);
+  cactus_testing::FindingsInMemory findings;
+  const auto partsAsked = [&](std::vector<TriangleMesh>& result)
+  {
+    CountingStore store(tubes);
+    const SpacingReport report = cactus::keepApart(
+      store, { 0, 1, 2 }, 0.02, boxOfLength(100.0), {}, 0.0, 1.0, Sharing(), Recollection(findings).part("apart"));
+    EXPECT_EQ(report.moved, (std::vector<std::size_t>{ 1, 2 }));
+    EXPECT_TRUE(report.tooNear.empty());
+    result = { store.take(0), store.take(1), store.take(2) };
+    std::map<double, int> slabs;
+    for (const auto& entry : store.parts)
+    {
+      slabs[entry.first.second] += entry.second;
+    }
+    return slabs;
+  };
+  const auto isKept = [&](const char* round, int slab)
+  { return findings.kept.count("apart/round " + std::string(round) + "/0 of 1/" + std::to_string(slab)) > 0; };
+  std::vector<TriangleMesh> wanted;
+  ASSERT_EQ(partsAsked(wanted).size(), 10u);
+  ASSERT_TRUE(isKept("0", 9) && isKept("1", 2));
+  std::vector<TriangleMesh> found;
+  const auto expectSame = [&]
+  {
+    for (std::size_t s = 0; s < wanted.size(); ++s)
+    {
+      EXPECT_EQ(found[s].points, wanted[s].points) << s;
+    }
+  };
+  // The last slabs of a round, and all after it, as where it was killed in the round.
+  findings.beginAgain([](const std::string& name) { return name.find("round 0") != std::string::npos && name.back() < '6'; });
+  const auto slabs = partsAsked(found);
+  expectSame();
+  EXPECT_EQ(slabs.size(), 5u) << "six to nine, and the one where something was moved";
+  EXPECT_TRUE(isKept("0", 6) && !isKept("0", 5) && isKept("1", 2));
+  findings.beginAgain();
+  EXPECT_EQ(partsAsked(found).size(), 6u) << "what was known then is kept by the first run alone";
+  expectSame();
 }
 
 TEST(SurfaceSpacing, LooksAtTheNeighboursOfWhatItHasMovedAllAlong)
