@@ -91,6 +91,10 @@ int vtkHistologyMask::RequestData(vtkInformation* request, vtkInformationVector*
       const cactus::Substrate substrate = cactus::substrateFrom(data);
       const cactus::HistologyMask mask = cactus::cutMask(
         substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));
+      if (mask.openSurfaces > 0)
+      {
+        vtkWarningMacro(<< mask.openSurfaces << " surfaces are not closed; what the mask shows of them is not to be relied on");
+      }
       auto* output = vtkImageData::GetData(outputs);
       cactus::setGrid(output, gridOf(mask));
       cactus::forgetPlacement(output);

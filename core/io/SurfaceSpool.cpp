@@ -98,6 +98,12 @@ auto SurfaceSpool::Files::from(std::size_t index, Read&& read) const
   }
 }
 
+bool SurfaceSpool::Files::has(std::size_t index) const
+{
+  std::error_code ignored; // whoever puts the surface then says what is the matter
+  return std::filesystem::exists(this->pathOf(index), ignored);
+}
+
 std::shared_ptr<const TriangleMesh> SurfaceSpool::Files::get(std::size_t index) const
 {
   return std::make_shared<const TriangleMesh>(this->from(index, readSurface));

@@ -67,7 +67,7 @@ private:
     Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count);
 
     std::size_t size() const override { return this->isSpaced.size(); }
-    bool has(std::size_t index) const { return std::filesystem::exists(this->pathOf(index)); }
+    bool has(std::size_t index) const;
     std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
     SurfacePart part(std::size_t index, double lower, double upper) const override;
     void put(std::size_t index, TriangleMesh surface) override;

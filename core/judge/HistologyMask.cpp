@@ -208,10 +208,18 @@ HistologyMask cutMask(const Domain& domain, const FibreSurfaces& outer, const Fi
     {
       const std::size_t count = std::min(sectionBatch, surfaces->size() - begin);
       std::vector<std::vector<PixelRun>> runs(count);
+      std::vector<char> isOpen(count, 0);
       parallelFor(
-        count, context, [&, from = surfaces](std::size_t i) { runs[i] = cutter.cut(from->mesh(begin + i)); }, "Cutting fibres",
-        done / total, (done + double(count)) / total);
+        count, context,
+        [&, from = surfaces](std::size_t i)
+        {
+          const TriangleMesh mesh = from->mesh(begin + i);
+          runs[i] = cutter.cut(mesh);
+          isOpen[i] = checkSurface(mesh).closed() ? 0 : 1;
+        },
+        "Cutting fibres", done / total, (done + double(count)) / total);
       done += double(count);
+      mask.openSurfaces += std::size_t(std::count(isOpen.begin(), isOpen.end(), 1));
       for (std::size_t i = 0; i < count; ++i)
       {
         drawRuns(runs[i], tissue, surfaces->fibreIds[begin + i], mask);

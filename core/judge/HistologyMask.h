@@ -56,6 +56,7 @@ struct HistologyMask
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< µm, middle of the first pixel
   std::vector<Tissue> pixels;
   std::vector<std::int32_t> fibreIds; ///< 0 in the background; empty where they are not known
+  std::size_t openSurfaces = 0;       ///< of those that were cut: of these the outlines need not be closed
 
   std::size_t size() const { return std::size_t(count[0]) * std::size_t(count[1]); }
 };

@@ -10,7 +10,7 @@ from paraview.simple import (BundleInitializer, CapsuleOptimizer, CSVReader, Ext
                              HistologyRadii, MyelinSurface, OpenDataFile, OutputPort, SaveData, SubstrateSampler)
 from PIL import Image
 from scipy import ndimage
-from surfaces import POLYGON, two_tubes
+from surfaces import POLYGON, surfaces, tube, two_tubes, without
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
@@ -170,6 +170,11 @@ class Histology(CactusTestCase):
             file.write("3;nan;e\n")
         with self.assertError(r"line 5, has no number in column"):
             BundleInitializer(RadiusTableColumn="axon_diam (um)", **bundle).UpdatePipeline()
+
+    def test_open_surfaces(self):
+        leaking = surfaces({3: without(tube(-2, 0, 1, 10), [7]), 5: tube(2, 0, 1.5, 10)}, 0, 10)
+        with self.assertError("1 surfaces are not closed; what the mask shows of them"):
+            HistologyMask(Outer=produce(leaking)).UpdatePipeline()
 
     def test_bad_requests(self):
         _, outer, _ = two_tubes()
