@@ -15,7 +15,9 @@ namespace
 {
 
 namespace fs = std::filesystem;
-using namespace cactus;
+using cactus::FindingsFile;
+using cactus::Sharing;
+using cactus::Team;
 
 TEST(FindingsFile, HoldsWhatAnyProcessHasKept)
 {
@@ -36,9 +38,9 @@ TEST(FindingsFile, HoldsWhatAnyProcessHasKept)
     EXPECT_FALSE(findings.take("of 3"));
     findings.keep("of 1", "changed");
     EXPECT_FALSE(findings.take("of 1")) << "is for the next run";
-    EXPECT_THROW(FindingsFile(folder, "mine", Sharing()), FileError) << "another one is at work";
+    EXPECT_THROW(FindingsFile(folder, "mine", Sharing()), cactus::FileError) << "another one is at work";
   }
-  EXPECT_THROW(FindingsFile(folder, "yours", Sharing()), InvalidInput);
+  EXPECT_THROW(FindingsFile(folder, "yours", Sharing()), cactus::InvalidInput);
   const auto told = cactus_testing::inTeam(2,
     [&](Team& team)
     {
