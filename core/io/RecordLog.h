@@ -20,8 +20,7 @@ public:
   /// FileError where the file cannot be used, or another process uses it.
   RecordLog(const std::string& path, const std::string& identity);
 
-  /// What was in the file when it was opened.
-  const std::vector<std::string>& records() const { return this->Records; }
+  /// What was in the file when it was opened; once.
   std::vector<std::string> takeRecords() { return std::exchange(this->Records, {}); }
   /// What is in a file that another process may have open, or has left. Throws as the constructor does, but for a file that is
   /// not there or empty, which has no records.

@@ -341,7 +341,7 @@ std::string bytesOf(const std::map<std::size_t, Moves>& moves)
   return put.bytes();
 }
 
-/// What was found here and there, each from bytesOf().
+/// What all processes have found, each in the bytes of several maps, one after the other.
 std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
 {
   std::map<std::size_t, Moves> moves;
@@ -397,7 +397,7 @@ public:
   std::map<std::size_t, Moves> measure(const Recollection& known, Report&& report)
   {
     const Recollection own = known.part(std::to_string(this->Shared.place()) + " of " + std::to_string(this->Shared.size()));
-    std::vector<std::string> found; // in each slab
+    std::string found; // slab by slab
     std::vector<std::vector<std::size_t>> held = this->surfacesBySlab();
     for (int slab = 0; slab < this->InSlabs.count; ++slab)
     {
@@ -408,11 +408,11 @@ public:
         moves = bytesOf(this->movesInSlab(slab, held[std::size_t(slab)]));
         ofSlab.note(*moves);
       }
-      found.push_back(*std::move(moves));
+      found += *moves;
       held[std::size_t(slab)] = {};
       report(double(slab + 1) / this->InSlabs.count);
     }
-    return joined(this->Shared.size() > 1 ? this->Shared.exchange(bytesOf(joined(found))) : found);
+    return joined(this->Shared.exchange(found));
   }
 
   void move(const std::vector<std::size_t>& moving, const std::map<std::size_t, Moves>& moves)

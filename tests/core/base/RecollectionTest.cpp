@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,7 +19,7 @@ namespace
 using namespace cactus;
 using cactus_testing::FindingsInMemory;
 
-/// The cubes of the first eight numbers, and which of them were worked out; "" where nothing is known.
+/// The cubes of the first eight numbers, and which of them were worked out.
 std::string cubes(const Recollection& known, std::multiset<std::size_t>& done, Team* team = nullptr)
 {
   std::vector<std::string> values(8);

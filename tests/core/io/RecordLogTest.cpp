@@ -28,7 +28,7 @@ TEST(RecordLog, HoldsAllThatWasAddedBeforeAnyCut)
   std::vector<std::uintmax_t> ends;
   {
     RecordLog log(path, "mine");
-    EXPECT_TRUE(log.records().empty());
+    EXPECT_TRUE(log.takeRecords().empty());
     EXPECT_THROW(RecordLog(path, "mine"), cactus::FileError); // which is at work with it
     ends.push_back(fs::file_size(path));
     for (const std::string& record : wanted)
@@ -38,7 +38,7 @@ TEST(RecordLog, HoldsAllThatWasAddedBeforeAnyCut)
     }
   }
   EXPECT_THROW(RecordLog(path, "yours"), cactus::InvalidInput);
-  EXPECT_EQ(RecordLog(path, "mine").records(), wanted);
+  EXPECT_EQ(RecordLog(path, "mine").takeRecords(), wanted);
   const std::string copy = path + "-cut";
   for (std::uintmax_t length = ends.front(); length <= ends.back(); length += length < 100 ? 1 : 97)
   {
@@ -51,11 +51,11 @@ TEST(RecordLog, HoldsAllThatWasAddedBeforeAnyCut)
     }
     {
       RecordLog log(copy, "mine");
-      EXPECT_EQ(log.records(), whole) << length;
+      EXPECT_EQ(log.takeRecords(), whole) << length;
       log.add("more");
     }
     whole.emplace_back("more");
-    EXPECT_EQ(RecordLog(copy, "mine").records(), whole) << length;
+    EXPECT_EQ(RecordLog(copy, "mine").takeRecords(), whole) << length;
   }
   std::ofstream(copy) << "a file of somebody's that is long enough";
   EXPECT_THROW(RecordLog(copy, "mine"), cactus::FileError);

@@ -4,7 +4,6 @@
 #include "mesh/SurfaceSpacing.h"
 
 #include "../FindingsInMemory.h"
-#include "../ThreadTeam.h"
 #include "ExampleSurfaces.h"
 #include "base/Error.h"
 #include "mesh/SurfaceCheck.h"
