@@ -53,6 +53,28 @@ public:
     }
   }
 
+  /// What compute() gives, for which all processes come together, or what is known of it; bytesOf(result), which are not empty,
+  /// and from(bytes) turn into each other.
+  template <typename Compute, typename BytesOf, typename From>
+  auto once(const Sharing& sharing, Compute&& compute, BytesOf&& bytesOf, From&& from) const -> decltype(compute())
+  {
+    if (this->Store == nullptr)
+    {
+      return compute();
+    }
+    const std::string known = sharing.fromFirst(this->recall().value_or(std::string()));
+    if (!known.empty())
+    {
+      return from(known);
+    }
+    auto result = compute();
+    if (sharing.isFirst())
+    {
+      this->note(bytesOf(result));
+    }
+    return result;
+  }
+
   /// Sharing::loop() of those i alone that are not known; take(i, bytes), one after the other, of those that are.
   template <typename Body, typename BytesOf, typename Take>
   void loop(const Sharing& sharing, std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,

@@ -5,8 +5,9 @@
 #include "base/Error.h"
 #include "base/Random.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 
 namespace cactus
 {
@@ -33,7 +34,7 @@ Calibre::Calibre(const CalibreOptions& options)
 
 double Calibre::fraction(int fibreId, double length) const
 {
-  return 1.0 - this->Options.surfaceRoughness * this->narrowing(fibreId, length);
+  return FibreCalibre(*this, fibreId).fraction(length);
 }
 
 double Calibre::longestPiece() const
@@ -41,24 +42,66 @@ double Calibre::longestPiece() const
   return this->varies() ? linearLength : std::numeric_limits<double>::infinity();
 }
 
+FibreCalibre::FibreCalibre(const Calibre& calibre, int fibreId)
+  : Whole(calibre)
+  , FibreId(fibreId)
+{
+}
+
+double FibreCalibre::fraction(double length)
+{
+  if (this->Whole.varies() && length != this->Length)
+  {
+    this->Length = length;
+    this->Fraction = 1.0 - this->Whole.Options.surfaceRoughness * this->narrowing(length);
+  }
+  return this->Fraction;
+}
+
 /// u(l).
-double Calibre::narrowing(int fibreId, double length) const
+double FibreCalibre::narrowing(double length)
 {
   const double knots = length / knotSpacing;
   const double whole = std::floor(knots);
   const double t = knots - whole;
-  const auto first = static_cast<std::uint32_t>(std::fmod(whole, 4294967296.0));
   const double weights[4] = { (1.0 - t) * (1.0 - t) * (1.0 - t) / 6.0, (4.0 + t * t * (3.0 * t - 6.0)) / 6.0,
     (1.0 + 3.0 * t * (1.0 + t * (1.0 - t))) / 6.0, t * t * t / 6.0 };
+  this->moveTo(whole);
   double sum = 0.0;
-  for (std::uint32_t k = 0; k < 4; ++k)
+  for (std::size_t k = 0; k < 4; ++k)
   {
-    RandomEngine engine =
-      randomStream(this->Options.seed, RandomStage::Seeds, (std::uint64_t(std::uint32_t(fibreId)) << 32) | (first + k));
-    const double sine = std::sin(pi * uniform(engine));
-    sum += weights[k] * sine * sine;
+    sum += weights[k] * this->Drawn[k] * this->Drawn[k];
   }
   return sum;
+}
+
+/// Draws for the four knots from this one on, and keeps what is drawn of them already.
+void FibreCalibre::moveTo(double firstKnot)
+{
+  if (firstKnot == this->FirstKnot)
+  {
+    return;
+  }
+  std::size_t known = 0;
+  if (firstKnot == this->FirstKnot + 1.0)
+  {
+    std::copy(this->Drawn.begin() + 1, this->Drawn.end(), this->Drawn.begin());
+    known = 3;
+  }
+  this->FirstKnot = firstKnot;
+  const auto first = static_cast<std::uint32_t>(std::fmod(firstKnot, 4294967296.0));
+  for (std::size_t k = known; k < 4; ++k)
+  {
+    this->Drawn[k] = this->drawnAt(first + static_cast<std::uint32_t>(k));
+  }
+}
+
+/// The root of a knot's coefficient.
+double FibreCalibre::drawnAt(std::uint32_t knot) const
+{
+  RandomEngine engine =
+    randomStream(this->Whole.Options.seed, RandomStage::Seeds, (std::uint64_t(std::uint32_t(this->FibreId)) << 32) | knot);
+  return std::sin(pi * uniform(engine));
 }
 
 } // namespace cactus

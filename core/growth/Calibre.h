@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 
 namespace cactus
 {
@@ -42,9 +44,32 @@ public:
   double longestPiece() const;
 
 private:
-  double narrowing(int fibreId, double length) const;
+  friend class FibreCalibre;
 
   CalibreOptions Options;
+};
+
+/// The calibre of one fibre, for one length after the other: what two of them near each other have in common is drawn once.
+class FibreCalibre
+{
+public:
+  /// The calibre is to live as long.
+  FibreCalibre(const Calibre& calibre, int fibreId);
+
+  /// As Calibre::fraction(), to the bit.
+  double fraction(double length);
+
+private:
+  double narrowing(double length);
+  void moveTo(double firstKnot);
+  double drawnAt(std::uint32_t knot) const;
+
+  const Calibre& Whole;
+  int FibreId;
+  double FirstKnot = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, 4> Drawn = {}; ///< for the four knots from the first one on
+  double Length = std::numeric_limits<double>::quiet_NaN();
+  double Fraction = 1.0; ///< at that length
 };
 
 } // namespace cactus

@@ -50,12 +50,13 @@ CapsuleSeeds::CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const E
   this->pieceOffsets.assign(1, 0);
   for (const std::size_t f : this->fibreOfRank)
   {
+    FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
     double start = 0.0; // length of the fibre up to the segment
     for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
     {
       if (isInReach(fibres, p, region, reach))
       {
-        this->addSegment(fibres, calibre, f, p, start);
+        this->addSegment(fibres, ofFibre, p, start, pieceCount(fibres, calibre, p));
       }
       start += (fibres.points[p + 1] - fibres.points[p]).norm();
     }
@@ -63,8 +64,8 @@ CapsuleSeeds::CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const E
   }
 }
 
-/// Cuts the segment from control point p of fibre f to the next, `start` along the fibre, into pieces.
-void CapsuleSeeds::addSegment(const Fibres& fibres, const Calibre& calibre, std::size_t f, std::size_t p, double start)
+/// Cuts the segment from control point p to the next, `start` along the fibre, into so many parts.
+void CapsuleSeeds::addSegment(const Fibres& fibres, FibreCalibre& calibre, std::size_t p, double start, int parts)
 {
   const int rank = int(this->pieceOffsets.size()) - 1;
   const Eigen::Vector3d& p0 = fibres.points[p];
@@ -72,12 +73,7 @@ void CapsuleSeeds::addSegment(const Fibres& fibres, const Calibre& calibre, std:
   const double length = along.norm();
   const double r0 = fibres.radii[p];
   const double widening = fibres.radii[p + 1] - r0;
-  const auto radius = [&](double t)
-  {
-    const double full = r0 + t * widening;
-    return calibre.varies() ? full * calibre.fraction(fibres.fibreIds[f], start + t * length) : full;
-  };
-  const int parts = pieceCount(fibres, calibre, p);
+  const auto radius = [&](double t) { return (r0 + t * widening) * calibre.fraction(start + t * length); };
   for (int part = 0; part < parts; ++part)
   {
     const double t0 = double(part) / parts;

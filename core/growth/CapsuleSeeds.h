@@ -31,7 +31,7 @@ struct CapsuleSeeds
   std::vector<SeedPiece> pieces;
 
 private:
-  void addSegment(const Fibres& fibres, const Calibre& calibre, std::size_t f, std::size_t p, double start);
+  void addSegment(const Fibres& fibres, FibreCalibre& calibre, std::size_t p, double start, int parts);
 };
 
 } // namespace cactus

@@ -208,24 +208,48 @@ void correctFactors(const std::vector<double>& counted, const std::vector<double
   }
 }
 
+void scaleRadii(const std::vector<double>& factors, const Fibres& fibres, Fibres& scaled)
+{
+  for (std::size_t f = 0; f < factors.size(); ++f)
+  {
+    for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
+    {
+      scaled.radii[p] = std::clamp(factors[f] * fibres.radii[p], limits::radius.lowest, limits::radius.highest);
+    }
+  }
+}
+
 } // namespace
 
 Fibres aimAtTargetRadii(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
 {
+  return scaledBy(factorsForTargetRadii(fibres, options, context, sharing), fibres);
+}
+
+Fibres scaledBy(const std::vector<double>& factors, const Fibres& fibres)
+{
+  Fibres scaled = fibres;
+  scaleRadii(factors, fibres, scaled);
+  return scaled;
+}
+
+std::vector<double> factorsForTargetRadii(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
+{
   validate(fibres);
   validate(options);
-  Fibres aimed = fibres;
   const double target = targetFraction(fibres, options);
   if (target <= 0.0)
   {
-    return aimed;
+    return {};
   }
   Aim aim = aimAtOwnRadii(fibres);
   if (aim.volume() <= 0.0)
   {
-    return aimed;
+    return {};
   }
+  Fibres aimed = fibres;
   fillTarget(fibres, target * fibres.domain.volume(), aim);
   const std::vector<double> wished = aim.factors;
   const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
@@ -239,15 +263,12 @@ Fibres aimAtTargetRadii(
     for (const std::size_t f : order)
     {
       aim.factors[f] = boundedFactor(f, aim.factors, wished[f], crowding);
-      for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
-      {
-        aimed.radii[p] = std::clamp(aim.factors[f] * fibres.radii[p], limits::radius.lowest, limits::radius.highest);
-      }
     }
     if (round == rounds)
     {
       break;
     }
+    scaleRadii(aim.factors, fibres, aimed);
     if (round == 0)
     {
       growth = std::min(roughGrowth(aimed, options, context, sharing), 1.0);
@@ -256,7 +277,7 @@ Fibres aimAtTargetRadii(
       countPerFibre(aimed, options, growth, spacing, round, context, 0.3 * round / rounds, 0.3 * (round + 1) / rounds, sharing);
     correctFactors(counted, wished, aim);
   }
-  return aimed;
+  return aim.factors;
 }
 
 std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions& options)
@@ -267,12 +288,16 @@ std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions&
   {
     return "";
   }
-  const auto percent = [](double ratio) { return std::round(100.0 * std::abs(ratio - 1.0)); };
+  const auto by = [](double ratio)
+  {
+    const double percent = std::round(100.0 * std::abs(ratio - 1.0));
+    return percent >= 1.0 ? text("by about ", percent, " %") : std::string("by less than 1 %");
+  };
   if (asked > 0.0)
   {
     return text("TargetFibreVolumeFraction is ", asked, ", and these fibres were made to fill ", made,
-      " (GrownFibreVolumeFraction): they end ", asked < made ? "thinner" : "thicker", " than their TargetRadius, by about ",
-      percent(std::sqrt(asked / made)), " % on average. Leave TargetFibreVolumeFraction at -1, or make the fibres for ", asked);
+      " (GrownFibreVolumeFraction): they end ", asked < made ? "thinner" : "thicker", " than their TargetRadius, ",
+      by(std::sqrt(asked / made)), " on average. Leave TargetFibreVolumeFraction at -1, or make the fibres for ", asked);
   }
   if (asked == 0.0)
   {
@@ -285,8 +310,8 @@ std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions&
     return "";
   }
   return text("these fibres were made to fill ", made, " (GrownFibreVolumeFraction), and would fill ", full,
-    " with their TargetRadius: they end ", full > made ? "thinner" : "thicker", ", by about ", percent(std::sqrt(made / full)),
-    " % on average. Connect bundles to CapsuleOptimizer itself, which adds their fractions up, or give "
+    " with their TargetRadius: they end ", full > made ? "thinner" : "thicker", ", ", by(std::sqrt(made / full)),
+    " on average. Connect bundles to CapsuleOptimizer itself, which adds their fractions up, or give "
     "TargetFibreVolumeFraction");
 }
 

@@ -7,6 +7,7 @@
 #include "growth/FibreRadialGrowth.h"
 
 #include <string>
+#include <vector>
 
 namespace cactus
 {
@@ -26,6 +27,13 @@ namespace cactus
 /// Processes that share it count a part of the samples each, and all get the result.
 Fibres aimAtTargetRadii(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {}, const Sharing& sharing = Sharing());
+
+/// How aimAtTargetRadii() finds them: per fibre the factor on its radii; none without a target.
+std::vector<double> factorsForTargetRadii(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {}, const Sharing& sharing = Sharing());
+
+/// The fibres with capsules of radii so many times as large, within limits::radius; as they are where there are no factors.
+Fibres scaledBy(const std::vector<double>& factors, const Fibres& fibres);
 
 /// What is to be said where growth will not end at the target radii because the fibres were made for another fraction than the
 /// one that they are grown to, with the difference; empty where the two agree, and where it is not known what they were made for.

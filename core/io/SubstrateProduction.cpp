@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateProduction.h"
 
+#include "base/Bytes.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Pace.h"
@@ -25,6 +26,7 @@
 #include <memory>
 #include <new>
 #include <utility>
+#include <vector>
 
 namespace cactus
 {
@@ -165,15 +167,48 @@ std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
   return std::max(together / std::size_t(processes), tilesPerThread * std::size_t(threads));
 }
 
+/// What is solved for before any surface is made.
+struct SolvedGrowth
+{
+  std::vector<double> factors; ///< on each fibre's radii, see factorsForTargetRadii()
+  double growth = 0.0;         ///< µm
+};
+
+SolvedGrowth solveGrowth(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
+{
+  SolvedGrowth solved;
+  solved.factors = factorsForTargetRadii(fibres, options, context, sharing);
+  solved.growth = growthFor(scaledBy(solved.factors, fibres), options, context, sharing);
+  return solved;
+}
+
+std::string bytesOfSolved(const SolvedGrowth& solved)
+{
+  ByteWriter put;
+  put(solved.factors);
+  put(solved.growth);
+  return put.bytes();
+}
+
+SolvedGrowth solvedFrom(const std::string& bytes)
+{
+  SolvedGrowth solved;
+  ByteReader get(bytes);
+  get(solved.factors);
+  get(solved.growth);
+  return solved;
+}
+
 /// Makes the surfaces of `made`, the fibres or a sample of them, into the spool, and says what is to be written of them.
 SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
   ProducedSubstrate& result, const Context& context, const Sharing& sharing)
 {
   const Context solving = context.part(0.0, growthSolved);
-  const Fibres aimed = aimAtTargetRadii(fibres, order.growth, solving, sharing);
-  const double growth = growthFor(aimed, order.growth, solving, sharing);
-  auto tiles = std::make_shared<GrownTiles>(
-    aimed, order.growth, growth, keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()));
+  const SolvedGrowth solved = spool.findings().part("growth").once(
+    sharing, [&] { return solveGrowth(fibres, order.growth, solving, sharing); }, bytesOfSolved, solvedFrom);
+  auto tiles = std::make_shared<GrownTiles>(scaledBy(solved.factors, fibres), order.growth, solved.growth,
+    keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()));
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
@@ -196,7 +231,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   {
     contents.sample = SubstrateSample{ fibres.size(), capsuleVolumeInDomain(made) / capsuleVolumeInDomain(fibres) };
   }
-  contents.provenance = order.provenance ? order.provenance(spacing, growth) : Provenance();
+  contents.provenance = order.provenance ? order.provenance(spacing, solved.growth) : Provenance();
   contents.format = order.format;
   contents.encoding = order.encoding;
   contents.voxelSize = spacing;

@@ -20,9 +20,9 @@ namespace cactus
 
 /// Surfaces on the disk while they are made, and the journal of how far they have come:
 ///
-///   FOLDER/journal            what is known of each fibre, and FOLDER/findings what was found when surfaces were looked at, to
-///                             keep them apart and to judge them; of processes of a team beside the first in
-///                             FOLDER/journal-00001 and so on (see TeamLog)
+///   FOLDER/journal            what is known of each fibre, and FOLDER/findings what was solved for before any surface was
+///                             made, and found when surfaces were looked at, to keep them apart and to judge them; of
+///                             processes of a team beside the first in FOLDER/journal-00001 and so on (see TeamLog)
 ///   FOLDER/outer/00000/…      outer surfaces as they were contoured, a file each, at most 1,000 in a folder
 ///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
 ///   FOLDER/stop.partial-…     while one process of a team tells the others to end (see Sharing)
@@ -44,8 +44,8 @@ public:
   SurfaceStore& inner() { return this->Inner; }
   /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
   std::size_t found() const { return this->Found; }
-  /// Whether nothing of any fibre is in any journal. Only while no other process is at work.
-  bool isEmpty() const { return this->Log->isEmpty(); }
+  /// Whether nothing is in any journal, nor among any findings. Only while no other process is at work.
+  bool isEmpty() const { return this->Log->isEmpty() && this->Findings->isEmpty(); }
 
   bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
   void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;

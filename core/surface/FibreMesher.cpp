@@ -60,7 +60,8 @@ TriangleMesh packed(TriangleMesh&& mesh)
 } // namespace
 
 FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts,
-  const MyelinSurfaceOptions& options, const SurfaceFilters* filters, const Context& context, const Sharing& sharing)
+  const MyelinSurfaceOptions& options, const SurfaceFilters* filters, const Context& context, const Sharing& sharing,
+  const Recollection& known)
   : Facts(facts)
   , Options(options)
   , Filters(filters)
@@ -76,7 +77,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
 {
   if (options.smoothingIterations > 0)
   {
-    this->Thin.emplace(this->Field, this->Places.thinnerThan(ThinFibres::thickTarget * this->Spacing, context, sharing));
+    this->Thin.emplace(this->Field, this->Places.thinnerThan(ThinFibres::thickTarget * this->Spacing, context, sharing, known));
   }
 }
 

@@ -25,10 +25,11 @@ namespace cactus
 class FibreMesher
 {
 public:
-  /// What is given has to outlive the mesher, except the context and the sharing. With `filters` these contour the fields and
-  /// coarsen what comes out. Throws InvalidInput where the image is not a proper one, and Cancelled.
+  /// What is given has to outlive the mesher, except the context, the sharing and what is `known` of thin fibres. With `filters`
+  /// these contour the fields and coarsen what comes out. Throws InvalidInput where the image is not a proper one, and Cancelled.
   FibreMesher(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
-    const SurfaceFilters* filters = nullptr, const Context& context = {}, const Sharing& sharing = Sharing());
+    const SurfaceFilters* filters = nullptr, const Context& context = {}, const Sharing& sharing = Sharing(),
+    const Recollection& known = {});
 
   FibreMesher(const FibreMesher&) = delete;
   FibreMesher& operator=(const FibreMesher&) = delete;

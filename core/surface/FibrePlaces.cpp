@@ -112,7 +112,8 @@ std::vector<std::uint32_t> FibrePlaces::piecesOf(const std::set<std::int32_t>& f
   return pieces;
 }
 
-FoundFibres FibrePlaces::thinnerThan(double radius, const Context& context, const Sharing& sharing) const
+FoundFibres FibrePlaces::thinnerThan(
+  double radius, const Context& context, const Sharing& sharing, const Recollection& known) const
 {
   std::set<std::int32_t> thin;
   double size = 0.0;
@@ -128,8 +129,14 @@ FoundFibres FibrePlaces::thinnerThan(double radius, const Context& context, cons
   }
   if (this->Field.knownFibres() != nullptr)
   {
-    return thinSize < mostOfAll * size ? findFibres(this->Field, thin, this->piecesOf(thin, context), context, sharing)
-                                       : findFibres(this->Field, thin, context, sharing);
+    return known.once(
+      sharing,
+      [&]
+      {
+        return thinSize < mostOfAll * size ? findFibres(this->Field, thin, this->piecesOf(thin, context), context, sharing)
+                                           : findFibres(this->Field, thin, context, sharing);
+      },
+      [](const FoundFibres& found) { return bytesOf(found); }, foundFrom);
   }
   FoundFibres found;
   for (const auto& fibre : this->Found)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Recollection.h"
 #include "base/Sharing.h"
 #include "growth/LabelSource.h"
 #include "surface/FibreField.h"
@@ -40,8 +41,9 @@ public:
   /// Without samples where there is no such fibre. May be used from several threads.
   FoundFibre find(std::int32_t fibreId) const;
 
-  /// Those with a target radius below that (µm), or with none that is known.
-  FoundFibres thinnerThan(double radius, const Context& context = {}, const Sharing& sharing = Sharing()) const;
+  /// Those with a target radius below that (µm), or with none that is known. What `known` has of them is not looked for again.
+  FoundFibres thinnerThan(
+    double radius, const Context& context = {}, const Sharing& sharing = Sharing(), const Recollection& known = {}) const;
 
 private:
   void addKnown(const KnownFibres& source);

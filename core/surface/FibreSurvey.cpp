@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 
 namespace cactus
 {
@@ -254,6 +253,44 @@ FoundFibre findFibre(const FibreField& field, std::int32_t fibre, const std::vec
     }
   }
   return found;
+}
+
+std::string bytesOf(const FoundFibres& fibres)
+{
+  ByteWriter put;
+  put(static_cast<std::uint64_t>(fibres.size()));
+  for (const auto& [id, fibre] : fibres)
+  {
+    put(id);
+    put(fibre.depths);
+    put(fibre.samples);
+    put(static_cast<std::uint64_t>(fibre.boxes.size()));
+    for (const FoundBox& box : fibre.boxes)
+    {
+      put(box.piece);
+      put.addAll(box.ends.data(), box.ends.size());
+    }
+  }
+  return put.bytes();
+}
+
+FoundFibres foundFrom(const std::string& bytes)
+{
+  FoundFibres fibres;
+  ByteReader get(bytes);
+  for (auto left = get.get<std::uint64_t>(); left > 0; --left)
+  {
+    FoundFibre& fibre = fibres[get.get<std::int32_t>()];
+    get(fibre.depths);
+    get(fibre.samples);
+    for (auto boxes = get.get<std::uint64_t>(); boxes > 0; --boxes)
+    {
+      FoundBox& box = fibre.boxes.emplace_back();
+      get(box.piece);
+      get.getAll(box.ends.data(), box.ends.size());
+    }
+  }
+  return fibres;
 }
 
 NodeRange nodesOf(const FibreField& field, const FoundBox& box)

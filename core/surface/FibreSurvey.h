@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace cactus
@@ -53,6 +54,10 @@ FoundFibres findFibres(const FibreField& field, const std::set<std::int32_t>& fi
 
 /// Of one fibre, and for an image that is known to be a proper one.
 FoundFibre findFibre(const FibreField& field, std::int32_t fibre, const std::vector<std::uint32_t>& pieces);
+
+/// Fibres found as bytes, and back.
+std::string bytesOf(const FoundFibres& fibres);
+FoundFibres foundFrom(const std::string& bytes);
 
 /// The nodes of a box.
 NodeRange nodesOf(const FibreField& field, const FoundBox& box);

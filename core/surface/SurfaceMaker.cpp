@@ -159,7 +159,7 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   , Caller(context)
   , Shared(sharing)
   , Journal(journal != nullptr ? *journal : NoJournal)
-  , Mesher(image, facts, options, filters, context, sharing)
+  , Mesher(image, facts, options, filters, context, sharing, Journal.findings().part("thin"))
   , Pairs(fibresOf(facts, Mesher.places()))
   , Order(orderByPlace(Pairs, Mesher.places()))
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: what is known of a loop is not done again, in whichever process it was done, and all of them have all of it.
+// Guarantee: what is known, of a loop or of one thing, is not worked out again, in whichever process it was done, and all of them
+// have all of it.
 #include "base/Recollection.h"
 
 #include "../FindingsInMemory.h"
@@ -71,6 +72,48 @@ TEST(Recollection, DoesWhatIsNotKnown)
   done.clear();
   EXPECT_EQ(cubes(Recollection(findings).part("others"), done), wanted);
   EXPECT_EQ(done.size(), 8u);
+}
+
+TEST(Recollection, WorksOutOnce)
+{
+  const auto square = [](const Recollection& known, Team* team, int& times)
+  {
+    return known.once(
+      Sharing(team),
+      [&]
+      {
+        ++times;
+        return 49;
+      },
+      [](int value) { return std::to_string(value); }, [](const std::string& bytes) { return std::stoi(bytes); });
+  };
+  int times = 0;
+  EXPECT_EQ(square({}, nullptr, times), 49);
+  EXPECT_EQ(square({}, nullptr, times), 49);
+  EXPECT_EQ(times, 2) << "where nothing is kept";
+  std::string kept;
+  std::mutex mutex;
+  for (const bool isKnown : { false, true })
+  {
+    // What the first process has kept is for all, whether or not they were given it.
+    const auto found = cactus_testing::inTeam(3,
+      [&](Team& team)
+      {
+        FindingsInMemory findings;
+        if (isKnown && team.place() == 0)
+        {
+          findings.kept["square"] = kept;
+        }
+        findings.beginAgain();
+        int own = 0;
+        const int value = square(Recollection(findings).part("square"), &team, own);
+        const std::lock_guard<std::mutex> lock(mutex);
+        kept = team.place() == 0 && !isKnown ? findings.kept.at("square") : kept;
+        return std::to_string(value) + ' ' + std::to_string(own) + ' ' + std::to_string(findings.kept.size());
+      });
+    const std::vector<std::string> before{ "49 1 1", "49 1 0", "49 1 0" };
+    EXPECT_EQ(found, isKnown ? std::vector<std::string>(3, "49 0 0") : before);
+  }
 }
 
 TEST(Recollection, OfAnyProcessIsForAll)

@@ -39,6 +39,20 @@ TEST(Calibre, DependsOnSeedAndFibre)
   EXPECT_NE(calibre.fraction(3, 7.7), calibre.fraction(4, 7.7));
 }
 
+// Guarantee: what is remembered from one length to the next changes no bit: in steps along a fibre, onto and across knots, to the
+// same length again, back, and far away.
+TEST(Calibre, IsTheSameAlongAFibreAsAtOnePlace)
+{
+  const Calibre calibre({ 0.4, 1 });
+  cactus::FibreCalibre along(calibre, 3);
+  double length = 0.0;
+  for (const double step : { 0.0, 0.7, 0.7, 0.0, 0.6, 1.9, 2.0, 2.1, 0.3, 4.0, 0.5, -0.5, -2.0, -1.7, 0.1, -40.0, 3e10, 1.0 })
+  {
+    length += step;
+    EXPECT_EQ(along.fraction(length), calibre.fraction(3, length)) << length;
+  }
+}
+
 // Guarantee: between the places where the radius is taken, it hardly differs from a straight line.
 TEST(Calibre, IsNearlyLinearAlongAPiece)
 {

@@ -205,6 +205,8 @@ TEST(GrowthTarget, SaysWhereItPartsFromWhatTheFibresWereMadeFor)
   // Half the volume makes a round fibre thinner by 1 - 1/sqrt(2).
   options.targetFibreVolumeFraction = 0.5 * fibres.grownFraction;
   EXPECT_NE(remarkOnTarget(fibres, options).find("thinner than their TargetRadius, by about 29 %"), std::string::npos);
+  options.targetFibreVolumeFraction = 1.002 * fibres.grownFraction;
+  EXPECT_NE(remarkOnTarget(fibres, options).find("thicker than their TargetRadius, by less than 1 %"), std::string::npos);
   options.targetFibreVolumeFraction = 0.0;
   EXPECT_NE(remarkOnTarget(fibres, options).find("GrowthIterations (4 voxels)"), std::string::npos);
 

@@ -25,6 +25,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -264,6 +265,51 @@ TEST_F(Production, GoesOnWhereItWasKilled)
   }
 }
 
+TEST_F(Production, SolvesForNothingAgain)
+{
+  for (const int members : { 1, 2 })
+  {
+    this->killAt("killed", 0.1, members);
+    std::set<std::string> messages;
+    Context context;
+    context.threads = 1; // so that all parts are reported
+    context.progress = [&](double, const std::string& message) { messages.insert(message.substr(0, message.find(':'))); };
+    this->produce("killed", context);
+    EXPECT_EQ(messages.count("making surfaces"), 1u);
+    for (const char* solving :
+      { "aiming at the target radii", "finding the growth that reaches the target", "looking for fibres" })
+    {
+      EXPECT_EQ(messages.count(solving), 0u) << solving;
+    }
+    EXPECT_EQ(filesIn(this->folder("killed")), this->filesOfStages());
+    messages.clear();
+    this->produce("again", context);
+    EXPECT_EQ(messages.count("aiming at the target radii") + messages.count("looking for fibres"), 2u)
+      << "where nothing is known";
+    for (const char* name : { "killed", "again", "stages" })
+    {
+      fs::remove_all(this->folder(name));
+    }
+  }
+}
+
+// What was solved for is kept, too, where no surface has been made yet.
+TEST_F(Production, GoesOnWhereItWasStoppedBeforeAnySurface)
+{
+  Context context;
+  context.threads = 1; // of two the other one may do all the looking, while the first reports nothing
+  bool isSolved = false;
+  context.progress = [&](double, const std::string& message) { isSolved = isSolved || message.find("looking for fibres") == 0; };
+  context.cancelled = [&] { return isSolved; };
+  EXPECT_THROW(this->produce("stopped", context), WorkKept);
+  bool isSolving = false;
+  context = {};
+  context.progress = [&](double, const std::string& message) { isSolving = isSolving || message.find("aiming") == 0; };
+  EXPECT_EQ(this->produce("stopped", context).found, 0u);
+  EXPECT_FALSE(isSolving);
+  EXPECT_EQ(filesIn(this->folder("stopped")), this->filesOfStages());
+}
+
 TEST_F(Production, JudgesNothingAgainWhileItWrites)
 {
   constexpr double judged = 0.96;
@@ -411,6 +457,7 @@ TEST_F(Production, KeepsSurfacesThatCannotBeWrittenAsAsked)
   const auto refuses = [](double part)
   {
     Context context;
+    context.threads = 1; // so that all parts are reported
     context.progress = [part](double fraction, const std::string&)
     {
       if (fraction >= part)

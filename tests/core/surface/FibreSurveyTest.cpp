@@ -119,7 +119,7 @@ TEST(FibreSurvey, FindsBoxesAndDepths)
     for (const Domain& domain : domains())
     {
       const FibreField field(image.view, domain, true);
-      const FoundFibres found = findFibres(field);
+      const FoundFibres found = foundFrom(bytesOf(findFibres(field))); // the bytes keep all of it
       ASSERT_EQ(found.size(), 3u);
       for (const auto& [id, fibre] : foundOneByOne(field, image.view))
       {
