@@ -76,9 +76,10 @@ bool comesNear(const Cone& cone, const VoxelGrid& grid, const std::array<int, 3>
 
 } // namespace
 
-CapsuleField::CapsuleField(const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach)
-  : Seeds(fibres, Calibre(options), region, reach)
-  , Bins(this->Seeds.pieces)
+CapsuleField::CapsuleField(
+  const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads)
+  : Seeds(fibres, Calibre(options), region, reach, threads)
+  , Bins(this->Seeds.pieces, threads)
 {
 }
 

@@ -42,7 +42,9 @@ class CapsuleField
 public:
   /// Prepares the fields for samples inside `region` where only values above -`reach` matter: capsules farther away are left out.
   /// Precondition: validate(fibres). Throws InvalidInput for options out of range and OutOfMemory where the seeds do not fit.
-  CapsuleField(const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach);
+  /// Threads share the work.
+  CapsuleField(
+    const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads = 1);
 
   std::size_t size() const { return this->Seeds.fibreOfRank.size(); }
   /// Index into the fibres given, by rank.

@@ -2,10 +2,12 @@
 #include "growth/CapsuleSeeds.h"
 
 #include "base/Memory.h"
+#include "base/Parallel.h"
 #include "fibres/SelectFibres.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace cactus
@@ -13,6 +15,9 @@ namespace cactus
 
 namespace
 {
+
+/// What a thread takes at a time.
+constexpr std::size_t fibresAtOnce = 16;
 
 /// How many pieces the segment from control point p to the next is cut into.
 int pieceCount(const Fibres& fibres, const Calibre& calibre, std::size_t p)
@@ -31,43 +36,10 @@ bool isInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& r
   return box.squaredExteriorDistance(region) <= grown * grown;
 }
 
-} // namespace
-
-CapsuleSeeds::CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach)
-  : fibreOfRank(orderById(fibres))
+/// Cuts the segment from control point p to the next, `start` along the fibre of that rank, into so many parts; the end of them.
+SeedPiece* cutSegment(
+  const Fibres& fibres, FibreCalibre& calibre, std::size_t p, double start, int parts, int rank, SeedPiece* piece)
 {
-  double total = 0.0;
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
-    {
-      total += isInReach(fibres, p, region, reach) ? pieceCount(fibres, calibre, p) : 0.0;
-    }
-  }
-  requireMemory(total * (sizeof(SeedPiece) + 64.0), "seeding " + std::to_string(fibres.size()) + " fibres",
-    "request a smaller extent, or use fewer fibres or control points");
-  this->pieces.reserve(std::size_t(total));
-  this->pieceOffsets.assign(1, 0);
-  for (const std::size_t f : this->fibreOfRank)
-  {
-    FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
-    double start = 0.0; // length of the fibre up to the segment
-    for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
-    {
-      if (isInReach(fibres, p, region, reach))
-      {
-        this->addSegment(fibres, ofFibre, p, start, pieceCount(fibres, calibre, p));
-      }
-      start += (fibres.points[p + 1] - fibres.points[p]).norm();
-    }
-    this->pieceOffsets.push_back(this->pieces.size());
-  }
-}
-
-/// Cuts the segment from control point p to the next, `start` along the fibre, into so many parts.
-void CapsuleSeeds::addSegment(const Fibres& fibres, FibreCalibre& calibre, std::size_t p, double start, int parts)
-{
-  const int rank = int(this->pieceOffsets.size()) - 1;
   const Eigen::Vector3d& p0 = fibres.points[p];
   const Eigen::Vector3d along = fibres.points[p + 1] - p0;
   const double length = along.norm();
@@ -78,8 +50,47 @@ void CapsuleSeeds::addSegment(const Fibres& fibres, FibreCalibre& calibre, std::
   {
     const double t0 = double(part) / parts;
     const double t1 = part + 1 == parts ? 1.0 : double(part + 1) / parts;
-    this->pieces.push_back({ coneBetween(p0 + t0 * along, p0 + t1 * along, radius(t0), radius(t1)), rank });
+    *piece++ = { coneBetween(p0 + t0 * along, p0 + t1 * along, radius(t0), radius(t1)), rank };
   }
+  return piece;
+}
+
+} // namespace
+
+CapsuleSeeds::CapsuleSeeds(
+  const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach, int threads)
+  : fibreOfRank(orderById(fibres))
+  , pieceOffsets(fibreOfRank.size() + 1, 0)
+{
+  parallelForInBlocks(this->fibreOfRank.size(), fibresAtOnce, threads,
+    [&](std::size_t rank)
+    {
+      const std::size_t f = this->fibreOfRank[rank];
+      for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
+      {
+        this->pieceOffsets[rank + 1] += isInReach(fibres, p, region, reach) ? std::size_t(pieceCount(fibres, calibre, p)) : 0;
+      }
+    });
+  std::partial_sum(this->pieceOffsets.begin(), this->pieceOffsets.end(), this->pieceOffsets.begin());
+  requireMemory(static_cast<double>(this->pieceOffsets.back()) * (sizeof(SeedPiece) + 64.0),
+    "seeding " + std::to_string(fibres.size()) + " fibres", "request a smaller extent, or use fewer fibres or control points");
+  this->pieces.resize(this->pieceOffsets.back());
+  parallelForInBlocks(this->fibreOfRank.size(), fibresAtOnce, threads,
+    [&](std::size_t rank)
+    {
+      const std::size_t f = this->fibreOfRank[rank];
+      FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
+      SeedPiece* piece = this->pieces.data() + this->pieceOffsets[rank];
+      double start = 0.0; // length of the fibre up to the segment
+      for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
+      {
+        if (isInReach(fibres, p, region, reach))
+        {
+          piece = cutSegment(fibres, ofFibre, p, start, pieceCount(fibres, calibre, p), int(rank), piece);
+        }
+        start += (fibres.points[p + 1] - fibres.points[p]).norm();
+      }
+    });
 }
 
 } // namespace cactus

@@ -24,14 +24,11 @@ struct SeedPiece
 struct CapsuleSeeds
 {
   /// All pieces that come within `reach` of the region; segments farther away are left out. Throws OutOfMemory.
-  CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach);
+  CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach, int threads);
 
   std::vector<std::size_t> fibreOfRank;  ///< index into the fibres given
   std::vector<std::size_t> pieceOffsets; ///< those of rank r are pieces[pieceOffsets[r]] … pieces[pieceOffsets[r + 1] − 1]
   std::vector<SeedPiece> pieces;
-
-private:
-  void addSegment(const Fibres& fibres, FibreCalibre& calibre, std::size_t p, double start, int parts);
 };
 
 } // namespace cactus

@@ -85,7 +85,7 @@ VoxelGrid checkedPart(const Fibres& fibres, const FibreRadialGrowthOptions& opti
 void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
   std::int32_t* fibreId, float* depth, const Context& context)
 {
-  const GrownField field(fibres, options, growth, checkedPart(fibres, options, growth, part));
+  const GrownField field(fibres, options, growth, checkedPart(fibres, options, growth, part), context.threadCount());
   const double from = targetFraction(fibres, options) > 0.0 ? 0.5 : 0.0;
   field.seeds().sweep(field.grid(), field.relevance(), context, from, 1.0, "growing fibres",
     [&](const FieldCell& cell, int) { field.enter(cell, field.grid(), fibreId, depth); });

@@ -32,13 +32,14 @@ double reachOf(const Fibres& fibres, const FieldRelevance& relevance, double spa
 
 } // namespace
 
-GrownField::GrownField(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part)
+GrownField::GrownField(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part, int threads)
   : Part(part)
   , HalfGap(0.5 * options.gap())
   , Growth(growth)
   , Band(std::max(bandInVoxels * Part.spacing, HalfGap))
   , Relevance(relevanceOf(growth, Band, HalfGap))
-  , Seeds(fibres, { options.surfaceRoughness, options.seed }, Part.box(), reachOf(fibres, Relevance, Part.spacing))
+  , Seeds(fibres, { options.surfaceRoughness, options.seed }, Part.box(), reachOf(fibres, Relevance, Part.spacing), threads)
 {
   for (std::size_t rank = 0; rank < this->Seeds.size(); ++rank)
   {

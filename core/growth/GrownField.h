@@ -21,7 +21,7 @@ class GrownField
 {
 public:
   /// `part` is a part of growthGrid(), the fibres are valid and the growth is finite. Throws OutOfMemory.
-  GrownField(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part);
+  GrownField(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part, int threads);
 
   /// The part.
   const VoxelGrid& grid() const { return this->Part; }

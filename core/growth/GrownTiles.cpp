@@ -64,9 +64,9 @@ private:
 class GrownTiles::Growing : public KnownFibres
 {
 public:
-  Growing(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept)
+  Growing(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept, int threads)
     : gap(options.gap())
-    , field(checked(fibres, growth), options, growth, growthGrid(fibres.domain, options))
+    , field(checked(fibres, growth), options, growth, growthGrid(fibres.domain, options), threads)
     , kept(kept)
   {
   }
@@ -118,8 +118,9 @@ private:
   std::vector<std::unique_ptr<TileWorker>> Idle;
 };
 
-GrownTiles::GrownTiles(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept)
-  : Source(std::make_unique<Growing>(fibres, options, growth, kept))
+GrownTiles::GrownTiles(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept, int threads)
+  : Source(std::make_unique<Growing>(fibres, options, growth, kept, threads))
 {
   for (const int count : this->grid().count)
   {

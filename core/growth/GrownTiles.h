@@ -21,8 +21,8 @@ class GrownTiles : public LabelSource
 {
 public:
   /// What growFibres() is given; `fibres` need not outlive the object. `kept` tiles are kept (bytesPerTile each, 1 or more).
-  /// Throws as growFibres().
-  GrownTiles(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept);
+  /// Threads share what is to be prepared. Throws as growFibres().
+  GrownTiles(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept, int threads = 1);
   ~GrownTiles() override;
 
   /// Samples along each edge of a tile.

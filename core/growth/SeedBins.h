@@ -19,7 +19,7 @@ class SeedBins
 {
 public:
   /// Throws OutOfMemory.
-  explicit SeedBins(const std::vector<SeedPiece>& pieces);
+  SeedBins(const std::vector<SeedPiece>& pieces, int threads);
 
   /// Of the edge of a bin, µm.
   double size() const { return this->Size; }
@@ -71,8 +71,8 @@ private:
   {
     return std::size_t(i) + std::size_t(this->Count[0]) * (std::size_t(j) + std::size_t(this->Count[1]) * std::size_t(k));
   }
-  void choose(const std::vector<SeedPiece>& pieces);
-  void requireRoom(const std::vector<SeedPiece>& pieces, std::size_t bins) const;
+  void choose(const std::vector<SeedPiece>& pieces, int threads);
+  void requireRoom(const std::vector<SeedPiece>& pieces, std::size_t bins, std::size_t parts, int threads) const;
 
   Eigen::Vector3d Origin = Eigen::Vector3d::Zero();
   double Size = 1.0; ///< of a bin (µm)

@@ -74,7 +74,8 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   relevance.contrast = options.gap();
   const Eigen::AlignedBox3d domain(fibres.domain.lower, fibres.domain.upper);
   const double reach = growth + options.gap() + spacing;
-  const CapsuleField field(fibres, { options.surfaceRoughness, options.seed }, domain, std::max(reach, 0.0));
+  const CapsuleField field(
+    fibres, { options.surfaceRoughness, options.seed }, domain, std::max(reach, 0.0), context.threadCount());
   Context sweeping = context;
   sweeping.threads = context.threadCount(); // which may say something else the next time
   std::vector<std::vector<std::uint64_t>> perThread(

@@ -208,7 +208,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   const SolvedGrowth solved = spool.findings().part("growth").once(
     sharing, [&] { return solveGrowth(fibres, order.growth, solving, sharing); }, bytesOfSolved, solvedFrom);
   auto tiles = std::make_shared<GrownTiles>(scaledBy(solved.factors, fibres), order.growth, solved.growth,
-    keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()));
+    keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()), context.threadCount());
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
