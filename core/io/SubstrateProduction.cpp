@@ -352,7 +352,6 @@ ProducedSubstrate produceSubstrate(
     return !isMade && result.found > 0 ? ". What an earlier run has made is kept in " + work + ": remove it if it is of no use"
                                        : "";
   };
-  const auto isWorkKept = [&] { return spool != nullptr && sharing.isFirst() && !spool->isEmpty(); };
   try
   {
     sharing.together(produce);
@@ -369,7 +368,7 @@ ProducedSubstrate produceSubstrate(
   }
   catch (const Cancelled&)
   {
-    if (isWorkKept())
+    if (spool != nullptr && sharing.isFirst() && !spool->isEmpty())
     {
       throw WorkKept(work);
     }
@@ -378,9 +377,9 @@ ProducedSubstrate produceSubstrate(
   }
   catch (...)
   {
-    if (!isWorkKept())
+    if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces())
     {
-      removeUseless();
+      removeUseless(); // what was solved for would only stand in the way of other parameters
     }
     throw;
   }

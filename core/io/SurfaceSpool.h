@@ -45,7 +45,9 @@ public:
   /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
   std::size_t found() const { return this->Found; }
   /// Whether nothing is in any journal, nor among any findings. Only while no other process is at work.
-  bool isEmpty() const { return this->Log->isEmpty() && this->Findings->isEmpty(); }
+  bool isEmpty() const { return !this->holdsSurfaces() && this->Findings->isEmpty(); }
+  /// Whether something of a fibre is in a journal. Only while no other process is at work.
+  bool holdsSurfaces() const { return !this->Log->isEmpty(); }
 
   bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
   void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;

@@ -437,6 +437,18 @@ TEST_F(Production, LeavesNothingWhereItMadeNothing)
   context.cancelled = [] { return true; };
   EXPECT_THROW(this->produce("early", context), Cancelled);
   EXPECT_FALSE(fs::exists(this->folder("early.work")));
+  // Nor where growth has been solved for, and an error asks for other parameters.
+  context = {};
+  context.threads = 1;
+  context.progress = [](double, const std::string& message)
+  {
+    if (message.find("looking for fibres") == 0)
+    {
+      throw std::bad_alloc();
+    }
+  };
+  EXPECT_THROW(this->produce("early", context), std::bad_alloc);
+  EXPECT_FALSE(fs::exists(this->folder("early.work")));
 }
 
 TEST_F(Production, StopsAndGoesOn)
