@@ -66,10 +66,12 @@ CapsuleSeeds::CapsuleSeeds(
     [&](std::size_t rank)
     {
       const std::size_t f = this->fibreOfRank[rank];
+      std::size_t count = 0;
       for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
       {
-        this->pieceOffsets[rank + 1] += isInReach(fibres, p, region, reach) ? std::size_t(pieceCount(fibres, calibre, p)) : 0;
+        count += isInReach(fibres, p, region, reach) ? std::size_t(pieceCount(fibres, calibre, p)) : 0;
       }
+      this->pieceOffsets[rank + 1] = count;
     });
   std::partial_sum(this->pieceOffsets.begin(), this->pieceOffsets.end(), this->pieceOffsets.begin());
   requireMemory(static_cast<double>(this->pieceOffsets.back()) * (sizeof(SeedPiece) + 64.0),
