@@ -32,11 +32,6 @@ Calibre::Calibre(const CalibreOptions& options)
   }
 }
 
-double Calibre::fraction(int fibreId, double length) const
-{
-  return FibreCalibre(*this, fibreId).fraction(length);
-}
-
 double Calibre::longestPiece() const
 {
   return this->varies() ? linearLength : std::numeric_limits<double>::infinity();

@@ -33,9 +33,6 @@ public:
   /// Whether the fraction differs from 1 anywhere.
   bool varies() const { return this->Options.surfaceRoughness > 0.0; }
 
-  /// The fraction, in (0, 1], at `length` (µm) along the fibre.
-  double fraction(int fibreId, double length) const;
-
   /// No fraction is smaller: what is sure to be left of a fibre at any place.
   double smallestFraction() const { return 1.0 - this->Options.surfaceRoughness; }
 
@@ -49,14 +46,15 @@ private:
   CalibreOptions Options;
 };
 
-/// The calibre of one fibre, for one length after the other: what two of them near each other have in common is drawn once.
+/// The calibre of one fibre, for one length after the other: what two of them near each other have in common is drawn once, which
+/// changes no bit.
 class FibreCalibre
 {
 public:
   /// The calibre is to live as long.
   FibreCalibre(const Calibre& calibre, int fibreId);
 
-  /// As Calibre::fraction(), to the bit.
+  /// The fraction, in (0, 1], at `length` (µm) along the fibre.
   double fraction(double length);
 
 private:
