@@ -54,7 +54,7 @@ public:
   /// The calibre is to live as long.
   FibreCalibre(const Calibre& calibre, int fibreId);
 
-  /// The fraction, in (0, 1], at `length` (µm) along the fibre.
+  /// The fraction, in (0, 1], at `length` (µm, not negative) along the fibre.
   double fraction(double length);
 
 private:
