@@ -17,6 +17,7 @@ FindingsFile::FindingsFile(const std::filesystem::path& folder, const std::strin
     const auto name = get.get<std::string>();
     this->Known[name] = get.get<std::string>();
   }
+  this->FoundSome = !this->Known.empty();
 }
 
 std::optional<std::string> FindingsFile::take(const std::string& name)

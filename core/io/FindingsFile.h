@@ -20,6 +20,8 @@ public:
 
   std::optional<std::string> take(const std::string& name) override;
   void keep(const std::string& name, const std::string& bytes) override;
+  /// Whether something was there when it was opened.
+  bool foundSome() const { return this->FoundSome; }
   /// Whether no process has kept anything. Only while no other one is at work.
   bool isEmpty() const { return this->Log.isEmpty(); }
   /// Removes the files. Nothing may be kept any more.
@@ -28,6 +30,7 @@ public:
 private:
   TeamLog Log;
   std::unordered_map<std::string, std::string> Known;
+  bool FoundSome = false;
 };
 
 } // namespace cactus

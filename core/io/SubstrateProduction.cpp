@@ -377,9 +377,9 @@ ProducedSubstrate produceSubstrate(
   }
   catch (...)
   {
-    if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces())
+    if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces() && !spool->goesOn())
     {
-      removeUseless(); // what was solved for would only stand in the way of other parameters
+      removeUseless(); // what this run has solved for would only stand in the way of other parameters
     }
     throw;
   }

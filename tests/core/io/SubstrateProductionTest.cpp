@@ -89,6 +89,21 @@ protected:
     return produceSubstrate(this->Fibres_, this->Order, this->folder(name), context);
   }
 
+  /// Under which memory runs out in this part of the work.
+  static Context failingAt(const std::string& part)
+  {
+    Context context;
+    context.threads = 1; // of two the other one may do all of the part, while the first reports nothing
+    context.progress = [part](double, const std::string& message)
+    {
+      if (message.find(part) == 0)
+      {
+        throw std::bad_alloc();
+      }
+    };
+    return context;
+  }
+
   /// The message of what it throws, which is of that kind; empty where it throws nothing.
   template <typename Expected = InvalidInput>
   std::string refusal(const std::string& name, const Context& context = {}) const
@@ -293,7 +308,7 @@ TEST_F(Production, SolvesForNothingAgain)
   }
 }
 
-// What was solved for is kept, too, where no surface has been made yet.
+// What was solved for is kept, too, where no surface has been made yet; and a later run that fails leaves it.
 TEST_F(Production, GoesOnWhereItWasStoppedBeforeAnySurface)
 {
   Context context;
@@ -302,8 +317,10 @@ TEST_F(Production, GoesOnWhereItWasStoppedBeforeAnySurface)
   context.progress = [&](double, const std::string& message) { isSolved = isSolved || message.find("looking for fibres") == 0; };
   context.cancelled = [&] { return isSolved; };
   EXPECT_THROW(this->produce("stopped", context), WorkKept);
+  EXPECT_THROW(this->produce("stopped", this->failingAt("looking for fibres")), std::bad_alloc);
   bool isSolving = false;
   context = {};
+  context.threads = 1;
   context.progress = [&](double, const std::string& message) { isSolving = isSolving || message.find("aiming") == 0; };
   EXPECT_EQ(this->produce("stopped", context).found, 0u);
   EXPECT_FALSE(isSolving);
@@ -438,16 +455,7 @@ TEST_F(Production, LeavesNothingWhereItMadeNothing)
   EXPECT_THROW(this->produce("early", context), Cancelled);
   EXPECT_FALSE(fs::exists(this->folder("early.work")));
   // Nor where growth has been solved for, and an error asks for other parameters.
-  context = {};
-  context.threads = 1;
-  context.progress = [](double, const std::string& message)
-  {
-    if (message.find("looking for fibres") == 0)
-    {
-      throw std::bad_alloc();
-    }
-  };
-  EXPECT_THROW(this->produce("early", context), std::bad_alloc);
+  EXPECT_THROW(this->produce("early", this->failingAt("looking for fibres")), std::bad_alloc);
   EXPECT_FALSE(fs::exists(this->folder("early.work")));
 }
 
