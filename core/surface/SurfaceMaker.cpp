@@ -396,7 +396,8 @@ void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& in
       {
         FibreMesher::forgetInner(pair);
       }
-      pair.outer = pair.inner = TriangleMesh();
+      pair.outer = TriangleMesh(); // not what a copy of nothing would leave, its memory
+      pair.inner = TriangleMesh();
     },
     [&](std::size_t i) { return bytesOf(this->Pairs[looked[i]]); },
     [&](std::size_t i, const std::string& bytes) { this->Pairs[looked[i]] = pairFrom(bytes); });

@@ -398,6 +398,9 @@ TEST(MyelinSurfaces, InnerOnesAreTheSameWheneverTheyAreMade)
       const bool isMoved = pair.outerReport.volume != pair.volumeAsMade;
       moved += isMoved ? 1 : 0;
       kept += isMoved && pair.isInnerMade ? 1 : 0;
+      EXPECT_EQ(pair.outer.points.capacity() + pair.outer.triangles.capacity(), 0u)
+        << "what is in its store takes no memory here";
+      EXPECT_EQ(pair.inner.points.capacity() + pair.inner.triangles.capacity(), 0u);
     }
     EXPECT_GT(moved, 0u) << further;
     EXPECT_EQ(kept > 0, further < 0.01) << further;
