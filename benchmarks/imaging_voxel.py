@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws large substrates, whole or samples, from their folders: a cut, and radii beside their target; and prints a row of a table for each.
+"""Draws large substrates, whole or samples, from their folders, a row for each: a cut, its middle, and radii beside their target; and prints a row of a table.
 
     ./cactus pvpython benchmarks/imaging_voxel.py FOLDER... --output docs/images/imaging-voxel.png
 
@@ -22,11 +22,12 @@ from paraview import simple  # noqa: E402
 from picture import flat_view  # noqa: E402  (after paper_figure, which names its folder)
 
 PIXELS = 1000
+TIMES = 8.0  # as large is the middle of a cut
 
 
-def cut_image(folder, manifest, window):
-    """The cut at the middle of z, as an array of pixels."""
-    view = flat_view(drawn_cut(folder, manifest, window), window, PIXELS)
+def image_of(layers, window):
+    """What is drawn of a cut in a square of `window` µm about its middle, as an array of pixels."""
+    view = flat_view(layers, window, PIXELS)
     with tempfile.TemporaryDirectory() as scratch:
         path = os.path.join(scratch, "cut.png")
         simple.SaveScreenshot(path, view, ImageResolution=[PIXELS, PIXELS])
@@ -59,8 +60,7 @@ def main():
     parser.add_argument("folders", nargs="+", help="substrate folders")
     parser.add_argument("--output", required=True, metavar="FILE.png", help="the figure to write")
     options = parser.parse_args()
-    canvas, axes = pyplot.subplots(2, len(options.folders), figsize=(4.2 * len(options.folders), 6.4), layout="constrained", squeeze=False,
-                                   gridspec_kw={"height_ratios": [2, 1]})
+    canvas, axes = pyplot.subplots(len(options.folders), 3, figsize=(12.6, 4.2 * len(options.folders)), layout="constrained", squeeze=False)
     for i, name in enumerate(options.folders):
         path = manifest_path(name)
         manifest, folder = read_manifest(path), os.path.dirname(os.path.abspath(path))
@@ -69,12 +69,15 @@ def main():
             print("| " + " | ".join(row) + " |\n|" + "---|" * len(row))
         print("| " + " | ".join(row.values()) + " |", flush=True)
         side = float(row["side (µm)"])
-        axes[0, i].imshow(cut_image(folder, manifest, side), interpolation="lanczos")
-        axes[0, i].set(title=f"({side:g} µm)³, {row['fibres']} fibres", xticks=[], yticks=[])
-        axes[1, i].hist(radii, bins=50, density=True, color="#8fb0d0", label="reached")
-        axes[1, i].plot(*zip(*density), color="#c8553d", label="target")
-        axes[1, i].set(xlabel="mean radius of a fibre (µm)", ylabel="density", title=f"KS distance {row['KS distance']}")
-    axes[1, 0].legend(frameon=False)
+        layers = drawn_cut(folder, manifest, side / TIMES)
+        whole, middle, sizes = axes[i]
+        for drawn, window, title in ((whole, side, f"({side:g} µm)³, {row['fibres']} fibres"), (middle, side / TIMES, f"its middle, {side / TIMES:g} µm")):
+            drawn.imshow(image_of(layers, window), interpolation="lanczos")
+            drawn.set(title=title, xticks=[], yticks=[])
+        sizes.hist(radii, bins=50, density=True, color="#8fb0d0", label="reached")
+        sizes.plot(*zip(*density), color="#c8553d", label="target")
+        sizes.set(xlabel="mean radius of a fibre (µm)", ylabel="density", title=f"KS distance {row['KS distance']}")
+    axes[0, 2].legend(frameon=False)
     canvas.savefig(options.output, dpi=130)
     print(f"Wrote {options.output}")
     return 0
