@@ -52,7 +52,8 @@ TEST(Calibre, IsTheSameAlongAFibreAsAtOnePlace)
   const Calibre calibre({ 0.4, 1 });
   cactus::FibreCalibre along(calibre, 3);
   double length = 0.0;
-  for (const double step : { 0.0, 0.7, 0.7, 0.0, 0.6, 1.9, 2.0, 2.1, 0.3, 4.0, 0.5, -0.5, -2.0, -1.7, 0.1, 40.0, -43.0, 3e10, 1.0 })
+  for (const double step :
+    { 0.0, 0.7, 0.7, 0.0, 0.6, 1.9, 2.0, 2.1, 0.3, 4.0, 0.5, -0.5, -2.0, -1.7, 0.1, 40.0, -43.0, 3e10, 1.0 })
   {
     length += step;
     EXPECT_EQ(along.fraction(length), fractionAt(calibre, 3, length)) << length;
