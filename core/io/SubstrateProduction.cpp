@@ -377,7 +377,7 @@ ProducedSubstrate produceSubstrate(
   }
   catch (...)
   {
-    if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces() && !spool->goesOn())
+    if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces() && !spool->foundFindings())
     {
       removeUseless(); // what this run has solved for would only stand in the way of other parameters
     }

@@ -44,8 +44,8 @@ public:
   SurfaceStore& inner() { return this->Inner; }
   /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
   std::size_t found() const { return this->Found; }
-  /// Whether an earlier run had left something: surfaces, or what it had solved for.
-  bool goesOn() const { return this->Found > 0 || this->Findings->foundSome(); }
+  /// Whether an earlier run had left findings.
+  bool foundFindings() const { return this->Findings->foundSome(); }
   /// Whether nothing is in any journal, nor among any findings. Only while no other process is at work.
   bool isEmpty() const { return !this->holdsSurfaces() && this->Findings->isEmpty(); }
   /// Whether something of a fibre is in a journal. Only while no other process is at work.
