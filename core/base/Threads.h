@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads that loops are shared among (see Parallel.h). Those that wait give way to other programs soon, and a loop does not wait
-// for a thread that has not come to it. With OpenMP's it did, for seconds where others held the cores.
+// The project's only use of OpenMP. Loops are written with Parallel.h.
 #pragma once
 
 #include <functional>
@@ -8,25 +7,24 @@
 namespace cactus
 {
 
-/// How many processors this process may run on.
+/// The number of processors that this process may run on.
 int processorCount();
 
-/// How many threads to use where nobody says: the first number of the environment variable OMP_NUM_THREADS, as for OpenMP, else
-/// one for each processor. Throws InvalidInput where that variable holds something else.
+/// The number of threads to use by default: the first number of the environment variable OMP_NUM_THREADS, else one for each
+/// processor. Throws InvalidInput where that variable holds something else.
 int usualThreadCount();
 
-/// How many threads work of the calling thread can be shared among so far, that one included.
+/// The number of threads, the calling one included, that shareWork() has started so far for the calling thread.
 int startedThreads();
 
-/// Sees to it that these are `wanted` ones, and returns how many of them there are: fewer where the system starts no more.
+/// Starts threads until there are `wanted`, and returns their number: fewer where the system starts no more.
 int startThreads(int wanted);
 
-/// Whether the calling thread is at work that is shared: what it shares out from there it does alone.
+/// Whether the calling thread is inside shareWork(). A loop in there runs in this thread alone.
 bool isAtSharedWork();
 
-/// Runs work(thread) in the calling thread, as thread 0, and at the same time in others, thread < threads. It returns when all of
-/// these are done. Others that come too late do not take part, so what there is to do must not depend on their number. `work`
-/// must not throw. A child of fork() has threads of its own.
+/// Runs work(thread) in `threads` threads at most, the calling one as thread 0, and returns when all are done. What there is to
+/// do must not depend on their number. `work` must not throw.
 void shareWork(int threads, const std::function<void(int)>& work);
 
 } // namespace cactus

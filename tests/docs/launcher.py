@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-FOR_CI = ("CACTUS_WARNINGS_AS_ERRORS", "CACTUS_QUICK_BUILD")
+FOR_CI = ("CACTUS_WARNINGS_AS_ERRORS",)
 STAND_INS = {
     "clang-format": "echo clang-format version 15.0.0",
     "cmake": """[ "$1" = --preset ] || exit 0

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <thread>
+#include <vector>
 
 namespace
 {
@@ -32,21 +32,34 @@ void undefined()
   number = number + 1;
 }
 
-/// Two threads write to one number without a word to each other.
+/// Two threads of OpenMP write to one number without a word to each other.
 void race()
 {
   int sum = 0;
-  const auto add = [&sum]
+#pragma omp parallel for num_threads(4)
+  for (int i = 0; i < 1000; ++i)
   {
-    for (int i = 0; i < 1000; ++i)
-    {
-      sum += i;
-    }
-  };
-  std::thread other(add);
-  add();
-  other.join();
+    sum += i;
+  }
   std::printf("%d\n", sum);
+}
+
+/// Two parallel regions that are no race, since one ends before the other begins: found to be one where the thread sanitizer does
+/// not know of OpenMP.
+void noRace()
+{
+  std::vector<int> numbers(1000);
+#pragma omp parallel for num_threads(4)
+  for (int i = 0; i < 1000; ++i)
+  {
+    numbers[i] = i;
+  }
+#pragma omp parallel for num_threads(4)
+  for (int i = 0; i < 1000; ++i)
+  {
+    numbers[999 - i] += i;
+  }
+  std::printf("%d\n", numbers[1]);
 }
 
 } // namespace
@@ -70,9 +83,13 @@ int main(int argc, char** argv)
   {
     race();
   }
+  else if (std::strcmp(fault, "no_race") == 0)
+  {
+    noRace();
+  }
   else
   {
-    std::puts("usage: cactus_deliberate_fault overflow|leak|undefined|race");
+    std::puts("usage: cactus_deliberate_fault overflow|leak|undefined|race|no_race");
     return 2;
   }
   return 0;

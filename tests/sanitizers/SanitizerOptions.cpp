@@ -13,6 +13,7 @@ extern "C"
   const char* __asan_default_options();
   const char* __ubsan_default_options();
   const char* __tsan_default_options();
+  const char* __lsan_default_suppressions();
 
   const char* __asan_default_options()
   {
@@ -24,7 +25,15 @@ extern "C"
     return "print_stacktrace=1" SYMBOLIZER;
   }
 
-  // The C library is not instrumented: of what it does the sanitizer sees a part only.
+  // LLVM's OpenMP library (14) loses memory when a team of threads outgrows the one before it, with empty regions, too: 2,880
+  // bytes when 16 threads follow on 2. A leak of ours inside of a parallel region is left out with it, since it is allocated by a
+  // function that the library calls.
+  const char* __lsan_default_suppressions()
+  {
+    return "leak:libomp.so\n";
+  }
+
+  // libomp and the C library are not instrumented: of what they do the sanitizer sees a part only.
   const char* __tsan_default_options()
   {
     return "ignore_noninstrumented_modules=1:halt_on_error=1" SYMBOLIZER;

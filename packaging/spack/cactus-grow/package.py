@@ -21,6 +21,7 @@ class CactusGrow(CMakePackage):
     depends_on("nlohmann-json@3.9:")
     depends_on("random123")
     depends_on("libzip")
+    depends_on("llvm-openmp")
 
     def cmake_args(self):
         return ["-DCACTUS_BUILD_PLUGIN=OFF", "-DCACTUS_BUILD_TESTS=OFF", f"-DRANDOM123_INCLUDE_DIR={self.spec['random123'].prefix.include}"]
