@@ -42,6 +42,8 @@ void appendFibres(const Fibres& added, Fibres& all)
 {
   const std::vector<int> fibreIds = freeIds(all.fibreIds, added.fibreIds);
   const std::vector<int> bundleIds = freeIds(all.bundleIds, added.bundleIds);
+  // Bundles that were made by themselves all count their fibres from 1, while pieces of one substrate share what it says as a whole.
+  const bool isPartOfTheSame = fibreIds == added.fibreIds && all.grownFraction == added.grownFraction;
   for (std::size_t f = 0; f < added.size(); ++f)
   {
     all.addFibre(fibreIds[f], bundleIds[f], added.targetRadii[f]);
@@ -49,6 +51,10 @@ void appendFibres(const Fibres& added, Fibres& all)
     {
       all.addPoint(added.points[i], added.radii[i]);
     }
+  }
+  if (isPartOfTheSame)
+  {
+    return;
   }
   const bool isKnown = all.grownFraction > 0.0 && added.grownFraction > 0.0;
   all.grownFraction = isKnown ? all.grownFraction + added.grownFraction : 0.0;

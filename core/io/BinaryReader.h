@@ -26,7 +26,6 @@ public:
 
   /// Whether numbers have their bytes in the other order than this machine's.
   void setSwapped(bool swapped) { this->Swapped = swapped; }
-  bool isSwapped() const { return this->Swapped; }
 
   /// Throws unless `count` things of `bytes` each are still to come; `what` says what they are.
   void require(std::uint64_t count, std::uint64_t bytes, const std::string& what) const;

@@ -114,7 +114,7 @@ struct Segments
   double* length;
 };
 
-CACTUS_KERNEL_INLINE Segments segmentsOf(const FibreShape& fibre, Columns& columns)
+CACTUS_KERNEL_INLINE Segments segmentsOf(const FibreColumns& fibre, Columns& columns)
 {
   const Vectors points = takeVectors(columns);
   part(fibre.points, fibre.count, points);
@@ -133,7 +133,7 @@ CACTUS_KERNEL_INLINE Segments segmentsOf(const FibreShape& fibre, Columns& colum
 }
 
 /// Radii where vectors can read them.
-CACTUS_KERNEL_INLINE double* radiiOf(const FibreShape& fibre, Columns& columns)
+CACTUS_KERNEL_INLINE double* radiiOf(const FibreColumns& fibre, Columns& columns)
 {
   double* radii = columns.take();
   for (std::size_t i = 0; i < fibre.count; ++i)
@@ -153,7 +153,7 @@ CACTUS_KERNEL_INLINE void clear(double* column, std::ptrdiff_t from, std::ptrdif
 }
 
 std::size_t addCurvature(
-  const FibreShape& fibre, double weight, double& total, const FibreShapeGradients& gradients, double* room, std::uint32_t* sharp)
+  const FibreColumns& fibre, double weight, double& total, const FibreColumnGradients& gradients, double* room, std::uint32_t* sharp)
 {
   const std::size_t count = fibre.count;
   if (count < 3)
@@ -251,7 +251,7 @@ std::size_t addCurvature(
   return sharpOnes;
 }
 
-void addLength(const FibreShape& fibre, double weight, double& total, const FibreShapeGradients& gradients, double* room)
+void addLength(const FibreColumns& fibre, double weight, double& total, const FibreColumnGradients& gradients, double* room)
 {
   const std::size_t count = fibre.count;
   Columns columns(room, count);

@@ -10,7 +10,7 @@ namespace cactus
 {
 
 /// One fibre, and what its costs compare it with (see FibreCosts). All are indexed by control point.
-struct FibreShape
+struct FibreColumns
 {
   std::size_t count;              ///< of its control points, at least 2
   const double* points;           ///< x, y and z of one after the other
@@ -20,7 +20,7 @@ struct FibreShape
 };
 
 /// Where derivatives by its control points are added, as in FibreGradients.
-struct FibreShapeGradients
+struct FibreColumnGradients
 {
   double* byPoint;
   double* byRadius;
@@ -35,11 +35,11 @@ struct FibreCostKernels
 
   /// Adds the cost of curvature. Writes to `sharp` the control points whose bends are sharper than is free to take, and returns
   /// their number.
-  std::size_t (*addCurvature)(const FibreShape& fibre, double weight, double& total, const FibreShapeGradients& gradients,
+  std::size_t (*addCurvature)(const FibreColumns& fibre, double weight, double& total, const FibreColumnGradients& gradients,
     double* room, std::uint32_t* sharp);
 
   /// Adds the cost of length.
-  void (*addLength)(const FibreShape& fibre, double weight, double& total, const FibreShapeGradients& gradients, double* room);
+  void (*addLength)(const FibreColumns& fibre, double weight, double& total, const FibreColumnGradients& gradients, double* room);
 };
 
 CACTUS_KERNEL_VERSIONS(FibreCostKernels);

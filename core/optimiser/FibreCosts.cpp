@@ -63,15 +63,15 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
   const FibreCostKernels& kernels = bestKernels<FibreCostKernels>();
   const std::size_t begin = fibres.offsets[f];
   const std::size_t count = fibres.pointCount(f);
-  const FibreShape shape = { count, fibres.points[begin].data(), &fibres.radii[begin], &this->ReferenceLength[begin],
+  const FibreColumns columns = { count, fibres.points[begin].data(), &fibres.radii[begin], &this->ReferenceLength[begin],
     &this->SmallestCosine[begin] };
-  const FibreShapeGradients to = { gradients.byPoint[begin].data(), &gradients.byRadius[begin], &gradients.stiffness[begin] };
+  const FibreColumnGradients to = { gradients.byPoint[begin].data(), &gradients.byRadius[begin], &gradients.stiffness[begin] };
   const std::unique_ptr<double[]> room(new double[FibreCostKernels::roomFor(count)]);
   if (this->Weights.curvature > 0.0)
   {
     const std::unique_ptr<std::uint32_t[]> sharp(new std::uint32_t[count]);
     const std::size_t sharpOnes =
-      kernels.addCurvature(shape, relaxation * this->Weights.curvature, totals.curvature, to, room.get(), sharp.get());
+      kernels.addCurvature(columns, relaxation * this->Weights.curvature, totals.curvature, to, room.get(), sharp.get());
     for (std::size_t n = 0; n < sharpOnes; ++n)
     {
       this->addBendLimit(fibres, begin + sharp[n], totals, gradients);
@@ -80,7 +80,7 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
   if (this->Weights.length > 0.0)
   {
     this->addCompressionLimit(fibres, f, totals, gradients);
-    kernels.addLength(shape, relaxation * this->Weights.length, totals.length, to, room.get());
+    kernels.addLength(columns, relaxation * this->Weights.length, totals.length, to, room.get());
   }
   if (this->Weights.compactness > 0.0)
   {

@@ -40,7 +40,6 @@ public:
 
   /// Those of this process.
   std::size_t ownFibre() const { return this->fibreBegin(this->self()); }
-  std::size_t ownPoint() const { return this->pointBegin(this->self()); }
   std::size_t ownCapsule() const { return this->capsuleBegin(this->self()); }
 
   /// This process's fibres, by themselves.

@@ -59,6 +59,24 @@ TEST(JoinFibres, WhatTheyWereMadeForAddsUpWhereAllSaySo)
   EXPECT_EQ(all.grownFraction, 0.0);
 }
 
+TEST(JoinFibres, PiecesOfOneSubstrateAreForWhatEachSays)
+{
+  Fibres all = fibresWith({ { 1, 1 } });
+  all.grownFraction = 0.6;
+  for (const int id : { 2, 3 })
+  {
+    Fibres piece = fibresWith({ { id, 1 } });
+    piece.grownFraction = 0.6;
+    appendFibres(piece, all);
+    EXPECT_EQ(all.grownFraction, 0.6);
+  }
+  // Another bundle counts its fibres from 1, too.
+  Fibres bundle = fibresWith({ { 1, 1 } });
+  bundle.grownFraction = 0.6;
+  appendFibres(bundle, all);
+  EXPECT_DOUBLE_EQ(all.grownFraction, 1.2);
+}
+
 TEST(JoinFibres, RefusesWhereNoIdIsFree)
 {
   constexpr int largest = std::numeric_limits<int>::max();

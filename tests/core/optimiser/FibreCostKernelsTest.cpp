@@ -22,7 +22,7 @@ struct Added
   std::vector<std::uint32_t> sharp;
 };
 
-Added add(const cactus::FibreCostKernels& kernels, const cactus::FibreShape& fibre)
+Added add(const cactus::FibreCostKernels& kernels, const cactus::FibreColumns& fibre)
 {
   Added added;
   added.byPoint.assign(3 * fibre.count, 0.5);
@@ -30,7 +30,7 @@ Added add(const cactus::FibreCostKernels& kernels, const cactus::FibreShape& fib
   added.stiffness.assign(fibre.count, 0.125);
   added.sharp.resize(fibre.count);
   std::vector<double> room(cactus::FibreCostKernels::roomFor(fibre.count), 1e300); // nothing in it is to be used
-  const cactus::FibreShapeGradients to = { added.byPoint.data(), added.byRadius.data(), added.stiffness.data() };
+  const cactus::FibreColumnGradients to = { added.byPoint.data(), added.byRadius.data(), added.stiffness.data() };
   added.sharp.resize(kernels.addCurvature(fibre, 0.7, added.curvature, to, room.data(), added.sharp.data()));
   kernels.addLength(fibre, 1.3, added.length, to, room.data());
   return added;
@@ -51,7 +51,7 @@ TEST(FibreCostKernels, SameBitsOnEveryVectorUnit)
       lengths[i] = (before.points[i + 1] - before.points[i]).norm();
     }
     const std::vector<float> cosines(lengths.size(), 0.3f);
-    const cactus::FibreShape shape = { lengths.size(), fibres.points[0].data(), fibres.radii.data(), lengths.data(),
+    const cactus::FibreColumns shape = { lengths.size(), fibres.points[0].data(), fibres.radii.data(), lengths.data(),
       cosines.data() };
     const Added first = add(cactus::portableFibreCostKernels, shape);
     EXPECT_EQ(first.curvature > 0.0, points > 2);
@@ -88,6 +88,6 @@ TEST(FibreCostKernels, TellsSharpBends)
   }
   EXPECT_GT(sharp.size(), 5u);
   EXPECT_LT(sharp.size(), 55u);
-  const cactus::FibreShape shape = { count, fibres.points[0].data(), fibres.radii.data(), lengths.data(), cosines.data() };
+  const cactus::FibreColumns shape = { count, fibres.points[0].data(), fibres.radii.data(), lengths.data(), cosines.data() };
   EXPECT_EQ(add(cactus::bestKernels<cactus::FibreCostKernels>(), shape).sharp, sharp);
 }
