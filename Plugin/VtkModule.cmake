@@ -17,7 +17,7 @@ macro (cactus_vtk_module name)
     CLASSES ${classes}
     SOURCES ${shared_sources}
     PRIVATE_HEADERS ${shared_headers})
-  vtk_module_compile_options(${name} PRIVATE ${CACTUS_WARNINGS})
+  vtk_module_compile_options(${name} PRIVATE ${CACTUS_WARNINGS} ${CACTUS_COLD_OPTIONS})
   if (CACTUS_QUICK_BUILD)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   endif ()
