@@ -89,12 +89,12 @@ class Measured:
 
 
 def about(rows):
-    """One sentence of the machine."""
+    """The machine, in one sentence."""
     row = rows[-1]
     days = sorted({row["date"] for row in rows})
     others = max(number(row, "others_percent") for row in rows)
     return (f"{row['cores']} cores of {row['processor']}, {row['memory_GB']} GB; version {', '.join(sorted({row['version'] for row in rows}))}, "
-            f"{' to '.join(dict.fromkeys((days[0], days[-1])))}. Other programs took {others:.0f} % of the machine at most.\n")
+            f"{' to '.join(dict.fromkeys((days[0], days[-1])))}. Other programs took at most {others:.0f} % of the machine.\n")
 
 
 def by_side(found):
@@ -116,7 +116,7 @@ def by_stage(found):
         rows.append([f"{number(row, 'side_um'):g}", *cells, f"{number(row, 'certificate_processor_s'):.1f}"])
     peaks = found.made_by("filters")[-1]
     rows.append([f"{number(peaks, 'side_um'):g}: peak memory (MB)"] + [f"{number(peaks, f'{stage}_peak_MB'):.0f}" for stage in (*STAGES, "certificate")])
-    return table(["side (µm)", *STAGES.values(), "a certificate alone"], rows)
+    return table(["side (µm)", *STAGES.values(), "certificate alone"], rows)
 
 
 def by_setting(rows, name, head):
@@ -138,7 +138,7 @@ def by_threads(found):
         share = whole * number(one, "threads") / number(row, "threads")
         cells.append([row["threads"], significant(number(row, "clock_s")), significant(number(row, "processor_s")), f"{whole:.2f}", f"{100 * share:.0f} %"]
                      + [f"{gain:.2f}" for gain in gains])
-    return table(["threads", "clock (s)", "processor time (s)", "times as fast", "efficiency", *STAGES.values()], cells)
+    return table(["threads", "clock (s)", "processor time (s)", "speed-up", "efficiency", *STAGES.values()], cells)
 
 
 def beside_the_paper(found):
@@ -152,7 +152,7 @@ def beside_the_paper(found):
     rest = sum(number(row, f"{stage}_processor_s") for stage in ("growth", "surfaces", "writer")) / number(row, "length_um") * length * PAPER["fibres"] / 3600
     paper = PAPER["growth_s"] * PAPER["fibres"] / 3600
     return table(
-        [f"(500 µm)³, {PAPER['fibres']:,} fibres", "the paper", f"here, carried over from {side} µm"],
+        [f"(500 µm)³, {PAPER['fibres']:,} fibres", "the paper", f"here, extrapolated from {side} µm"],
         [["growth of a fibre, one core", f"about {PAPER['growth_s']} s", f"{fibre:.1f} s, with both surfaces"],
          ["all fibres, core-hours", f"{paper:.0f}", f"{hours:.0f}, with both surfaces"],
          ["with certificate and files, core-hours", "–", f"{rest:.0f}"]])
@@ -165,14 +165,14 @@ def section(rows):
     if found.sides:
         parts += ["\n## By side\n\n", by_side(found), "\n![Time and memory by side](images/performance-sides.svg)\n"]
     if found.made_by("filters"):
-        parts += ["\n## Where the time goes\n\nProcessor time of each stage of the four filters, s.\n\n", by_stage(found), "\n![Shares of the stages](images/performance-stages.svg)\n"]
+        parts += ["\n## Where the time goes\n\nProcessor time of each stage of the four filters, in seconds.\n\n", by_stage(found), "\n![Shares of the stages](images/performance-stages.svg)\n"]
     for series, name, head, title in ((found.fractions, "fraction", "fibre volume fraction", "By fraction"), (found.voxels, "voxel_um", "VoxelSize (µm)", "By voxel")):
         if series:
             parts += [f"\n## {title}\n\nSide {number(series[0], 'side_um'):g} µm; stages in ms of processor time per µm of fibre.\n\n", by_setting(series, name, head)]
     if found.fractions or found.voxels:
         parts.append("\n![Time by fraction and by voxel](images/performance-settings.svg)\n")
     if found.threads:
-        parts += [f"\n## By threads\n\nSide {number(found.threads[0], 'side_um'):g} µm; each stage with how many times as fast it is.\n\n", by_threads(found),
+        parts += [f"\n## By threads\n\nSide {number(found.threads[0], 'side_um'):g} µm; the last columns are the speed-up of each stage.\n\n", by_threads(found),
                   "\n![Gain by threads](images/performance-threads.svg)\n"]
     if found.made_by("filters"):
         parts += ["\n## Beside the paper\n\n", beside_the_paper(found)]
