@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 """The optimiser's convergence in its chart view, without a setting: two columns on logarithmic axes with titles, both drawn."""
 

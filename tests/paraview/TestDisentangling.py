@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 200
 # ctest-needs: display
 """The example that plays the optimiser's history: fibres lie in each other in the first picture of its film strip, and not in the last one; the

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 # ctest-timeout: 600
 """./cactus figures makes every figure of the paper, with a table whose numbers are those asked for, and replaces nothing that is not as it

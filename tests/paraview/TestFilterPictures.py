@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 200
 # ctest-needs: display
 """The pictures of the filters' pages can be drawn again: there is one for each that pages show, and what is drawn is no empty sheet."""

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 """The histograms of SubstrateStatistics in their chart view, without a setting: the radii asked for, outer and inner, as bars over the middles of
 their bins, each in its colour."""

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 200
 # ctest-processors: 2
 """CapsuleOptimizer shows its fibres while it works: states on the way, then the result, with the same bits; it can be stopped and keeps its best

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 200
 """./cactus bench performance: each substrate has a row whose stages add up, which is measured anew or added to; page and curves are those of
 the table, and are known not to be where it changes."""

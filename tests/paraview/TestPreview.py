@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 """./cactus preview makes a file that ParaView opens of a substrate folder: cuts with the very areas of the surfaces, tubes as thick as
 the fibres; it overwrites nothing."""

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 300
 """Who waits for a job sees in its log how far it is: a line now and then on standard error, from one rank, as CACTUS_PROGRESS asks."""
 

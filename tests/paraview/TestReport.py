@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 # ctest-timeout: 300
 """./cactus report makes one page of a substrate folder that needs nothing but itself, says first whether it is certified, and shows numbers

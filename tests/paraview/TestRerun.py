@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 600
 """A substrate is made again from its manifest, with the same bits; what cannot be made again is refused with a reason."""
 

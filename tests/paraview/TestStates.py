@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 200
 # ctest-needs: display
 """The script of the presets' states: a state that is loaded has the preset's chain, makes the substrate and shows it."""

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 300
 # ctest-processors: 2
 """examples/sweep.py, by the module that the plugin holds, makes every case once, by one rank or shared by several with the same bits, makes nothing

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 900
 # ctest-processors: 2
 """Whatever ParaView can throw at the plugin ends in a result or in one clear error, and the next good value works.
