@@ -8,14 +8,14 @@
 namespace cactus
 {
 
-/// Adds fibres to others of one substrate. If one of their fibre ids is in use, all of these are moved above the largest one in
-/// use; and so are bundle ids. The domain of `added` does not count. Throws InvalidInput if there is no id free.
+/// Appends fibres to others of one substrate. If one of their fibre ids is in use, all of these are moved above the largest one
+/// in use; the same holds for bundle ids. The domain of `added` is ignored. Throws InvalidInput if no id is free.
 void appendFibres(const Fibres& added, Fibres& all);
 
-/// All fibres as those of one substrate, in their order. Throws InvalidInput where the domains differ, or as appendFibres() does.
+/// Joins fibres into one substrate, in their order. Throws InvalidInput if the domains differ, or as appendFibres() does.
 Fibres joinFibres(std::vector<Fibres> inputs);
 
-/// Whether two domains are the same to 1e-9 µm.
+/// Tells whether two domains are equal to 1e-9 µm.
 bool isSame(const Domain& a, const Domain& b);
 
 } // namespace cactus
