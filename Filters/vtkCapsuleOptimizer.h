@@ -109,7 +109,7 @@ private:
 
   /** Returns the values of the properties, unchecked. */
   const cactus::CapsuleOptimizerStage& Stage() const;
-  /** Runs the optimisation, shared by all ranks, unless LastRun holds it in all of them; throws its exception, also a kept one. */
+  /** Runs the optimisation, shared by all ranks, unless LastRun holds it in all of them; throws its exception, or a kept one. */
   void EnsureRun(vtkInformationVector* inputs);
   void NoteStop();
   /** Tells whether LastRun holds the present result. */
