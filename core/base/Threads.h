@@ -11,14 +11,14 @@ namespace cactus
 /// How many processors this process may run on.
 int processorCount();
 
-/// How many threads to use where nobody says: the first number of the environment variable OMP_NUM_THREADS, as for OpenMP, else
-/// one for each processor. Throws InvalidInput where that variable holds something else.
+/// The number of threads to use by default: the first number of the environment variable OMP_NUM_THREADS, else one for each
+/// processor. Throws InvalidInput where that variable holds something else.
 int usualThreadCount();
 
 /// How many threads work of the calling thread can be shared among so far, that one included.
 int startedThreads();
 
-/// Sees to it that these are `wanted` ones, and returns how many of them there are: fewer where the system starts no more.
+/// Starts threads until there are `wanted`, and returns their number: fewer where the system starts no more.
 int startThreads(int wanted);
 
 /// Whether the calling thread is at work that is shared: what it shares out from there it does alone.

@@ -35,7 +35,7 @@ struct FoundFibre
 /// Share of the total progress spent in the survey.
 constexpr double shareOfLooking = 0.01;
 
-/// By FibreId.
+/// Fibres found, keyed by FibreId.
 using FoundFibres = std::map<std::int32_t, FoundFibre>;
 
 /// Finds the fibres of a field. Each sample is read once, in pieces that a source computes at once; their results are merged in

@@ -51,7 +51,7 @@ inline FourFloats twoAndTwo(const float* first, const float* second)
   return reinterpret_cast<FourFloats>(Pair{ pairs[0], pairs[1] });
 }
 
-/// By place along an axis whose nodes are `step` apart: two pairs of neighbouring nodes, `other` apart.
+/// Loads, for four places along an axis whose nodes are `step` apart, two pairs of neighbouring nodes, `other` apart.
 inline std::array<FourFloats, 4> rowsAt(const float* corner, std::ptrdiff_t step, std::ptrdiff_t other)
 {
   const auto row = [&](std::ptrdiff_t at) { return twoAndTwo(corner + at * step, corner + at * step + other); };
