@@ -11,7 +11,7 @@
 namespace
 {
 
-/// What some kernels add for a fibre.
+/// The contributions of some kernels for a fibre.
 struct Added
 {
   double curvature = 0.0;
@@ -29,7 +29,7 @@ Added add(const cactus::FibreCostKernels& kernels, const cactus::FibreShape& fib
   added.byRadius.assign(fibre.count, 0.25);
   added.stiffness.assign(fibre.count, 0.125);
   added.sharp.resize(fibre.count);
-  std::vector<double> room(cactus::FibreCostKernels::roomFor(fibre.count), 1e300); // nothing in it is to be used
+  std::vector<double> room(cactus::FibreCostKernels::roomFor(fibre.count), 1e300); // its content must not be used
   const cactus::FibreShapeGradients to = { added.byPoint.data(), added.byRadius.data(), added.stiffness.data() };
   added.sharp.resize(kernels.addCurvature(fibre, 0.7, added.curvature, to, room.data(), added.sharp.data()));
   kernels.addLength(fibre, 1.3, added.length, to, room.data());
@@ -69,7 +69,7 @@ TEST(FibreCostKernels, SameBitsOnEveryVectorUnit)
   }
 }
 
-// Guarantee: bends that are sharper than is free to take are told, each of them.
+// Guarantee: every bend that exceeds its limit is reported.
 TEST(FibreCostKernels, TellsSharpBends)
 {
   const cactus::Fibres fibres = randomBundle(33, 1, 60, 6.0, 0.4);
