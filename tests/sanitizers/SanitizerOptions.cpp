@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sanitizers are told; part of every instrumented test program, so that it is the same by hand and from CTest. The
-// environment variables ASAN_OPTIONS, LSAN_OPTIONS, TSAN_OPTIONS and UBSAN_OPTIONS come on top.
+// The sanitizers' options; part of every instrumented test program, so that they are the same by hand and from CTest. The
+// environment variables ASAN_OPTIONS, LSAN_OPTIONS, TSAN_OPTIONS and UBSAN_OPTIONS are added.
 #ifdef CACTUS_SYMBOLIZER
 #define SYMBOLIZER ":external_symbolizer_path=" CACTUS_SYMBOLIZER
 #else
@@ -24,7 +24,7 @@ extern "C"
     return "print_stacktrace=1" SYMBOLIZER;
   }
 
-  // The C library is not instrumented: of what it does the sanitizer sees a part only.
+  // The C library is not instrumented: the sanitizer sees only a part of its work.
   const char* __tsan_default_options()
   {
     return "ignore_noninstrumented_modules=1:halt_on_error=1" SYMBOLIZER;
