@@ -68,7 +68,7 @@ private:
 
   std::unique_ptr<cactus::FilterProperties> Properties;
   cactus::KeptFolder Kept;
-  vtkNew<vtkTable> WrittenFiles; ///< what was written last
+  vtkNew<vtkTable> WrittenFiles; ///< the last files written
 };
 
 #endif

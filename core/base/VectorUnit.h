@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selects the version of a kernel for this machine. A kernel is a loop in which much time is spent, written in the vectors of
-// base/Vector.h. A file NAMEKernels.cpp holds some of them; it is compiled once for each vector unit of x86-64 and fills a table
-// of functions, which NAMEKernels.h describes and declares with CACTUS_KERNEL_VERSIONS.
+// Selects the version of a kernel for this machine.
+//
+// A kernel is a loop in which much time is spent, written in the vectors of base/Vector.h. A file NAMEKernels.cpp holds some of
+// them; it is compiled once for each vector unit of x86-64 and fills a table of functions, which NAMEKernels.h describes and
+// declares with CACTUS_KERNEL_VERSIONS.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes all surfaces of one kind, or those of a bundle, into one file. Fibres are processed one after the other, so that no two
-// meshes are in memory at once; each is made once to be measured, and once or twice to be written.
+// Writes all surfaces of one kind, or those of a bundle, into one file.
+//
+// Fibres are processed one after the other, so that no two meshes are in memory at once; each is made once to be measured, and
+// once or twice to be written.
 #pragma once
 
 #include "base/Context.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed surfaces in a box as one complex of triangles, for tetrahedral meshing: where a surface was capped on a face of the box,
-// the face itself replaces the cap.
+// Closed surfaces in a box as one complex of triangles, for tetrahedral meshing.
+//
+// Where a surface was capped on a face of the box, the face itself replaces the cap.
 #pragma once
 
 #include "base/Context.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cost kernels in two steps: the contributions of each bend and each segment to its control points are computed first, a vector
-// of them at once. Each control point then adds its contributions in the order of the bends, or segments.
+// Kernels of the cost terms that apply to all control points of a fibre.
+//
+// They work in two steps: the contributions of each bend and each segment to its control points are computed first, a vector of
+// them at once. Each control point then adds its contributions in the order of the bends, or segments.
 #include "optimiser/FibreCostKernels.h"
 
 #include "base/Vector.h"

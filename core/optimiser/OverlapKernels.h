@@ -55,7 +55,7 @@ struct OverlapKernels
   /// Work space of evaluateCapsules, for lists with that many neighbours in total.
   struct Room
   {
-    /// Always filled with valid indices of bodies.
+    /// Every entry is a valid index of bodies.
     std::uint32_t* touching;
     EightDoubles* lanes;
     static constexpr std::size_t touchingFor(std::size_t neighbours) { return neighbours + 16; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checksums of data in the records of stages. They equal those that the filters compute from VTK's arrays, so that a recipe run
-// without ParaView leaves the same records.
+// Checksums of data in the records of stages.
+//
+// They equal those that the filters compute from VTK's arrays, so that a recipe run without ParaView leaves the same records.
 #pragma once
 
 #include "fibres/Fibres.h"

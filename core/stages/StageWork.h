@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The work of a stage around its method, shared by ParaView and cactus-grow: properties become options, and a run gets its record
-// and remarks.
+// The work of a stage around its method, shared by ParaView and cactus-grow.
+//
+// Properties become options, and a run gets its record and remarks.
 #pragma once
 
 #include "base/Context.h"

@@ -59,8 +59,8 @@ public:
   /// was moved and nearly kept its volume (volumeAsMade), the old inner one is kept, unless it is in the way.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
-  /// Tells whether makeInner() would make the pair's inner surface again now that the outer one was moved. Sets the g-ratio if
-  /// so.
+  /// Tells whether the pair's inner surface is the same that makeInner() would make now that the outer one was moved. Sets the
+  /// g-ratio if so.
   bool keepsInner(FibreSurfacePair& pair) const;
 
 private:
