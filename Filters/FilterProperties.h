@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties of a VTK class, kept in its stage's struct (core/stages/Stages.h), which has their defaults, ranges and
-// meanings.
+// The properties of a VTK class. Its stage's struct (core/stages/Stages.h) has their defaults, ranges and meanings.
 #pragma once
 
 #include <vtkIndent.h>
