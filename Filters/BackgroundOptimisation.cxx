@@ -27,7 +27,7 @@ void BackgroundOptimisation::stop()
 
 void BackgroundOptimisation::run(const CapsuleOptimizerOptions& options, int threads, int interval)
 {
-  // Without progress: the caller's may not be told of it from another thread.
+  // Without progress: the caller's must not be called from another thread.
   Context context;
   context.threads = threads;
   context.cancelled = [this] { return this->WantsStop.load(); };
@@ -52,7 +52,7 @@ void BackgroundOptimisation::run(const CapsuleOptimizerOptions& options, int thr
 void BackgroundOptimisation::show(const ConvergenceRow& row, const Fibres& fibres, int interval)
 {
   this->Rows.push_back(row);
-  if (row.iteration % interval != 0 && this->IsFirstThere) // which nobody else sets; a run may go on from any iteration
+  if (row.iteration % interval != 0 && this->IsFirstThere) // only this thread sets it; a run may continue from any iteration
   {
     return;
   }

@@ -14,58 +14,58 @@
 namespace cactus
 {
 
-/// An optimisation in a thread of its own, with the bits of one that its caller waits for, which can be looked at meanwhile.
+/// An optimisation in its own thread, whose states can be read meanwhile. It gives the same bits as one in the caller's thread.
 class BackgroundOptimisation
 {
 public:
-  /// A state on the way.
+  /// An intermediate state.
   struct State
   {
     Fibres fibres;
-    std::vector<ConvergenceRow> rows; ///< up to the one of this state
+    std::vector<ConvergenceRow> rows; ///< up to that of this state
   };
 
   /// Starts. The first state and those of every `interval`-th iteration are shown.
   BackgroundOptimisation(Fibres fibres, const CapsuleOptimizerOptions& options, int threads, int interval);
   BackgroundOptimisation(const BackgroundOptimisation&) = delete;
   BackgroundOptimisation& operator=(const BackgroundOptimisation&) = delete;
-  /// Stops, and loses the result.
+  /// Stops, and discards the result.
   ~BackgroundOptimisation();
 
   /// Ends it soon, with its best state as the result.
   void stop();
 
-  /// Whether there is a state that nobody has taken, or the result.
+  /// Tells whether there is a new state, or the result.
   bool hasNews() const;
 
-  /// Waits for the first state, and tells whether the run has come to its end.
+  /// Waits for the first state, and tells whether the run has ended.
   bool isOver() const;
 
-  /// The newest state.
+  /// Returns the newest state.
   State take();
 
-  /// The result of a run that is over, once; throws what it threw.
+  /// Returns the result of a run that has ended, once; throws the run's exception.
   OptimisationResult result(Fibres& fibres);
 
 private:
   void run(const CapsuleOptimizerOptions& options, int threads, int interval);
   void show(const ConvergenceRow& row, const Fibres& fibres, int interval);
 
-  Fibres Moving; ///< the worker's
+  Fibres Moving; ///< used by the worker
   std::vector<ConvergenceRow> Rows;
   std::atomic<bool> WantsStop{ false };
 
-  mutable std::mutex Guard; ///< of all that follows
+  mutable std::mutex Guard; ///< of all members below
   mutable std::condition_variable Changed;
   State Newest;
   bool IsNew = false;
   bool IsFirstThere = false;
   bool IsOver = false;
-  bool IsTaken = false; ///< the result
+  bool IsTaken = false; ///< whether the result was taken
   OptimisationResult Result;
   std::exception_ptr Failure;
 
-  std::thread Worker; ///< last: it starts with all of the above
+  std::thread Worker; ///< last, since it starts with all members above
 };
 
 } // namespace cactus

@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// Vectors whose memory arrays of VTK use, by where that is: VTK knows no more of what it gives back.
+/// The vectors whose memory VTK arrays use, by address: VTK's deleter gets only the address.
 template <typename Value>
 class Adopted
 {
@@ -25,7 +25,7 @@ public:
     return begin;
   }
 
-  /// Called for whatever the array has in the end: where it was made larger since, that is VTK's own.
+  /// Called with the array's final memory, which is VTK's own if the array was enlarged.
   static void release(void* begin)
   {
     const std::lock_guard<std::mutex> lock(mutex());
@@ -36,7 +36,7 @@ public:
   }
 
 private:
-  // Neither is ever destroyed: arrays may be given back while the process ends.
+  // Neither is ever destroyed: arrays may be released while the process ends.
   static std::mutex& mutex()
   {
     static auto* one = new std::mutex;
@@ -50,7 +50,7 @@ private:
   }
 };
 
-/// `Number` is what `Value` is to VTK, bit for bit.
+/// `Number` is VTK's type for `Value`, with the same bits.
 template <typename Array, typename Value>
 vtkSmartPointer<Array> adopted(const std::string& name, std::vector<Value> values, int components)
 {

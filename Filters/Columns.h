@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays for outputs: the columns of tables and the tables in field data.
+// Arrays for outputs: the columns of tables, and the tables in field data.
 #pragma once
 
 #include <vtkDataArray.h>
@@ -19,8 +19,8 @@
 namespace cactus
 {
 
-/// An array of `count` tuples whose values have yet to be set. Throws std::bad_alloc where there is no room for them, and says
-/// nothing: VTK's own allocation reports an error besides, or ends the program (Debian builds it with assertions).
+/// Makes an array of `count` tuples without values. Throws std::bad_alloc if they do not fit into memory, without an error
+/// message: VTK's own allocation would report an error, or end the program (Debian builds it with assertions).
 template <typename Array>
 vtkSmartPointer<Array> makeArray(const std::string& name, std::size_t count, int components = 1)
 {
@@ -40,10 +40,10 @@ vtkSmartPointer<Array> makeArray(const std::string& name, std::size_t count, int
   return array;
 }
 
-/// An array of these values, which stay where they are in memory, so that there is no second copy of them.
+/// Makes an array of these values without copying them.
 vtkSmartPointer<vtkDoubleArray> adoptedArray(const std::string& name, std::vector<double> values, int components = 1);
 
-/// The same for whole numbers of 64 bits, each below 2⁶³.
+/// Does the same for whole numbers of 64 bits, each below 2⁶³.
 vtkSmartPointer<vtkTypeInt64Array> adoptedArray(const std::string& name, std::vector<std::size_t> values);
 
 inline void store(vtkTable* table, vtkAbstractArray* column)
@@ -56,7 +56,7 @@ inline void store(vtkFieldData* data, vtkAbstractArray* column)
   data->AddArray(column);
 }
 
-/// Adds a column to a table, or to field data, whose values are value(0), …, value(rows - 1).
+/// Adds a column with the values value(0), …, value(rows - 1) to a table, or to field data.
 template <typename Array, typename Target, typename Value>
 void addColumn(Target* target, const std::string& name, std::size_t rows, Value&& value)
 {
@@ -75,13 +75,13 @@ void addColumn(Target* target, const std::string& name, std::size_t rows, Value&
   store(target, column);
 }
 
-/// One number as field data.
+/// Adds one number as field data.
 inline void addNumber(vtkFieldData* data, const std::string& name, double value)
 {
   addColumn<vtkDoubleArray>(data, name, 1, [value](std::size_t) { return value; });
 }
 
-/// One whole number as field data.
+/// Adds one whole number as field data.
 inline void addCount(vtkFieldData* data, const std::string& name, int value)
 {
   addColumn<vtkIntArray>(data, name, 1, [value](std::size_t) { return value; });

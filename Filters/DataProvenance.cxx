@@ -24,7 +24,7 @@ namespace
 {
 
 constexpr const char* arrayName = "Provenance";
-/// Filters between two stages that are looked through at most: pipelines may branch and meet again.
+/// Largest number of filters searched between two stages: pipelines may branch and join again.
 constexpr int mostFilters = 100;
 
 void add(FastChecksum& checksum, vtkDataArray* array)
@@ -39,7 +39,8 @@ void add(FastChecksum& checksum, vtkDataArray* array)
     static_cast<std::size_t>(array->GetNumberOfValues()) * static_cast<std::size_t>(array->GetDataTypeSize()));
 }
 
-/// What data of ours are known by: their points, and the arrays that later stages use. Empty for data of another type.
+/// Returns the checksum that identifies our data: their points, and the arrays that later stages use. Empty for data of another
+/// type.
 std::string checksumOfData(vtkDataObject* data)
 {
   FastChecksum checksum;
@@ -80,7 +81,7 @@ Provenance recordsIn(vtkDataObject* data)
   return records;
 }
 
-/// By the data alone.
+/// Returns the origin known from the data alone.
 DataOrigin originOf(vtkDataObject* data)
 {
   DataOrigin origin;
@@ -116,7 +117,7 @@ bool isAsMade(const DataOrigin& origin)
 
 DataOrigin originAt(vtkAlgorithm* consumer, int port, int connection, int& filtersLeft);
 
-/// What the filter was given that has made data which do not tell of themselves.
+/// Returns the inputs of a filter whose data have no record.
 DataOrigin originBefore(vtkAlgorithm* filter, int& filtersLeft)
 {
   DataOrigin origin;
@@ -141,7 +142,7 @@ DataOrigin originAt(vtkAlgorithm* consumer, int port, int connection, int& filte
     return origin;
   }
   DataOrigin before = originBefore(producer, filtersLeft);
-  // ParaView puts filters of its own behind every other, which hand data on.
+  // ParaView puts its own filters behind every other, which pass data on.
   const bool isPassage = before.filter == "vtkPVPostFilter" && before.parts.size() == 1;
   if (isPassage)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The records of stages (core/base/Provenance.h) in the field data `Provenance` of what they make.
+// The records of stages (core/base/Provenance.h) in the field data `Provenance` of their outputs.
 #pragma once
 
 #include "base/Properties.h"
@@ -15,12 +15,12 @@ class vtkDataObject;
 namespace cactus
 {
 
-/// Where the data that come in at each port and connection of `self` came from, by the names of the ports. Data that are not as
-/// the stage has left them that they tell of were made by filters in between: these are looked up in the pipeline, as far as it
-/// is at hand, and named.
+/// Returns the origins of the data at each port and connection of `self`, by the names of the ports. Data that differ from their
+/// last recorded stage were changed by filters in between: these are looked up in the pipeline, as far as it is accessible, and
+/// named.
 std::vector<std::pair<std::string, std::vector<DataOrigin>>> originsOf(vtkAlgorithm* self, const std::vector<std::string>& ports);
 
-/// A stage's record: what `self` was told, has read and was given, and what it has reached.
+/// Makes a stage's record: the properties, files and inputs of `self`, and the values that it reached.
 template <typename Stage>
 Provenance recordOf(vtkAlgorithm* self, const std::string& filter, const Stage& stage, const std::vector<std::string>& ports,
   std::vector<std::pair<std::string, PropertyValue>> reached = {})
@@ -28,10 +28,10 @@ Provenance recordOf(vtkAlgorithm* self, const std::string& filter, const Stage& 
   return provenanceOf({ filter, Stage::properties().states(stage), std::move(reached), {}, originsOf(self, ports) });
 }
 
-/// Whether data, or all parts of them, are as the last stage has left them that they tell of.
+/// Tells whether data, or all parts of them, are unchanged since their last recorded stage.
 bool areAsMade(vtkDataObject* data);
 
-/// Puts the records into the field data of what comes out at a port, all else of which has to be there.
+/// Puts the records into the field data of the output at a port; everything else of it has to be complete.
 void setProvenance(vtkDataObject* data, const Provenance& records, int port);
 
 } // namespace cactus

@@ -38,7 +38,7 @@ namespace
 constexpr const char* grownName = "GrownFibreVolumeFraction";
 constexpr const char* convergedName = "Converged";
 
-/// A one-component array with as many tuples as there are things to describe, or null where there is none of that name.
+/// Returns a one-component array with `expected` tuples, or null if there is none of that name.
 vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
 {
   vtkDataArray* array = data->GetArray(name);
@@ -49,7 +49,7 @@ vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
   return array;
 }
 
-/// What the fibres of a block were made for; 0 where it does not say so.
+/// Returns the fraction that the fibres of a block were made for; 0 if unknown.
 double grownFractionOf(vtkPolyData* input)
 {
   vtkDataArray* array = input->GetFieldData()->GetArray(grownName);
@@ -135,7 +135,7 @@ Domain readDomain(vtkAbstractArray* array)
   return domain;
 }
 
-/// From an image's space into the substrate's own.
+/// Moves fibres from an image's space into the substrate's.
 void takeBack(const Placement& placement, Fibres& fibres)
 {
   for (Eigen::Vector3d& point : fibres.points)
@@ -244,12 +244,12 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   addColumn<vtkIntArray>(cells, "FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
   addColumn<vtkIntArray>(cells, "BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
   addColumn<vtkDoubleArray>(cells, "TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
-  vtkNew<vtkFieldData> kept; // a field data cannot be copied to itself
+  vtkNew<vtkFieldData> kept; // field data cannot be copied to themselves
   kept->ShallowCopy(output->GetFieldData());
   fresh->SetFieldData(kept);
   output->ShallowCopy(fresh);
   setDomain(output, fibres.domain);
-  for (const char* name : { grownName, convergedName }) // of the first of several inputs
+  for (const char* name : { grownName, convergedName }) // those of the first of several inputs
   {
     output->GetFieldData()->RemoveArray(name);
   }

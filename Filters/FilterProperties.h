@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties of a VTK class, kept in the struct of the stage that describes them (core/stages/Stages.h): their defaults,
-// ranges and meanings stand there.
+// The properties of a VTK class. Its stage's struct (core/stages/Stages.h) has their defaults, ranges and meanings.
 #pragma once
 
 #include <vtkIndent.h>
@@ -12,8 +11,8 @@
 namespace cactus
 {
 
-/// The properties of some stage by name. What is set is checked when the filter runs. A name that the stage does not have, or has
-/// as a property of another type, throws std::logic_error.
+/// The properties of some stage by name. Values are checked when the filter runs. A name that the stage does not have, or has
+/// with another type, throws std::logic_error.
 class FilterProperties
 {
 public:
@@ -22,23 +21,23 @@ public:
   FilterProperties(const FilterProperties&) = delete;
   FilterProperties& operator=(const FilterProperties&) = delete;
 
-  /// Each sets a value, and tells whether it was another one before. A null text is taken as an empty one.
+  /// Each sets a value, and tells whether it differed before. A null text counts as empty.
   virtual bool changeNumber(const char* name, double value) = 0;
-  virtual bool changeWhole(const char* name, int value) = 0; ///< and a choice
+  virtual bool changeWhole(const char* name, int value) = 0; ///< also a choice
   virtual bool changeSwitch(const char* name, bool value) = 0;
   virtual bool changeText(const char* name, const char* value) = 0;
   virtual double number(const char* name) const = 0;
   virtual int whole(const char* name) const = 0;
   virtual bool isOn(const char* name) const = 0;
-  /// Null for an empty one, as VTK has it; valid until the next call for the same name.
+  /// Returns null for an empty text, as in VTK; valid until the next call for the same name.
   virtual const char* text(const char* name) const = 0;
-  /// All of them, a line each.
+  /// Prints all of them, a line each.
   virtual void print(std::ostream& out, vtkIndent indent) const = 0;
 };
 
 } // namespace cactus
 
-/// Asks a run to stop. That is no change of the filter: of several ranks, one that was asked too late would else run again, and
+/// Asks a run to stop without changing the filter: of several ranks, one that was asked too late would otherwise run again, and
 /// wait for the others.
 #define CACTUS_ABORT_IS_NO_CHANGE                                                                                                \
   void SetAbortExecute(vtkTypeBool wanted) override                                                                              \

@@ -38,9 +38,9 @@ namespace cactus
 namespace
 {
 
-constexpr const char* errorName = "Error"; ///< field data array of what could not be made
+constexpr const char* errorName = "Error"; ///< field data array with the error message
 
-/// What an algorithm keeps, in its own information, of a run that failed or was stopped.
+/// Key, in an algorithm's own information, of the record of a run that failed or was stopped.
 vtkInformationStringKey* failedRunKey()
 {
   static vtkInformationStringKey* const key = vtkInformationStringKey::MakeKey("FAILED_RUN", "cactus");
@@ -59,14 +59,14 @@ vtkInformationIntegerKey* stoppedKey()
   return key;
 }
 
-/// When it was last said that the run was stopped, in seconds of a steady clock.
+/// Key of the time at which the stop was last reported, in seconds of a steady clock.
 vtkInformationDoubleKey* saidKey()
 {
   static vtkInformationDoubleKey* const key = vtkInformationDoubleKey::MakeKey("SAID", "cactus");
   return key;
 }
 
-/// Calls `visit` with each data object that comes in.
+/// Calls `visit` with each input data object.
 template <typename Visit>
 void forEachInput(vtkAlgorithm* self, Visit&& visit)
 {
@@ -82,7 +82,7 @@ void forEachInput(vtkAlgorithm* self, Visit&& visit)
   }
 }
 
-/// All that a run depends on: two runs that have this in common end alike.
+/// Returns everything that a run depends on: two runs for which this is equal have the same result.
 std::string runOf(vtkAlgorithm* self)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -118,7 +118,7 @@ void leaveEmpty(vtkAlgorithm* self, const std::string& message)
   }
 }
 
-/// Keeps what happened for the next request of the same.
+/// Records what happened for the next identical request.
 void remember(vtkAlgorithm* self, const std::string& message, bool isStop)
 {
   vtkInformation* info = self->GetInformation();
@@ -143,7 +143,8 @@ void fail(vtkAlgorithm* self, const std::string& message)
   remember(self, message, false);
 }
 
-/// Says that the run was stopped, once for what asks at one time: an update asks port after port, and some filters ask ahead.
+/// Reports that the run was stopped, once for requests at the same time: an update asks port after port, and some filters ask
+/// ahead.
 void sayStopped(vtkAlgorithm* self)
 {
   vtkInformation* info = self->GetInformation();
@@ -155,7 +156,7 @@ void sayStopped(vtkAlgorithm* self)
   info->Set(saidKey(), now);
 }
 
-/// Why all outputs are already known to be empty; empty where that is not known.
+/// Returns why all outputs are already known to be empty; empty if unknown.
 std::string knownFailure(vtkAlgorithm* self)
 {
   std::string upstream;
@@ -169,7 +170,7 @@ std::string knownFailure(vtkAlgorithm* self)
   return isKnown ? info->Get(failureKey()) : "";
 }
 
-/// Leaves the outputs empty where that is already known to be all that there can be, in this rank or in another.
+/// Empties the outputs and returns true if this rank or another is already known to fail.
 bool isKnownToFail(vtkAlgorithm* self, const Sharing& sharing)
 {
   const std::string own = knownFailure(self);
@@ -195,7 +196,7 @@ bool isKnownToFail(vtkAlgorithm* self, const Sharing& sharing)
   return true;
 }
 
-/// As scripts have it: without VTK's "vtk" in front.
+/// Returns the name in scripts: without VTK's prefix "vtk".
 std::string nameOf(vtkAlgorithm* algorithm)
 {
   return std::string(algorithm->GetClassName()).substr(3);
@@ -210,7 +211,7 @@ bool attempt(vtkAlgorithm* self, const Sharing& sharing, const std::function<voi
     return false;
   }
   forget(self);
-  // VTK reports progress before and after this, when no text of this run's is true.
+  // VTK reports progress before and after this, when the text of this run is wrong.
   const std::unique_ptr<vtkAlgorithm, void (*)(vtkAlgorithm*)> textless(
     self, [](vtkAlgorithm* done) { done->SetProgressText(nullptr); });
   setProcessesSharingMemory(processesOnThisMachine());
@@ -268,8 +269,8 @@ Context contextFor(vtkAlgorithm* algorithm, int threads)
     algorithm->UpdateProgress(fraction);
     log->tell(fraction, message);
   };
-  // The flag is taken back here and once it is noticed. VTK leaves it set, which would stop the next run at its start; and
-  // cleared by others after this run, it would mark the filter as modified and have it run again.
+  // The flag is cleared here and once it is noticed. VTK leaves it set, which would stop the next run at its start; if others
+  // cleared it after this run, it would mark the filter as modified and make it run again.
   algorithm->SetAbortExecute(0);
   // Not CheckAbort(): once that has returned true, VTK empties every output, also a best result worth keeping.
   context.cancelled = [algorithm, stopped = std::make_shared<bool>(false)]
@@ -320,7 +321,7 @@ int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void
       work();
       if (StopSignals::areCaught())
       {
-        throw Cancelled(); // so that what follows in the pipeline does not begin
+        throw Cancelled(); // so that later stages in the pipeline do not begin
       }
     });
   return 1;

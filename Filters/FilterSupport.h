@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every filter needs around a call into core: exceptions turned into VTK's errors, progress and stopping passed on.
+// Support for every filter that calls core: turns exceptions into VTK errors, and passes on progress and stop requests.
 #pragma once
 
 #include "base/Context.h"
@@ -17,41 +17,41 @@ namespace cactus
 
 class Sharing;
 
-/// Context whose progress goes to `algorithm` and, now and then, to standard error (see ProgressLog), and which stops when the
-/// user aborts it, or a signal comes that ends the process. Throws InvalidInput as ProgressLog.
+/// Returns a context whose progress goes to `algorithm` and, at intervals, to standard error (see ProgressLog). It stops when the
+/// user aborts the algorithm, or at a signal that ends the process. Throws InvalidInput as ProgressLog.
 Context contextFor(vtkAlgorithm* algorithm, int threads = 0);
 
-/// Runs `work`, and tells whether it came to its end. Whatever it throws is reported once, as the algorithm's error; all outputs
-/// are then empty and hold the message as field data `Error`, a string array. What another rank reports is not said again.
+/// Runs `work`, and tells whether it completed. Any exception is reported once, as the algorithm's error; all outputs are then
+/// empty and hold the message as field data `Error`, a string array. Errors that another rank reports are not repeated.
 ///
-/// Where an input holds that mark, directly or in a block, the fault has been reported: `work` is not run, nothing is said, and
-/// the outputs are marked likewise. The same holds where the pipeline asks again for what has just failed. What the user has
-/// stopped is not started again by whatever asks next, such as a view that is drawn: a warning says so each time, until the
-/// filter or its input is changed. A signal, too, stops `work`, and is passed on when that has ended (see StopSignals).
+/// If an input holds that mark, directly or in a block, the fault has been reported: `work` is not run, nothing is reported, and
+/// the outputs are marked likewise. The same holds if the pipeline repeats a request that has just failed. A run that the user
+/// stopped is not started again by the next request, such as from a view that is drawn: a warning says so each time, until the
+/// filter or its input is changed. A signal also stops `work`, and is passed on after it has ended (see StopSignals).
 bool attempt(vtkAlgorithm* self, const std::function<void()>& work);
 
-/// The same where all ranks share `work`, and all of them come here: where it is not run in one of them, it is in none.
+/// Does the same if all ranks share `work`. Collective: if `work` is not run in one rank, it is run in none.
 bool attempt(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work);
 
-/// The same for RequestData: always 1. After a 0 ParaView's pipeline does not execute again for the next good value, and a server
-/// and its client wait for each other. A signal that has left `work` something to hand on, or came with its last moments, empties
-/// the outputs as well, so that what follows does not begin; what writes files says attempt(), and keeps them.
+/// Does the same for RequestData, and always returns 1. After a 0 ParaView's pipeline does not execute again for the next good
+/// value, and a server and its client wait for each other. If a signal arrives while `work` still completes with a result, it
+/// empties the outputs, too, so that later stages do not begin; filters that write files call attempt(), and keep them.
 int guarded(vtkAlgorithm* self, const std::function<void()>& work);
 int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void()>& work);
 
-/// For work that was stopped before RequestData, which a signal may not let come: says so, and RequestData then says it no more.
+/// Reports that work was stopped before RequestData, which a signal may prevent; RequestData then does not repeat it.
 void noteStopped(vtkAlgorithm* self, const std::string& message);
 
-/// The same as vtkAlgorithm::ComputePipelineMTime, but for a filter that was stopped: it counts as changed until it has run, so
-/// that whatever asks for its output gets the warning. What follows in the pipeline would not ask again. Not of several ranks, of
-/// which one would come to an exchange alone: these ask again after a change, or by Write.
+/// Does the same as vtkAlgorithm::ComputePipelineMTime, except that a stopped filter counts as changed until it has run, so that
+/// whoever requests its output gets the warning; later stages would otherwise not request it again. Not for several ranks, of
+/// which one would enter an exchange alone: these run again after a change, or by Write.
 int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time);
 
-/// Runs `work` for RequestInformation and RequestUpdateExtent, which say nothing of what it throws: RequestData fails in the same
-/// way, and reports it.
+/// Runs `work` for RequestInformation and RequestUpdateExtent, which ignore its exceptions: RequestData fails in the same way,
+/// and reports them.
 void quietly(const std::function<void()>& work);
 
-/// The message that `data`, or one of its blocks, is marked with; empty where there is none.
+/// Returns the message that `data`, or one of its blocks, is marked with; empty if there is none.
 std::string errorOf(vtkDataObject* data);
 
 } // namespace cactus

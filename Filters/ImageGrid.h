@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For filters whose output is an image on a grid of their own, which only their inputs' data tell.
+// Support for filters whose output is an image on its own grid, which depends on the inputs' data.
 #pragma once
 
 #include "FilterSupport.h"
@@ -16,7 +16,7 @@
 namespace cactus
 {
 
-/// The points of an image, whose axes are those of space.
+/// The points of an image whose axes are those of space.
 struct ImageGrid
 {
   std::array<int, 3> count{};
@@ -33,9 +33,8 @@ inline void setGrid(vtkImageData* image, const ImageGrid& grid)
   image->SetSpacing(grid.spacing, grid.spacing, grid.spacing);
 }
 
-/// For RequestInformation: brings the inputs at port 0 up to date, and tells the pipeline the grid that `gridOf(data)` makes of
-/// them, and the type of its active scalars. Where there is no grid the pipeline gets a place holder: it wants to see an extent
-/// even where there cannot be an image.
+/// For RequestInformation: updates the inputs at port 0, and tells the pipeline the grid `gridOf(data)`, and the type of its
+/// active scalars. Without a grid the pipeline gets a place holder: it needs an extent even if there is no image.
 template <typename GridOf>
 void announceGrid(vtkAlgorithm* self, vtkInformationVector** inputs, vtkInformationVector* outputs, int scalars, GridOf&& gridOf)
 {

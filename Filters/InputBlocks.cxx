@@ -19,7 +19,7 @@ namespace cactus
 namespace
 {
 
-/// A data set and the name that its block has, if any.
+/// A data set and the name of its block, if any.
 struct Leaf
 {
   vtkDataObject* data;

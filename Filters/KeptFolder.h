@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For filters that write a folder: when they do, and when they leave it as it is.
+// Decides when a filter that writes a folder writes it, and when it leaves it as it is.
 #pragma once
 
 #include <vtkType.h>
@@ -11,24 +11,24 @@ class vtkAlgorithm;
 namespace cactus
 {
 
-/// What a filter's folder was written for. A filter writes for changes of its own properties and connections, and when its user
-/// says so, not because what comes in has changed.
+/// The state for which a filter's folder was written. A filter writes after changes of its own properties and connections, and on
+/// the user's request, not because its input has changed.
 class KeptFolder
 {
 public:
-  /// Whether it was written for the properties and connections that the filter has now.
+  /// Tells whether it was written for the filter's present properties and connections.
   bool isWritten(vtkAlgorithm* self) const;
-  /// Notes that it was, and when what came in had been changed last.
+  /// Records that it was written, and when its input was last changed.
   void noteWritten(vtkAlgorithm* self, vtkMTimeType newestInput);
-  /// What is to be said where what comes in has changed since; once for each change, else empty.
+  /// Returns a remark if the input has changed since; once for each change, else empty.
   std::string remark(const std::string& folder, vtkMTimeType newestInput);
 
 private:
   vtkMTimeType Time = 0;      ///< of the properties and connections; 0: nothing was written
-  vtkMTimeType InputTime = 0; ///< of the input that was written, or of which it was said that it was not
+  vtkMTimeType InputTime = 0; ///< of the input that was written, or for which a remark was given
 };
 
-/// Has a filter write its folder, whatever has or has not changed; whether it could.
+/// Makes a filter write its folder, whether or not anything has changed; returns whether it succeeded.
 bool writeNow(vtkAlgorithm* self);
 
 } // namespace cactus

@@ -67,7 +67,7 @@ std::vector<int> fieldIds(vtkImageData* image, const std::string& name)
   return ids;
 }
 
-/// The image's numbers where VTK keeps them.
+/// Returns a view of the image's arrays in VTK.
 LabelImageView viewOf(vtkImageData* image)
 {
   auto* fibreId = vtkIntArray::SafeDownCast(image->GetPointData()->GetArray("FibreId"));

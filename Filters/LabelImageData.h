@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place that reads the label image of vtkFibreRadialGrowth.
+// Reads the label image of vtkFibreRadialGrowth.
 #pragma once
 
 #include "surface/MyelinSurface.h"
@@ -10,7 +10,7 @@ class vtkImageData;
 namespace cactus
 {
 
-/// A label image, its numbers where VTK keeps them, and what its field data say.
+/// A label image: a view of VTK's arrays, and the facts in its field data.
 struct LabelImageInput
 {
   vtkImageData* image = nullptr;
@@ -18,10 +18,10 @@ struct LabelImageInput
   LabelImageFacts facts;
 };
 
-/// The input as an image that holds something. Throws InvalidInput for anything else.
+/// Returns the input as a non-empty image. Throws InvalidInput for anything else.
 vtkImageData* requireImage(vtkDataObject* input);
 
-/// Reads a label image. Throws InvalidInput, naming the array, where it is not one as vtkFibreRadialGrowth makes them.
+/// Reads a label image. Throws InvalidInput, naming the array, if vtkFibreRadialGrowth cannot have made it.
 LabelImageInput labelImageFrom(vtkDataObject* input);
 
 } // namespace cactus

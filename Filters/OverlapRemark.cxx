@@ -18,7 +18,7 @@ namespace cactus
 namespace
 {
 
-/// What the optimiser has said in each part of the input: Converged, 1 or 0. Of what was changed since it says nothing.
+/// Returns the optimiser's field data Converged, 1 or 0, of each part of the input. Parts changed since do not count.
 std::vector<bool> verdictsOfOptimiser(const std::vector<vtkDataObject*>& parts)
 {
   std::vector<bool> verdicts;
@@ -46,7 +46,7 @@ std::string remarkOnOverlaps(vtkDataObject* input, const Fibres& fibres, int thr
     return "these fibres still overlap (Converged is 0) and take space from each other: let CapsuleOptimizer run on or, where it "
            "keeps its history, go to the last time step";
   }
-  // Several that were parted each for itself may overlap each other.
+  // Several inputs that were optimised separately may overlap each other.
   if (!verdicts.empty() && isOne)
   {
     return {};

@@ -66,7 +66,7 @@ void placeGrid(vtkImageData* image, const Placement& placement)
   image->SetSpacing(spacing.data());
 }
 
-/// The array with `change` done to each of its tuples.
+/// Applies `change` to each tuple of an array.
 template <typename Change>
 void changeArray(vtkDataSetAttributes* data, vtkDataArray* array, Change&& change)
 {
@@ -79,7 +79,7 @@ void changeArray(vtkDataSetAttributes* data, vtkDataArray* array, Change&& chang
     change(tuple);
     changed->SetTuple(i, tuple.data());
   }
-  // In its place: as the active scalars or normals that it may be.
+  // In the same place, since it may be the active scalars or normals.
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     if (data->GetAbstractArray(i) == array)
@@ -113,7 +113,7 @@ void turnDirections(vtkDataSetAttributes* data, const Placement& placement)
   }
 }
 
-/// Coefficients of spherical harmonics and axes of bundles, as SubstrateSampler has them.
+/// Rotates the coefficients of spherical harmonics and axes of bundles of SubstrateSampler.
 void turnOrientations(vtkDataSetAttributes* data, const Placement& placement)
 {
   auto* fod = vtkFloatArray::SafeDownCast(data->GetArray("FOD"));

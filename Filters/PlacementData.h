@@ -11,25 +11,25 @@ class vtkDataObject;
 namespace cactus
 {
 
-/// The field data `Placement` of a data set, or of the first of its blocks that has it: the affine by which it came from the
-/// substrate's own space. Nothing for data in that space. Throws InvalidInput for what is no placement.
+/// Returns the field data `Placement` of a data set, or of the first of its blocks that has it: the affine from the substrate's
+/// space. Nothing for data in that space. Throws InvalidInput for an invalid placement.
 std::optional<Placement> placementOf(vtkDataObject* data);
 void setPlacement(vtkDataObject* data, const Placement& placement);
-/// Takes away what an output in the substrate's own space has of a placed input, as VTK passes field data on.
+/// Removes the placement from an output in the substrate's space: VTK passes the field data of a placed input on.
 void forgetPlacement(vtkDataObject* data);
 
-/// Throws InvalidInput for data that are placed, where a stage works in the substrate's own space on data as large as images.
+/// Throws InvalidInput for placed data, if a stage works in the substrate's space on data as large as images.
 void requireNotPlaced(vtkDataObject* data);
 
-/// Whether place() takes data of this type: what has points, images and tables.
+/// Tells whether place() accepts data of this type: data with points, images and tables.
 bool isPlaceable(vtkDataObject* data);
-/// Throws InvalidInput where it does not.
+/// Throws InvalidInput if it does not.
 void requirePlaceable(vtkDataObject* data);
 
-/// Turns `output`, a shallow copy of data in the substrate's own space, into that of the image: points or, of an image, its grid;
-/// arrays of three floating-point numbers, which are directions, are turned; Radius and TargetRadius become mm; colours of
-/// fibres by their direction go by the image's axes. All other numbers stay as they are, and tables altogether. Throws
-/// InvalidInput for data of another type and for such as are placed already.
+/// Moves `output`, a shallow copy of data in the substrate's space, into that of the image: points or an image's grid; arrays of
+/// three floating-point numbers, which are directions, are rotated; Radius and TargetRadius become mm; colours of fibres by their
+/// direction follow the image's axes. All other numbers stay, and tables do not change. Throws InvalidInput for data of another
+/// type and for placed data.
 void place(vtkDataObject* output, const Placement& placement);
 
 } // namespace cactus

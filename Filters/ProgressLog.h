@@ -7,16 +7,16 @@
 namespace cactus
 {
 
-/// What the log of a job, or who waits in a terminal, sees of long work: a line of progress now and then on standard error, from
-/// the first rank.
+/// Prints a line of progress at intervals on standard error, for the log of a job or a terminal; on the first rank only.
 class ProgressLog
 {
 public:
-  /// who: what lines begin with. Throws InvalidInput where the environment variable CACTUS_PROGRESS, seconds between two lines,
-  /// holds no whole number of progressPauses; usualProgressPause where it is not set. The first rank alone reads it.
+  /// who: the beginning of each line. The environment variable CACTUS_PROGRESS holds the seconds between two lines; throws
+  /// InvalidInput if it is no whole number in progressPauses, and uses usualProgressPause if it is not set. Only the first rank
+  /// reads it.
   explicit ProgressLog(std::string who);
 
-  /// "WHO:  34 %  message", if the last line, or the beginning, is as long ago.
+  /// Prints "WHO:  34 %  message", if the last line, or the beginning, is long enough ago.
   void tell(double fraction, const std::string& message);
 
 private:

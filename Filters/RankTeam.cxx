@@ -19,14 +19,14 @@ vtkMultiProcessController* allRanks()
   return vtkMultiProcessController::GetGlobalController();
 }
 
-/// In pieces: messages count their bytes with 31 bits.
+/// Largest piece of a message: messages count their bytes with 31 bits.
 constexpr vtkIdType mostAtOnce = vtkIdType(1) << 29;
 
-/// Of what a rank announces: whether it gives the same to all, then how many bytes to each.
+/// Numbers in a rank's announcement before the sizes: whether it sends the same to all. Then follow the bytes for each rank.
 constexpr std::size_t announcedBefore = 1;
 
-/// What each rank announces, one after the other. All ranks begin so, whether they give the same to all or not: only now do they
-/// know what the others have come for.
+/// Returns the announcements of all ranks, one after the other. All ranks begin with this, whether they send the same to all or
+/// not: only then do they know which exchange the others have called.
 std::vector<vtkIdType> announce(bool toAll, std::vector<vtkIdType> sizes)
 {
   sizes.insert(sizes.begin(), toAll ? 1 : 0);
@@ -50,13 +50,13 @@ bool areAllTheSame(const std::vector<vtkIdType>& announced)
   return same;
 }
 
-/// How many bytes one rank gives to another.
+/// Returns how many bytes one rank sends to another.
 vtkIdType sizeOf(const std::vector<vtkIdType>& announced, std::size_t from, std::size_t to)
 {
   return announced[from * (rankCount() + announcedBefore) + announcedBefore + to];
 }
 
-/// What each rank gives to all.
+/// Returns the bytes that each rank sends to all.
 std::vector<std::string> gatherAll(const std::string& bytes, const std::vector<vtkIdType>& announced)
 {
   const std::size_t ranks = rankCount();
@@ -107,8 +107,8 @@ void receive(std::string& bytes, vtkIdType size, int from)
   }
 }
 
-/// What each rank gives to this one. Ranks meet in pairs, all pairs in an order in which nobody waits in a circle: in round r
-/// those whose sum is r, modulo their number; where one of two sends, the other receives. What is empty is not sent.
+/// Returns the bytes that each rank sends to this one. Ranks meet in pairs, in an order without circular waiting: in round r
+/// those whose sum is r, modulo their number; while one of the two sends, the other receives. Empty messages are not sent.
 std::vector<std::string> passOn(const std::vector<std::string>& toEach, const std::vector<vtkIdType>& announced)
 {
   const auto ranks = static_cast<int>(rankCount());

@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// The ranks of a parallel run as core knows them. Every rank has to run what is shared.
+/// The ranks of a parallel run as core's Team. Every rank has to run the shared work.
 class RankTeam : public Team
 {
 public:

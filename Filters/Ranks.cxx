@@ -39,7 +39,7 @@ int processesOnThisMachine(int processes)
   for (const char* variable : { "OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "PMI_LOCAL_SIZE", "MV2_COMM_WORLD_LOCAL_SIZE",
          "JSM_NAMESPACE_LOCAL_SIZE", "SLURM_STEP_TASKS_PER_NODE" })
   {
-    // Slurm lists all nodes, "4(x2),3": the first is taken for all.
+    // Slurm lists all nodes, "4(x2),3": the first number is used for all.
     const char* text = std::getenv(variable);
     const long local = text != nullptr ? std::strtol(text, nullptr, 10) : 0;
     if (local > 0)

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the processes of a parallel run have to know of each other.
+// The processes of a parallel run.
 #pragma once
 
 namespace cactus
 {
 
-/// How many processes this run has.
+/// Returns the number of processes of this run.
 int processCount();
 
-/// Whether this one is the first of them, which speaks for all.
+/// Tells whether this is the first process, which reports for all.
 bool isFirstProcess();
 
-/// How many processes of this run share this machine's memory: as the launcher of the run tells in the environment (Open MPI,
-/// MPICH, Intel MPI, MVAPICH, Slurm, jsrun); all of them where it does not. Without an exchange, which would wait for ranks that
-/// do not ask.
+/// Returns how many processes of this run share this machine's memory, from the launcher's environment variables (Open MPI,
+/// MPICH, Intel MPI, MVAPICH, Slurm, jsrun); all of them without such a variable. It is not collective, since some ranks may not
+/// call it.
 int processesOnThisMachine();
 
-/// The same for a run of `processes`.
+/// Does the same for a run of `processes`.
 int processesOnThisMachine(int processes);
 
 } // namespace cactus

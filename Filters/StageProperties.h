@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FilterProperties of a certain stage.
+// FilterProperties of a given stage.
 #pragma once
 
 #include "FilterProperties.h"
@@ -73,7 +73,7 @@ private:
   }
 
   Stage Values;
-  mutable std::map<std::string, std::string> Shown; ///< texts that were handed out
+  mutable std::map<std::string, std::string> Shown; ///< texts that were returned
 };
 
 template <typename Stage>
@@ -82,7 +82,7 @@ std::unique_ptr<FilterProperties> makeProperties()
   return std::make_unique<StageProperties<Stage>>();
 }
 
-/// The values that a filter was given, none of them checked.
+/// Returns the values of a filter's properties, unchecked.
 template <typename Stage>
 const Stage& stageOf(const std::unique_ptr<FilterProperties>& properties)
 {

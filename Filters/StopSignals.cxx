@@ -23,7 +23,7 @@ constexpr std::array<int, 2> watched{ { SIGINT, SIGTERM } };
 
 std::atomic<int> caught{ 0 }; ///< the signal, or 0
 static_assert(std::atomic<int>::is_always_lock_free);
-std::array<struct sigaction, watched.size()> usual; ///< what is done with each while none lives
+std::array<struct sigaction, watched.size()> usual; ///< actions while no object exists
 bool isSpeaker = true;
 std::mutex guard;
 int living = 0;
@@ -49,10 +49,10 @@ bool isIgnored(const struct sigaction& action)
   return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_IGN;
 }
 
-/// Whether a signal is told to the log, which would write down where the program was and end it.
+/// Tells whether a signal goes to the log, which would print a stack trace and end the program.
 bool isForLog(const struct sigaction& action)
 {
-  // Both members are in the same place.
+  // Both members share their memory.
   const bool isDefault = action.sa_handler == SIG_DFL || action.sa_handler == SIG_IGN;
   Dl_info library{};
   return !isDefault && ::dladdr(reinterpret_cast<void*>(action.sa_handler), &library) != 0 && library.dli_fname != nullptr &&
@@ -82,7 +82,7 @@ StopSignals::StopSignals()
   }
   for (std::size_t i = 0; i < watched.size(); ++i)
   {
-    if (!isIgnored(usual[i])) // as nohup has it
+    if (!isIgnored(usual[i])) // as with nohup
     {
       ::sigaction(watched[i], &action, nullptr);
     }

@@ -51,7 +51,7 @@ void addStreamlines(vtkPolyData* input, Streamlines& streamlines)
   }
 }
 
-/// The cell data BundleId of a block with a value for each cell; null where there are none.
+/// Returns the cell data BundleId of a block with a value for each cell; null if there are none.
 vtkDataArray* bundlesOf(vtkPolyData* input)
 {
   vtkDataArray* array = input->GetCellData()->GetArray("BundleId");

@@ -8,8 +8,8 @@ class vtkDataObject;
 namespace cactus
 {
 
-/// Polylines as streamlines, validated, those of several blocks one after the other, with the cell data `BundleId` if all blocks
-/// have it. Throws InvalidInput for anything else.
+/// Converts polylines to validated streamlines, those of several blocks one after the other, with the cell data `BundleId` if all
+/// blocks have it. Throws InvalidInput for anything else.
 Streamlines streamlinesFrom(vtkDataObject* input);
 
 } // namespace cactus

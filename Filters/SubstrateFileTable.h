@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of the surfaces' files that filters which write a substrate folder give.
+// The table of files that filters give which write a substrate folder.
 #pragma once
 
 #include "io/SubstrateContents.h"
@@ -11,7 +11,7 @@ class vtkTable;
 namespace cactus
 {
 
-/// A row for each file.
+/// Fills the table with a row for each file.
 void fillFileTable(vtkTable* table, const std::vector<SubstrateFile>& files);
 
 } // namespace cactus

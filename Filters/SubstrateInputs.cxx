@@ -24,14 +24,14 @@ vtkDataObject* connectedTo(vtkAlgorithm* consumer, int port)
   return port >= 0 && consumer->GetNumberOfInputConnections(port) == 1 ? consumer->GetInputDataObject(port, 0) : nullptr;
 }
 
-/// Memory may have been given back.
+/// Returns null if the data's memory was released.
 vtkDataObject* unlessReleased(vtkDataObject* data)
 {
   return data != nullptr && data->GetDataReleased() == 0 ? data : nullptr;
 }
 
-/// Which filter made the data at a port, as its output `wantedOutput`. ParaView puts filters of its own, which hand data on,
-/// behind every other; what is placed is of the filter before. Null where that is no `Filter`.
+/// Returns the filter that made the data at a port, as its output `wantedOutput`; null if it is no `Filter`. It looks through
+/// ParaView's own filters, which pass data on, and through placement.
 template <typename Filter>
 Filter* makerOf(vtkAlgorithm* consumer, int port, int wantedOutput)
 {

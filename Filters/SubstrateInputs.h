@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surfaces and fibres of a substrate, for the filters that judge and write it.
+// Finds the surfaces and fibres of a substrate, for the filters that judge and write it.
 #pragma once
 
 #include "base/Domain.h"
@@ -14,8 +14,7 @@ class vtkDataObject;
 namespace cactus
 {
 
-/// The data of a substrate; null for what there is none of. They have to stay as they are while surfaces taken from them are
-/// used.
+/// The data of a substrate; null for missing ones. They must not change while surfaces taken from them are used.
 struct SubstrateData
 {
   vtkDataObject* outer = nullptr;
@@ -23,19 +22,20 @@ struct SubstrateData
   vtkDataObject* fibres = nullptr;
 };
 
-/// The fibres that the label image at a port was grown from; null where it does not come straight from FibreRadialGrowth.
+/// Returns the fibres from which the label image at a port was grown; null if it does not come directly from FibreRadialGrowth.
 vtkDataObject* fibresOfImage(vtkAlgorithm* consumer, int port);
 
-/// What is connected to the ports `Outer`, `Inner` and `Fibres` of a filter. Where Outer comes straight from MyelinSurface, what
-/// is not connected is that filter's own: its inner surfaces, and the fibres that were grown before it, as they were then. So who
-/// connects the outer surfaces alone has the whole substrate judged, not a half of it. A port of -1 is none.
+/// Returns the data at the ports `Outer`, `Inner` and `Fibres` of a filter. If Outer comes directly from MyelinSurface,
+/// unconnected ports get that filter's own data: its inner surfaces, and the fibres that were grown before it, as they were then.
+/// So a user who connects only the outer surfaces has the whole substrate judged, not a half of it. A port of -1 does not exist.
 SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort);
 
-/// The same for a filter whose first port is `Fibres`: where that is given the outer surfaces of MyelinSurface, and nothing is
-/// connected as `Outer`, these are measured, with what substrateDataOf finds. Throws InvalidInput where it finds no fibres.
+/// Does the same for a filter whose first port is `Fibres`: if that gets the outer surfaces of MyelinSurface, and nothing is
+/// connected as `Outer`, these are measured, with the data that substrateDataOf() finds. Throws InvalidInput if it finds no
+/// fibres.
 SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, int innerPort);
 
-/// What is found there, read.
+/// The converted data.
 struct Substrate
 {
   Domain domain;
@@ -46,7 +46,7 @@ struct Substrate
   const Fibres* fibresOrNull() const { return this->fibres ? &*this->fibres : nullptr; }
 };
 
-/// Throws InvalidInput for data that are no surfaces or fibres, or that have different domains.
+/// Converts the data. Throws InvalidInput for data that are no surfaces or fibres, or that have different domains.
 Substrate substrateFrom(const SubstrateData& data);
 
 } // namespace cactus

@@ -34,7 +34,7 @@ namespace cactus
 namespace
 {
 
-/// Cells that follow one another.
+/// A range of consecutive cells.
 struct Run
 {
   vtkIdType begin;
@@ -54,7 +54,7 @@ struct Surface
 {
   std::size_t part = 0;
   int bundleId = 1;
-  std::vector<Run> runs; ///< most often one
+  std::vector<Run> runs; ///< usually one
 };
 
 vtkDataArray* cellScalars(vtkPolyData* input, const char* name)
@@ -149,12 +149,12 @@ void addSurfaces(vtkPolyData* input, std::size_t part, const std::string& port, 
   }
 }
 
-/// A surface with points of its own.
+/// Returns a surface with its own points.
 TriangleMesh meshOf(const Part& part, const Surface& surface)
 {
   TriangleMesh mesh;
   std::vector<vtkIdType> ids;
-  vtkNew<vtkIdList> corners; // with a list of its own, reading a cell is safe in several threads
+  vtkNew<vtkIdList> corners; // its own list makes reading a cell thread-safe
   for (const Run& run : surface.runs)
   {
     for (vtkIdType cell = run.begin; cell < run.end; ++cell)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place that takes apart surfaces that come as one vtkPolyData.
+// Conversion of surfaces between one vtkPolyData and core.
 #pragma once
 
 #include "base/Domain.h"
@@ -18,16 +18,17 @@ class vtkPolyData;
 namespace cactus
 {
 
-/// Triangles with cell data `FibreId` and, if there, `BundleId` and `Surface` (0 outer, 1 inner), as one surface per fibre.
+/// Splits triangles with cell data `FibreId` and, optionally, `BundleId` and `Surface` (0 outer, 1 inner) into one surface per
+/// fibre.
 ///
-/// Each surface numbers its points anew in the order they have in `input`, so that surfaces can be told apart although they share
-/// one array of points; `input` has to stay as it is while the result is used. `port` names the input in messages, and `surface`
-/// is what the array `Surface` has to hold. An input without cells gives no surfaces. The blocks of a composite data set are one
-/// substrate. Throws InvalidInput where there are cells other than triangles, no FibreId or one that is no whole number from 1,
-/// the other kind of surface, or two blocks with surfaces of the same FibreId.
+/// Each surface numbers its own points in the order of `input`, so that surfaces that share one array of points are separate;
+/// `input` must not change while the result is used. `port` names the input in messages, and `surface` is the required value of
+/// the array `Surface`. An input without cells gives no surfaces. The blocks of a composite data set are one substrate. Throws
+/// InvalidInput if there are cells other than triangles, no FibreId or one that is no whole number from 1, the other kind of
+/// surface, or two blocks with surfaces of the same FibreId.
 FibreSurfaces surfacesFrom(vtkDataObject* input, const std::string& port, int surface);
 
-/// A surface and whose it is.
+/// A surface with its fibre and bundle.
 struct NamedSurface
 {
   int fibreId = 0;
@@ -35,13 +36,14 @@ struct NamedSurface
   TriangleMesh mesh;
 };
 
-/// The reverse: one vtkPolyData of all surfaces in their order, each with points of its own, with cell data `FibreId`, `BundleId`
-/// and `Surface`. Meshes are let go one by one, so that a large substrate is not held twice. Corners are 32-bit numbers as long
-/// as there are at most `mostInShort` of them and of points, and 64-bit ones beyond.
+/// Joins all surfaces, in their order, into one vtkPolyData, each with its own points, with cell data `FibreId`, `BundleId` and
+/// `Surface`. Meshes are freed one by one, so that a large substrate is not stored twice. Corners are 32-bit numbers if there are
+/// at most `mostInShort` of them and of points, and 64-bit ones otherwise.
 void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output,
   std::size_t mostInShort = std::size_t(std::numeric_limits<std::int32_t>::max()));
 
-/// Throws InvalidInput where `surfaces` has field data Domain, and another one than `domain` to 1e-6 µm. Null is no surfaces.
+/// Throws InvalidInput if `surfaces` has field data Domain that differs from `domain` by more than 1e-6 µm. Null means no
+/// surfaces.
 void requireSameDomain(const Domain& domain, vtkDataObject* surfaces, const std::string& port);
 
 } // namespace cactus

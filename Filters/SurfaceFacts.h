@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What surfaces say of themselves in their field data, so that what is missing of them can be told.
+// Facts about surfaces in their field data, from which missing surfaces are detected.
 #pragma once
 
 #include "mesh/FibreSurfaces.h"
@@ -11,12 +11,12 @@ class vtkDataObject;
 namespace cactus
 {
 
-/// Adds the field data `WantedFibres` (ids of the fibres that were to have a surface) and `MinimumGap` (µm that the surfaces were
-/// made to keep from each other at least).
+/// Adds the field data `WantedFibres` (ids of the fibres that were to have a surface) and `MinimumGap` (µm, least distance that
+/// the surfaces were made to keep).
 void setSurfaceFacts(vtkDataObject* output, const std::vector<int>& wantedFibres, double minimumGap);
 
-/// Fills wantedIds and promisedGap from the field data of surfaces or, where these are composite, of their blocks, and isGiven:
-/// whether there is any `input`. What is not there, or is no such number, is taken as not said.
+/// Fills wantedIds and promisedGap from the field data of surfaces or of their blocks, and isGiven: whether there is any `input`.
+/// Missing or invalid data count as unknown.
 void readSurfaceFacts(vtkDataObject* input, FibreSurfaces& surfaces);
 
 } // namespace cactus

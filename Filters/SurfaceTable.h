@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of what is known of fibres' surfaces.
+// The table of facts about fibres' surfaces.
 #pragma once
 
 #include "surface/FibreSurfacePair.h"
@@ -11,7 +11,7 @@ class vtkTable;
 namespace cactus
 {
 
-/// A row for each fibre.
+/// Fills the table with a row for each fibre.
 void fillSurfaceTable(vtkTable* table, const std::vector<FibreSurfacePair>& fibres);
 
 } // namespace cactus

@@ -41,7 +41,7 @@ vtkSmartPointer<vtkCellArray> linesOf(std::vector<std::size_t> offsets, std::siz
   return lines;
 }
 
-/// How many groups each streamline is in at most.
+/// Returns the largest number of groups of a streamline.
 int mostGroups(const Tractogram& tractogram)
 {
   std::vector<int> counts(tractogram.size(), 0);
@@ -85,7 +85,7 @@ void addGroups(const Tractogram& tractogram, vtkPolyData* output)
 
 void toPolyData(Tractogram tractogram, vtkPolyData* output)
 {
-  // Nothing is copied that there may be gigabytes of.
+  // Large arrays, perhaps gigabytes, are not copied.
   const std::size_t pointCount = tractogram.pointCount();
   vtkNew<vtkPolyData> fresh;
   vtkNew<vtkPoints> points;

@@ -8,7 +8,7 @@ class vtkPolyData;
 namespace cactus
 {
 
-/// Streamlines as polylines, as vtkTractogramReader describes them, with lengths as they are.
+/// Converts streamlines to polylines, as described in vtkTractogramReader, with unchanged lengths.
 void toPolyData(Tractogram tractogram, vtkPolyData* output);
 
 } // namespace cactus

@@ -27,8 +27,8 @@ namespace cactus
 namespace
 {
 
-/// Distances (in voxels) from a face of the box within which a point belongs to it: of a contour, which is placed to rounding,
-/// and after decimation, which puts points where its quadrics say.
+/// Distances (in voxels) from a face of the box within which a point belongs to it: for a contour, which is exact up to rounding,
+/// and after decimation, which moves points to minima of quadrics.
 constexpr double contourTolerance = 1e-3;
 constexpr double decimationTolerance = 0.05;
 
@@ -191,7 +191,7 @@ void finishByVtk(CappedSurface& surface, const VtkMeshingOptions& options, doubl
 {
   if (surface.mesh.triangles.empty())
   {
-    return; // which the filters would report as an error
+    return; // the filters would report it as an error
   }
   if (options.sincIterations > 0)
   {

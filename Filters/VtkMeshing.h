@@ -10,17 +10,15 @@
 namespace cactus
 {
 
-/// The closed surface on which an image's field is `level` (µm), oriented outwards, by vtkFlyingEdges3D. Points within a
-/// thousandth of a voxel of a face of `box` (µm), where its caps are, lie in that face afterwards and are marked so. May be
-/// called from several threads at once.
+/// Returns the closed surface on which an image's field is `level` (µm), oriented outwards, by vtkFlyingEdges3D. Points within a
+/// thousandth of a voxel of a face of `box` (µm), where its caps are, are moved into that face and marked so. Thread-safe.
 CappedSurface contourByVtk(const FibreImage& image, double level, const Eigen::AlignedBox3d& box);
 
 /// Smooths a surface by vtkWindowedSincPolyDataFilter and coarsens it by vtkQuadricDecimation. Caps stay in their faces, other
-/// points inside the box. Nothing else is promised: surfaces may come to meet themselves or each other. May be called from
-/// several threads at once.
+/// points inside the box. Nothing else is guaranteed: surfaces may come to meet themselves or each other. Thread-safe.
 void finishByVtk(CappedSurface& surface, const VtkMeshingOptions& options, double spacing);
 
-/// Both of them, for myelinSurfaces() on a label image with voxels of `spacing` µm. Throws as validate().
+/// Returns both functions, for myelinSurfaces() on a label image with voxels of `spacing` µm. Throws as validate().
 SurfaceFilters surfaceFiltersOfVtk(const VtkMeshingOptions& options, double spacing);
 
 } // namespace cactus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For filters that need all of their input in one place, also where the pipeline runs on several ranks.
+// Support for filters that need all of their input in one place, also if the pipeline runs on several ranks.
 #pragma once
 
 #include <vtkAlgorithm.h>
@@ -11,7 +11,7 @@
 namespace cactus
 {
 
-/// Asks for all of every input, whatever piece the caller was asked for. For RequestUpdateExtent.
+/// Requests all of every input, whatever piece the caller requested. For RequestUpdateExtent.
 inline void requestWholeInputs(vtkInformationVector** inputs, int ports)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -25,7 +25,7 @@ inline void requestWholeInputs(vtkInformationVector** inputs, int ports)
       info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
       if (info->Has(Pipeline::WHOLE_EXTENT()))
       {
-        // Else the executive asks for as much as the output has, which of an empty image there is not.
+        // Otherwise the executive requests the extent of the output, which an empty image does not have.
         int extent[6];
         info->Get(Pipeline::WHOLE_EXTENT(), extent);
         info->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
@@ -34,18 +34,18 @@ inline void requestWholeInputs(vtkInformationVector** inputs, int ports)
   }
 }
 
-/// Takes any data at an input port, so that a filter sees it as it is and says itself what it cannot work with. Were composite
-/// data not among it, ParaView's executive would run the filter block by block instead, information and data by turns.
+/// Accepts any data at an input port, so that a filter sees them as they are and reports itself what it cannot use. Without
+/// composite data in the list, ParaView's executive would run the filter block by block, information and data by turns.
 inline void acceptAnyData(vtkInformation* port)
 {
   port->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
 }
 
-/// Brings all of the inputs at port 0 up to date. For RequestInformation, where what there is to tell of the output is known from
-/// the data alone; what follows asks for it before the data.
+/// Updates all inputs at port 0. For RequestInformation, if the output's information depends on the data; later stages request it
+/// before the data.
 ///
-/// This request has passed the inputs' producers when it comes here, and those further up: none of them is at work, and an update
-/// goes no other way than up. Whoever updated them before may have asked this process for another piece of them.
+/// This request has already passed the inputs' producers and those further up: none of them is running, and an update only goes
+/// upstream. An earlier update may have asked this process for another piece of them.
 inline void updateWholeInputs(vtkAlgorithm* self, vtkInformationVector** inputs)
 {
   requestWholeInputs(inputs, 1);
@@ -59,8 +59,8 @@ inline void updateWholeInputs(vtkAlgorithm* self, vtkInformationVector** inputs)
   }
 }
 
-/// True on the rank that was asked for the first piece of the outputs: the one that gives the result, or writes it. Only the port
-/// that `request` came through counts; the others may still hold what they were asked for before.
+/// Tells whether this rank was asked for the first piece of the outputs: it gives the result, or writes it. Only the port that
+/// `request` came through counts; the others may still hold an older request.
 inline bool ownsWholeOutput(vtkInformation* request, vtkInformationVector* outputs)
 {
   const auto piece = vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER();

@@ -4,9 +4,9 @@
  * @brief Makes one bundle of straight fibres, or two crossing ones, with chosen radii, density and dispersion.
  *
  * Output: one polyline per fibre with point data `Radius` (µm), cell data `FibreId`, `BundleId`, `TargetRadius` and field data
- * `Domain` and `Provenance`. The fibres' circles do not overlap on either end face of their bundle; between the faces fibres do,
- * and vtkCapsuleOptimizer parts them. The method is cactus::initialiseBundles, whose header says how it works and what it
- * promises. A density or dispersion out of reach gives one error with the value that was reached, and no output.
+ * `Domain` and `Provenance`. The fibres' circles do not overlap on either end face of their bundle; between the faces fibres may
+ * overlap, and vtkCapsuleOptimizer parts them. The method and its guarantees are documented in cactus::initialiseBundles. A
+ * density or dispersion that cannot be reached gives one error with the value that was reached, and no output.
  *
  * Method: CACTUS, initialisation.
  */
@@ -73,7 +73,7 @@ public:
   CACTUS_NUMBER_PROPERTY(MaximumSpacing)
   CACTUS_WHOLE_PROPERTY(Seed)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
   CACTUS_ABORT_IS_NO_CHANGE

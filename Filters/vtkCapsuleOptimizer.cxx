@@ -42,7 +42,7 @@ vtkStandardNewMacro(vtkCapsuleOptimizer);
 namespace
 {
 
-/// The data of all connections.
+/// Returns the data of all connections.
 std::vector<vtkDataObject*> dataOf(vtkInformationVector* inputs)
 {
   std::vector<vtkDataObject*> data;
@@ -75,7 +75,7 @@ void fillTable(const std::vector<cactus::ConvergenceRow>& rows, vtkTable* table)
   addColumn(table, "Seconds", rows, &Row::seconds);
 }
 
-/// Of a run that offers its states the times are iterations, which the inputs know nothing of: theirs are of their last time.
+/// Requests the inputs' last time: the times of a run that offers its states are iterations, which the inputs do not know.
 void askForLastTime(vtkInformationVector* inputs)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -94,7 +94,7 @@ void askForLastTime(vtkInformationVector* inputs)
   }
 }
 
-/// Newest change of any input.
+/// Returns the newest change of any input.
 vtkMTimeType inputTime(vtkInformationVector* inputs)
 {
   vtkMTimeType newest = 0;
@@ -107,25 +107,25 @@ vtkMTimeType inputTime(vtkInformationVector* inputs)
 
 } // namespace
 
-/// What a run has left behind.
+/// The state of a finished or running optimisation.
 struct vtkCapsuleOptimizer::Run
 {
   vtkMTimeType ParameterTime = 0;
   vtkMTimeType InputTime = 0;
-  std::exception_ptr Failure;              ///< what it threw instead of giving a result
+  std::exception_ptr Failure;              ///< exception instead of a result
   cactus::Fibres Fibres;                   ///< the result
-  cactus::OptimisationResult Optimisation; ///< what is to be said of it
+  cactus::OptimisationResult Optimisation; ///< statistics of the run
   cactus::FibreShape Before;
   double RadiusDistance = 0.0;
-  bool WasReported = false; ///< whether the user has been told of what went wrong
-  bool IsOver = true;       ///< else Fibres are a state on the way
+  bool WasReported = false; ///< whether the user has been told what went wrong
+  bool IsOver = true;       ///< otherwise Fibres are an intermediate state
 
-  /// A state on the way, in single precision.
+  /// An intermediate state, in single precision.
   struct State
   {
     int Iteration = 0;
     std::vector<Eigen::Vector3f> Points;
-    std::vector<float> Radii; ///< empty where they do not change
+    std::vector<float> Radii; ///< empty if they do not change
   };
   std::vector<State> States;
   std::vector<double> InitialRadii;
@@ -144,7 +144,7 @@ struct vtkCapsuleOptimizer::Run
   }
 };
 
-/// A run in the background, and what has been seen of it.
+/// A run in the background, and its states that were shown.
 struct vtkCapsuleOptimizer::LiveRun
 {
   LiveRun(const cactus::Fibres& fibres, const cactus::CapsuleOptimizerStage& stage)
@@ -200,7 +200,7 @@ void vtkCapsuleOptimizer::OfferTimes(vtkInformationVector* outputs) const
     vtkInformation* info = outputs->GetInformationObject(port);
     if (!this->Stage().keepHistory)
     {
-      continue; // the input's, if it has any
+      continue; // the input's times, if it has any
     }
     if (!this->LastRun || this->LastRun->Failure)
     {
@@ -219,7 +219,7 @@ int vtkCapsuleOptimizer::RequestInformation(vtkInformation*, vtkInformationVecto
 {
   if (this->Stage().keepHistory)
   {
-    // Only the run itself says which times there are, and what follows asks for them here, not after RequestData.
+    // Only the run itself determines the times, and later stages request them here, not after RequestData.
     const cactus::StopSignals signals;
     cactus::quietly(
       [&]
@@ -257,7 +257,7 @@ void vtkCapsuleOptimizer::NoteStop()
   }
   catch (...)
   {
-    return; // RequestData says what was wrong
+    return; // RequestData reports the error
   }
 }
 
@@ -278,13 +278,13 @@ void vtkCapsuleOptimizer::EnsureRun(vtkInformationVector* inputs)
           this->Optimise(inputs, *run);
           if (cactus::StopSignals::areCaught())
           {
-            throw cactus::Cancelled(); // what is best so far would be taken for the result
+            throw cactus::Cancelled(); // the best state so far would be taken for the result
           }
         });
     }
     catch (...)
     {
-      // Kept, so that RequestData says what has come of a run in RequestInformation without running it again.
+      // Kept, so that RequestData reports the failure of a run in RequestInformation without running it again.
       run->Failure = std::current_exception();
     }
     run->ParameterTime = this->GetMTime(); // only now: being stopped modifies the filter
@@ -338,7 +338,7 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, Run& run)
   cactus::RankTeam ranks;
   run.Optimisation = cactus::optimise(run.Fibres, stage.options, context, observe, &ranks);
   run.RadiusDistance = cactus::radiusDistance(before, run.Fibres);
-  // The result takes the place of the last state.
+  // The result replaces the last state.
   while (!run.States.empty() && run.States.back().Iteration >= run.lastIteration())
   {
     run.States.pop_back();
@@ -483,7 +483,7 @@ void vtkCapsuleOptimizer::ShowWanted(const Run& run, vtkInformation* request, vt
   }
   const std::vector<double> times = run.times();
   double time = run.lastIteration();
-  // The other port may still hold the time it was asked for before.
+  // The other port may still hold an older requested time.
   const int from = request->Has(vtkExecutive::FROM_OUTPUT_PORT()) ? request->Get(vtkExecutive::FROM_OUTPUT_PORT()) : 0;
   vtkInformation* info = outputs->GetInformationObject(std::max(from, 0));
   if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
@@ -505,7 +505,7 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
   return cactus::guarded(this, sharing,
     [&]
     {
-      // Ranks that have nothing to give share the work, too.
+      // Ranks without output share the work, too.
       const bool isAsked = cactus::ownsWholeOutput(request, outputs);
       Run* run = nullptr;
       if (this->Stage().showEvery > 0 && !this->Stage().keepHistory)

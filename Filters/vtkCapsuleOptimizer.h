@@ -3,30 +3,30 @@
  * @class vtkCapsuleOptimizer
  * @brief Bends fibres until no two of them overlap (CACTUS 2023, "Joint fibre optimisation").
  *
- * Input: fibres (polylines with point data `Radius`), from one connection or several, each with one block or several; bundles and
- * fibres that share ids are renumbered in the order of the connections. All inputs have to have the same `Domain`.
+ * Input: fibres (polylines with point data `Radius`), from one or several connections, each with one or several blocks; bundles
+ * and fibres that share ids are renumbered in the order of the connections. All inputs need the same `Domain`.
  *
  * Output 0 `Fibres`: the fibres, with point data `Overlap` (largest relative penetration D = 1 - d / (rp + rq) of the capsules at
- * a control point; 0 where nothing is touched) and field data `Converged` (1 or 0) and `MaximumPenetration`; and, of the whole
- * fibres before they are trimmed, `MeanDispersion` (degrees, end to end), `TangentDispersion` (degrees, by segment),
- * `CrossingAngle` (degrees; 0 for one bundle), each also with `Initial` in front, `SmallestCurvatureRadius` (µm),
- * `SmallestBendRadius` (the same as a multiple of the fibre's radius there), `LengthIncrease` (a fraction) and `RadiusDistance`
- * (Kolmogorov–Smirnov distance of the radii to those that came in). Output 1 `Convergence`: one row per iteration.
+ * a control point; 0 without contact) and field data `Converged` (1 or 0) and `MaximumPenetration`; and, for the whole fibres
+ * before they are trimmed, `MeanDispersion` (degrees, end to end), `TangentDispersion` (degrees, by segment), `CrossingAngle`
+ * (degrees; 0 for one bundle), each also with the prefix `Initial`, `SmallestCurvatureRadius` (µm), `SmallestBendRadius` (the
+ * same as a multiple of the fibre's radius there), `LengthIncrease` (a fraction) and `RadiusDistance` (Kolmogorov–Smirnov
+ * distance of the radii to the input's). Output 1 `Convergence`: one row per iteration.
  *
  * With KeepHistory on, every HistoryInterval-th state is kept, and the iterations are offered as time steps: a request for a time
- * gets the last state that is not after it, the last one being the result. The run then takes place as soon as the times are
- * asked for.
+ * gets the last state that is not after it; the last state is the result. The run then takes place as soon as the times are
+ * requested.
  *
- * With ShowEvery on, the run takes place in the background: a request gets the newest of every so many states, and
- * GetNeedsUpdate() tells, as ParaView asks of live sources, when there is another one, the result at last. Its bits are those of
- * a run in the foreground. StopNow() ends it with the best state so far. In one process only.
+ * With ShowEvery on, the run takes place in the background: a request gets the newest of every ShowEvery-th state, and
+ * GetNeedsUpdate() tells, like ParaView's live sources, when there is another one, finally the result. Its bits are those of a
+ * run in the foreground. StopNow() ends it with the best state so far. In one process only.
  *
- * In a parallel run all ranks share the work, each with some of the fibres, and the result has the bits of one rank alone. All of
- * them keep it, since each is asked for a piece of its own by whatever updates this filter by itself, and for the whole by the
- * next stage; the ranks that are asked for a piece other than the first give none.
+ * In a parallel run all ranks share the work, each with some of the fibres, and the result has the bits of a single rank. All of
+ * them keep it: an update of this filter asks each for its own piece, and the next stage asks for the whole. Ranks that are asked
+ * for a piece other than the first return none.
  *
- * Where overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how
- * many and how large, and the output is the best state that was seen.
+ * If overlaps above OverlapTolerance remain, because iterations or time ran out or the user stopped it, a warning says how many
+ * and how large, and the output is the best state found.
  */
 #ifndef vtkCapsuleOptimizer_h
 #define vtkCapsuleOptimizer_h
@@ -79,14 +79,14 @@ public:
   CACTUS_WHOLE_PROPERTY(HistoryInterval)
   CACTUS_WHOLE_PROPERTY(ShowEvery)
 
-  /** Whether a run in the background has something new to show; the filter is then modified. */
+  /** Tells whether a run in the background has something new to show; the filter is then modified. */
   bool GetNeedsUpdate();
-  /** The same as a number, which scripts can ask for. */
+  /** Tells the same as a number, for scripts. */
   int GetHasNews() { return this->GetNeedsUpdate() ? 1 : 0; }
 
   CACTUS_ABORT_IS_NO_CHANGE
 
-  /** Ends a run in the background: what it shows next is its best state, which is its result. */
+  /** Ends a run in the background: its next and last state is its best one. */
   void StopNow();
 
 protected:
@@ -107,28 +107,28 @@ private:
 
   std::unique_ptr<cactus::FilterProperties> Properties;
 
-  /** The values of the properties, not checked. */
+  /** Returns the values of the properties, unchecked. */
   const cactus::CapsuleOptimizerStage& Stage() const;
-  /** Runs the optimisation, which all ranks share, unless LastRun holds it in all of them; throws what it throws, or threw. */
+  /** Runs the optimisation, shared by all ranks, unless LastRun holds it in all of them; throws its exception, or a kept one. */
   void EnsureRun(vtkInformationVector* inputs);
   void NoteStop();
-  /** Whether LastRun holds what would come out. */
+  /** Tells whether LastRun holds the present result. */
   bool IsRunKnown(vtkInformationVector* inputs);
   /** Runs the optimisation. */
   void Optimise(vtkInformationVector* inputs, Run& run);
-  /** Runs the optimisation in the background, unless it does already, and gives what there is of it. */
+  /** Starts the optimisation in the background, unless it is running, and returns its present state. */
   Run& LookAtRun(vtkInformationVector* inputs);
-  /** Fills the outputs with the state that is asked for. */
+  /** Fills the outputs with the requested state. */
   void ShowWanted(const Run& run, vtkInformation* request, vtkInformationVector* outputs);
   /** Fills the outputs with a state of the run. */
   void Show(const Run& run, std::size_t state, vtkInformationVector* outputs);
-  /** Says which times there are. */
+  /** Announces the available times. */
   void OfferTimes(vtkInformationVector* outputs) const;
 
-  /** Warns of what the run has not reached, once. */
+  /** Warns once about what the run has not reached. */
   void Report(Run& run);
 
-  std::unique_ptr<Run> LastRun;  ///< kept where KeepHistory is on, and where there are several ranks
+  std::unique_ptr<Run> LastRun;  ///< kept if KeepHistory is on, and on several ranks
   std::unique_ptr<LiveRun> Live; ///< the run in the background
 };
 

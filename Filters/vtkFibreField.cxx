@@ -35,7 +35,7 @@ vtkStandardNewMacro(vtkFibreField);
 namespace
 {
 
-/// Blocks are looked for this many voxels around a fibre, so that its surface lies inside them.
+/// Voxels around a fibre in which blocks are included, so that its surface lies inside them.
 constexpr int reach = 2;
 
 /// A fibre of the label image's table.

@@ -4,14 +4,14 @@
  * @brief The signed distance field of single fibres of a label image, for VTK's own contouring, smoothing and decimation.
  *
  * Input: the image that vtkFibreRadialGrowth makes, with its field data. Output: a multiblock data set with an image for each
- * fibre chosen, as large as the fibre, with point data `Field` (float, µm, positive inside, 0 on the outer surface) and field
- * data `FibreId`, `BundleId`, `Domain` and `Provenance`, which the filters of VTK pass on.
+ * chosen fibre, as large as the fibre, with point data `Field` (float, µm, positive inside, 0 on the outer surface) and field
+ * data `FibreId`, `BundleId`, `Domain` and `Provenance`, which VTK's filters pass on.
  *
- * In the label image neighbours are nearer to each other than a voxel is wide, so that a contour of its `Depth` fuses them.
- * The fields here are those of one fibre each (see core/surface/FibreField.h), and the zero contours of two of them do not meet.
- * Beyond the faces of the domain each image has samples that make a contour at `Level` (µm) end in flat caps on these faces.
+ * In the label image, neighbouring fibres are closer than a voxel, so a contour of its `Depth` fuses them. The fields here belong
+ * to one fibre each (see core/surface/FibreField.h), and the zero contours of two of them do not meet. Beyond the faces of the
+ * domain each image has samples that make a contour at `Level` (µm) end in flat caps on these faces.
  *
- * All of the image is needed at once. Where the pipeline runs on several ranks, the first one gives the result.
+ * The whole image is needed at once. If the pipeline runs on several ranks, the first one gives the result.
  */
 #ifndef vtkFibreField_h
 #define vtkFibreField_h
@@ -43,7 +43,7 @@ public:
   CACTUS_SWITCH_PROPERTY(ClipToDomain)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:

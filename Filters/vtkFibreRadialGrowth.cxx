@@ -43,8 +43,8 @@ vtkStandardNewMacro(vtkFibreRadialGrowth);
 namespace
 {
 
-/// The part of the image that is asked for. Throws InvalidInput where it is one of an image that these fibres do not make, and
-/// OutOfMemory for more of it than the machine can hold.
+/// Returns the requested part of the image. Throws InvalidInput if it belongs to an image that these fibres do not make, and
+/// OutOfMemory if it does not fit into memory.
 cactus::VoxelGrid requestedGrid(
   const cactus::Domain& domain, const cactus::FibreRadialGrowthOptions& options, vtkInformation* info)
 {
@@ -76,7 +76,7 @@ cactus::VoxelGrid requestedGrid(
   return grid;
 }
 
-/// What MyelinSurface, the certificate and a user want to know of the image.
+/// Adds field data for MyelinSurface, the certificate and the user.
 void addImageFacts(const cactus::Fibres& fibres, const cactus::FibreRadialGrowthOptions& options, double spacing, double growth,
   vtkImageData* output)
 {
@@ -90,7 +90,7 @@ void addImageFacts(const cactus::Fibres& fibres, const cactus::FibreRadialGrowth
   cactus::addColumn<vtkIntArray>(data, "FibreTable.BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
   cactus::addColumn<vtkDoubleArray>(
     data, "FibreTable.TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
-  // 0 for one that only passes by outside.
+  // 0 for one that only passes outside.
   cactus::addColumn<vtkDoubleArray>(
     data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });
 }
@@ -115,11 +115,11 @@ int vtkFibreRadialGrowth::RequestInformation(vtkInformation*, vtkInformationVect
   vtkInformation* info = outputs->GetInformationObject(0);
   info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
   vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
-  // A place holder: the pipeline wants to see an extent even where there cannot be an image.
+  // A place holder: the pipeline needs an extent even if there is no image.
   int extent[6] = { 0, 0, 0, 0, 0, 0 };
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
 
-  // Only the fibres themselves say how large the domain is.
+  // Only the fibres themselves determine the domain.
   cactus::quietly(
     [&]
     {
@@ -170,7 +170,7 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       auto* output = vtkImageData::GetData(outputs);
       if (grid.size() == 0)
       {
-        // A process with nothing to do: there are more of them than the image can be split for.
+        // A process with nothing to do: the image cannot be split for that many.
         output->Initialize();
         return;
       }
@@ -211,7 +211,7 @@ void vtkFibreRadialGrowth::solve(vtkDataObject* input, const cactus::Fibres& fib
       vtkWarningMacro(<< remark);
     }
   }
-  // Nothing is kept of a search that fails.
+  // A search that fails leaves nothing behind.
   this->Aimed.reset();
   this->GrowthParameterTime = 0;
   auto aimed = std::make_unique<cactus::Fibres>(cactus::aimAtTargetRadii(fibres, options, context));

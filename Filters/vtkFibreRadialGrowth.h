@@ -4,10 +4,10 @@
  * @brief Grows fibres outwards from seeds in their capsules until they meet, as a label image with sub-voxel depth.
  *
  * All fibres grow at the same speed until they have grown by `GrowthIterations` voxels, or fill `TargetFibreVolumeFraction` of
- * the domain, or meet a neighbour, from which they keep `MinimumGap` (paper, section "Fibre radial growth"; what is computed is
- * the limit of that method for small voxels, see core/growth/FibreRadialGrowth.h). No voxel belongs to two fibres, also where
- * capsules overlap. For a target fraction the capsules' radii are changed first, so that each fibre ends at its TargetRadius
- * where these add up to the fraction (core/growth/GrowthTarget.h).
+ * the domain, or meet a neighbour, from which they keep `MinimumGap` (paper, section "Fibre radial growth"; this computes the
+ * limit of that method for small voxels, see core/growth/FibreRadialGrowth.h). No voxel belongs to two fibres, even if capsules
+ * overlap. For a target fraction the capsules' radii are changed first, so that each fibre ends at its TargetRadius if these add
+ * up to the fraction (core/growth/GrowthTarget.h).
  *
  * Input: fibres (polylines with point data `Radius`). Output: an image of cubic voxels that fill the field data `Domain`, its
  * points the voxels' centres, with
@@ -17,11 +17,11 @@
  * - field data `Domain`, `Provenance`; `Growth`, `MinimumGap`, `SurfaceTolerance`, `VoxelSize` (µm, one number each, as used);
  * per fibre `FibreTable.FibreId`, `FibreTable.BundleId`, `FibreTable.TargetRadius`, in the order of the input.
  *
- * The update extent is honoured: only what is asked for is computed and held in memory, and it equals that part of the whole bit
- * for bit. A target fraction is always met over the whole domain. Since the size of the image follows from the input's `Domain`,
- * the input is brought up to date when information is asked for.
+ * The update extent is respected: only the requested part is computed and held in memory, and it equals that part of the whole
+ * bit for bit. A target fraction is always met over the whole domain. The size of the image follows from the input's `Domain`, so
+ * the input is updated when information is requested.
  *
- * A fibre thinner than a voxel may hold no voxel's centre: choose VoxelSize at most half the smallest radius.
+ * A fibre thinner than a voxel may contain no voxel centre: choose VoxelSize at most half the smallest radius.
  */
 #ifndef vtkFibreRadialGrowth_h
 #define vtkFibreRadialGrowth_h
@@ -58,10 +58,10 @@ public:
   CACTUS_WHOLE_PROPERTY(Seed)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** The fibres that the image was made of, which what comes in now need not be any more; null before. */
+  /** Returns the fibres from which the image was made, which may differ from the present input; null before. */
   vtkDataObject* GrownFibres() const { return this->Fibres; }
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:
@@ -77,12 +77,12 @@ private:
   void operator=(const vtkFibreRadialGrowth&) = delete;
 
   std::unique_ptr<cactus::FilterProperties> Properties;
-  vtkSmartPointer<vtkDataObject> Fibres; ///< which shares the input's arrays
+  vtkSmartPointer<vtkDataObject> Fibres; ///< shares the input's arrays
 
-  /// Finds how far which fibres grow, where neither they nor a property are as they were the last time.
+  /// Finds which fibres grow and how far, unless neither they nor a property have changed since the last time.
   void solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::Context& context);
 
-  // What the target needs, kept from one extent to the next: the fibres that grow, and how far.
+  // Results for the target, kept from one extent to the next: the fibres that grow, and how far.
   std::unique_ptr<cactus::Fibres> Aimed;
   double Growth = 0.0;
   vtkMTimeType GrowthParameterTime = 0;

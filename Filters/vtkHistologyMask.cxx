@@ -84,10 +84,10 @@ int vtkHistologyMask::RequestData(vtkInformation* request, vtkInformationVector*
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         vtkImageData::GetData(outputs)->Initialize();
-        return; // one rank cuts; pixels of all ranks would be joined into an image that repeats
+        return; // one rank cuts; otherwise the pixels of all ranks would be joined into an image that repeats
       }
       cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, -1);
-      data.fibres = nullptr; // centre lines have no part in a cut
+      data.fibres = nullptr; // centre lines are not part of a cut
       const cactus::Substrate substrate = cactus::substrateFrom(data);
       const cactus::HistologyMask mask = cactus::cutMask(
         substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));

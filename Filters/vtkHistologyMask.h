@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkHistologyMask
- * @brief Cuts a substrate into a mask as histology has it, in AxonDeepSeg's grey values.
+ * @brief Cuts a substrate into a mask like those of histology, in AxonDeepSeg's grey values.
  *
- * Input 0 `Outer`, input 1 `Inner` (optional): closed triangle surfaces with cell data `FibreId`, as vtkSubstrateSampler takes
- * them.
+ * Input 0 `Outer`, input 1 `Inner` (optional): closed triangle surfaces with cell data `FibreId`, as for vtkSubstrateSampler.
  *
  * Output: an image of one layer, whose points are the middles of pixels. Point data `Mask` (0 background, 127 myelin, 255 axon),
  * so that ParaView's own writers save it as an 8-bit grey PNG or TIFF, and `FibreId`. Field data `PixelSize_um`. The image lies
- * along x and y, as formats of flat images need it; its columns and rows count along the two axes that the cut has, in their
- * order, from the domain's lower corner.
+ * along x and y, as formats of flat images require; its columns and rows run along the two axes of the cut, in their order, from
+ * the domain's lower corner.
  */
 #ifndef vtkHistologyMask_h
 #define vtkHistologyMask_h
@@ -31,7 +30,7 @@ public:
   CACTUS_NUMBER_PROPERTY(PixelSize)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:

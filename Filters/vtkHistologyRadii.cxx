@@ -46,7 +46,7 @@ cactus::Tissue tissueOf(double grey)
   return grey >= leastAxon ? cactus::Tissue::Axon : grey >= leastMyelin ? cactus::Tissue::Myelin : cactus::Tissue::Background;
 }
 
-/// The active numbers, those of points first; else the first that there are.
+/// Returns the active scalars, those of points first; else the first array.
 vtkDataArray* greysOf(vtkImageData* image)
 {
   for (vtkDataSetAttributes* data :
@@ -61,7 +61,7 @@ vtkDataArray* greysOf(vtkImageData* image)
   throw cactus::InvalidInput("the input has no grey values: give a mask as AxonDeepSeg or HistologyMask makes it");
 }
 
-/// A mask of HistologyMask's knows how large its pixels are, also where they were made larger or smaller since.
+/// Checks the pixel size against that of a mask of HistologyMask, also if the image was rescaled since.
 void requirePixelSize(vtkImageData* image, double pixelSize)
 {
   const auto placement = cactus::placementOf(image);
@@ -162,7 +162,7 @@ int vtkHistologyRadii::RequestData(vtkInformation* request, vtkInformationVector
       }
       auto* table = vtkTable::GetData(outputs);
       fillTable(axons, stage.pixelSize, table);
-      table->GetFieldData()->RemoveArray("Domain"); // that of the substrate which was cut
+      table->GetFieldData()->RemoveArray("Domain"); // that of the substrate that was cut
       cactus::addNumber(table->GetFieldData(), "LooseMyelin_um2", found.looseMyelin);
       cactus::setProvenance(table, cactus::recordOf(this, "HistologyRadii", stage, { "Input" }), 0);
     });

@@ -3,12 +3,12 @@
  * @class vtkHistologyRadii
  * @brief Measures the axons of a histology mask (AxonDeepSeg's grey values), as a table of radii to draw fibres from.
  *
- * Input: a flat image of grey values (or of colours, whose first part counts), at point or cell data: about 0 background, 127
- * myelin, 255 axon.
+ * Input: a flat image of grey values (or of colours, whose first component counts), as point or cell data: about 0 background,
+ * 127 myelin, 255 axon.
  *
  * Output: a table with a row for each axon: `X_um`, `Y_um` (its centre of mass, from the image's corner), `AxonRadius_um` and
- * `FibreRadius_um` (of circles with the areas of the axon, and of it and its myelin), `GRatio`, `AxonArea_um2`, `MyelinArea_um2`,
- * `AtBorder` (0 or 1). Field data `LooseMyelin_um2`: the area of myelin that no axon is in.
+ * `FibreRadius_um` (of circles with the areas of the axon, and of the axon with its myelin), `GRatio`, `AxonArea_um2`,
+ * `MyelinArea_um2`, `AtBorder` (0 or 1). Field data `LooseMyelin_um2`: the area of myelin without an axon.
  */
 #ifndef vtkHistologyRadii_h
 #define vtkHistologyRadii_h

@@ -45,8 +45,8 @@ vtkStandardNewMacro(vtkMyelinSurface);
 namespace
 {
 
-/// Empties the image that comes in at the port of an algorithm, and those further up that share its arrays, as ParaView puts
-/// filters of its own between two stages. Each counts as released, so that it is made again for whoever asks for it.
+/// Empties the image at the input of an algorithm, and those further up that share its arrays, since ParaView puts its own
+/// filters between two stages. Each counts as released, so that the next request makes it again.
 void releaseImage(vtkAlgorithm* consumer)
 {
   vtkSmartPointer<vtkDataArray> shared;
@@ -64,7 +64,7 @@ void releaseImage(vtkAlgorithm* consumer)
   }
 }
 
-/// What outer surfaces depend on besides the image: all but what is asked of g-ratios.
+/// Returns the properties that outer surfaces depend on besides the image: all but those of g-ratios.
 std::string outerDemandOf(const cactus::MyelinSurfaceStage& stage)
 {
   static const std::set<std::string> ofInner = { "GRatioModel", "GRatio", "GRatioDeviation", "TargetAxonVolumeFraction", "Seed" };
@@ -79,7 +79,7 @@ std::string outerDemandOf(const cactus::MyelinSurfaceStage& stage)
   return demand.str();
 }
 
-/// The surfaces of fibres among those of an output.
+/// A source of fibres' surfaces from an output.
 class OutputSurfaces : public cactus::SurfaceSource
 {
 public:
@@ -104,7 +104,7 @@ private:
   const std::vector<cactus::FibreSurfacePair>& Fibres;
 };
 
-/// Gives the surfaces of one kind to an output.
+/// Moves the surfaces of one kind to an output.
 void giveOut(std::vector<cactus::FibreSurfacePair>& fibres, cactus::TriangleMesh cactus::FibreSurfacePair::*mesh, int kind,
   vtkPolyData* output)
 {
@@ -117,7 +117,7 @@ void giveOut(std::vector<cactus::FibreSurfacePair>& fibres, cactus::TriangleMesh
   cactus::toPolyData(std::move(surfaces), kind, output);
 }
 
-/// The table, and what the certificate and a user want to know of the surfaces.
+/// Fills the table, and adds facts for the certificate and the user.
 void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, double minimumGap, const cactus::Domain& domain,
   const cactus::Provenance& provenance, vtkInformationVector* outputs)
 {
@@ -146,7 +146,7 @@ struct vtkMyelinSurface::KeptOuter
   vtkMTimeType inputTime = 0;
   std::string demand;
   std::vector<cactus::FibreSurfacePair> fibres; ///< as SurfaceMaker::makeOuter() left them
-  vtkNew<vtkPolyData> surfaces;                 ///< which shares the output's arrays
+  vtkNew<vtkPolyData> surfaces;                 ///< shares the output's arrays
 };
 
 vtkMyelinSurface::vtkMyelinSurface()
@@ -204,7 +204,7 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       {
         if (stage.releaseInput)
         {
-          releaseImage(this); // which this rank has grown, too
+          releaseImage(this); // this rank has also grown it
         }
         return;
       }
@@ -247,7 +247,7 @@ std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
   cactus::SurfacesInMemory inner(count);
   if (this->Kept == nullptr || this->Kept->inputTime != inputTime || this->Kept->demand != demand)
   {
-    this->Kept.reset(); // nothing is kept of what fails
+    this->Kept.reset(); // a failing run leaves nothing behind
     cactus::SurfacesInMemory outer(count);
     maker.makeOuter(outer, inner);
     std::vector<cactus::FibreSurfacePair> fibres = maker.fibres();

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkMyelinSurface
- * @brief Closed outer and inner surfaces of all fibres of a label image, with myelin of the thickness asked for.
+ * @brief Closed outer and inner surfaces of all fibres of a label image, with myelin of the requested thickness.
  *
  * Input: the image that vtkFibreRadialGrowth makes, with its field data. Output 0 `Outer` and 1 `Inner`: triangles with cell data
  * `FibreId`, `BundleId` and `Surface` (0 outer, 1 inner), in increasing order of fibres, which share no points; field data
  * `Domain` and `Provenance`. Output 2 `Fibre statistics`: a table with one row per fibre of the image's FibreTable.
  *
- * Each surface is a closed, outward 2-manifold, cut off flat at the faces of the domain; inner caps lie a little
- * inside the outer ones. The method, what it guarantees and where the limits are stand in core/surface/MyelinSurface.h; the
- * contouring is core/mesh/Isosurface.h, since marching cubes does not promise a manifold.
+ * Each surface is a closed, outward 2-manifold, cut off flat at the faces of the domain; inner caps lie a little inside the outer
+ * ones. The method, its guarantees and its limits are in core/surface/MyelinSurface.h; the contouring is core/mesh/Isosurface.h,
+ * since marching cubes does not guarantee a manifold.
  *
- * The column `Myelin` tells how a fibre came out: 0 as asked; 1 thinner than asked, since the axon would break; 2
- * thicker than asked, since myelin is at least MinimumGap thick; 3 without an inner surface, since the fibre is too thin for
- * both; 4 too few voxels of the image, or none, belong to the fibre, which has neither surface. `Flawed` is 1 where a fault could
- * not be mended. One warning counts what did not come out as asked. Field data `WantedFibres` of output 0, the ids of the fibres
- * that were to have a surface, and `MinimumGap` of both (µm) let a certificate tell what is missing.
+ * The column `Myelin` is the result for a fibre: 0 as asked; 1 thinner than asked, since the axon would break; 2 thicker than
+ * asked, since myelin is at least MinimumGap thick; 3 without an inner surface, since the fibre is too thin for both; 4 without
+ * any surface, since too few voxels of the image, or none, belong to the fibre. `Flawed` is 1 if a fault could not be repaired.
+ * One warning counts the deviations. Field data `WantedFibres` of output 0, the ids of the fibres that were to have a surface,
+ * and `MinimumGap` of both (µm) let a certificate detect missing surfaces.
  *
- * Outer surfaces do not depend on g-ratios. They are kept, and not made again where nothing but GRatioModel, GRatio,
- * GRatioDeviation, TargetAxonVolumeFraction or Seed changes.
+ * Outer surfaces do not depend on g-ratios. They are kept, and not made again if only GRatioModel, GRatio, GRatioDeviation,
+ * TargetAxonVolumeFraction or Seed changes.
  *
- * All of the image is needed at once. Where the pipeline runs on several ranks, the first one gives the result.
+ * The whole image is needed at once. If the pipeline runs on several ranks, the first one gives the result.
  */
 #ifndef vtkMyelinSurface_h
 #define vtkMyelinSurface_h
@@ -81,10 +81,10 @@ public:
   CACTUS_SWITCH_PROPERTY(ReleaseInput)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** The fibres that the label image was grown from, as they were then; null where it comes straight from no growth. */
+  /** Returns the fibres from which the label image was grown, as they were then; null unless it comes directly from growth. */
   vtkDataObject* GrownFibres() const { return this->Fibres; }
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:
@@ -99,10 +99,10 @@ private:
   vtkMyelinSurface(const vtkMyelinSurface&) = delete;
   void operator=(const vtkMyelinSurface&) = delete;
 
-  /// Outer surfaces that were made, and what of.
+  /// Outer surfaces of an earlier run, and their inputs.
   struct KeptOuter;
 
-  /// Makes all surfaces, or takes the outer ones that are kept. Gives the outer ones to `output`, the inner ones back.
+  /// Makes all surfaces, or reuses the outer ones that are kept. Puts the outer ones into `output`, and returns the inner ones.
   std::vector<cactus::FibreSurfacePair> makeSurfaces(cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output);
 
   std::unique_ptr<cactus::FilterProperties> Properties;

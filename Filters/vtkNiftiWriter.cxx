@@ -34,13 +34,13 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// A folder of this process in the system's place for such, which goes with all that is in it.
+/// A temporary folder of this process that is removed with its content.
 class ScratchFolder
 {
 public:
   ScratchFolder()
   {
-    std::string name = (fs::temp_directory_path() / "cactus-nifti-").string() + std::string(6, 'X'); // mkdtemp's places
+    std::string name = (fs::temp_directory_path() / "cactus-nifti-").string() + std::string(6, 'X'); // filled in by mkdtemp
     if (::mkdtemp(name.data()) == nullptr)
     {
       throw cactus::FileError("cannot make a folder in " + fs::temp_directory_path().string());
@@ -70,7 +70,7 @@ vtkImageData* imageOf(vtkDataObject* input)
   return image;
 }
 
-/// The image with the array that is to be written alone.
+/// Returns the image with only the array to be written.
 vtkSmartPointer<vtkImageData> withArray(vtkImageData* image, const std::string& name)
 {
   vtkPointData* data = image->GetPointData();
@@ -86,10 +86,10 @@ vtkSmartPointer<vtkImageData> withArray(vtkImageData* image, const std::string& 
   return alone;
 }
 
-/// Writes by VTK's own writer, which knows the format by the name.
+/// Writes with VTK's own writer, which derives the format from the name.
 void write(vtkImageData* image, bool isPlaced, const std::string& path)
 {
-  // The writer knows nothing of an image's direction matrix.
+  // The writer ignores an image's direction matrix.
   vtkNew<vtkMatrix4x4> grid;
   double first[3];
   const int* extent = image->GetExtent();
@@ -113,7 +113,7 @@ void write(vtkImageData* image, bool isPlaced, const std::string& path)
   writer->SetNIFTIHeader(header);
   writer->SetQFormMatrix(grid);
   writer->SetSFormMatrix(grid);
-  // A direction is a vector, along the fifth dimension; more numbers are volumes, along the fourth, as MRtrix wants them.
+  // A direction is a vector, along the fifth dimension; more numbers are volumes, along the fourth, as MRtrix requires.
   const int components = image->GetPointData()->GetScalars()->GetNumberOfComponents();
   writer->SetTimeDimension(components > 3 ? components : 0);
   writer->SetFileName(path.c_str());
@@ -124,7 +124,7 @@ void write(vtkImageData* image, bool isPlaced, const std::string& path)
   }
 }
 
-/// Puts a file that is whole in its place, whole or not at all.
+/// Copies a finished file to its place, whole or not at all.
 void place(const fs::path& from, const std::string& to)
 {
   cactus::AtomicFile file(to);
@@ -152,7 +152,7 @@ int vtkNiftiWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkNiftiWriter::WriteData()
 {
-  // On several ranks the first one writes, as a sink asks for the first piece of one.
+  // On several ranks the first one writes, since a sink requests the only piece.
   if (!cactus::isFirstProcess())
   {
     return;

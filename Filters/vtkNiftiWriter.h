@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkNiftiWriter
- * @brief Writes one array of an image as NIfTI-1, .nii or .nii.gz, with its place: q- and s-form; in µm, or in mm where it is
- * placed in the space of another image (see vtkPlacement).
+ * @brief Writes one array of an image as NIfTI-1, .nii or .nii.gz, with q- and s-form; in µm, or in mm if it is placed in the
+ * space of another image (see vtkPlacement).
  *
- * Input: an image. `Array` names the point data to write; without a name they are the active scalars. Directions of three
+ * Input: an image. `Array` names the point data to write; without a name, the active scalars are written. Directions of three
  * numbers are written as a fifth dimension, arrays of more numbers as volumes, the fourth. The file appears whole or not at all.
  */
 #ifndef vtkNiftiWriter_h

@@ -35,13 +35,13 @@ vtkStandardNewMacro(vtkPlacement);
 namespace
 {
 
-/// Whether data of this type can be placed, or their blocks.
+/// Tells whether data of this type, or their blocks, can be placed.
 bool canBePlaced(vtkDataObject* data)
 {
   return vtkDataObjectTree::SafeDownCast(data) != nullptr || cactus::isPlaceable(data);
 }
 
-/// Whether there is anything to place, in the data set or in one of its blocks.
+/// Tells whether there is nothing to place, in the data set or in its blocks.
 bool isEmpty(vtkDataObject* data)
 {
   const std::vector<vtkDataObject*> leaves = cactus::leavesOf(data);
@@ -63,7 +63,7 @@ void requireFinite(vtkImageData* image)
   }
 }
 
-/// Throws InvalidInput for types that cannot be placed, blocks among them that are refined, and grids that are nowhere.
+/// Throws InvalidInput for types that cannot be placed, such as refined blocks, and for grids without a position.
 void requireValid(vtkDataObject* data)
 {
   if (vtkCompositeDataSet::SafeDownCast(data) != nullptr)
@@ -125,7 +125,7 @@ int vtkPlacement::RequestDataObject(vtkInformation* request, vtkInformationVecto
   {
     return this->Superclass::RequestDataObject(request, inputs, outputs);
   }
-  // An output for the error: not all types of data can be empty where ParaView looks at them.
+  // An output for the error: ParaView cannot show all types of data when empty.
   vtkInformation* info = outputs->GetInformationObject(0);
   if (vtkPolyData::GetData(info) == nullptr)
   {
@@ -142,7 +142,7 @@ int vtkPlacement::RequestInformation(vtkInformation*, vtkInformationVector** inp
   {
     return 1;
   }
-  // Of an image: its grid is known before its data.
+  // For an image: its grid is needed before its data.
   cactus::quietly(
     [&]
     {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkPlacement
- * @brief Puts a substrate where it lies in an image's space: from its own µm to the scanner's mm, turned and moved.
+ * @brief Places a substrate in an image's space: from its own µm to the scanner's mm, rotated and moved.
  *
  * Input: anything with points (fibres, surfaces), images, tables, and blocks of these in any mixture. Output: the same. Points
- * and the grids of images are moved, whose direction matrix turns; arrays of three floating-point numbers are directions, and
- * turned; `Radius` and `TargetRadius` become mm. All other arrays stay as they are, `Domain` too; tables stay altogether.
- * Data of another type end in an error, with an empty vtkPolyData as output; so do data that hold nothing at all.
+ * and the grids of images are moved, with the images' direction matrix; arrays of three floating-point numbers are directions,
+ * and rotated; `Radius` and `TargetRadius` become mm. All other arrays stay, including `Domain`, and tables do not change. Data
+ * of another type give an error, with an empty vtkPolyData as output; so do empty data.
  *
  * Field data `Placement` holds the affine from µm to mm, row by row. Writers of images and tractograms put it into their files,
- * SubstrateWriter into the manifest; filters that work on fibres and surfaces take these back into the substrate's own space.
+ * SubstrateWriter into the manifest; filters that work on fibres and surfaces move these back into the substrate's space.
  */
 #ifndef vtkPlacement_h
 #define vtkPlacement_h

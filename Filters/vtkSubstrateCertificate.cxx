@@ -42,7 +42,7 @@ void fill(vtkTable* table, const std::vector<cactus::CertificateColumn>& columns
   }
 }
 
-/// A row per line: ParaView's spreadsheets sort columns by name, rows not.
+/// Fills a table with a row per line: ParaView's spreadsheets sort columns by name, but not rows.
 void fill(vtkTable* table, const std::vector<cactus::CertificateLine>& lines)
 {
   cactus::addColumn<vtkStringArray>(table, "Finding", lines.size(), [&](std::size_t row) { return lines[row].finding; });
@@ -86,7 +86,7 @@ int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformation
       cactus::validateProperties(stage);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
-        return; // one rank measures; tables of all ranks would be joined into rows that repeat
+        return; // one rank measures; otherwise the tables of all ranks would be joined into rows that repeat
       }
       const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
       const auto certificate = cactus::certify(substrate.domain, substrate.outer, substrate.inner, substrate.fibresOrNull(),

@@ -7,13 +7,13 @@
  * centre lines, for radii along them.
  *
  * Output 0 `Certificate`: one row; the verdict `Certified` (0 or 1), how many surfaces or pairs have each fault, the smallest gap
- * between two fibres, the thinnest myelin, the worst triangles, and volume fractions. Output 1 `Fibres`: one row per fibre. What
- * cannot be measured is NaN. Output 2 `Verdict`: output 0 as text to be read, a row per column (`Finding`, `Value`), the verdict
+ * between two fibres, the thinnest myelin, the worst triangles, and volume fractions. Output 1 `Fibres`: one row per fibre.
+ * Unmeasurable values are NaN. Output 2 `Verdict`: output 0 as readable text, a row per column (`Finding`, `Value`), the verdict
  * in words first. A warning says why a substrate is not certified.
  *
- * Certified is a substrate in which every surface is a closed, outward 2-manifold that does not meet itself, no two outer
- * surfaces meet or lie inside one another, every inner surface lies strictly inside its outer one, and no two fibres are nearer
- * than MinimumGap. All of this is decided by exact predicates (Shewchuk 1997); touching counts as meeting.
+ * A substrate is certified if every surface is a closed, outward 2-manifold that does not meet itself, no two outer surfaces meet
+ * or lie inside one another, every inner surface lies strictly inside its outer one, and no two fibres are nearer than
+ * MinimumGap. All of this is decided by exact predicates (Shewchuk 1997); touching counts as meeting.
  */
 #ifndef vtkSubstrateCertificate_h
 #define vtkSubstrateCertificate_h
@@ -34,7 +34,7 @@ public:
   CACTUS_NUMBER_PROPERTY(CutSpacing)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:

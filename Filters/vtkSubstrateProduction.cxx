@@ -132,7 +132,8 @@ void vtkSubstrateProduction::Produce()
 int vtkSubstrateProduction::Write()
 {
   const bool isWritten = cactus::writeNow(this);
-  this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // setting it would count as a change
+  this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // SetErrorCode() would count as a
+                                                                                           // change
   return isWritten ? 1 : 0;
 }
 

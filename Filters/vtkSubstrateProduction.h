@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSubstrateProduction
- * @brief Grows fibres, makes their surfaces and writes them as a substrate folder, without holding label image and surfaces.
+ * @brief Grows fibres, makes their surfaces and writes them as a substrate folder, without holding label image and surfaces in
+ * memory.
  *
- * Input: fibres, as for vtkFibreRadialGrowth. When the filter executes for the first time after one of its own properties or
- * connections has changed, and by Write(), not because its input has changed, it writes what vtkFibreRadialGrowth,
- * vtkMyelinSurface and vtkSubstrateWriter would with the same properties (Seed is that of both), with the same bits. Output 0
- * `Files`: the table of the files. Output 1 `Fibre statistics`: that of vtkMyelinSurface.
+ * Input: fibres, as for vtkFibreRadialGrowth. The filter writes when it executes for the first time after one of its own
+ * properties or connections has changed, and by Write(), but not because its input has changed. It writes the files of
+ * vtkFibreRadialGrowth, vtkMyelinSurface and vtkSubstrateWriter with the same properties (Seed is that of both), with the same
+ * bits. Output 0 `Files`: the table of the files. Output 1 `Fibre statistics`: that of vtkMyelinSurface.
  *
- * What is made goes to the folder `FolderName.work`. A run that was stopped or killed goes on from there when the filter executes
- * again, with the same fibres, properties and version; at its end that folder is gone. Progress tells the pace. The method is
- * core/io/SubstrateProduction.h. On several ranks all of them share the work; the first one has the
- * tables, and reports.
+ * Work in progress is kept in the folder `FolderName.work`. A run that was stopped or killed continues from there when the filter
+ * executes again, with the same fibres, properties and version; the folder is removed at the end. Progress includes the speed.
+ * The method is core/io/SubstrateProduction.h. On several ranks all of them share the work; the first one has the tables, and
+ * reports.
  */
 #ifndef vtkSubstrateProduction_h
 #define vtkSubstrateProduction_h
@@ -54,10 +55,10 @@ public:
   CACTUS_NUMBER_PROPERTY(SampledFraction)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Writes the folder, whatever has or has not changed. Gives 1, or 0 where it could not be written. */
+  /** Writes the folder, whether or not anything has changed. Returns 1, or 0 if it could not be written. */
   int Write();
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
   CACTUS_ABORT_IS_NO_CHANGE
@@ -77,7 +78,7 @@ private:
 
   std::unique_ptr<cactus::FilterProperties> Properties;
   cactus::KeptFolder Kept;
-  vtkNew<vtkTable> Files; ///< what was written last
+  vtkNew<vtkTable> Files; ///< the last files written
   vtkNew<vtkTable> Fibres;
 };
 

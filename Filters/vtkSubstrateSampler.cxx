@@ -153,7 +153,7 @@ int vtkSubstrateSampler::RequestData(vtkInformation* request, vtkInformationVect
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         vtkImageData::GetData(outputs)->Initialize();
-        return; // one rank samples; voxels of all ranks would be joined into an image that repeats
+        return; // one rank samples; otherwise the voxels of all ranks would be joined into an image that repeats
       }
       const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
       const cactus::SampledSubstrate sampled = cactus::sampleSubstrate(substrate.domain, substrate.outer, substrate.inner,

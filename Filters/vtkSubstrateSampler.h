@@ -4,17 +4,17 @@
  * @brief Samples a substrate on a grid of voxels of any size: label maps, exact volume fractions, directions.
  *
  * Input 0 `Outer`, input 1 `Inner` (optional): closed, outward triangle surfaces with cell data `FibreId` and `BundleId`. Input 2
- * `Fibres` (optional): their centre lines. Where Outer comes straight from MyelinSurface, what is not connected is that filter's
- * own.
+ * `Fibres` (optional): their centre lines. If Outer comes directly from MyelinSurface, unconnected inputs are taken from that
+ * filter.
  *
  * Output: an image whose points are the middles of voxels, from the domain's lower corner on, as many as cover it. Point data:
  * `AVF`, `MVF`, `ExtraAxonalFraction` and `BundleFraction_N` for each bundle (volumes of the meshes over that of the voxel's part
- * in the domain, in single precision); `Compartment` (0 extra-axonal, 1 axon, 2 myelin: that with the largest fraction);
- * `FibreId` (with the largest volume; 0 where Compartment is); `FibreCount`; and with centre lines `MeanDirection` (unit vector,
- * z not negative) and `Dispersion` (degrees; the angle whose squared cosine is the mean of the squared cosines to it; NaN where
- * there is no fibre). Where asked for, `FOD` (the fibre orientation distribution as coefficients of spherical harmonics, in
- * MRtrix's basis and order; its integral is the fibre volume fraction) and `Peaks` (nine numbers: the axes of the three bundles
- * that fill most of the voxel, as long as their fractions; NaN where there are fewer).
+ * in the domain, in single precision); `Compartment` (0 extra-axonal, 1 axon, 2 myelin: the one with the largest fraction);
+ * `FibreId` (with the largest volume; 0 where Compartment is 0); `FibreCount`; and with centre lines `MeanDirection` (unit
+ * vector, z not negative) and `Dispersion` (degrees; the angle whose squared cosine is the mean of the squared cosines to it; NaN
+ * without a fibre). Optional: `FOD` (the fibre orientation distribution as coefficients of spherical harmonics, in MRtrix's basis
+ * and order; its integral is the fibre volume fraction) and `Peaks` (nine numbers: the axes of the three bundles that fill most
+ * of the voxel, as long as their fractions; NaN for missing ones).
  */
 #ifndef vtkSubstrateSampler_h
 #define vtkSubstrateSampler_h
@@ -36,7 +36,7 @@ public:
   CACTUS_SWITCH_PROPERTY(Peaks)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
 protected:

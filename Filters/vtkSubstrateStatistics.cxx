@@ -77,8 +77,8 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("ExtraAxonalDiffusivityErrorZ", s.outside.standardError[2]);
 }
 
-/// The table of one row to be read line by line: ParaView's spreadsheets sort columns by name, rows not. Numbers have six digits,
-/// counts all; what was not measured is "-".
+/// Turns a table of one row into readable lines: ParaView's spreadsheets sort columns by name, but not rows. Numbers have six
+/// digits, counts all; missing values are "-".
 void fillSummary(vtkTable* table, vtkTable* whole)
 {
   const auto columns = static_cast<std::size_t>(whole->GetNumberOfColumns());
@@ -228,7 +228,7 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       cactus::validateProperties(stage);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
-        return; // one rank measures; tables of all ranks would be joined into rows that repeat
+        return; // one rank measures; otherwise the tables of all ranks would be joined into rows that repeat
       }
       const cactus::SubstrateData data = cactus::measuredDataOf(this, 0, 1, 2);
       const cactus::Fibres fibres = cactus::fibresFrom(data.fibres);

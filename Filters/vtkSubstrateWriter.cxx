@@ -30,7 +30,7 @@ vtkStandardNewMacro(vtkSubstrateWriter);
 namespace
 {
 
-/// When what comes in, connected or not, was last changed.
+/// Returns when any input, connected or not, was last changed.
 vtkMTimeType newestInput(vtkSubstrateWriter* self)
 {
   const cactus::SubstrateData data = cactus::substrateDataOf(self, 0, 1, 2);
@@ -126,7 +126,8 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
 int vtkSubstrateWriter::Write()
 {
   const bool isWritten = cactus::writeNow(this);
-  this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // setting it would count as a change
+  this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // SetErrorCode() would count as a
+                                                                                           // change
   return isWritten ? 1 : 0;
 }
 

@@ -5,15 +5,15 @@
  *
  * Input 0 `Outer`, input 1 `Inner` (optional): closed, outward triangle surfaces with cell data `FibreId` and `BundleId`. Input 2
  * `Fibres` (optional): their centre lines. The folder is written when the filter executes for the first time after one of its own
- * properties or connections has changed, and by Write(); not because its input has changed. It holds the surfaces as the
- * simulator named by `Format` reads them (for MC/DC one ASCII PLY file (µm) per fibre and surface, and configurations; for RMS
- * labels of voxels besides, for SpinDoctor what tetgen makes finite elements of), a
- * certificate (see vtkSubstrateCertificate), a manifest, a README.txt and, with `Fibres`, a strand file.
+ * properties or connections has changed, and by Write(); not because its input has changed. It holds the surfaces in the format
+ * of the simulator `Format` (for MC/DC one ASCII PLY file (µm) per fibre and surface, and configurations; for RMS also voxel
+ * labels; for SpinDoctor the input from which tetgen makes finite elements), a certificate (see vtkSubstrateCertificate), a
+ * manifest, a README.txt and, with `Fibres`, a strand file.
  *
- * Output: a table of the files written, with fibre, bundle, triangles, volume and area. A warning says why the surfaces, as the
- * files hold them, are not certified; those that are not closed are refused.
+ * Output: a table of the files written, with fibre, bundle, triangles, volume and area. A warning says why the surfaces, as
+ * stored in the files, are not certified; open surfaces are refused.
  *
- * The folder appears whole or not at all. One that is there is replaced if it is a substrate folder with nothing else in it, and
+ * The folder appears whole or not at all. An existing one is replaced if it is a substrate folder with nothing else in it, and
  * refused otherwise. On several ranks the first one writes.
  */
 #ifndef vtkSubstrateWriter_h
@@ -45,10 +45,10 @@ public:
   CACTUS_NUMBER_PROPERTY(MinimumGap)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Writes the folder, whatever has or has not changed. Gives 1, or 0 where it could not be written. */
+  /** Writes the folder, whether or not anything has changed. Returns 1, or 0 if it could not be written. */
   int Write();
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
   CACTUS_ABORT_IS_NO_CHANGE
@@ -68,7 +68,7 @@ private:
 
   std::unique_ptr<cactus::FilterProperties> Properties;
   cactus::KeptFolder Kept;
-  vtkNew<vtkTable> WrittenFiles; ///< what was written last
+  vtkNew<vtkTable> WrittenFiles; ///< the last files written
 };
 
 #endif

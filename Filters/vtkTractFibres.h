@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkTractFibres
- * @brief Lays a bundle of fibres around each of some streamlines, as the start of a substrate that runs as a tract does.
+ * @brief Lays a bundle of fibres around each of some streamlines, as the start of a substrate that follows a tract.
  *
- * Input: polylines, such as vtkTractogramReader's, with or without cell data `BundleId`. Output: fibres as vtkBundleInitializer
- * makes them, in a cubic domain around the origin whose middle lies on a streamline; axes stay as they are. The method is
- * cactus::layTractFibres, whose header says how it works and what it promises. A warning says where bends had to be rounded off,
- * or a streamline that ends in the domain was carried on.
+ * Input: polylines, such as vtkTractogramReader's, with or without cell data `BundleId`. Output: fibres as those of
+ * vtkBundleInitializer, in a cubic domain around the origin whose middle lies on a streamline; axes keep their directions. The
+ * method and its guarantees are documented in cactus::layTractFibres. A warning says where bends had to be rounded off, or where
+ * a streamline that ends in the domain was continued.
  */
 #ifndef vtkTractFibres_h
 #define vtkTractFibres_h
@@ -58,7 +58,7 @@ public:
   CACTUS_NUMBER_PROPERTY(MaximumSpacing)
   CACTUS_WHOLE_PROPERTY(Seed)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
   CACTUS_ABORT_IS_NO_CHANGE

@@ -3,14 +3,14 @@
  * @class vtkTractogramReader
  * @brief Reads streamlines from tractograms: MRtrix's .tck, TrackVis's .trk (versions 1 and 2), and .trx, an archive or a folder.
  *
- * Output: one polyline per streamline of two points or more, in the scanner's space (RAS), in µm or mm by `LengthUnit`. What the
- * file has of points becomes point data, what it has of streamlines cell data, by their names; an array `Radius` is a length, in
- * mm in the file. Groups become cell data `BundleId`, from 1 in the order of the field data `BundleName`, for the first group
- * that a streamline is in (one more than there are groups, where it is in none), unless the file has values of that name; where a
- * streamline is in several, each group is cell data `Group NAME`, too (0 or 1). With `Radius` above 0, a file without radii
- * gives fibres of that radius.
+ * Output: one polyline per streamline of two points or more, in the scanner's space (RAS), in µm or mm by `LengthUnit`. The
+ * file's data per point become point data, those per streamline cell data, by their names; an array `Radius` is a length, in mm
+ * in the file. Groups become cell data `BundleId`, from 1 in the order of the field data `BundleName`, for the first group of a
+ * streamline (number of groups plus one, if it is in none), unless the file has values of that name; if a streamline is in
+ * several, each group is also cell data `Group NAME` (0 or 1). With `Radius` above 0, a file without radii gives fibres of that
+ * radius.
  *
- * What was assumed or left out is said in a warning each. A file that is truncated or damaged gives one error, and no output.
+ * A warning reports each assumption or omission. A file that is truncated or damaged gives one error, and no output.
  */
 #ifndef vtkTractogramReader_h
 #define vtkTractogramReader_h
@@ -31,7 +31,7 @@ public:
   CACTUS_WHOLE_PROPERTY(LengthUnit)
   CACTUS_NUMBER_PROPERTY(Radius)
 
-  /** Counts as changed after it was stopped, so that it is asked again and says so; not on several ranks. */
+  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
   CACTUS_ABORT_IS_NO_CHANGE

@@ -30,7 +30,7 @@ int vtkTractogramWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkTractogramWriter::WriteData()
 {
-  // On several ranks each gets all fibres, as a sink asks for the first piece of one; the first writes them.
+  // On several ranks each gets all fibres, since a sink requests the only piece; the first writes them.
   if (!cactus::isFirstProcess())
   {
     return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkTractogramWriter
- * @brief Writes fibres as a tractogram that MRtrix, dipy and others show, in mm: .tck (centre lines) or .trx (with radii, ids,
+ * @brief Writes fibres as a tractogram for MRtrix, dipy and others, in mm: .tck (centre lines) or .trx (with radii, ids,
  * bundles).
  *
  * Input: polylines with point data `Radius` (µm). A .trx has `dpv/Radius` (mm), `dps/FibreId`, `dps/BundleId` and a group for

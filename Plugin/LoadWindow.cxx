@@ -12,7 +12,7 @@ namespace cactus
 
 void loadWindow()
 {
-  // The window's program has this library of ParaView from its start; pvpython, pvbatch and pvserver never load it.
+  // The window's program links this ParaView library; pvpython, pvbatch and pvserver never load it.
   void* windowLibrary = dlopen(CACTUS_LIBRARY_OF_WINDOWS, RTLD_LAZY | RTLD_NOLOAD);
   if (windowLibrary == nullptr)
   {

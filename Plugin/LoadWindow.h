@@ -4,8 +4,7 @@
 namespace cactus
 {
 
-/// Where this process is ParaView's window, loads what the plugin adds to it (Window/), from beside the plugin. Else does
-/// nothing.
+/// In ParaView's window, loads the plugin's window part (Window/) from the plugin's folder; does nothing elsewhere.
 void loadWindow();
 
 } // namespace cactus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of a table that a chart's representation shows.
+// The columns of a table that a chart shows.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ class vtkSMProxy;
 namespace cactus
 {
 
-/// The columns that a representation can show, once it has ParaView's defaults for the table that it is given. ParaView sets its
-/// defaults after an initialisation helper, but for what that has set: that the columns are those of a table's rows, and one for
+/// Returns the columns that a representation can show, after setting ParaView's defaults for its table. ParaView sets these only
+/// after an initialisation helper, and keeps what the helper has set: here, that columns are those of a table's rows, one for
 /// each.
 std::vector<std::string> chartColumns(vtkSMProxy* chart);
 
-/// Whether all those that are needed are among the columns.
+/// Tells whether all needed columns exist.
 bool hasColumns(const std::vector<std::string>& columns, const std::vector<std::string>& needed);
 
-/// Shows these of the columns, and no others, over the column `bottom`.
+/// Shows only the given columns, over the column `bottom`.
 void showColumns(
   vtkSMProxy* chart, const std::vector<std::string>& columns, const std::vector<std::string>& shown, const std::string& bottom);
 

@@ -42,7 +42,7 @@ void repeatFirst(vtkDataSetAttributes* from, vtkDataSetAttributes* to, vtkIdType
   }
 }
 
-/// All that is there of `from` moves to `begin`.
+/// Copies all tuples of `from` to `begin`.
 void copyAll(vtkDataSetAttributes* from, vtkDataSetAttributes* to, vtkIdType begin, vtkIdType count)
 {
   to->CopyData(from, begin, count, 0);
@@ -84,7 +84,7 @@ vtkSmartPointer<vtkPolyData> withDomainBox(vtkPolyData* shape, vtkFieldData* fac
   }
   boxed->SetPoints(points);
 
-  // Lines come before polygons and strips: the box's first of all.
+  // Lines come before polygons and strips: the box's lines first of all.
   vtkNew<vtkCellArray> lines;
   for (int corner = 0; corner < corners; ++corner)
   {

@@ -10,12 +10,12 @@ class vtkPolyData;
 namespace cactus
 {
 
-/// The affine that field data `Placement` hold, row by row, by which data came out of the domain's space; else the identity.
+/// Returns the affine in field data `Placement`, row by row, by which the data left the domain's space; else the identity.
 vtkSmartPointer<vtkMatrix4x4> placementIn(vtkFieldData* facts);
 
-/// `shape` with the twelve edges of the box that the field data `Domain` (xmin xmax ymin ymax zmin zmax) describe, where it is
-/// placed, as lines with the attributes of the first point and cell, but grey where these are colours. Without a Domain, or an
-/// empty shape: `shape` alone.
+/// Returns `shape` with the twelve edges of the box in field data `Domain` (xmin xmax ymin ymax zmin zmax), in its placed
+/// position. The edges are lines with the attributes of the first point and cell, except that colours are grey. Without a Domain,
+/// or for an empty shape: `shape` alone.
 vtkSmartPointer<vtkPolyData> withDomainBox(vtkPolyData* shape, vtkFieldData* facts);
 
 } // namespace cactus

@@ -18,12 +18,12 @@ namespace cactus
 namespace
 {
 
-/// Caps lie this much of the domain's side inside of its face at most, and are drawn so much outside.
+/// Largest depth of caps inside a face, as a fraction of the domain's side, and the distance outside at which they are drawn.
 constexpr double depth = 0.05;
 constexpr double lift = 1e-3;
 constexpr double rounding = 1e-6;
 
-/// Moves the points whose coordinate is `from`, but for rounding, to `to`.
+/// Moves the points whose coordinate equals `from`, up to rounding, to `to`.
 void move(vtkDataArray* coordinates, int axis, double from, double to)
 {
   for (vtkIdType i = 0; i < coordinates->GetNumberOfTuples(); ++i)
@@ -35,7 +35,7 @@ void move(vtkDataArray* coordinates, int axis, double from, double to)
   }
 }
 
-/// A copy of points, through an affine.
+/// Returns a copy of points, transformed by an affine.
 vtkSmartPointer<vtkPoints> moved(vtkPoints* points, vtkMatrix4x4* affine)
 {
   auto result = vtkSmartPointer<vtkPoints>::New();

@@ -8,9 +8,9 @@ class vtkPolyData;
 namespace cactus
 {
 
-/// `surface` with its outermost points along each axis, where these are caps close to a face of the box in field data `Domain`,
-/// moved to a thousandth of the box outside of that face: axons, which end a little inside of the outer surfaces' caps, are then
-/// seen there. Without a Domain: `surface` itself.
+/// Returns `surface` with its outermost points along each axis, if these are caps close to a face of the box in field data
+/// `Domain`, moved outside of that face by a thousandth of the box: this makes axons visible, which end slightly inside of the
+/// outer surfaces' caps. Without a Domain: `surface` itself.
 vtkSmartPointer<vtkPolyData> withLiftedCaps(vtkPolyData* surface);
 
 } // namespace cactus

@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-/// Whether both look the same way from the same place.
+/// Tells whether both look in the same direction from the same place.
 bool agree(vtkCamera* one, vtkCamera* other)
 {
   return std::equal(one->GetPosition(), one->GetPosition() + 3, other->GetPosition()) &&
@@ -37,7 +37,7 @@ void lookObliquely(vtkView* view)
   if (agree(camera, untouched) || agree(camera, ofNewView))
   {
     camera->SetFocalPoint(0.0, 0.0, 0.0);
-    camera->SetViewUp(0.0, 1.0, 0.0); // as before, so that scripts which place the camera on the z axis find what they expect
+    camera->SetViewUp(0.0, 1.0, 0.0); // unchanged, so that scripts that place the camera on the z axis work as before
     camera->SetPosition(obliquePosition);
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkFibreSurfaceRepresentation
- * @brief surfaces of fibres, of which the inner ones can be seen in the faces of the domain
+ * @brief Surfaces of fibres whose inner surfaces are visible in the faces of the domain.
  *
- * The caps of an axon lie a little inside of those of its outer surface, in the faces of the domain. With LiftCaps they are drawn
- * a thousandth of the domain outside, so that these faces show the axons within their myelin, as in a cut. A render view whose
- * camera nobody has moved yet is turned, so that fibres along z are not seen end-on.
+ * The caps of an axon lie slightly inside of those of its outer surface, in the faces of the domain. With LiftCaps they are drawn
+ * a thousandth of the domain outside, so that these faces show the axons within their myelin, as in a cut. The camera of a render
+ * view is turned, if nobody has moved it yet, so that fibres along z are not seen end-on.
  */
 #ifndef vtkFibreSurfaceRepresentation_h
 #define vtkFibreSurfaceRepresentation_h
@@ -31,7 +31,7 @@ public:
   vtkGetMacro(LiftCaps, bool);
   ///@}
 
-  /** What is drawn of the input. */
+  /** Returns the drawn part of the input. */
   using vtkGeometryRepresentationWithFaces::GetInternalOutputPort;
   vtkAlgorithmOutput* GetInternalOutputPort(int port, int connection) override;
 

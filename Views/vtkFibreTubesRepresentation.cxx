@@ -24,7 +24,7 @@ vtkStandardNewMacro(vtkFibreTubesRepresentation);
 namespace
 {
 
-/// Sides of a tube, so that a bundle of any size can be turned smoothly; 0: lines.
+/// Returns the sides of a tube, so that a bundle of any size rotates smoothly; 0: lines.
 int sidesFor(vtkIdType points)
 {
   return points <= 100000 ? 12 : points <= 400000 ? 6 : points <= 2000000 ? 4 : 0;
@@ -42,7 +42,7 @@ void addIds(vtkDataSetAttributes* data, const char* name, vtkIdType count)
   data->AddArray(ids);
 }
 
-/// With the numbers by which selections name cells and points: those of what is drawn are others.
+/// Adds the original numbers of cells and points, for selections: those of the drawn data differ.
 vtkSmartPointer<vtkPolyData> withIds(vtkPolyData* fibres)
 {
   auto numbered = vtkSmartPointer<vtkPolyData>::New();
@@ -52,7 +52,7 @@ vtkSmartPointer<vtkPolyData> withIds(vtkPolyData* fibres)
   return numbered;
 }
 
-/// So that what was drawn around the fibres cannot be selected as one of them.
+/// Removes ids, so that what is drawn around the fibres cannot be selected as one of them.
 void forgetIds(vtkDataSetAttributes* data, const char* name, vtkIdType first, vtkIdType count)
 {
   auto* ids = vtkIdTypeArray::SafeDownCast(data->GetArray(name));
@@ -87,7 +87,7 @@ vtkAlgorithmOutput* vtkFibreTubesRepresentation::GetInternalOutputPort(int port,
     fibres != nullptr && fibres->GetNumberOfLines() > 0 && fibres->GetPointData()->GetArray("Radius") != nullptr;
   if (auto* geometry = vtkPVGeometryFilter::SafeDownCast(this->GeometryFilter))
   {
-    geometry->SetPassThroughCellIds(isFibres ? 0 : 1); // else it numbers what is drawn
+    geometry->SetPassThroughCellIds(isFibres ? 0 : 1); // otherwise the filter numbers the drawn data
     geometry->SetPassThroughPointIds(isFibres ? 0 : 1);
   }
   if (!isFibres)
@@ -114,7 +114,7 @@ bool vtkFibreTubesRepresentation::AddToView(vtkView* view)
 void vtkFibreTubesRepresentation::UpdateColoringParameters()
 {
   this->Superclass::UpdateColoringParameters();
-  // What is no array of colours is mapped as ever.
+  // Other arrays are mapped as usual.
   for (vtkMapper* mapper : { this->Mapper, this->LODMapper })
   {
     mapper->SetColorModeToDefault();

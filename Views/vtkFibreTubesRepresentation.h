@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkFibreTubesRepresentation
- * @brief fibres as tubes of their own radius, in the box of their domain
+ * @brief Fibres as tubes of their own radius, in the box of their domain.
  *
- * Polylines with point data `Radius` (µm) are drawn as tubes of that radius, with fewer sides the more points there are, and in
- * many points as lines. Where the data carry field data `Domain` (xmin xmax ymin ymax zmin zmax, µm) its box is drawn around
- * them. Other data, composite ones among them, are shown as by vtkGeometryRepresentation. Arrays of red, green and blue
- * (unsigned char) are shown as the colours they are; where no array is chosen, point data `Direction` is one, unless
- * DirectionColors is off. (Chosen as an array it would get a scalar bar, of its magnitude.) A render view whose camera nobody
- * has moved yet is turned, so that fibres along z are not seen end-on.
+ * Polylines with point data `Radius` (µm) are drawn as tubes of that radius, with fewer sides the more points there are, and
+ * above a limit as lines. If the data have field data `Domain` (xmin xmax ymin ymax zmin zmax, µm), its box is drawn around them.
+ * Other data, including composite ones, are shown as by vtkGeometryRepresentation. Arrays of red, green and blue (unsigned char)
+ * are shown as colours; without a chosen array, point data `Direction` is used, unless DirectionColors is off. (Choosing it would
+ * add a scalar bar of its magnitude.) The camera of a render view is turned, if nobody has moved it yet, so that fibres along z
+ * are not seen end-on.
  */
 #ifndef vtkFibreTubesRepresentation_h
 #define vtkFibreTubesRepresentation_h
@@ -28,11 +28,11 @@ public:
   vtkTypeMacro(vtkFibreTubesRepresentation, vtkGeometryRepresentationWithFaces);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** What is drawn of the input. */
+  /** Returns the drawn part of the input. */
   using vtkGeometryRepresentationWithFaces::GetInternalOutputPort;
   vtkAlgorithmOutput* GetInternalOutputPort(int port, int connection) override;
 
-  /** Colours fibres by their direction where no array is chosen. On by default. */
+  /** Colours fibres by their direction if no array is chosen. On by default. */
   vtkSetMacro(DirectionColors, bool);
   vtkGetMacro(DirectionColors, bool);
 

@@ -17,7 +17,7 @@ namespace
 
 const std::string penetration = "MaximumPenetration";
 const std::string pairs = "OverlappingPairs";
-constexpr int bottomRight = 1; ///< a plot's axes, as ParaView numbers them
+constexpr int bottomRight = 1; ///< ParaView's number of a plot's axes
 
 } // namespace
 

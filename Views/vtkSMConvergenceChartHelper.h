@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSMConvergenceChartHelper
- * @brief which columns of CapsuleOptimizer's table a chart of its convergence shows at first
+ * @brief Initial columns in a chart of CapsuleOptimizer's convergence table.
  *
- * ParaView's charts show every column on one axis. Of a table with MaximumPenetration and OverlappingPairs these two are shown,
- * over Iteration, the second on an axis of its own at the right. Other tables are shown as ever. It is called when the
- * representation that names it in its Hints is made; what is chosen by hand afterwards stays.
+ * ParaView's charts show every column on one axis. For a table with MaximumPenetration and OverlappingPairs, only these two are
+ * shown, over Iteration, the second with its own axis on the right. Other tables are shown as usual. ParaView calls this helper
+ * when it makes the representation that names it in its Hints; later choices of the user stay.
  */
 #ifndef vtkSMConvergenceChartHelper_h
 #define vtkSMConvergenceChartHelper_h

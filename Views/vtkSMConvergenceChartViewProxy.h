@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSMConvergenceChartViewProxy
- * @brief a chart view whose left and right axes keep ranges that logarithms have
+ * @brief A chart view whose left and right axes keep ranges that suit logarithms.
  *
- * ParaView's window lets go of the ranges of all axes when the first data are shown, and by Reset. A logarithmic axis then takes
- * its range from the data, which end at zero overlapping pairs, and has a warning across the chart instead. Here these two axes
- * go back to the ranges of the view's XML.
+ * ParaView's window resets the ranges of all axes when the first data are shown, and by Reset. A logarithmic axis then takes its
+ * range from the data, which end at zero overlapping pairs, and shows a warning across the chart instead. Here these two axes
+ * return to the ranges in the view's XML.
  */
 #ifndef vtkSMConvergenceChartViewProxy_h
 #define vtkSMConvergenceChartViewProxy_h
@@ -21,7 +21,7 @@ public:
   vtkTypeMacro(vtkSMConvergenceChartViewProxy, vtkSMContextViewProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** The bottom axis takes its range from the data, left and right those of the XML. */
+  /** Takes the range of the bottom axis from the data, those of left and right from the XML. */
   void ResetDisplay() override;
 
 protected:

@@ -23,7 +23,7 @@ struct Bars
   std::array<double, 3> colour; ///< red, green, blue
 };
 
-/// What was asked for is grey, myelin and axons have the colours of their surfaces.
+/// Targets are grey, myelin and axons have the colours of their surfaces.
 const std::vector<Bars>& radii()
 {
   static const std::vector<Bars> all = { { "TargetRadiusFibres", "outer, asked for", { { 0.6, 0.6, 0.6 } } },
@@ -50,7 +50,7 @@ void vtkSMHistogramChartHelper::PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLE
     return;
   }
   cactus::showColumns(proxy, columns, wanted, middle);
-  for (Bars bars : radii()) // ParaView wants colours that it could change
+  for (Bars bars : radii()) // ParaView needs modifiable colours
   {
     vtkSMPropertyHelper(proxy, "SeriesLabel").SetStatus(bars.column.c_str(), bars.label.c_str());
     vtkSMPropertyHelper(proxy, "SeriesColor").SetStatus(bars.column.c_str(), bars.colour.data(), 3);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSMHistogramChartHelper
- * @brief which columns of SubstrateStatistics' histograms a chart shows at first
+ * @brief Initial columns in a chart of SubstrateStatistics' histograms.
  *
- * ParaView's charts show every column. Of a table with counts of fibres by their radii these are shown: asked for, outer and
- * inner, each in a colour of its own, over the middles of the bins. Other tables are shown as ever. It is called when the
- * representation that names it in its Hints is made; what is chosen by hand afterwards stays.
+ * ParaView's charts show every column. For a table with counts of fibres by radius, only these are shown: target, outer and
+ * inner, each in its own colour, over the middles of the bins. Other tables are shown as usual. ParaView calls this helper when
+ * it makes the representation that names it in its Hints; later choices of the user stay.
  */
 #ifndef vtkSMHistogramChartHelper_h
 #define vtkSMHistogramChartHelper_h

@@ -28,7 +28,7 @@ const cactus::Preset* presetOf(int number)
   return number > 0 && static_cast<std::size_t>(number) <= all.size() ? &all[static_cast<std::size_t>(number) - 1] : nullptr;
 }
 
-/// A number or a choice, which are all that presets set.
+/// Returns a number or a choice as a number; presets set nothing else.
 double numberOf(const cactus::PropertyValue& value)
 {
   const auto* choice = std::get_if<std::int64_t>(&value);
@@ -45,7 +45,7 @@ double uncheckedOf(vtkSMProperty* property)
   return vtkSMUncheckedPropertyHelper(property).GetAsDouble();
 }
 
-/// Where both are known, as a panel shows what is unchecked.
+/// Sets a property's value and its unchecked value, which a panel shows.
 void setChecked(vtkSMProperty* property, double value)
 {
   if (checkedOf(property) != value)
@@ -58,7 +58,7 @@ void setChecked(vtkSMProperty* property, double value)
   }
 }
 
-/// All properties of a proxy's XML that hold values, as those that a domain requires, each by its name.
+/// Returns all properties of a proxy's XML that hold values, in the form of a domain's required properties, each by its name.
 vtkSmartPointer<vtkPVXMLElement> requiredProperties(vtkPVXMLElement* proxy)
 {
   auto required = vtkSmartPointer<vtkPVXMLElement>::New();
@@ -121,8 +121,8 @@ int vtkSMPresetDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElemen
 {
   this->Stage = element->GetAttributeOrEmpty("stage");
   const auto values = cactus::presetValues(cactus::presets().front(), this->Stage);
-  // What XML would say of required properties is said by the presets. These are made here, before their turn, so all others are
-  // as well: a panel shows properties in the order in which they were made.
+  // The presets replace the description of required properties in XML. These are made here, before their turn, so all others have
+  // to be as well: a panel shows properties in the order of their creation.
   vtkNew<vtkPVXMLElement> described;
   element->CopyTo(described);
   described->AddNestedElement(requiredProperties(element->GetParent()->GetParent()));
@@ -141,8 +141,8 @@ int vtkSMPresetDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXMLElemen
   for (const Value& value : this->valuesOf(1))
   {
     this->Defaults.push_back({ value.property, checkedOf(value.property) });
-    // With another size for a moment it counts as never set, so that setting it to what it is changes its time as well. Preset
-    // itself has no default for the same reason.
+    // A temporary other size marks it as never set, so that setting its own value also changes its time. For the same reason
+    // Preset itself has no default.
     auto* property = vtkSMVectorProperty::SafeDownCast(value.property);
     property->SetNumberOfElements(2);
     property->SetNumberOfElements(1);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSMPresetDomain
- * @brief the presets to choose from, and what a choice does: it gives the properties of its proxy their values
+ * @brief The list of presets, and the effect of a choice: it sets the properties of its proxy.
  *
- * For an integer property that is called Preset and has neither a command nor a default. In XML, `stage` names the stage whose
- * values are meant (see core/stages/Presets.h, where all of them stand). Value 0 is "None".
+ * For an integer property named Preset that has neither a command nor a default. In XML, `stage` names the stage whose values are
+ * set (see core/stages/Presets.h, which has all of them). Value 0 is "None".
  *
- * A preset that is chosen in a panel shows in the panel at once, and becomes the proxy's with Apply. As soon as one of its values
- * is another one, the choice is None: it never names what is not so. When another preset is applied, the stages that follow in
- * the pipeline take it as well, where they had the former one or nobody has touched their values.
+ * A preset chosen in a panel shows in the panel at once, and reaches the proxy with Apply. As soon as one of its values is
+ * changed, the choice becomes None: it never names a preset that does not hold. When another preset is applied, later stages in
+ * the pipeline take it as well, if they had the former one or if their values are untouched.
  *
- * None leaves values as they are, but where a stage has its preset from the stages before it: there they become defaults. A
- * Python state of ParaView's makes stages anew, names their choices, and then what differs from defaults.
+ * None leaves values as they are, except if a stage has its preset from earlier stages: then it sets defaults. A Python state of
+ * ParaView makes stages anew, sets their choices, and then the values that differ from defaults.
  */
 #ifndef vtkSMPresetDomain_h
 #define vtkSMPresetDomain_h
@@ -33,22 +33,22 @@ public:
   vtkTypeMacro(vtkSMPresetDomain, vtkSMEnumerationDomain);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** That of a proxy; null where it has none. */
+  /** Returns that of a proxy; null if it has none. */
   static vtkSMPresetDomain* Of(vtkSMProxy* proxy);
 
-  /** The preset that is applied, by its number. */
+  /** Returns the number of the applied preset. */
   int Applied();
 
-  /** The preset that was chosen last, also where one of its values has been changed since: what follows starts with it. */
+  /** Returns the preset that was chosen last, even if one of its values has been changed since: later stages start with it. */
   int Chosen() const { return this->Former; }
 
   /**
-   * For a new proxy: applies a preset, unless it is 0 or a choice was made since that time, to all properties that were given no
-   * value since; it is named where none was.
+   * For a new proxy: applies a preset, unless it is 0 or another was chosen since that time, to all properties without a value
+   * since; it is also chosen by name if none was.
    */
   void Start(int preset, vtkMTimeType since);
 
-  /** Keeps the preset and its values together after a change of any of them. */
+  /** Keeps the preset and its values consistent after a change of any of them. */
   void Update(vtkSMProperty* changed) override;
 
 protected:
@@ -76,9 +76,10 @@ private:
 
   std::string Stage;
   std::vector<Value> Defaults;
-  int Former = 0;           ///< the preset that was chosen last
-  bool IsGiven = false;     ///< a value was given when the proxy was made
-  bool IsInherited = false; ///< the preset is that of the stages before, and nobody has chosen it here or changed a value
+  int Former = 0;           ///< the last preset chosen
+  bool IsGiven = false;     ///< a value was set when the proxy was made
+  bool IsInherited = false; ///< the preset is that of earlier stages, and the user has neither chosen one here nor changed a
+                            ///< value
   bool IsBusy = false;
 };
 

@@ -13,7 +13,7 @@ vtkStandardNewMacro(vtkSMPresetHelper);
 namespace
 {
 
-/// The presets of the nearest stages before `proxy` that have any.
+/// Collects the presets of the nearest stages before `proxy` that have any.
 void collectPresets(vtkSMProxy* proxy, std::set<int>& presets)
 {
   for (unsigned int i = 0; i < proxy->GetNumberOfProducers(); ++i)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSMPresetHelper
- * @brief lets a new stage start with the preset of what it is connected to
+ * @brief Lets a new stage start with the preset of its inputs.
  *
- * Where all sources before a new filter that have presets have the same one, the filter starts with its values, but for those
- * that a script gives it.
+ * If all sources with presets before a new filter have the same one, the filter starts with its values, except those that a
+ * script sets.
  */
 #ifndef vtkSMPresetHelper_h
 #define vtkSMPresetHelper_h
@@ -20,7 +20,7 @@ public:
   vtkTypeMacro(vtkSMPresetHelper, vtkSMProxyInitializationHelper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Takes the preset over, unless the filter was given one. */
+  /** Applies the preset, unless the filter was given one. */
   void PostInitializeProxy(vtkSMProxy* proxy, vtkPVXMLElement* xml, vtkMTimeType initializationTimeStamp) override;
 
 protected:

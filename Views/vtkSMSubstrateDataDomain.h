@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkSMSubstrateDataDomain
- * @brief what of a substrate an input can take, so that ParaView offers each filter where it can be applied, and only there
+ * @brief The kind of substrate data that an input accepts, so that ParaView offers each filter exactly where it can be applied.
  *
- * ParaView's own domains know of types of data and of numbers of components, not of the names of arrays. In XML, `kinds` lists
- * what is taken, one of which the data have to be:
- * - `fibres`: point data Radius;
- * - `surfaces`: cell data FibreId, or field data FibreId as a block of one fibre has it, and no Radius;
- * - `labels`: point data FibreId and Depth;
- * - `lines`: what is not `surfaces`. (What cells the data have, ParaView does not tell.)
+ * ParaView's own domains check types of data and numbers of components, but not the names of arrays. In XML, `kinds` lists the
+ * accepted kinds, one of which the data must have:
  *
- * ParaView's menu of filters asks the input whose name comes first in the alphabet, although it connects what is selected to the
- * one that comes first in XML. So an input may name the latter as required property `First`: as long as nothing is connected
- * there, what it takes is what counts.
+ * ParaView's menu of filters asks the input whose name comes first in the alphabet, although it connects the selection to the one
+ * that comes first in XML. So an input may name the latter as required property `First`: while nothing is connected there, its
+ * kinds count.
  */
 #ifndef vtkSMSubstrateDataDomain_h
 #define vtkSMSubstrateDataDomain_h
@@ -31,7 +27,7 @@ public:
   vtkTypeMacro(vtkSMSubstrateDataDomain, vtkSMDomain);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Whether each connection of an input property holds one of the kinds. */
+  /** Tells whether each connection of an input property holds one of the kinds. */
   int IsInDomain(vtkSMProperty* property) override;
 
 protected:

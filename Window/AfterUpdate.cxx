@@ -21,7 +21,7 @@ void afterUpdate(pqPVApplicationCore* core, QObject* owner, const std::function<
   QObject::connect(core->getServerManagerModel(), &pqServerManagerModel::dataUpdated, owner,
     [owner, act](pqPipelineSource* updated)
     {
-      // The views have the data, and show it for the first time, only after this; the source may be gone by then.
+      // The views get the data, and show them for the first time, only after this; the source may be gone by then.
       QTimer::singleShot(0, owner,
         [act, source = QPointer<pqPipelineSource>(updated)]
         {

@@ -23,7 +23,7 @@ namespace cactus
 namespace
 {
 
-/// Of an array in what a source or filter gives, by the hints in its XML; empty where it has none.
+/// Returns the unit of an array of a source or filter, by the hints in its XML; empty without one.
 std::string unitOf(const std::string& array, vtkSMProxy* source)
 {
   vtkPVXMLElement* hints = source->GetHints();
@@ -65,7 +65,7 @@ void BarUnits::afterColouring()
 {
   if (pqDataRepresentation* shown = qobject_cast<pqDataRepresentation*>(this->sender()))
   {
-    QTimer::singleShot(0, shown, [shown] { addUnit(shown); }); // ParaView names the bar only after this
+    QTimer::singleShot(0, shown, [shown] { addUnit(shown); }); // ParaView sets the title only after this
   }
 }
 

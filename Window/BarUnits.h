@@ -10,8 +10,8 @@ class pqPipelineSource;
 namespace cactus
 {
 
-/// Puts the unit of what colours data of this plugin, as its filter's XML tells of each array, behind the name in the title of
-/// the colour bar: "Depth (µm)". A title that somebody has written stays.
+/// Adds units to the titles of colour bars of this plugin's data: "Depth (µm)". The filter's XML has the unit of each array. A
+/// title written by the user stays.
 class BarUnits : public QObject
 {
   Q_OBJECT

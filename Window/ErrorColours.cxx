@@ -25,11 +25,12 @@ namespace cactus
 namespace
 {
 
-constexpr char errorName[] = "Error";             ///< field data array of what could not be made (Filters/FilterSupport.cxx)
-constexpr char wantedLook[] = "cactusWantedLook"; ///< dynamic property of a representation that was coloured by it: Slice, say
-constexpr char plainLook[] = "Outline";           ///< which needs no colours
+constexpr char errorName[] = "Error";             ///< field data array with the error message (Filters/FilterSupport.cxx)
+constexpr char wantedLook[] = "cactusWantedLook"; ///< dynamic property of a representation that was coloured by it: for example
+                                                  ///< Slice
+constexpr char plainLook[] = "Outline";           ///< needs no colours
 
-/// The array by which something is coloured; empty where there is none.
+/// Returns the array that colours a representation; empty if there is none.
 std::string colouredBy(vtkSMProxy* representation, int& association)
 {
   const vtkSMPropertyHelper array(representation, "ColorArrayName", true);
@@ -65,7 +66,7 @@ void mendColours(pqDataRepresentation* shown, pqView* view, bool isEmpty)
   if (colouredBy(proxy, association).empty() &&
       vtkSMPropertyHelper(proxy, "Representation").GetAsString() == std::string(plainLook))
   {
-    vtkSMRepresentationProxy::SetRepresentationType(proxy, look.c_str()); // which chooses an array, too
+    vtkSMRepresentationProxy::SetRepresentationType(proxy, look.c_str()); // also chooses an array
     if (vtkPVGeneralSettings::GetInstance()->GetScalarBarMode() == vtkPVGeneralSettings::AUTOMATICALLY_SHOW_AND_HIDE_SCALAR_BARS)
     {
       vtkNew<vtkSMTransferFunctionManager> colours;

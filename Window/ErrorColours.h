@@ -10,9 +10,8 @@ class pqPipelineSource;
 namespace cactus
 {
 
-/// Colours what comes after an error as if the error had not been. What is shown for the first time as a slice is coloured by an
-/// array of its points; where an error has left nothing, the only array that ParaView finds is the message (field data Error),
-/// which it then goes on looking for.
+/// Restores colours after an error. A slice that is shown for the first time is coloured by an array of its points; after an
+/// error, the only array that ParaView finds is the message (field data Error), which it then keeps looking for.
 class ErrorColours : public QObject
 {
 public:

@@ -27,7 +27,7 @@ namespace
 
 constexpr double sameDirection = 1e-4; ///< radians
 
-/// Angle (radians) between where a camera looks from and where lookObliquely() puts it.
+/// Returns the angle (radians) between a camera's position and that of lookObliquely().
 double acrossFromPut(vtkCamera* camera)
 {
   double from[3];
@@ -35,7 +35,7 @@ double acrossFromPut(vtkCamera* camera)
   return std::acos(std::min(1.0, vtkMath::Dot(from, obliquePosition) / (vtkMath::Norm(from) * vtkMath::Norm(obliquePosition))));
 }
 
-/// Whether a camera looks from where lookObliquely() has put it, as it was put or fitted to a view with nothing in it.
+/// Tells whether a camera has the position of lookObliquely(), as set or fitted to an empty view.
 bool wasFittedToNothing(vtkCamera* camera)
 {
   const double origin[] = { 0.0, 0.0, 0.0 };
@@ -51,11 +51,11 @@ bool wasFittedToNothing(vtkCamera* camera)
   return acrossFromPut(camera) < sameDirection && std::min(std::abs(distance - put), std::abs(distance - fitted)) < 1e-3;
 }
 
-// Dynamic properties of a view: where its camera was when it was last fitted, and how large then was what it showed.
+// Dynamic properties of a view: the camera when it was last fitted, and the size of the data then.
 constexpr char lastCamera[] = "cactusLastCamera";
 constexpr char lastSize[] = "cactusLastSize";
 
-/// Another size by less than this part is no other size: fibres that the optimiser has bent reach a little further.
+/// Sizes closer than this fraction count as equal: fibres that the optimiser has bent reach a little further.
 constexpr double sameSize = 0.1;
 
 QVariant placeOf(vtkCamera* camera)
@@ -68,7 +68,7 @@ QVariant placeOf(vtkCamera* camera)
   return place << camera->GetParallelScale();
 }
 
-/// Diagonal of what a source shows in a view; 0 of nothing.
+/// Returns the diagonal of what a source shows in a view; 0 for nothing.
 double sizeIn(pqRenderView* view, pqPipelineSource* source)
 {
   vtkBoundingBox box;
@@ -96,7 +96,7 @@ void fitIn(pqRenderView* view, pqPipelineSource* source)
   }
   else if (last.isValid() || acrossFromPut(camera) > sameDirection)
   {
-    return; // somebody has moved it, or nothing has changed
+    return; // the user has moved it, or nothing has changed
   }
   view->setProperty(lastCamera, placeOf(camera));
   if (size > 0.0)

@@ -9,9 +9,9 @@ class pqPipelineSource;
 namespace cactus
 {
 
-/// Fits the camera to the first data of this plugin that a render view shows. ParaView does so when something is shown for the
-/// first time, even where an error has left nothing to be seen; what comes of the next Apply would then be seen from within. And
-/// fits it again where what is shown has become larger or smaller, by another Side say, as long as nobody has moved the camera.
+/// Fits the camera to the first data of this plugin in a render view. ParaView does so when something is shown for the first
+/// time, even if an error has left nothing visible; the result of the next Apply would then be seen from within. It fits the
+/// camera again when the data become larger or smaller, for example by another Side, as long as nobody has moved the camera.
 class FirstLook : public QObject
 {
 public:

@@ -8,9 +8,9 @@
 namespace cactus
 {
 
-/// Lets panels of this plugin's filters be as narrow as others: a choice there is no wider than it has to be, where ParaView
-/// gives it the width of its longest entry, so that the panel is wider than its dock and has to be scrolled sideways. Its list
-/// has the whole entries.
+/// Lets panels of this plugin's filters be as narrow as others. ParaView makes a choice as wide as its longest entry, so that the
+/// panel is wider than its dock and has to be scrolled sideways. Here it is only as wide as necessary; its list has the whole
+/// entries.
 class NarrowChoices : public QObject, public pqPropertyWidgetInterface
 {
   Q_OBJECT

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Telling the filters of this plugin from others.
+// Distinguishes the filters of this plugin from others.
 #pragma once
 
 class vtkSMProxy;
@@ -7,10 +7,10 @@ class vtkSMProxy;
 namespace cactus
 {
 
-/// The submenu of Sources and Filters that this plugin's have.
+/// The submenu of this plugin in Sources and Filters.
 constexpr char menuCategory[] = "CACTUS";
 
-/// Whether a proxy is in that submenu, by the hint ShowInMenu in its XML. False of null.
+/// Tells whether a proxy is in that submenu, by the hint ShowInMenu in its XML. False for null.
 bool isOfThisPlugin(vtkSMProxy* proxy);
 
 } // namespace cactus

@@ -20,7 +20,7 @@ namespace cactus
 namespace
 {
 
-/// The menus whose actions the search shows.
+/// Returns the menus whose actions the search shows.
 QList<pqProxyGroupMenuManager*> searchedMenus()
 {
   QList<pqProxyGroupMenuManager*> menus;
@@ -31,14 +31,14 @@ QList<pqProxyGroupMenuManager*> searchedMenus()
       menus += window->findChildren<pqProxyGroupMenuManager*>();
     }
   }
-  // Context menus have actions of their own.
+  // Context menus have their own actions.
   menus.erase(
     std::remove_if(menus.begin(), menus.end(), [](const pqProxyGroupMenuManager* menu) { return !menu->supportsQuickLaunch(); }),
     menus.end());
   return menus;
 }
 
-/// Whether an action of ParaView's menus makes something of this plugin.
+/// Tells whether an action of ParaView's menus creates a proxy of this plugin.
 bool makesOneOfThisPlugin(const QAction* action)
 {
   vtkSMSessionProxyManager* manager = vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
@@ -74,7 +74,7 @@ void QuickLaunch::makeEntries()
 void QuickLaunch::addEntry(QAction* menuAction)
 {
   QAction* entry = new QAction(menuAction->icon(), QString("%1 %2").arg(menuCategory, menuAction->text()), &this->entries);
-  // The search of 5.11 tells actions apart by their names; that of 5.13 takes help and requirements from group and name of the
+  // The search of 5.11 distinguishes actions by their names; that of 5.13 takes help and requirements from group and name of the
   // proxy.
   entry->setObjectName(QString("%1 %2").arg(menuCategory, menuAction->objectName()));
   entry->setData(menuAction->data());
@@ -84,7 +84,7 @@ void QuickLaunch::addEntry(QAction* menuAction)
     entry->setStatusTip(menuAction->statusTip());
   };
   follow();
-  // The menus may find out what can be chosen only after this.
+  // The menus may update their state only after this.
   connect(menuAction, &QAction::changed, entry, follow);
   connect(entry, &QAction::triggered, menuAction, &QAction::trigger);
 }

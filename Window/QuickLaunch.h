@@ -10,9 +10,8 @@ class pqPVApplicationCore;
 namespace cactus
 {
 
-/// Lets ParaView's search (Ctrl+Space), which looks at the names of filters alone, find those of this plugin by "CACTUS", too:
-/// each has a second entry there, "CACTUS Bundle Initializer". An entry does what that of the menu does, and can be chosen when
-/// that one can.
+/// Lets ParaView's search (Ctrl+Space), which only reads the names of filters, also find those of this plugin by "CACTUS": each
+/// has a second entry there, "CACTUS Bundle Initializer". An entry acts like that of the menu, and is enabled with it.
 class QuickLaunch : public QObject
 {
 public:
@@ -20,7 +19,7 @@ public:
   explicit QuickLaunch(pqPVApplicationCore* core);
 
 private:
-  /// Makes the entries anew out of those that the menus have now: plugins and servers change them.
+  /// Makes the entries anew from the menus' present ones: plugins and servers change them.
   void makeEntries();
   void addEntry(QAction* menuAction);
 

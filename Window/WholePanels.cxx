@@ -22,8 +22,8 @@ namespace cactus
 namespace
 {
 
-/// The source or filter whose panel is shown; null if there is none. (pqActiveObjects knows it, too, but Debian's package of
-/// ParaView lacks a header which that one includes.)
+/// Returns the source or filter whose panel is shown; null if there is none. (pqActiveObjects knows it, too, but it includes a
+/// header that Debian's package of ParaView lacks.)
 vtkSMProxy* activeSource()
 {
   vtkSMSessionProxyManager* proxies = vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
@@ -33,7 +33,7 @@ vtkSMProxy* activeSource()
   return port != nullptr ? port->GetSourceProxy() : current;
 }
 
-/// ParaView's window, and in it the dock of the properties with what is scrolled there; null where they are not.
+/// ParaView's window, the dock of the properties and its scrolled content; null if they do not exist.
 struct Properties
 {
   QMainWindow* window = nullptr;
@@ -62,7 +62,7 @@ WholePanels::WholePanels(pqPVApplicationCore* core)
 {
   if (const QScrollArea* panel = properties().panel)
   {
-    // Only once the panel is laid out is it known how wide it is.
+    // The panel's width is known only after its layout.
     QObject::connect(panel->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
       [this] { QTimer::singleShot(0, this, [this] { this->giveRoom(); }); });
   }

@@ -8,9 +8,9 @@ class pqPVApplicationCore;
 namespace cactus
 {
 
-/// Makes the dock of the properties as wide as a panel of this plugin's filters needs, so that none has to be scrolled sideways:
-/// what ParaView adds after Apply to colour what is shown is wider than the dock of its window's first size. A panel is given
-/// room once; whoever makes the dock narrower after that keeps it so.
+/// Makes the dock of the properties as wide as the panels of this plugin's filters, so that none has to be scrolled sideways: the
+/// colour settings that ParaView adds after Apply are wider than the dock in a window of initial size. A panel is widened once;
+/// if the user makes the dock narrower afterwards, it stays so.
 class WholePanels : public QObject
 {
 public:
@@ -20,7 +20,7 @@ public:
 private:
   void giveRoom();
 
-  int widest = 0; ///< of the panels that were given room, pixels
+  int widest = 0; ///< of the panels that were widened, pixels
 };
 
 } // namespace cactus

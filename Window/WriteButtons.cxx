@@ -17,7 +17,7 @@ namespace cactus
 namespace
 {
 
-/// Gives a proxy all that the panel around `widget` shows, as Apply does, but without an update.
+/// Gives a proxy all values in the panel around `widget`, as Apply does, but without an update.
 void applyPanelAround(const QWidget* widget)
 {
   while ((widget = widget->parentWidget()) != nullptr)
@@ -44,7 +44,7 @@ void WriteButtons::createDefaultWidgetDecorators(pqPropertyWidget* widget)
   {
     return;
   }
-  // Slots are called in the order in which they were connected.
+  // Slots are called in the order of their connections.
   QObject::disconnect(button, SIGNAL(clicked()), widget, SLOT(buttonClicked()));
   QObject::connect(button, &QPushButton::clicked, widget, [widget] { applyPanelAround(widget); });
   QObject::connect(button, SIGNAL(clicked()), widget, SLOT(buttonClicked()));

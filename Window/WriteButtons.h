@@ -8,8 +8,8 @@
 namespace cactus
 {
 
-/// Lets the button Write of this plugin's filters write what their panels show. ParaView's buttons act with what was applied, so
-/// that a folder which has just been named would not be the one that is written.
+/// Makes the button Write of this plugin's filters use the values in their panels. ParaView's buttons use the applied values, so
+/// that a newly entered folder would not be the one that is written.
 class WriteButtons : public QObject, public pqPropertyWidgetInterface
 {
   Q_OBJECT

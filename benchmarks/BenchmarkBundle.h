@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 
-/// A straight bundle along z of about as many capsules as asked for, as the optimiser meets them: radii between 0.25 and 1.65 µm
-/// (mean 0.6), overlapping at random, dispersion about 4°, three quarters of the cross-section filled. Made without the packing
-/// that BundleInitializer does, so that ten million capsules take a second.
+/// Makes a straight bundle along z of about the requested number of capsules, as the optimiser gets them: radii between 0.25 and
+/// 1.65 µm (mean 0.6), overlapping at random, dispersion about 4°, three quarters of the cross-section filled. It skips
+/// BundleInitializer's packing, so that ten million capsules take a second.
 inline cactus::Fibres benchmarkBundle(std::size_t capsules)
 {
   const double spacing = 0.8;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joint optimisation in parts and as a whole; one thread unless the name says otherwise. Rates are per second of wall time.
+// Benchmarks of the joint optimisation, in parts and as a whole; one thread unless the name says otherwise. Rates are per second
+// of wall time.
 #include "BenchmarkBundle.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "optimiser/NeighbourSearch.h"

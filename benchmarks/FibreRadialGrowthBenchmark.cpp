@@ -82,9 +82,9 @@ void aimAtNineTenths(benchmark::State& state, Work&& work)
   }
 }
 
-/// The search for the growth that fills it.
+/// The search for the growth that fills the domain.
 BENCHMARK_CAPTURE(aimAtNineTenths, growth, growthFor)->Name("FibreRadialGrowthTarget")->Unit(benchmark::kMillisecond);
-/// The radii from which growth ends on the target radii.
+/// The radii from which growth ends at the target radii.
 BENCHMARK_CAPTURE(aimAtNineTenths, radii, aimAtTargetRadii)->Name("FibreRadialGrowthTargetRadii")->Unit(benchmark::kMillisecond);
 
 } // namespace

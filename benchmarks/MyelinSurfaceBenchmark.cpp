@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outer and inner surfaces of a bundle as the chain makes it, spacing and all checks included; on one thread, rates by processor
-// time.
+// Benchmark of the outer and inner surfaces of a bundle made by the chain, spacing and all checks included; on one thread, rates
+// by processor time.
 #include "bundle/BundleInitializer.h"
 #include "fibres/TrimToDomain.h"
 #include "growth/FibreRadialGrowth.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the optimiser makes of initial states of all kinds: one row of a Markdown table per state.
+// Runs the optimiser on initial states of all kinds: one row of a Markdown table per state.
 //
 //   cactus_optimiser_quality [--threads N] [--iterations N] [--seconds N] [--seed N] [--method momentum|adagrad]
 //     [--convergence FILE.csv] [--progress on] [--OPTION VALUE]... STATE...
@@ -44,7 +44,8 @@ BundleInitializerOptions bundle(double side, double density, double dispersion, 
   return options;
 }
 
-/// Neighbouring fibres alike, and capsules that fill 0.7 of the domain: slanted fibres are longer than the faces tell.
+/// Makes neighbouring fibres alike, with capsules that fill 0.7 of the domain: slanted fibres are longer than the distance of the
+/// faces.
 Fibres coherentBundle(double dispersion, std::uint64_t seed, const Context& context)
 {
   double density = 0.7;
@@ -60,14 +61,14 @@ Fibres coherentBundle(double dispersion, std::uint64_t seed, const Context& cont
   }
 }
 
-/// As the paper and the reference program have it: each fibre's direction for itself.
+/// Draws each fibre's direction independently, as the paper and the reference program do.
 BundleInitializerOptions independent(BundleInitializerOptions options)
 {
   options.dispersionModel = DispersionModel::Watson;
   return options;
 }
 
-/// Three bundles along x, y and z, together as dense as one of `density`.
+/// Makes three bundles along x, y and z, together as dense as one of `density`.
 Fibres threeBundles(double side, double density, std::uint64_t seed, const Context& context)
 {
   Fibres all;
@@ -148,7 +149,7 @@ std::vector<State> states()
   return all;
 }
 
-/// Where to write the convergence of all states, one after the other; empty for nowhere.
+/// The file for the convergence of all states, one after the other; empty for none.
 std::string convergencePath;
 
 void writeConvergence(const std::string& name, const std::vector<ConvergenceRow>& rows)

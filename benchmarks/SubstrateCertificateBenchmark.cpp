@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Certifying a hexagonal bundle of wavy tubes, 0.05 µm apart, with axons inside; rates are triangles per second and thread.
+// Benchmark of certifying a hexagonal bundle of wavy tubes, 0.05 µm apart, with axons inside; rates are triangles per second and
+// thread.
 #include "base/Constants.h"
 #include "judge/SubstrateCertificate.h"
 

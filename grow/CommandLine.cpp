@@ -32,7 +32,7 @@ namespace
 
 const std::string advice = ": cactus-grow --help tells more";
 
-/// Takes one argument after the other.
+/// Reads the arguments one after the other.
 class Reader
 {
 public:
@@ -104,7 +104,7 @@ private:
     }
   }
 
-  /// Behind the `=` at `sign`, or the next argument.
+  /// Returns the text behind the `=` at `sign`, or the next argument.
   std::string value(const std::string& name, std::size_t sign)
   {
     const bool isNext = sign == std::string::npos;

@@ -5,19 +5,19 @@
 
 #include <string>
 
-/// What the command was told.
+/// The options of the command.
 struct CommandLine
 {
   std::string recipe;                        ///< a file, or a substrate folder
-  std::string output;                        ///< empty where none is named
-  int threads = 0;                           ///< 0: what the recipe says
-  int progress = cactus::usualProgressPause; ///< seconds between lines of progress where there is no terminal; 0: none
+  std::string output;                        ///< empty if none is named
+  int threads = 0;                           ///< 0: as in the recipe
+  int progress = cactus::usualProgressPause; ///< seconds between lines of progress without a terminal; 0: none
   bool wantsHelp = false;
   bool wantsVersion = false;
 };
 
-/// Throws cactus::InvalidInput for what is no use of the command.
+/// Parses the arguments. Throws cactus::InvalidInput for invalid ones.
 CommandLine parseCommandLine(int count, char** arguments);
 
-/// How to use the command.
+/// The help text of the command.
 extern const char* const commandHelp;

@@ -19,7 +19,7 @@ std::size_t width()
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
 }
 
-/// As much of a text in UTF-8 as is at most so many characters.
+/// Returns the beginning of a text in UTF-8 with at most `most` characters.
 std::string shortened(const std::string& text, std::size_t most)
 {
   std::size_t characters = 0;

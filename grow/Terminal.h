@@ -4,8 +4,8 @@
 #include <chrono>
 #include <string>
 
-/// What the command's user sees on standard error: lines, and its progress: one that changes where that is a
-/// terminal, else one after the other, as the log of a job wants it.
+/// Output of the command on standard error: messages, and progress: one changing line on a terminal, else line after line, as
+/// suits the log of a job.
 class Terminal
 {
 public:
@@ -14,18 +14,18 @@ public:
   Terminal& operator=(const Terminal&) = delete;
   ~Terminal();
 
-  /// How long to wait between lines of progress where there is no terminal; 0, the default: there are none.
+  /// Sets the time between lines of progress without a terminal; 0, the default: there are none.
   void setPause(std::chrono::seconds pause);
-  /// Changes the line of progress, at most ten times a second, or says it when the pause is over.
+  /// Updates the line of progress, at most ten times a second, or prints it when the pause is over.
   void progress(double fraction, const std::string& message);
-  /// "cactus-grow: …", on one line.
+  /// Prints "cactus-grow: …", on one line.
   void say(const std::string& message);
 
 private:
   void clear();
 
   bool IsTerminal;
-  std::chrono::steady_clock::duration Pause;      ///< between two changes of the progress
-  bool IsShown = false;                           ///< a line of progress
-  std::chrono::steady_clock::time_point LastTime; ///< of progress; at first when this was made
+  std::chrono::steady_clock::duration Pause;      ///< between two updates of the progress
+  bool IsShown = false;                           ///< whether a line of progress is shown
+  std::chrono::steady_clock::time_point LastTime; ///< of the last progress; initially the time of construction
 };

@@ -29,7 +29,7 @@ enum Status
   failed = 1,
   refused = 2,
   faulty = 3,
-  stopped = 128 ///< and the number of the signal
+  stopped = 128 ///< plus the number of the signal
 };
 
 volatile std::sig_atomic_t caughtSignal = 0;
@@ -39,7 +39,7 @@ extern "C" void noteSignal(int number)
   caughtSignal = number;
 }
 
-/// The first signal lets the work end in good order, the second ends it at once.
+/// Handles signals: the first lets the work end in good order, the second ends it at once.
 void watchSignals()
 {
   struct sigaction action = {};
@@ -49,14 +49,14 @@ void watchSignals()
   {
     struct sigaction before = {};
     ::sigaction(number, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) // as nohup has it
+    if (before.sa_handler != SIG_IGN) // as with nohup
     {
       ::sigaction(number, &action, nullptr);
     }
   }
 }
 
-/// The recipe's file: of a folder, its manifest.
+/// Returns the recipe's file: for a folder, its manifest.
 fs::path recipePath(const std::string& name)
 {
   std::error_code isUnknown;
@@ -74,7 +74,7 @@ std::string contentOf(const fs::path& path)
   return content;
 }
 
-/// Where to write to, if neither the command nor the recipe names it.
+/// Returns the output folder if neither the command nor the recipe names one.
 std::string folderBeside(const fs::path& recipe)
 {
   if (recipe.filename() == "manifest.json")
@@ -88,7 +88,7 @@ std::string folderBeside(const fs::path& recipe)
   return fs::path(recipe).replace_extension().string();
 }
 
-/// What is to be done.
+/// A recipe with its output folder and number of threads.
 struct Job
 {
   cactus::Recipe recipe;

@@ -22,7 +22,7 @@ namespace
 constexpr mode_t permissionBits = 07777;
 constexpr int attempts = 100;
 
-/// Removes what processes that are gone have left of the same file.
+/// Removes leftovers of dead processes for the same file.
 void removeStale(const fs::path& place)
 {
   for (const fs::path& partial : partialsOf(folderOf(place), place.filename().string()))
@@ -37,8 +37,8 @@ void removeStale(const fs::path& place)
   }
 }
 
-/// Gives a file the owner, as far as may be, and the permissions of another. Where the group cannot be kept, it gets no more than
-/// everybody has.
+/// Gives a file the owner, if permitted, and the permissions of another. If the group cannot be kept, it gets no more permissions
+/// than everybody has.
 void makeAlike(int file, const struct stat& other)
 {
   const bool sameGroup =
@@ -76,7 +76,7 @@ void AtomicFile::open()
   {
     this->fail("it is write-protected (" + systemMessage(errno) + "): permit writing, or name another file");
   }
-  // What replaces a private file is private from the start.
+  // The replacement of a private file is private from the start.
   const mode_t mode = replaces ? 0600 : 0666;
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
@@ -87,7 +87,7 @@ void AtomicFile::open()
       this->fail(systemMessage(errno));
     }
     struct stat status;
-    // Another process may have taken it for one that was left, before the lock was there.
+    // Another process may have taken the file for a leftover before it was locked.
     if (this->File && (lockForWriting(this->File.get()) || errno != EWOULDBLOCK) && ::fstat(this->File.get(), &status) == 0 &&
         status.st_nlink == 1)
     {

@@ -11,23 +11,23 @@
 namespace cactus
 {
 
-/// A file that appears under its name whole or not at all: it is written beside it, under a name that cannot be foreseen, brought
-/// to the disk, and renamed by commit(). A link stays, and what it leads to is replaced. The file has the permissions of the one
-/// that it replaces, or those that the umask gives. What a process that was killed has left of the same file is removed.
+/// A file that appears under its name whole or not at all. It is written beside that name under an unpredictable one, flushed to
+/// the disk, and renamed by commit(). A symbolic link stays; its target is replaced. The new file has the permissions of the one
+/// that it replaces, or else those that the umask gives. Leftovers of killed processes for the same file are removed.
 class AtomicFile
 {
 public:
-  /// Opens a temporary file beside `path` (or beside what it links to). Throws FileError where that cannot be written, and where
-  /// `path` is a folder, a device or write-protected.
+  /// Opens a temporary file beside `path` (or beside its target if it is a link). Throws FileError if that cannot be written, or
+  /// if `path` is a folder, a device or write-protected.
   explicit AtomicFile(const std::string& path);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   /// Removes what was written unless it was committed.
   ~AtomicFile();
 
-  /// Numbers are written as in the C locale, whatever the program's.
+  /// Writes numbers as in the C locale, whatever the program's locale is.
   std::ostream& stream() { return *this->Stream; }
-  /// Closes and renames; throws FileError where something could not be written.
+  /// Closes and renames; throws FileError if something could not be written.
   void commit();
 
 private:
@@ -35,7 +35,7 @@ private:
   void open();
 
   std::string Path;
-  std::filesystem::path Place; ///< where links lead to
+  std::filesystem::path Place; ///< `path` with its links followed
   std::filesystem::path Temporary;
   Descriptor File;
   std::unique_ptr<DescriptorBuffer> Buffer;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as bytes, for the kind of machine that wrote them.
+// Numbers as bytes, in the byte order of the machine that wrote them.
 #pragma once
 
 #include "base/Error.h"
@@ -14,7 +14,7 @@
 namespace cactus
 {
 
-/// Puts numbers one after the other.
+/// Appends numbers one after the other.
 class ByteWriter
 {
 public:
@@ -38,7 +38,7 @@ public:
     (*this)(static_cast<std::uint64_t>(text.size()));
     this->Bytes += text;
   }
-  /// Things that consist of nothing but numbers, without gaps; their count is for the caller to keep.
+  /// Appends elements that consist of numbers only, without padding. The caller keeps their count.
   template <typename Value>
   void addAll(const Value* values, std::size_t count)
   {
@@ -51,7 +51,7 @@ private:
   std::string Bytes;
 };
 
-/// Gets them in the same order. Throws FileError where they are not there.
+/// Reads the numbers in the same order. Throws FileError if bytes are missing.
 class ByteReader
 {
 public:
@@ -84,12 +84,12 @@ public:
     text.assign(this->Bytes, this->At, size);
     this->At += size;
   }
-  /// What addAll() has put.
+  /// Reads what addAll() wrote.
   template <typename Value>
   void getAll(Value* values, std::size_t count)
   {
     this->requireLeft(count, sizeof(Value));
-    // Not where there is nothing to copy, perhaps to nowhere.
+    // With nothing to copy, `values` may be null.
     if (count > 0)
     {
       std::memcpy(static_cast<void*>(values), this->Bytes.data() + this->At, count * sizeof(Value));

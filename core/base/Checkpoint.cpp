@@ -15,15 +15,15 @@ namespace cactus
 namespace
 {
 
-/// Every format starts so; its number and a line feed follow.
+/// Every format starts with this; its number and a line feed follow.
 const std::string title = "CACTUS checkpoint ";
 const std::string version = "5\n";
-/// Reads otherwise where bytes have another order.
+/// Reads as another number if the byte order differs.
 constexpr std::uint64_t byteOrder = 0x0102030405060708u;
 constexpr std::size_t headerBytes = 24;
 constexpr std::size_t checksumBytes = 8;
 
-/// For each of eight bytes in a row, what it adds to the checksum ("slicing by eight", Kounavis and Berry 2005).
+/// For each of eight consecutive bytes, its contribution to the checksum ("slicing by eight", Kounavis and Berry 2005).
 using ChecksumTables = std::array<std::array<std::uint64_t, 256>, 8>;
 
 ChecksumTables makeTables()
@@ -54,7 +54,7 @@ ChecksumTables makeTables()
   throw FileError("CheckpointFile " + path + " " + why);
 }
 
-/// Whether there is a file at all. Throws FileError where there is something that is none, or that hides.
+/// Tells whether there is a file. Throws FileError if there is something that is no file, or if it cannot be accessed.
 bool isThere(const std::string& path)
 {
   std::error_code error;
@@ -194,7 +194,7 @@ CheckpointReader::CheckpointReader(const std::string& path, std::uint64_t finger
   requireSame(this->Header, fingerprint, path);
 }
 
-/// Compares the checksum, and returns to where the values begin.
+/// Compares the checksum and returns to the first value.
 void CheckpointReader::verify()
 {
   this->File.seekg(0, std::ios::end);

@@ -15,7 +15,7 @@
 namespace cactus
 {
 
-/// A number that tells one sequence of values from another (64-bit FNV-1a, by words); not a protection against malice.
+/// A number that distinguishes sequences of values (64-bit FNV-1a, by words); no protection against malice.
 class Fingerprint
 {
 public:
@@ -35,26 +35,26 @@ private:
   std::uint64_t Hash = 0xcbf29ce484222325u;
 };
 
-/// CRC-64/XZ (the polynomial of ECMA-182, reflected) of some bytes; `before` is that of what comes before them. It differs
-/// wherever an odd number of bits do, or any within 64 in a row; of other damage it misses one in 2⁶⁴.
+/// CRC-64/XZ (the polynomial of ECMA-182, reflected) of some bytes; `before` is the CRC of the bytes before them. It detects
+/// every change of an odd number of bits and every change within 64 consecutive bits, and misses one in 2⁶⁴ of other changes.
 std::uint64_t crc64(const void* data, std::size_t bytes, std::uint64_t before = 0);
 
-/// What stands at the front of a checkpoint.
+/// The front of a checkpoint.
 struct CheckpointHeader
 {
-  std::uint64_t fingerprint = 0; ///< of what it was written for
+  std::uint64_t fingerprint = 0; ///< identifies the work and its options
   std::int64_t iteration = 0;    ///< the next one
 };
 
-/// The checkpoint at `path`, checked from end to end; nothing where there is no file. Throws InvalidInput where it has another
-/// fingerprint, and FileError where there is something else, of another version, damaged, or not to be read: whatever it is, it
-/// is not this run's to replace.
+/// Returns the header of the checkpoint at `path`, with the whole file checked; nothing if there is no file. Throws InvalidInput
+/// if the fingerprint differs, and FileError if the file is something else, of another version, damaged or unreadable: such a
+/// file does not belong to this run and must not be replaced.
 std::optional<CheckpointHeader> findCheckpoint(const std::string& path, std::uint64_t fingerprint);
 
-/// Writes a checkpoint: binary, for the kind of machine that wrote it, and whole or not at all (see AtomicFile).
+/// Writes a checkpoint: binary, in the byte order of this machine, whole or not at all (see AtomicFile).
 ///
-/// Title with the number of the format, a mark for the order of bytes, header, values, and the CRC-64 of all of these.
-/// Throws FileError.
+/// Layout: title with the format number, a mark for the byte order, header, values, and the CRC-64 of all of these. Throws
+/// FileError.
 class CheckpointWriter
 {
 public:
@@ -66,16 +66,16 @@ public:
     static_assert(std::is_arithmetic<Value>::value && !std::is_same<Value, bool>::value, "numbers only");
     this->write(&value, sizeof(value));
   }
-  /// Numbers, or things that consist of nothing but numbers, without gaps.
+  /// Writes numbers, or elements that consist of numbers only, without padding.
   template <typename Value>
   void putAll(const std::vector<Value>& values)
   {
     this->put(static_cast<std::uint64_t>(values.size()));
     this->write(values.data(), values.size() * sizeof(Value));
   }
-  /// Bytes of an array whose count has been put.
+  /// Writes bytes of an array whose count has been written.
   void putPart(const void* data, std::size_t bytes) { this->write(data, bytes); }
-  /// Throws, besides, InvalidInput or FileError where meanwhile another run's checkpoint, or something else, is at `path`.
+  /// Also throws InvalidInput or FileError if meanwhile another run's checkpoint, or something else, is at `path`.
   void commit();
 
 private:
@@ -91,8 +91,8 @@ private:
 class CheckpointReader
 {
 public:
-  /// Reads all of the file once before anything is taken from it. Throws FileError where it cannot be read, is no checkpoint, one
-  /// of another version, or damaged, and InvalidInput where it has another fingerprint.
+  /// Reads and checks the whole file first. Throws FileError if it cannot be read, is no checkpoint, is of another version or
+  /// damaged, and InvalidInput if its fingerprint differs.
   CheckpointReader(const std::string& path, std::uint64_t fingerprint);
 
   const CheckpointHeader& header() const { return this->Header; }
@@ -103,7 +103,7 @@ public:
     static_assert(std::is_arithmetic<Value>::value && !std::is_same<Value, bool>::value, "numbers only");
     this->read(&value, sizeof(value));
   }
-  /// How many of `bytes` each follow; nothing is to be set aside for more than the file holds.
+  /// Reads a count of elements of `bytes` each; throws if the file is too short for them, so that no more is allocated.
   std::size_t getCount(std::size_t bytes)
   {
     std::uint64_t count = 0;
@@ -111,9 +111,9 @@ public:
     this->require(count <= this->Left / bytes);
     return static_cast<std::size_t>(count);
   }
-  /// Bytes of an array whose count has been got.
+  /// Reads bytes of an array whose count has been read.
   void getPart(void* data, std::size_t bytes) { this->read(data, bytes); }
-  /// `expected`: how many there must be; −1 for any number.
+  /// Reads an array. `expected`: its length; −1 for any length.
   template <typename Value>
   void getAll(std::vector<Value>& values, std::int64_t expected = -1)
   {
@@ -122,7 +122,7 @@ public:
     values.resize(count);
     this->read(values.data(), count * sizeof(Value));
   }
-  /// Throws FileError where what was read cannot have been written so.
+  /// Throws FileError unless `good`: such values cannot have been written.
   void require(bool good) const
   {
     if (!good)

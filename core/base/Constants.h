@@ -14,7 +14,7 @@ constexpr double radian = 180.0 / pi;
 constexpr double goldenAngle = 2.399963229728653;
 /// Millimetres in a micrometre.
 constexpr double micrometre = 1e-3;
-/// For a measure that is not there to be taken.
+/// For a measure that is undefined.
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace cactus

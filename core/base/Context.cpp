@@ -21,11 +21,11 @@ int Context::threadCount() const
   }
   if (count > startedThreads())
   {
-    // A stack and an arena of malloc each; where address space is limited, half of it is for the work.
+    // Each thread needs a stack and an arena of malloc; if address space is limited, half of it is left for the work.
     constexpr double each = 80e6;
     count = static_cast<int>(std::clamp(0.5 * static_cast<double>(availableAddressSpace()) / each, 1.0, double(count)));
   }
-  // They are started at once, since later there may be less room.
+  // Starts them at once, since later there may be less room.
   return startThreads(count);
 }
 

@@ -7,21 +7,21 @@
 namespace cactus
 {
 
-/// What a long operation needs of its caller: threads, a place to report to, and whether to stop.
+/// What a long operation gets from its caller: threads, a progress callback, and a stop request.
 ///
 /// `progress` and `cancelled` are only ever called from the thread that called the operation.
 struct Context
 {
-  /// To use at most; 0 means as many as the environment variable OMP_NUM_THREADS says, else all that the machine offers.
+  /// At most this many; 0 means the value of the environment variable OMP_NUM_THREADS, else all processors.
   int threads = 0;
   /// Called with a fraction in [0, 1] and a short sentence.
   std::function<void(double, const std::string&)> progress;
   /// True once the caller wants the operation to stop.
   std::function<bool()> cancelled;
 
-  /// `threads`, with 0 replaced by that: at most the larger of 16 and the machine's processors, and no more than
-  /// the system lets this process start (limits on address space and on the number of threads). At least 1. No result depends
-  /// on it. Throws InvalidInput where that variable holds no number.
+  /// Returns the number of threads to use, at least 1: at most the larger of 16 and the machine's processors, and no more than
+  /// the system lets this process start (limits on address space and on threads). No result depends on it. Throws InvalidInput if
+  /// OMP_NUM_THREADS holds no number.
   int threadCount() const;
   void report(double fraction, const std::string& message) const
   {
@@ -30,7 +30,7 @@ struct Context
       progress(fraction, message);
     }
   }
-  /// The same for a part of the work, from one fraction of the whole to another.
+  /// Returns a context for a part of the work, from one fraction of the whole to another.
   Context part(double from, double to) const;
   bool stopRequested() const { return cancelled && cancelled(); }
   /// Throws Cancelled once the caller wants the operation to stop.

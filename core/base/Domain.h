@@ -29,8 +29,8 @@ struct Domain
   Eigen::Vector3d size() const { return upper - lower; }
   double volume() const { return size().prod(); }
   bool isPeriodic() const { return periodic[0] || periodic[1] || periodic[2]; }
-  /// The part of the segment from p to q that lies in the box grown by `margin` (µm) on all sides, as fractions of its length;
-  /// the second is below the first where none does.
+  /// Returns the part of the segment from p to q that lies in the box grown by `margin` (µm) on all sides, as fractions of its
+  /// length; the second is below the first if no part does.
   std::array<double, 2> clip(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double margin = 0.0) const
   {
     std::array<double, 2> part{ { 0.0, 1.0 } };

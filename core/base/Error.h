@@ -37,14 +37,14 @@ public:
   using Error::Error;
 };
 
-/// A file or folder that cannot be read or written; the message names path and, where known, line.
+/// A file or folder that cannot be read or written; the message names the path and, if known, the line.
 class FileError : public Error
 {
 public:
   using Error::Error;
 };
 
-/// Raised where the caller asked a long operation without a partial result to stop.
+/// Thrown when the caller stops a long operation that has no partial result.
 class Cancelled : public Error
 {
 public:
@@ -54,7 +54,7 @@ public:
   }
 };
 
-/// The parts of a message one after the other, numbers with four significant digits, whatever the locale.
+/// Joins the parts of a message; numbers have four significant digits, whatever the locale.
 template <typename... Parts>
 std::string text(const Parts&... parts)
 {
@@ -64,7 +64,7 @@ std::string text(const Parts&... parts)
   return out.str();
 }
 
-/// Throws InvalidInput where what has to hold does not.
+/// Throws InvalidInput with `message` unless `good`.
 inline void require(bool good, const char* message)
 {
   if (!good)

@@ -7,9 +7,9 @@
 namespace cactus
 {
 
-/// Parts a row of things, whose weights are not negative, into `parts` stretches of about the same weight: the p-th of them is
-/// result[p] … result[p + 1] − 1. A thing belongs where its middle lies, on a scale of the weights; without any weight all belong
-/// to the first. parts: 1 or more.
+/// Splits a sequence of non-negative weights into `parts` (1 or more) ranges of about the same weight: the p-th is result[p] …
+/// result[p + 1] − 1. An element goes to the range that its middle falls into on the scale of the summed weights; if all weights
+/// are 0, all elements go to the first.
 std::vector<std::size_t> evenParts(const std::vector<double>& weights, std::size_t parts);
 
 } // namespace cactus

@@ -24,7 +24,7 @@ void FastChecksum::add(const void* data, std::size_t size)
   const auto* bytes = static_cast<const unsigned char*>(data);
   std::array<std::uint64_t, 4> words{};
   std::size_t done = 0;
-  // Four lanes, since each has to wait for its own last multiplication only.
+  // Four lanes, so that each waits only for its own last multiplication.
   for (; done + sizeof(words) <= size; done += sizeof(words))
   {
     std::memcpy(words.data(), bytes + done, sizeof(words));

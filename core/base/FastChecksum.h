@@ -9,14 +9,14 @@
 namespace cactus
 {
 
-/// A checksum of 64 bits, to know large data again by: as fast as memory is read, and no protection against intent. The same on
+/// A checksum of 64 bits that identifies large data: as fast as memory is read, no protection against intent. It is the same on
 /// every little-endian machine.
 class FastChecksum
 {
 public:
   void add(const void* data, std::size_t size);
   void add(std::uint64_t number) { this->add(&number, sizeof(number)); }
-  /// 16 hexadecimal digits, of all that was added. What was added in other pieces has another checksum.
+  /// Returns 16 hexadecimal digits for all bytes added. The same bytes added in other pieces give another checksum.
   std::string digest() const;
 
 private:

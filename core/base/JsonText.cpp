@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// A word of the reader has 255 characters; punctuation goes with a text.
+/// The reader's words have 255 characters, and punctuation counts.
 constexpr std::size_t longestWord = 200;
 constexpr std::array<std::string_view, 6> keywords{ { "dimensions", "extent", "aspect_ratio", "spacing", "origin",
   "point_data" } };
@@ -27,7 +27,7 @@ bool startsWithKeyword(std::string_view text)
     });
 }
 
-/// A text in quotation marks, in which the reader finds no keyword.
+/// Returns a quoted text in which the reader finds no keyword.
 std::string quoted(const Json& value)
 {
   const std::string plain = value.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -39,7 +39,7 @@ std::string quoted(const Json& value)
     const bool canStartWord = isLong || (i > 0 && plain[i - 1] == ' ');
     if (canStartWord && startsWithKeyword(std::string_view(plain).substr(i)))
     {
-      // None of the keywords starts with a letter that stands in an escape of its own.
+      // No keyword starts with a letter that has an escape of its own.
       text += std::string("\\u00") + digits[(plain[i] >> 4) & 15] + digits[plain[i] & 15];
       continue;
     }

@@ -4,7 +4,7 @@
 namespace cactus
 {
 
-/// What a length is counted in.
+/// The unit of a length.
 enum class LengthUnit
 {
   Micrometre = 0,

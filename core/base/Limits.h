@@ -10,7 +10,8 @@
 namespace cactus
 {
 
-/// What a number may be: from `lowest` to `highest`, both included, or `special`, which says "none" or "by default".
+/// The values that a number may have: from `lowest` to `highest`, both included, or `special`, which means "none" or "by
+/// default".
 struct Range
 {
   double lowest;
@@ -22,12 +23,12 @@ struct Range
   {
     return std::isfinite(value) && ((value >= this->lowest && value <= this->highest) || value == this->special);
   }
-  /// Counting the special one.
+  /// Includes `special`.
   double smallest() const { return std::min(this->lowest, this->special.value_or(this->lowest)); }
 };
 
-/// Throws InvalidInput, "NAME is VALUE: give LOWEST to HIGHEST UNIT", for a number out of its range, infinite or NaN. `advice`
-/// ends the message.
+/// Throws InvalidInput, "NAME is VALUE: give LOWEST to HIGHEST UNIT", for a number that is out of range, infinite or NaN.
+/// `advice` ends the message.
 inline void requireWithin(const char* name, double value, const Range& range, const char* advice = "")
 {
   if (range.holds(value))
@@ -45,45 +46,44 @@ inline void requireWithin(const char* name, double value, const Range& range, co
   throw InvalidInput(message.str());
 }
 
-/// What is taken for a substrate, lengths in µm. Beyond these a value is a slip (a wrong unit, a broken file), and would cost
-/// precision, memory or time without end rather than give a substrate. All readers and options refuse it by name; the
-/// server-manager XML has the same numbers.
+/// The accepted values, lengths in µm. A value beyond these is a mistake (a wrong unit, a broken file) and would only cost
+/// precision, memory or time. All readers and options refuse it by name; the server-manager XML has the same numbers.
 namespace limits
 {
 
 // What flows through the chain.
 
-/// Of a fibre, at every control point, and as a target. Axons have 0.05 to 10, the giant axon of the squid 500.
+/// A fibre's radius, at every control point and as a target. Axons have 0.05 to 10, the giant axon of the squid 500.
 inline constexpr Range radius{ 1e-3, 1e3, " µm" };
-/// The same, where 0 stands for none.
+/// The same, with 0 for none.
 inline constexpr Range radiusOrNone{ 1e-3, 1e3, " µm", 0.0 };
-/// Of control points, of the domain's corners and of all that is derived from them, along each axis: 10 cm to either side. There
-/// are then 7e4 steps of double precision in a nanometre.
+/// Coordinates of control points, of the domain's corners and of all that is derived from them, along each axis: 10 cm to either
+/// side. Double precision then still has 7e4 steps in a nanometre.
 inline constexpr Range coordinate{ -1e5, 1e5, " µm" };
-/// Of a tractogram's points: a kilometre to either side of the scanner.
+/// Coordinates of a tractogram's points: a kilometre to either side of the scanner.
 inline constexpr Range scannerCoordinate{ -1e6, 1e6, " mm" };
-/// Of a domain along each axis.
+/// The domain's size along each axis.
 inline constexpr Range side{ 0.1, 1e5, " µm" };
 /// FibreId and BundleId, whole numbers.
 inline constexpr Range id{ 1.0, 2147483647.0 };
-/// Control points are counted in 32 bits, of which the neighbour search wants one.
+/// The largest number of control points: they are counted in 32 bits, of which the neighbour search needs one.
 inline constexpr double controlPoints = 2147483647.0;
 
 // Options that several stages have.
 
-/// What is kept between surfaces, and what they may move by.
+/// The distance kept between surfaces, and how far they may move.
 inline constexpr Range gap{ 0.0, 10.0, " µm" };
-/// The same where it is judged: -1 for what was promised.
+/// The same as a criterion: -1 for the gap that was promised.
 inline constexpr Range judgedGap{ 0.0, 10.0, " µm", -1.0 };
 inline constexpr Range surfaceTolerance{ 0.0, 1.0, " µm" };
 inline constexpr Range seconds{ 0.0, 1e9, " s" };
-/// As far as whole numbers go in ParaView.
+/// The largest is ParaView's largest whole number.
 inline constexpr Range seed{ 0.0, 2147483647.0 };
-/// 0 for all that the machine offers, which is all that there can be (see Context::threadCount()).
+/// 0 for all processors, which is also the effective maximum (see Context::threadCount()).
 inline constexpr Range threads{ 0.0, 65536.0 };
-/// Of a volume that fibres fill.
+/// A volume fraction of fibres.
 inline constexpr Range fraction{ 1e-4, 0.999 };
-/// The same, where 0 stands for none.
+/// The same, with 0 for none.
 inline constexpr Range sampledFraction{ 1e-4, 1.0 };
 inline constexpr Range fractionOrNone{ 1e-4, 0.999, "", 0.0 };
 
@@ -93,26 +93,26 @@ inline constexpr Range gammaShape{ 1e-2, 1e4 };
 inline constexpr Range gammaScale{ 1e-5, 1e3, " µm" };
 inline constexpr Range lognormalMean{ 1e-3, 1e3, " µm" };
 inline constexpr Range lognormalDeviation{ 1e-6, 1e3, " µm" };
-/// Of a published histogram: what is known of shrinkage, and much more.
+/// Factor on the diameters of a published histogram: wider than known shrinkage.
 inline constexpr Range histogramFactor{ 0.1, 10.0 };
 /// 1 takes inner diameters as outer ones, 0 asks for a relation in place of a ratio.
 inline constexpr Range histogramGRatio{ 0.1, 1.0, "", 0.0 };
-/// The displacement of a fibre from face to face has to be more than rounding, and to be met within 2 %.
+/// Below the lowest value, a fibre's displacement from face to face would be only rounding; it has to be met within 2 %.
 inline constexpr Range meanDispersion{ 1e-3, 45.0, "°", 0.0 };
 inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", 0.0 };
 inline constexpr Range bundles{ 1.0, 2.0 };
 inline constexpr Range crossingAngle{ 0.1, 90.0, "°" };
 inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", 0.0 };
-/// On each side of the domain.
+/// The margin on each side of the domain.
 inline constexpr Range bundleMargin{ 0.0, 1e4, " µm" };
 inline constexpr Range spacingFactor{ 1e-2, 1e3 };
 inline constexpr Range spacing{ 1e-2, 1e5, " µm" };
 
 // TractFibres.
 
-/// How many, 0 for all.
+/// How many streamlines are used; 0 for all.
 inline constexpr Range streamlines{ 0.0, 2147483647.0 };
-/// Of a point in the unit of streamlines: the scanner's range in µm.
+/// Coordinates of a streamline's point, in the streamlines' unit: the scanner's range in µm.
 inline constexpr Range streamlineCoordinate{ -1e9, 1e9 };
 inline constexpr Range scaleFactor{ 1e-6, 1e3 };
 inline constexpr Range bundleDiameter{ 1e-2, 1e5, " µm", 0.0 };
@@ -134,7 +134,7 @@ inline constexpr Range packingLimit{ 0.1, 1.0 };
 // FibreRadialGrowth.
 
 inline constexpr Range voxelSize{ 1e-3, 10.0, " µm" };
-/// -1 for what the fibres were made for.
+/// -1 for the fraction that the fibres were made for.
 inline constexpr Range targetFraction{ 0.0, 0.999, "", -1.0 };
 inline constexpr Range growthIterations{ 0.0, 1e3 };
 inline constexpr Range surfaceRoughness{ 0.0, 0.5 };
@@ -142,34 +142,34 @@ inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 
 // MyelinSurface.
 
-/// Of an axon's diameter to its fibre's.
+/// Ratio of an axon's diameter to its fibre's.
 inline constexpr Range gRatio{ 0.05, 0.99 };
 /// Its standard deviation from fibre to fibre.
 inline constexpr Range gRatioDeviation{ 0.0, 0.3 };
-/// Passes blur by the square root of half their number, at most 3.2 voxels, and take on average passes · spacing² / (4 r) off a
-/// round fibre of radius r: more than half the volume of the thinnest ones that are smoothed in full.
+/// Smoothing passes. They blur by the square root of half their number, at most 3.2 voxels, and take on average passes · spacing²
+/// / (4 r) off a round fibre of radius r: more than half the volume of the thinnest fibres that are smoothed in full.
 inline constexpr Range smoothingIterations{ 0.0, 20.0 };
-/// Of VTK's windowed sinc filter, whose own advice is 10 to 20 iterations; a pass band of 2 lets everything through.
+/// Iterations of VTK's windowed sinc filter, which itself advises 10 to 20; a pass band of 2 lets everything through.
 inline constexpr Range sincIterations{ 0.0, 500.0 };
 inline constexpr Range sincPassBand{ 1e-4, 2.0 };
-/// Part of the triangles that VTK's quadric decimation takes away.
+/// The fraction of the triangles that VTK's quadric decimation removes.
 inline constexpr Range targetReduction{ 0.0, 0.99 };
 
 // FibreField.
 
-/// A depth, in a fibre of any radius.
+/// A depth inside a fibre of any radius.
 inline constexpr Range level{ 0.0, 1000.0, " µm" };
 
 // SubstrateStatistics and SubstrateCertificate.
 
-/// Between two cross-sections along a centre line: from a tenth of usual voxels.
+/// The distance between two cross-sections along a centre line: from a tenth of a usual voxel.
 inline constexpr Range cutSpacing{ 1e-2, 1e3, " µm" };
-/// By how much a surface may reach out of the domain, as the rounding of a clip does.
+/// How far a surface may reach out of the domain, as after the rounding of a clip.
 inline constexpr Range clipTolerance{ 0.0, 1e5, " µm" };
-/// Of one surface: 10 mm of the finest.
+/// The largest number of cross-sections of one surface: 10 mm at the finest spacing.
 inline constexpr double cuts = 1e6;
 inline constexpr Range bins{ 1.0, 1e4 };
-/// Of a random walk.
+/// The number of walkers of a random walk.
 inline constexpr Range walkers{ 1.0, 1e6, "", 0.0 };
 inline constexpr Range walkDistance{ 0.1, 1e3, " µm" };
 inline constexpr Range walkStep{ 1e-3, 10.0, " µm" };

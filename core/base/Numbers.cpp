@@ -25,12 +25,12 @@ bool isHexadecimalDigit(char c)
   return isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
 
-/// Whether a number without sign and 0x that is beyond the range of a double is too small for it. A digit counts `perDigit` of
-/// what the exponent counts: 1 power of ten or, of a hexadecimal one, 4 of two.
+/// Tells whether a number beyond the range of a double, given without sign and 0x, is too small (rather than too large). A digit
+/// changes the exponent by `perDigit`: 1 for powers of ten, 4 for the powers of two of a hexadecimal number.
 template <typename IsDigit>
 bool isTiny(std::string_view number, IsDigit&& isADigit, long perDigit)
 {
-  long power = 0; // of the base, of the first digit that is not zero
+  long power = 0; // power of the base, of the first digit that is not zero
   bool decimals = false;
   bool found = false;
   std::size_t i = 0;
@@ -54,7 +54,8 @@ bool isTiny(std::string_view number, IsDigit&& isADigit, long perDigit)
   return exponent < -perDigit * power;
 }
 
-/// A hexadecimal number without sign and 0x, up to its exponent where that has two signs: from_chars of GCC 12 takes both.
+/// Returns a hexadecimal number without sign and 0x, cut before its exponent if that has two signs: from_chars of GCC 12 accepts
+/// both.
 std::string_view withOneSign(std::string_view number)
 {
   const std::size_t exponent = number.find_first_of("pP");
@@ -63,7 +64,7 @@ std::string_view withOneSign(std::string_view number)
   return hasTwo ? number.substr(0, exponent) : number;
 }
 
-/// Takes a number without a sign, of the standard library's `format`, from the front of `text`.
+/// Takes a number without a sign, in the standard library's `format`, from the front of `text`.
 template <typename IsDigit>
 bool takeUnsigned(std::string_view& text, double& value, std::chars_format format, IsDigit&& isADigit, long perDigit)
 {
@@ -106,7 +107,7 @@ void skipBlanks(std::string_view& text)
 bool takeNumber(std::string_view& text, double& value)
 {
   std::string_view rest = text;
-  // from_chars knows a minus sign, but no plus sign.
+  // from_chars accepts a minus sign, but no plus sign.
   bool negative = false;
   if (!rest.empty() && (rest.front() == '+' || rest.front() == '-'))
   {
@@ -134,7 +135,7 @@ bool takeNumber(std::string_view& text, double& value)
 namespace
 {
 
-/// Bytes of the UTF-8 character that `text` starts with; 0 where it starts with none (Unicode, table 3-7).
+/// Returns the bytes of the UTF-8 character at the front of `text`; 0 if there is none (Unicode, table 3-7).
 std::size_t characterLength(std::string_view text)
 {
   const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
@@ -157,7 +158,7 @@ std::size_t characterLength(std::string_view text)
   return whole ? length : 0;
 }
 
-/// Of the first 128 characters.
+/// Tells whether an ASCII byte is a control character.
 bool isControl(unsigned char letter)
 {
   return letter < 0x20 || letter == 0x7f;

@@ -15,7 +15,7 @@ namespace
 constexpr double leastSeconds = 10.0;
 constexpr double leastFraction = 1e-3;
 constexpr double window = 600.0;
-constexpr double mostPercent = 99.5; // of two digits
+constexpr double mostPercent = 99.5; // largest with two digits
 
 std::string duration(double seconds)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far long work is, and how fast it goes, in words.
+// The progress and speed of long work, in words.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,14 @@
 namespace cactus
 {
 
-/// How fast it goes: "4.2 % an hour, ready in about 12 h 30 min", "2.5 % a minute, ready in about 30 min".
+/// The speed of long work: "4.2 % an hour, ready in about 12 h 30 min", "2.5 % a minute, ready in about 30 min".
 class Pace
 {
 public:
-  /// At `seconds` of some clock, `fraction` of all the work is done, and `part` is at work: by the last ten to twenty minutes of
-  /// that, since others go at another pace, and so does a job that was paused, or what an earlier run had done already. Empty for
-  /// as long as too little is known: in the first ten seconds of a part, and before its first thousandth of all.
+  /// Returns the speed when, at `seconds` of some clock, `fraction` of all the work is done and `part` is running. It is measured
+  /// over the last ten to twenty minutes of that part: other parts have another speed, as have a paused job and work that an
+  /// earlier run had done. Empty while too little is known: in the first ten seconds of a part, and before the first thousandth
+  /// of all the work.
   std::string at(double seconds, double fraction, const std::string& part);
 
 private:
@@ -25,11 +26,11 @@ private:
   };
 
   std::string Part;
-  std::optional<Moment> First; ///< by which it is told
-  Moment Next{};               ///< by which it will be
+  std::optional<Moment> First; ///< the start of the measured interval
+  Moment Next{};               ///< the start of the next interval
 };
 
-/// How far it is, in a line: " 34 %  making surfaces".
+/// Returns the progress as one line: " 34 %  making surfaces".
 std::string progressLine(double fraction, const std::string& message);
 
 } // namespace cactus

@@ -27,13 +27,13 @@ constexpr std::time_t oneDay = 24 * 60 * 60;
 const std::string marker = ".partial-";
 const std::string unknownStart(digits, '0');
 
-/// What begins every partial name of a thing.
+/// Returns the beginning of every partial name of `name`.
 std::string beginning(const std::string& name)
 {
   return name.substr(0, longestName - marker.size() - 2 * digits - 1) + marker;
 }
 
-/// Eight digits of the number that Linux draws at each start.
+/// Returns eight digits of the number that Linux draws at each boot.
 std::string thisStart()
 {
   std::ifstream file("/proc/sys/kernel/random/boot_id");

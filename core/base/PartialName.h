@@ -8,26 +8,25 @@
 namespace cactus
 {
 
-/// The name that something has while it is written: `name.partial-BBBBBBBB-RRRRRRRR`, where B tells one start of one machine from
-/// another and R is drawn by the system, so that it cannot be foreseen. A long name is cut short, to stay one that file systems
-/// take.
+/// Returns the name of a file while it is written: `name.partial-BBBBBBBB-RRRRRRRR`, where B identifies one boot of one machine
+/// and R is drawn by the system, so that it cannot be foreseen. A long name is cut to a length that file systems accept.
 std::string partialName(const std::string& name);
 
-/// Whether a thing has a name that partialName(name) gives.
+/// Tells whether `candidate` is a name that partialName(name) may return.
 bool isPartialName(const std::string& candidate, const std::string& name);
 
-/// The name of which this is a partial one, where it is one of a name that was not cut short; else itself.
+/// Returns the name that `candidate` is a partial name of; returns `candidate` if it is none or if the name was cut short.
 std::string wholeName(const std::string& candidate);
 
-/// Takes the lock that says that this process, which lives, uses the file; it ends with the process. Gives false where another
-/// has it, or the file system knows no locks.
+/// Takes the lock that says that this live process uses the file; it ends with the process. Returns false if another process has
+/// it, or if the file system has no locks.
 bool lockForWriting(int descriptor);
 
-/// Whether a partial file, whose lock could be had, was left by a process that is gone: one of this start of this machine is,
-/// by its lock. Another machine's locks may be unknown to this one, so that its files have to have been left alone for a day.
+/// Tells whether a partial file, whose lock this process has, was left by a process that is gone. The lock proves it for files of
+/// this boot of this machine. Locks of other machines may be invisible here, so their files must have been unchanged for a day.
 bool isStale(const std::filesystem::path& partial, int lockedDescriptor);
 
-/// Things in `folder` with a partial name of `name`, sorted; none where the folder cannot be read.
+/// Returns the entries of `folder` with a partial name of `name`, sorted; none if the folder cannot be read.
 std::vector<std::filesystem::path> partialsOf(const std::filesystem::path& folder, const std::string& name);
 
 } // namespace cactus

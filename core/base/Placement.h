@@ -11,24 +11,24 @@
 namespace cactus
 {
 
-/// Where a substrate (µm) lies in the space of an image, as scanners count it (mm).
+/// Where a substrate (µm) lies in the space of an image (mm, scanner coordinates).
 struct Placement
 {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< its columns: the substrate's axes in the image's space
-  double scale = micrometre;                          ///< mm there for a micrometre of the substrate
-  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< mm, of the substrate's origin
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< columns: the substrate's axes in the image's space
+  double scale = micrometre;                          ///< mm in the image per µm of the substrate
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< position of the substrate's origin (mm)
 
   Eigen::Vector3d toImage(const Eigen::Vector3d& point) const { return this->scale * (this->axes * point) + this->position; }
-  /// The reverse, rounded to 2⁻²⁶ µm: what lay in a face of the domain, or in one plane, does so again.
+  /// The reverse, rounded to 2⁻²⁶ µm, so that points that lay in a face of the domain, or in one plane, do so again.
   Eigen::Vector3d toSubstrate(const Eigen::Vector3d& point) const;
 
-  /// The affine from µm to mm, row by row.
+  /// Returns the affine from µm to mm, row by row.
   std::array<double, 16> matrix() const;
-  /// The reverse. Throws InvalidInput for what is no rotation with one scale and a position.
+  /// Returns the placement with this matrix. Throws InvalidInput unless it is a rotation with one scale and a position.
   static Placement of(const std::array<double, 16>& matrix);
 };
 
-/// A placement as users give it: turned about y, then x, then z, as ParaView's Transform does, and moved.
+/// A placement as users give it: rotated about y, then x, then z, as ParaView's Transform does, then moved.
 struct PlacementOptions
 {
   double positionX = 0.0; ///< mm
@@ -37,7 +37,7 @@ struct PlacementOptions
   double rotationX = 0.0; ///< degrees
   double rotationY = 0.0;
   double rotationZ = 0.0;
-  double scaleFactor = 1.0; ///< a length in the image's space over that of the substrate
+  double scaleFactor = 1.0; ///< length in the image's space over length in the substrate
 
   static const PropertyList<PlacementOptions>& properties();
   /// Throws InvalidInput for options out of range.

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 int Descriptor::close()
 {
   const int number = std::exchange(this->Number, -1);
-  // Linux has closed it where it was interrupted, too.
+  // Linux closes the descriptor even if it was interrupted.
   return number < 0 || ::close(number) == 0 || errno == EINTR ? 0 : errno;
 }
 
@@ -57,7 +57,7 @@ int synchronise(int descriptor)
 int synchroniseFolder(const fs::path& folder)
 {
   const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  // A folder that may be written to but not be listed cannot be opened; its files' own content is safe all the same.
+  // A folder that may be written but not listed cannot be opened; the content of its files is safe all the same.
   return descriptor ? synchronise(descriptor.get()) : 0;
 }
 

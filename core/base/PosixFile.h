@@ -12,7 +12,7 @@
 namespace cactus
 {
 
-/// A file or folder that the system holds open for us; closed at the end of its life.
+/// A file descriptor that is closed at the end of its life.
 class Descriptor
 {
 public:
@@ -33,39 +33,38 @@ public:
 
   int get() const { return this->Number; }
   explicit operator bool() const { return this->Number >= 0; }
-  /// Returns 0 or the error number: a network's file system may say only here that a write has failed.
+  /// Returns 0 or the error number: a network file system may report a failed write only here.
   int close();
 
 private:
   int Number;
 };
 
-/// What the system says of an error number (errno).
+/// Returns the system's message for an error number (errno).
 std::string systemMessage(int error);
 
-/// Writes all of it, and returns 0 or the error number.
+/// Writes all bytes, and returns 0 or the error number.
 int writeAll(int descriptor, const char* data, std::size_t size);
 
-/// Has the disk keep a file, or a folder's list of what is in it. Returns 0 or the error number; 0, too, on a file system that
-/// knows no such thing.
+/// Flushes a file, or a folder's list of entries, to the disk. Returns 0 or the error number; also 0 on a file system that cannot
+/// do so.
 int synchronise(int descriptor);
 int synchroniseFolder(const std::filesystem::path& folder);
 
-/// Where a path leads to once the links at its end are followed, whether or not something is there. Throws FileError where links
-/// go round in circles.
+/// Returns the path with the links at its end followed, whether or not something is there. Throws FileError if links form a
+/// circle.
 std::filesystem::path followLinks(const std::filesystem::path& path);
 
-/// The folder that a path is in; "." for a name alone.
+/// Returns the folder of a path; "." for a name alone.
 std::filesystem::path folderOf(const std::filesystem::path& path);
 
-/// Throws FileError for a pipe, which would have its reader wait for ever for somebody who writes; the message begins with
-/// `name`.
+/// Throws FileError for a pipe, on which a reader would wait for ever for a writer; the message begins with `name`.
 void requireNoPipe(const std::string& name, const std::filesystem::path& path);
 
 /// The SHA-256 checksum of a file, read piece by piece. Throws FileError.
 std::string sha256OfFile(const std::filesystem::path& path);
 
-/// What is written to a stream goes to a descriptor; the first error number is kept.
+/// A stream buffer that writes to a descriptor; it keeps the first error number.
 class DescriptorBuffer : public std::streambuf
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One description of each parameter, from which come its checks, what is printed and kept of it, and the docs' table.
+// One description of each parameter, which gives its checks, its printed form, its record and its row in the docs' table.
 #pragma once
 
 #include "base/Limits.h"
@@ -18,7 +18,7 @@
 namespace cactus
 {
 
-/// The value of any property. A choice is a whole number, its place among the choices.
+/// The value of any property. A choice is stored as its index among the choices.
 using PropertyValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
 /// What a property is for.
@@ -26,21 +26,21 @@ enum class PropertyUse
 {
   Result, ///< the result depends on it
   Run,    ///< only how the work is done: threads, checkpoints, where files go
-  Code    ///< of the options in C++; no stage shows it to users
+  Code    ///< a C++ option that no stage shows to users
 };
 
-/// A property has an effect only where another one has one of these values (choices by number), or, where there are none, any
-/// but 0, off and the empty text.
+/// A condition for a property to have an effect: another property has one of `values` (choices by index) or, if `values` is
+/// empty, is not 0, off or empty.
 struct PropertyCondition
 {
   std::string property;
   std::vector<double> values;
 };
 
-/// All there is to say of a property.
+/// The description of a property.
 struct PropertyFacts
 {
-  std::string name;    ///< that of the property in ParaView
+  std::string name;    ///< the property's name in ParaView
   std::string meaning; ///< one sentence, with the unit where `range` has none
   std::optional<Range> range;
   std::vector<std::string> choices;
@@ -49,24 +49,24 @@ struct PropertyFacts
   std::vector<PropertyCondition> conditions; ///< all have to hold
 };
 
-/// A property with the value that it has in some options.
+/// A property and its value in some options.
 struct PropertyState
 {
   const PropertyFacts* facts;
   PropertyValue value;
 };
 
-/// Throws InvalidInput, naming the property, for the first number out of its range, infinite or NaN, and for the first choice
-/// that there is not. Properties without effect are not looked at.
+/// Throws InvalidInput, naming the property, for the first number that is out of range, infinite or NaN, and for the first
+/// unknown choice. Properties without effect are not checked.
 void validate(const std::vector<PropertyState>& states);
 
-/// Whether a property has an effect: all that it depends on has the values for that, and has an effect, too.
+/// Tells whether a property has an effect: all its conditions hold, and the properties that they name have an effect, too.
 bool hasEffect(const PropertyFacts& facts, const std::vector<PropertyState>& states);
 
-/// The value as people read it: choices and switches in words, numbers with all their digits.
+/// Returns the value as people read it: choices and switches in words, numbers with all their digits.
 std::string valueText(const PropertyFacts& facts, const PropertyValue& value);
 
-/// The properties of a struct of options, each with the way to its member. Made once for each struct, by its properties().
+/// The properties of a struct of options, each with access to its member. Its properties() makes the list once.
 template <typename Options>
 class PropertyList
 {
@@ -78,7 +78,7 @@ public:
     std::function<void(Options&, const PropertyValue&)> set;
   };
 
-  /// A number, whole where the member is.
+  /// Adds a number, whole if the member is.
   template <typename Number>
   PropertyList& add(const char* name, Number Options::*member, const Range& range, const char* meaning)
   {
@@ -87,7 +87,7 @@ public:
       { name, meaning, range, {}, {}, {}, {} }, member);
   }
 
-  /// One of several choices; the member is an enumeration that counts them from 0.
+  /// Adds a choice; the member is an enumeration that counts from 0.
   template <typename Choice>
   PropertyList& add(const char* name, Choice Options::*member, std::vector<std::string> choices, const char* meaning)
   {
@@ -95,7 +95,7 @@ public:
     return this->insert<std::int64_t>({ name, meaning, {}, std::move(choices), {}, {}, {} }, member);
   }
 
-  /// A switch, a text, or a list of numbers, none of which has a range.
+  /// Adds a switch, a text, or a list of numbers, none of which has a range.
   template <typename Value>
   PropertyList& add(const char* name, Value Options::*member, const char* meaning)
   {
@@ -104,7 +104,7 @@ public:
     return this->insert<Value>({ name, meaning, {}, {}, {}, {}, {} }, member);
   }
 
-  /// All properties of options that are a part of these.
+  /// Adds all properties of options that are a member of these.
   template <typename Part>
   PropertyList& include(Part Options::*part, const PropertyList<Part>& list)
   {
@@ -116,33 +116,33 @@ public:
     return *this;
   }
 
-  /// What follows is of the property of this name, which was included, instead of the last one.
+  /// Selects the included property of this name, in place of the last one, for the calls that follow.
   PropertyList& at(const std::string& name)
   {
     this->Last = this->placeOf(name);
     return *this;
   }
-  /// The last property has an effect only where `property` has one of these values.
+  /// Limits the effect of the last property to options in which `property` has one of these values.
   PropertyList& where(const char* property, std::vector<double> values)
   {
     this->Properties[this->Last].facts.conditions.push_back({ property, std::move(values) });
     return *this;
   }
-  /// The last property has an effect only where `property` is not 0, off or empty.
+  /// Limits the effect of the last property to options in which `property` is not 0, off or empty.
   PropertyList& whereGiven(const char* property) { return this->where(property, {}); }
-  /// How messages about the last property end.
+  /// Sets the end of messages about the last property.
   PropertyList& advise(const char* advice)
   {
     this->Properties[this->Last].facts.advice = advice;
     return *this;
   }
-  /// What the last property means, where it was included and is for more here.
+  /// Sets the meaning of the last property, for an included one that means more here.
   PropertyList& means(const char* meaning)
   {
     this->Properties[this->Last].facts.meaning = meaning;
     return *this;
   }
-  /// What the last property is for, where that is not the result.
+  /// Sets the use of the last property, if it is not the result.
   PropertyList& use(PropertyUse use)
   {
     this->Properties[this->Last].facts.use = use;
@@ -151,7 +151,7 @@ public:
 
   const std::vector<Property>& all() const { return this->Properties; }
 
-  /// Null for a name that there is not.
+  /// Returns null for an unknown name.
   const Property* find(const std::string& name) const
   {
     const std::size_t place = this->placeOf(name);
@@ -177,7 +177,7 @@ private:
     return static_cast<std::size_t>(found - this->Properties.begin());
   }
 
-  /// A member of any type that can be cast to `Value` and back. (Seeds are unsigned and come back as what was given.)
+  /// Adds a member of any type that can be cast to `Value` and back. (Seeds are unsigned; the cast returns the same value.)
   template <typename Value, typename Member>
   PropertyList& insert(PropertyFacts facts, Member Options::*member)
   {
@@ -186,7 +186,7 @@ private:
     return *this;
   }
 
-  /// Adds a property at the end, or in the place of one of the same name, which was included.
+  /// Adds a property at the end, or replaces the included one of the same name.
   void place(Property property)
   {
     this->Last = this->placeOf(property.facts.name);
@@ -202,7 +202,7 @@ private:
   std::size_t Last = 0; ///< the one that was added last
 };
 
-/// The same as for states, for the properties of `options`.
+/// Calls validate() with the properties of `options`.
 template <typename Options>
 void validateProperties(const Options& options)
 {

@@ -21,7 +21,7 @@ namespace
 
 constexpr std::size_t idDigits = 16;
 
-/// A stage's record out of a text; nothing for any other text.
+/// Parses a stage's record; nothing for any other text.
 std::optional<Json> recordFrom(const std::string& text)
 {
   std::optional<Json> record = parsedJson(text);
@@ -64,11 +64,11 @@ Json filesOf(const std::vector<FileRead>& files)
   return all;
 }
 
-/// Puts the records of all stages that an input comes from together, each once, without what they say of an output.
+/// Collects the records of all stages that an input comes from, each once, without their notes on an output.
 class Ancestors
 {
 public:
-  /// What refers to the data in the record of the stage that takes them.
+  /// Returns the reference to the data for the record of the stage that receives them.
   Json add(const DataOrigin& origin)
   {
     if (!origin.parts.empty())
@@ -88,7 +88,7 @@ public:
       reference = { { "stage", (*record)["id"] } };
       if (record->contains("output") && (*record)["output"].is_object())
       {
-        // What else others may have written there could be nested more deeply than what is read again.
+        // Anything else that others may have written there could be nested more deeply than the parser accepts.
         for (const char* name : { "port", "checksum" })
         {
           const auto known = (*record)["output"].find(name);
@@ -127,7 +127,7 @@ private:
       return { { "filter", origin.filter }, { "inputs", std::move(parts) } };
     }
     const bool isOne = std::all_of(parts.begin(), parts.end(), [&](const Json& part) { return part == parts.front(); });
-    // Blocks that are all of one output are that output.
+    // Blocks that all come from one output are recorded as that output.
     return isOne ? parts.front() : Json{ { "blocks", std::move(parts) } };
   }
 

@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// What a stream of random numbers is for. Values are part of the reproducibility promise: never renumber.
+/// The purpose of a stream of random numbers. Values are part of the reproducibility promise: never renumber.
 enum class RandomStage : std::uint32_t
 {
   Radii = 1,
@@ -23,12 +23,12 @@ enum class RandomStage : std::uint32_t
   Sample = 9
 };
 
-/// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere; what is made of them is
-/// in RandomVariates.h, as the distributions of <random> are not.
+/// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere. The distributions of
+/// <random> are not, so RandomVariates.h replaces them.
 using RandomEngine = r123::Engine<r123::Philox4x32>;
 
-/// The stream that belongs to one seed, stage and item (a fibre, a bundle, a circle): the same numbers whatever thread or rank
-/// draws them, and in whatever order the items are visited.
+/// Returns the stream of one seed, stage and item (a fibre, a bundle, a circle): the same numbers in every thread and rank, in
+/// whatever order the items are visited.
 inline RandomEngine randomStream(std::uint64_t seed, RandomStage stage, std::uint64_t item = 0)
 {
   const RandomEngine::key_type key = { { static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32) } };
@@ -39,7 +39,7 @@ inline RandomEngine randomStream(std::uint64_t seed, RandomStage stage, std::uin
   return engine;
 }
 
-/// Uniform in (0, 1), never 0 or 1, with 53 bits; the same on every platform.
+/// Returns a uniform number in (0, 1), never 0 or 1, with 53 bits; the same on every platform.
 inline double uniform(RandomEngine& engine)
 {
   const std::uint64_t high = engine();

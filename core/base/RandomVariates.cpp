@@ -47,9 +47,8 @@ double PolarNormal::operator()(RandomEngine& engine)
 
 double gammaVariate(double shape, double scale, RandomEngine& engine)
 {
-  // In the paper's letters: d = shape − 1/3, c = 1/√(9d), v = (1 + c x)³ with x normal. d·v is accepted at once where u is below
-  // the squeeze, which needs no logarithm, or else by the exact comparison. A shape below 1 is drawn as shape + 1, times
-  // u^(1/shape).
+  // In the paper's letters: d = shape − 1/3, c = 1/√(9d), v = (1 + c x)³ with x normal. d·v is accepted at once if u is below the
+  // squeeze, which needs no logarithm, or else by the exact comparison. A shape below 1 is drawn as shape + 1, times u^(1/shape).
   const bool boosted = shape < 1.0;
   const double d = (boosted ? shape + 1.0 : shape) - 1.0 / 3.0;
   const double c = 1.0 / std::sqrt(9.0 * d);

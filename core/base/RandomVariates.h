@@ -6,20 +6,19 @@
 namespace cactus
 {
 
-/// Random variates, each from numbers of one stream (see randomStream). They are written out because the distributions of
-/// <random> draw what the standard library's authors chose: the same engine gives other numbers with another library, or with the
-/// next version of the same. These take the engine's numbers in the order, and round as, GNU libstdc++ 12 does, which is
-/// what made the substrates before them, so a seed keeps its substrate. What is left to the platform are std::log, std::exp,
-/// std::pow and std::cos (see docs/testing.md, "The same bits").
+/// Random variates, each from the numbers of one stream (see randomStream). The distributions of <random> depend on the standard
+/// library and its version: the same engine gives other numbers with another one. These use the engine's numbers in the order of
+/// GNU libstdc++ 12, and round as it does, because it made the earlier substrates: a seed keeps its substrate. Only std::log,
+/// std::exp, std::pow and std::cos depend on the platform (see docs/testing.md, "The same bits").
 
-/// Uniform in [0, 1): 64 bits of the engine, rounded to double.
+/// Returns a uniform number in [0, 1): 64 bits of the engine, rounded to double.
 double uniformFromZero(RandomEngine& engine);
 
-/// Normally distributed with mean 0 and variance 1, from one pair of uniform numbers (Box and Muller 1958).
+/// Returns a normal number of mean 0 and variance 1, from one pair of uniform numbers (Box and Muller 1958).
 double normal(RandomEngine& engine);
 
-/// Normally distributed with mean 0 and variance 1, by the polar method (Marsaglia and Bray 1964). It makes two numbers
-/// at a time; the second is kept for the next call.
+/// Draws normal numbers of mean 0 and variance 1 by the polar method (Marsaglia and Bray 1964). The method makes two numbers at a
+/// time; the second is kept for the next call.
 class PolarNormal
 {
 public:
@@ -30,11 +29,11 @@ private:
   bool HasKept = false;
 };
 
-/// Gamma distributed: mean shape · scale, variance shape · scale², both positive (Marsaglia and Tsang 2000, "A simple method for
-/// generating gamma variables"; a shape below 1 by their note in section 6).
+/// Returns a gamma variate: mean shape · scale, variance shape · scale², both positive (Marsaglia and Tsang 2000, "A simple
+/// method for generating gamma variables"; a shape below 1 by their note in section 6).
 double gammaVariate(double shape, double scale, RandomEngine& engine);
 
-/// exp(logMean + logDeviation z) with z normally distributed, by PolarNormal.
+/// Returns exp(logMean + logDeviation z) with z normal, by PolarNormal.
 double lognormalVariate(double logMean, double logDeviation, RandomEngine& engine);
 
 } // namespace cactus

@@ -12,8 +12,8 @@
 namespace cactus
 {
 
-/// Keeps what was used last, up to a certain number of things or, where they have weights, a certain weight. May be used from
-/// several threads.
+/// A least-recently-used cache, limited to a number of entries or, if they have weights, to a total weight. Several threads may
+/// use it.
 template <typename Thing>
 class RecentThings
 {
@@ -23,7 +23,7 @@ public:
   {
   }
 
-  /// Null where it is not kept, or no longer.
+  /// Returns null if the entry was never kept or was evicted.
   std::shared_ptr<const Thing> find(std::uint64_t key)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -36,7 +36,7 @@ public:
     return found->second->thing;
   }
 
-  /// Where another thread was faster, its thing stays.
+  /// Keeps `thing`, unless another thread has already kept one under this key.
   void keep(std::uint64_t key, std::shared_ptr<const Thing> thing, std::size_t weight = 1)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -66,7 +66,7 @@ private:
   std::size_t Most;
   std::size_t Weight = 0;
   std::mutex Mutex;
-  std::list<Entry> Things; ///< the one used last first
+  std::list<Entry> Things; ///< most recently used first
   std::unordered_map<std::uint64_t, typename std::list<Entry>::iterator> Places;
 };
 

@@ -13,31 +13,31 @@
 namespace cactus
 {
 
-/// Keeps what parts of a long work have found, as bytes by the parts' names, for a run that does the same work again.
+/// Stores the results of sub-tasks as bytes under their names, for a later run of the same work.
 class FindingsStore
 {
 public:
   virtual ~FindingsStore() = default;
 
-  /// What an earlier run has kept, once. Never from several threads.
+  /// Returns, once, the result of an earlier run. Not thread-safe.
   virtual std::optional<std::string> take(const std::string& name) = 0;
-  /// Several threads may keep. Throws FileError.
+  /// Stores a result. Thread-safe. Throws FileError.
   virtual void keep(const std::string& name, const std::string& bytes) = 0;
 };
 
-/// What an earlier run has found in a part of a work, so that it need not be looked for again. By itself nothing is known, and
-/// nothing kept.
+/// A cache of an earlier run's results for a task, so that they need not be computed again. A default-constructed one knows and
+/// keeps nothing.
 class Recollection
 {
 public:
   Recollection() = default;
-  /// Which outlives all that is made of this.
+  /// Uses `store`, which must outlive this object and all objects made from it.
   explicit Recollection(FindingsStore& store)
     : Store(&store)
   {
   }
 
-  /// Of a part of this part.
+  /// Returns the cache of a sub-task.
   Recollection part(const std::string& name) const
   {
     Recollection part = *this;
@@ -53,8 +53,8 @@ public:
     }
   }
 
-  /// What compute() gives, for which all processes come together, or what is known of it; bytesOf(result), which are not empty,
-  /// and from(bytes) turn into each other.
+  /// Returns the cached result, or else that of compute(), which all processes call together. bytesOf(result), never empty, and
+  /// from(bytes) convert between result and bytes.
   template <typename Compute, typename BytesOf, typename From>
   auto once(const Sharing& sharing, Compute&& compute, BytesOf&& bytesOf, From&& from) const -> decltype(compute())
   {
@@ -75,7 +75,7 @@ public:
     return result;
   }
 
-  /// Sharing::loop() of those i alone that are not known; take(i, bytes), one after the other, of those that are.
+  /// Runs Sharing::loop() over the i without a cached result; calls take(i, bytes) for the others, one after the other.
   template <typename Body, typename BytesOf, typename Take>
   void loop(const Sharing& sharing, std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
     const std::string& message, double from, double to) const
@@ -94,7 +94,7 @@ public:
         isKnown[i] = 1;
       }
     }
-    sharing.addUp(isKnown); // a process may know of some that others do not
+    sharing.addUp(isKnown); // one process may know results that others do not
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < count; ++i)
     {

@@ -9,10 +9,10 @@ namespace cactus
 namespace
 {
 
-/// Values that pass from one process to another at once, in bytes.
+/// The largest message from one process to another, in bytes.
 constexpr std::size_t bytesAtOnce = std::size_t(1) << 26;
 
-/// How many values each process has, or wants.
+/// Returns `count` of each process.
 std::vector<std::uint64_t> gatheredCounts(std::size_t count, const Sharing& sharing)
 {
   std::vector<std::uint64_t> counts;
@@ -35,7 +35,7 @@ std::uint64_t sumOf(const std::vector<std::uint64_t>& counts)
   return sum;
 }
 
-/// A deal in which one process gives something to one other.
+/// Sends bytes from one process to one other.
 std::string pass(std::string bytes, std::size_t from, std::size_t to, const Sharing& sharing)
 {
   std::vector<std::string> toEach(static_cast<std::size_t>(sharing.size()));
@@ -111,7 +111,7 @@ std::string SharedCheckpointReader::fromFile(const std::function<void(Checkpoint
   return this->Processes.fromFirst(put.bytes());
 }
 
-/// How many values each process wants, once it is known that the file has so many: nothing is to be set aside for more.
+/// Gathers the counts of all processes, after a check that the file has that many values, so that no more is allocated.
 std::vector<std::uint64_t> SharedCheckpointReader::countsOfAll(std::size_t count, std::size_t bytes)
 {
   std::vector<std::uint64_t> counts = gatheredCounts(count, this->Processes);

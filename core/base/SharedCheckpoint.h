@@ -16,22 +16,22 @@
 namespace cactus
 {
 
-/// Writes a checkpoint of what several processes have, each a part: the file that one process would write (see CheckpointWriter)
-/// that had all of it. The first process writes, and holds a little of the others' parts at a time. Every process comes to each
-/// call, in the same order.
+/// Writes one checkpoint of data that are distributed over several processes: the same file that one process with all the data
+/// would write (see CheckpointWriter). The first process writes and holds only a small part of the others' data at a time. Calls
+/// are collective: all processes make them in the same order.
 class SharedCheckpointWriter
 {
 public:
   SharedCheckpointWriter(const std::string& path, const CheckpointHeader& header, const Sharing& sharing);
 
-  /// What is the same in all processes.
+  /// Writes values that are the same in all processes.
   template <typename Value>
   void put(const Value& value)
   {
     this->inFirst([&] { this->File->put(value); });
   }
 
-  /// The values of all processes as one, by their places.
+  /// Writes the values of all processes as one array, in the order of their ranks.
   template <typename Value>
   void putAll(const std::vector<Value>& part)
   {
@@ -39,12 +39,12 @@ public:
       [&](std::size_t begin, std::size_t end, const Take& take) { take(part.data() + begin, (end - begin) * sizeof(Value)); });
   }
 
-  /// Takes bytes.
+  /// Receives bytes.
   using Take = std::function<void(const void*, std::size_t)>;
-  /// The same, made piece by piece: piece(begin, end, take) gives the bytes of the values begin … end − 1 of this process.
+  /// Does the same piece by piece: piece(begin, end, take) passes the bytes of this process's values begin … end − 1 to `take`.
   void putParts(std::size_t count, std::size_t bytes, const std::function<void(std::size_t, std::size_t, const Take&)>& piece);
 
-  /// Throws, in the first process, what CheckpointWriter threw meanwhile, or throws now.
+  /// Throws, in the first process, what CheckpointWriter throws now or threw before.
   void commit();
 
 private:
@@ -55,7 +55,7 @@ private:
     {
       return;
     }
-    // The others are on their way to the exchanges to come.
+    // The others will still call the collective exchanges, so the error is thrown in commit().
     try
     {
       work();
@@ -71,18 +71,18 @@ private:
   std::exception_ptr Failure;
 };
 
-/// Reads what a SharedCheckpointWriter wrote, on another number of processes, too. The first process reads the file, and throws
+/// Reads what a SharedCheckpointWriter wrote, also on another number of processes. The first process reads the file and throws
 /// what CheckpointReader throws.
 class SharedCheckpointReader
 {
 public:
   SharedCheckpointReader(const std::string& path, std::uint64_t fingerprint, const Sharing& sharing);
 
-  /// What the first process reads by read(file, put), as it is then in all.
+  /// Returns to all processes the bytes that the first one reads by read(file, put).
   std::string fromFile(const std::function<void(CheckpointReader&, ByteWriter&)>& read);
 
-  /// As many values as each process wants, by their places. Throws FileError, in the first process, unless they are all there
-  /// are.
+  /// Reads an array: `count` values for each process, in the order of their ranks. Throws FileError, in the first process, unless
+  /// these are all its values.
   template <typename Value>
   void getAll(std::vector<Value>& part, std::size_t count)
   {
@@ -91,7 +91,7 @@ public:
     this->getParts(counts, sizeof(Value), reinterpret_cast<char*>(part.data()));
   }
 
-  /// Throws FileError, in the first process, unless it holds in all of them.
+  /// Throws FileError, in the first process, unless `good` holds in all processes.
   void require(bool good) const;
   void finish() const;
 

@@ -18,7 +18,7 @@ namespace cactus
 namespace
 {
 
-/// What a process gives to an exchange begins with one of these: nothing is wrong, or what was thrown.
+/// First byte of every message of an exchange: success, or the kind of the exception.
 enum class Fate : char
 {
   Well = '.',
@@ -30,7 +30,7 @@ enum class Fate : char
   Stopped = 's'
 };
 
-/// How many batches of a loop each process has at least, so that all end at about the same time, and how long a batch is at most.
+/// The least number of batches that each process has in a loop, so that all end at about the same time, and the longest batch.
 constexpr std::size_t batchesOfEach = 16;
 constexpr std::size_t longestBatch = 256;
 
@@ -41,7 +41,7 @@ std::string textOf(Fate fate, const char* message)
   return static_cast<char>(fate) + std::string(message);
 }
 
-/// What an exception, the one that is handled just now, is to the others.
+/// Returns the exception that is being handled as a message for the others.
 std::string currentFailure()
 {
   try
@@ -86,8 +86,8 @@ std::string currentFailure()
   }
 }
 
-/// Which process ends the work of all: the first that has failed, else the first that was stopped; their number if none has.
-/// Where nothing was given, nothing is wrong.
+/// Returns the process that ends the work of all: the first that has failed, else the first that was stopped; their number if
+/// none has. An empty message means success.
 std::size_t placeOfFailure(const std::vector<std::string>& given)
 {
   std::size_t found = given.size();
@@ -105,7 +105,7 @@ std::size_t placeOfFailure(const std::vector<std::string>& given)
 
 } // namespace
 
-/// Thrown in all processes where one has failed.
+/// Thrown in all processes once one has failed.
 struct Sharing::Ended
 {
   int place;
@@ -118,7 +118,7 @@ Sharing::Sharing(Team* team, std::string stopFile)
 {
 }
 
-/// What was given, without the mark in front. Throws Ended where one of them has failed.
+/// Returns the messages without their first byte. Throws Ended if one process has failed.
 std::vector<std::string> Sharing::whereWell(std::vector<std::string> all)
 {
   const std::size_t failed = placeOfFailure(all);
@@ -203,7 +203,7 @@ void Sharing::together(const std::function<void()>& work) const
     work();
     return;
   }
-  // Where this is within the same of a caller, and one has failed on its way here, all end there.
+  // Within an outer together(), a process that failed on its way here ends all of them.
   this->exchange();
   try
   {
@@ -230,12 +230,12 @@ void Sharing::together(const std::function<void()>& work) const
   }
 }
 
-/// Takes part in the exchange, or the deal, that the others come to, with a failure.
+/// Reports a failure in the exchange that the others are waiting in.
 void Sharing::tell(const std::string& failure) const
 {
   if (!this->StopFile.empty())
   {
-    std::ofstream(this->StopFile).flush(); // where that cannot be, the others go on to the exchange
+    std::ofstream(this->StopFile).flush(); // if it cannot be written, the others go on to the exchange
   }
   const std::vector<std::string> all = this->Members->exchange(failure);
   const std::size_t failed = placeOfFailure(all);
@@ -250,7 +250,7 @@ void Sharing::rethrow(const Ended& ended) const
   {
     throw ReportedElsewhere(message);
   }
-  std::error_code ignored; // what is left is removed by whoever works there next
+  std::error_code ignored; // the next run removes what is left
   std::filesystem::remove(this->StopFile, ignored);
   switch (static_cast<Fate>(ended.failure.front()))
   {
@@ -294,7 +294,7 @@ Context Sharing::watching(const Context& context) const
   return watched;
 }
 
-/// Batches by turns.
+/// Assigns batches round-robin.
 std::vector<std::size_t> Sharing::batchesOf(int process, std::size_t count) const
 {
   const auto processes = static_cast<std::size_t>(this->size());

@@ -16,51 +16,52 @@
 namespace cactus
 {
 
-/// What ends the work of a process because of another one: the first process throws what happened, and where; nobody else need
-/// say it again.
+/// Ends the work of a process because another one failed: the first process throws the error and names the process; nobody else
+/// needs to report it.
 class ReportedElsewhere : public Error
 {
 public:
   using Error::Error;
 };
 
-/// How the processes of a team share work. All of them run the same code on the same input and come to the same exchanges, in
-/// the same order; between these, each does a part of what is shared, and all of what is not. So every process ends with the same
-/// result, which does not depend on their number.
+/// Shares work among the processes of a team. All of them run the same code on the same input and make the same exchanges in the
+/// same order. Between two exchanges, each does its part of the shared work and all of the rest. So every process ends with the
+/// same result, which does not depend on their number.
 class Sharing
 {
 public:
-  /// Without a team there is one process, and nothing is exchanged. Processes tell each other by the file `stopFile`, which
-  /// nobody else uses, that one has failed, so that the others need not go on to the next exchange.
+  /// Without a team there is one process and nothing is exchanged. A process that fails creates `stopFile`, which nothing else
+  /// may use, so that the others stop before the next exchange.
   explicit Sharing(Team* team = nullptr, std::string stopFile = "");
 
   int size() const { return this->Members != nullptr ? this->Members->size() : 1; }
   int place() const { return this->Members != nullptr ? this->Members->place() : 0; }
-  /// The process that does what only one may do.
+  /// Tells whether this is the process that does what only one may do.
   bool isFirst() const { return this->place() == 0; }
 
-  /// Runs what is shared, and ends it alike on all: where it throws on one of them, the first throws that, with the number of the
-  /// process, and the others ReportedElsewhere. Of several errors, that of the first process; being stopped comes last.
+  /// Runs collective work and ends it alike in all processes: if it throws in one of them, the first process throws that error
+  /// with the number of the failed process, and the others ReportedElsewhere. Of several errors, that of the lowest rank wins;
+  /// being stopped comes last.
   void together(const std::function<void()>& work) const;
-  /// Whether something that each process knows of itself is so in all of them.
+  /// Tells whether `isHere` is true in all processes.
   bool isEverywhere(bool isHere) const;
 
-  // The rest is for such work.
+  // The functions below are called within together().
 
-  /// What each process has given. Ends the work where one has failed.
+  /// Returns the bytes of each process (all-gather). Ends the work if one has failed.
   std::vector<std::string> exchange(const std::string& bytes = "") const;
-  /// What each process has given to this one, by their places; toEach is what this one gives to each. Ends the work where one has
-  /// failed.
+  /// Returns the bytes that each process has sent to this one, by rank; toEach holds those that this one sends to each
+  /// (all-to-all). Ends the work if one has failed.
   std::vector<std::string> deal(std::vector<std::string> toEach) const;
-  /// What the first process has given.
+  /// Returns the bytes of the first process (broadcast).
   std::string fromFirst(const std::string& bytes) const;
-  /// Adds up what all processes have counted.
+  /// Sums the counts of all processes.
   void addUp(std::vector<std::uint64_t>& counts) const;
-  /// Stops, too, once another process has failed.
+  /// Returns a context that also stops once another process has failed.
   Context watching(const Context& context) const;
 
-  /// Runs body(i) for each i in [0, count) in one of the processes, there as parallelFor() does; then take(i, bytes) in the
-  /// others, one i after the other, with what bytesOf(i) gave.
+  /// Runs body(i) for each i in [0, count) in one of the processes, as parallelFor() does; then calls take(i, bytes) in the
+  /// others, one i after the other, with the result of bytesOf(i).
   template <typename Body, typename BytesOf, typename Take>
   void loop(std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
     const std::string& message = "", double from = 0.0, double to = 1.0) const
@@ -69,8 +70,8 @@ public:
     this->loopInParts(partOf, count, context, body, bytesOf, take, message, from, to);
   }
 
-  /// The same for each i in [0, weights.size()), of which each process has some that follow one another, so many that the sums of
-  /// their weights, which are positive, are about the same: for work that needs the same things where it is near in this order.
+  /// Does the same for each i in [0, weights.size()). Each process gets a contiguous range, with about the same sum of the
+  /// positive weights: for work whose neighbours in this order need the same data.
   template <typename Body, typename BytesOf, typename Take>
   void loopAlong(const std::vector<double>& weights, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
     const std::string& message = "", double from = 0.0, double to = 1.0) const

@@ -4,8 +4,8 @@
 namespace cactus
 {
 
-/// A number rounded to single precision. It goes through memory, since g++ 12 leaves such rounding out where its -O3 puts two of
-/// them into a vector (-ftree-slp-vectorize).
+/// Returns a number rounded to single precision. It goes through memory, because g++ 12 omits the rounding where its -O3
+/// vectorises two of them (-ftree-slp-vectorize).
 inline double inSinglePrecision(double value)
 {
   const volatile float rounded = static_cast<float>(value);

@@ -7,19 +7,19 @@
 namespace cactus
 {
 
-/// Processes that work on one thing together, and see the same disk. This is all that core knows of them; see Sharing.
+/// A communicator: processes that work together and see the same disk. Core knows no more of them; see Sharing.
 class Team
 {
 public:
   virtual ~Team() = default;
 
   virtual int size() const = 0;
-  /// Of this process, counted from 0.
+  /// Returns the rank of this process, from 0.
   virtual int place() const = 0;
-  /// What each process has given, by their places. Waits until all have come here.
+  /// Returns the bytes of each process, by rank (all-gather). Waits for all processes.
   virtual std::vector<std::string> exchange(const std::string& bytes) = 0;
-  /// What each process has given to this one, by their places; toEach is what this one gives, its own part included. Waits until
-  /// all have come here. Some may come to an exchange instead, and so give the same to all.
+  /// Returns the bytes that each process has sent to this one, by rank; toEach holds those that this one sends to each, itself
+  /// included (all-to-all). Waits for all processes. Some may call exchange() instead, and so send the same to all.
   virtual std::vector<std::string> deal(const std::vector<std::string>& toEach) = 0;
 };
 

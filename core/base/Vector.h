@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vectors that all kernels are written in (see base/VectorUnit.h): those of one vector unit, as wide as it has them.
+// The vectors that all kernels are written in (see base/VectorUnit.h): those of one vector unit, in its full width.
 //
 // They are the compiler's own vector types (GCC and Clang), so that kernels read like formulas: + - * / and comparisons work lane
-// by lane, a scalar on one side stands for all lanes, and `mask ? a : b` chooses. Only what these types cannot say is written for
-// each unit, below.
+// by lane, a scalar on one side stands for all lanes, and `mask ? a : b` selects. Only operations that these types lack are
+// written for each unit, below.
 //
-// The same bits on every unit: a lane computes what a scalar would, since each operation is rounded correctly and contraction to
-// fused multiply-add is off for the whole library; sums over lanes are for the kernel to take in an order that does not depend on
-// the width.
+// Every unit gives the same bits: a lane computes what a scalar would, since each operation is rounded correctly and contraction
+// to fused multiply-add is off for the whole library. Kernels sum over lanes in an order that does not depend on the width.
 //
-// A file that is compiled for one unit must not leave behind an inline function that others share, since the linker might take
-// the version for a machine that is not there: whatever kernels call is forced inline. No Eigen and no containers of the standard
-// library in them. tests/core/kernel_symbols.py checks it.
+// A file that is compiled for one unit must not emit an inline function that others share: the linker might choose the version
+// for a unit that the machine lacks. So every function that kernels call is forced inline, and kernels use neither Eigen nor the
+// containers of the standard library. tests/core/kernel_symbols.py checks it.
 //
-// CMake defines CACTUS_DOUBLES, the doubles in a vector, and CACTUS_VECTOR_UNIT, how the names of the unit's tables begin.
+// CMake defines CACTUS_DOUBLES, the doubles in a vector, and CACTUS_VECTOR_UNIT, the prefix of the unit's table names.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +35,7 @@ namespace cactus
 namespace
 {
 
-/// How many doubles and floats fit into a vector.
+/// The number of doubles and of floats in a vector.
 constexpr int width = CACTUS_DOUBLES;
 constexpr int floats = 2 * CACTUS_DOUBLES;
 typedef double Doubles __attribute__((vector_size(8 * width)));
@@ -108,7 +107,8 @@ CACTUS_KERNEL_INLINE Doubles load(const double* from)
 CACTUS_KERNEL_INLINE void transpose(const double* const (&rows)[width], Doubles (&columns)[8])
 {
 #if CACTUS_DOUBLES == 8
-  // Pairs of numbers two by two, then blocks of them four by four. With masks of all lanes: GCC 12 warns of the forms without.
+  // Pairs of numbers two by two, then blocks of them four by four. The masks have all lanes: GCC 12 warns about the forms
+  // without.
   __m512d even[4], odd[4];
   for (int pair = 0; pair < 4; ++pair)
   {
@@ -146,7 +146,7 @@ CACTUS_KERNEL_INLINE void transpose(const double* const (&rows)[width], Doubles 
 CACTUS_KERNEL_INLINE void transpose(const float* const (&rows)[floats], Floats (&columns)[8])
 {
 #if CACTUS_DOUBLES == 8
-  // Two rows in a vector; four by four within quarters, then the quarters of a column together. With masks of all lanes, as
+  // Puts two rows in a vector; four by four within quarters, then the quarters of a column together. The masks have all lanes, as
   // above.
   const auto twoRows = [&](int first, int second) __attribute__((always_inline))
   {
@@ -188,7 +188,7 @@ CACTUS_KERNEL_INLINE void transpose(const float* const (&rows)[floats], Floats (
 #endif
 }
 
-/// totals[n] becomes the sum of the eight lanes of x[n], taken two by two: ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)). `count` is
+/// Sets totals[n] to the sum of the eight lanes of x[n], taken two by two: ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)). `count` is
 /// a multiple of four.
 template <int count>
 CACTUS_KERNEL_INLINE void sumLanes(const Doubles (&x)[count][8 / width], double (&totals)[count])
@@ -223,7 +223,7 @@ CACTUS_KERNEL_INLINE void sumLanes(const Doubles (&x)[count][8 / width], double 
 #endif
 }
 
-/// The largest of eight lanes.
+/// Returns the largest of eight lanes.
 CACTUS_KERNEL_INLINE double largestLane(const Doubles (&x)[8 / width])
 {
 #if CACTUS_DOUBLES == 8
@@ -277,8 +277,8 @@ CACTUS_KERNEL_INLINE void store(float* to, const Floats& vector)
   __builtin_memcpy(to, &vector, sizeof(vector));
 }
 
-/// Writes those of the first `count` values whose lane is set to `found`, in their order, and returns the end of what it wrote;
-/// may write up to a vector beyond that.
+/// Writes those of the first `count` values whose lane is set to `found`, in order, and returns the end of the output; may write
+/// up to a vector beyond it.
 CACTUS_KERNEL_INLINE std::uint32_t* append(const FloatMask& mask, int count, const std::uint32_t* values, std::uint32_t* found)
 {
 #if CACTUS_DOUBLES == 8

@@ -12,8 +12,8 @@ namespace cactus
 namespace
 {
 
-// Feature by feature: g++ before 12 and clang before 18 do not know the levels of x86-64 by name, and clang not all features
-// either.
+// Checks feature by feature: g++ before 12 and clang before 18 do not know the levels of x86-64 by name, and clang does not know
+// all features.
 bool supportsX86V3()
 {
   unsigned int a = 0;
@@ -28,7 +28,7 @@ bool supportsX86V3()
   const bool movbe = (first & (1u << 22u)) != 0;
   const bool f16c = (first & (1u << 29u)) != 0;
   const bool lzcnt = (extended & (1u << 5u)) != 0;
-  // These ask the operating system, too.
+  // These also ask the operating system.
   return movbe && f16c && lzcnt && __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("sse4.2") &&
          __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
          __builtin_cpu_supports("fma");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which version of a kernel this machine runs. A kernel is a loop in which much time is spent and which is written in the vectors
-// of base/Vector.h. A file NAMEKernels.cpp holds some of them; it is compiled once for each vector unit of x86-64 and fills a
-// table of functions, which NAMEKernels.h describes and declares with CACTUS_KERNEL_VERSIONS.
+// Selects the version of a kernel for this machine.
+//
+// A kernel is a loop in which much time is spent, written in the vectors of base/Vector.h. A file NAMEKernels.cpp holds some of
+// them; it is compiled once for each vector unit of x86-64 and fills a table of functions, which NAMEKernels.h describes and
+// declares with CACTUS_KERNEL_VERSIONS.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +12,7 @@
 namespace cactus
 {
 
-/// How many of the vector units that kernels are compiled for this machine has: of SSE2 (or what any other machine has), AVX2
+/// Returns how many of the compiled vector units this machine has: SSE2 (or the baseline of another architecture), AVX2
 /// (x86-64-v3) and AVX-512 (x86-64-v4), each of which includes those before it.
 std::size_t runnableVectorUnits();
 
@@ -38,7 +40,7 @@ struct KernelVersions;
   }
 #endif
 
-/// Those versions that this machine can run, the best last. All give the same bits.
+/// Returns the versions that this machine can run, the best last. All give the same bits.
 template <typename Table>
 std::vector<const Table*> runnableKernels()
 {
@@ -46,7 +48,7 @@ std::vector<const Table*> runnableKernels()
   return std::vector<const Table*>(all, all + runnableVectorUnits());
 }
 
-/// The best of them.
+/// Returns the best of them.
 template <typename Table>
 const Table& bestKernels()
 {

@@ -8,12 +8,12 @@
 namespace cactus
 {
 
-/// Seconds between two lines of progress in the log of a job; 0: there are none.
+/// Seconds between two lines of progress in a job's log; 0 for no lines.
 constexpr Range progressPauses{ 0.0, 86400.0 }; // a day
 constexpr int usualProgressPause = 60;
 
-/// The whole number that somebody has given as `name`, an option or an environment variable. Throws InvalidInput, with the name,
-/// for anything else, and beyond `range`.
+/// Returns the whole number given as `name`, an option or an environment variable. Throws InvalidInput, with the name, for
+/// anything else and for a number out of `range`.
 int wholeNumber(const std::string& name, const std::string& given, const Range& range);
 
 } // namespace cactus

@@ -18,12 +18,12 @@ namespace cactus
 namespace
 {
 
-/// Two bundles with both their faces packed to a density.
+/// Makes two bundles with both their faces packed to a density.
 std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double density, const Context& context)
 {
   if (options.crossingStyle == CrossingStyle::Interwoven)
   {
-    // Narrow layers waste space along their walls: where one does not hold its density, thicker layers may.
+    // Narrow layers waste space along their walls: if one cannot reach its density, thicker layers may.
     constexpr double thickest = 6.0;
     for (double diameters = 1.5;; diameters *= 1.25)
     {
@@ -47,7 +47,7 @@ std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double
   return bundles;
 }
 
-/// By how much a fibre that follows a flow differs, within its frame, from the straight line between its ends.
+/// Returns the offset of a fibre that follows a flow, within its frame, from the straight line between its ends.
 Eigen::Vector2d bendOf(const Bundle& bundle, std::size_t fibre, double share)
 {
   const Eigen::Vector2d& from = bundle.bottom.centres[fibre];
@@ -62,7 +62,7 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
   const double cosine = std::cos(bundle.angle);
   const auto place = [&](const Eigen::Vector2d& face, double w)
   {
-    // Exact for an axis along z, whose first and last control points lie on the domain's faces.
+    // Exact for an axis along z: the first and last control points lie on the domain's faces.
     return Eigen::Vector3d(face.x() * cosine + w * sine, face.y(), w * cosine - face.x() * sine);
   };
   for (std::size_t i = 0; i < bundle.bottom.size(); ++i)
@@ -104,9 +104,9 @@ Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& 
   return fibresOf(bundles, options);
 }
 
-/// Crossing bundles whose capsules fill the domain to the fraction asked for. Their faces lie outside the domain, and dispersed
-/// fibres that start and end within the faces crowd between them, so the density of the faces is a little lower, and is found by
-/// trying: in proportion to what the domain came to hold.
+/// Makes crossing bundles whose capsules fill the requested fraction of the domain. Their faces lie outside the domain, and
+/// dispersed fibres that start and end within the faces crowd between them. So the density of the faces is a little lower; it is
+/// found by iteration, scaled each time by the requested over the reached fraction.
 Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
 {
   const double asked = options.fibreVolumeFraction;
@@ -126,7 +126,7 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
     {
       if (isNear())
       {
-        break; // the one before will do
+        break; // the previous layout is good enough
       }
       throw;
     }
@@ -147,7 +147,7 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
     {
       break;
     }
-    // By half where it goes to and fro between two numbers of fibres.
+    // Uses the square root if it alternates between two numbers of fibres.
     density = std::min(0.95, density * (round < rounds ? asked / reached : std::sqrt(asked / reached)));
   }
   if (!isNear())
@@ -161,7 +161,7 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
   return std::move(*best);
 }
 
-/// Throws OutOfMemory where the fibres asked for could not be held.
+/// Throws OutOfMemory if the fibres would not fit into memory.
 void requireMemoryFor(const BundleInitializerOptions& options)
 {
   const double side = regionSide(options);

@@ -18,21 +18,21 @@ enum class CrossingStyle
   Sheets      ///< few layers of equal thickness
 };
 
-/// What initialiseBundles is to make. Lengths in µm, angles in degrees.
+/// Options of initialiseBundles(). Lengths in µm, angles in degrees.
 struct BundleInitializerOptions
 {
   double side = 30.0; ///< side of the cubic domain [-side/2, side/2]³
   /// In (0, 1). One bundle: area of the circles on the end faces over the area of the faces. Two bundles, whose faces lie outside
   /// the domain: volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain.
   double fibreVolumeFraction = 0.7;
-  RadiusDistributionOptions radius; ///< of the fibres' outer radii
-  /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules are then thinner than the
-  /// sampled target radii by sqrt(fibreVolumeFraction / this), so that the grown fibres have these; 0: capsules have the target
+  RadiusDistributionOptions radius; ///< outer radii of the fibres
+  /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules start thinner than the sampled
+  /// target radii by sqrt(fibreVolumeFraction / this), so that grown fibres have the target radii; 0: capsules have the target
   /// radii.
   double grownFibreVolumeFraction = 0.9;
   double meanDispersion = 5.0; ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
-  /// Fibres follow the flow of Coherent, and are straight with the others. Coherent is for one bundle. The layers of two crossing
-  /// bundles are too thin for a flow; their fibres are then drawn as with Watson.
+  /// With Coherent, fibres follow a flow; with the others they are straight. Coherent is for one bundle: the layers of two
+  /// crossing bundles are too thin for a flow, so their fibres are drawn as with Watson.
   DispersionModel dispersionModel = DispersionModel::Coherent;
   /// Distance over which the directions of DispersionModel::Coherent are alike (see CoherentFlow); 0: four times the mean shift
   /// of the fibres from face to face, at least a 32nd of the face.
@@ -40,13 +40,14 @@ struct BundleInitializerOptions
   int numberOfBundles = 1;     ///< 1 or 2
   double crossingAngle = 90.0; ///< between the axes of two bundles, in (0, 90]
   CrossingStyle crossingStyle = CrossingStyle::Interwoven;
-  /// Least thickness of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height, or what the largest radius needs.
+  /// Least thickness of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height, or the need of the largest
+  /// radius.
   double sheetThickness = 0.0;
   /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides), so that the domain
-  /// can be cut from the middle of what the optimiser spreads.
+  /// can be cut from the middle after the optimiser has spread the fibres.
   double margin = 0.0;
   /// Distance between the control points of a fibre, as a multiple of its radius, within the two limits below. A capsule chain
-  /// bends once per control point, so the spacing bounds how sharply a fibre can give way; longer capsules are cheaper.
+  /// bends once per control point, so the spacing limits how sharply a fibre can bend; longer capsules are cheaper.
   double spacingFactor = 1.25;
   double minimumSpacing = 0.8; ///< µm
   double maximumSpacing = 2.0; ///< µm
@@ -55,11 +56,11 @@ struct BundleInitializerOptions
   static const PropertyList<BundleInitializerOptions>& properties();
   /// Throws InvalidInput, naming the property, unless every value that has an effect is within its range.
   void validate() const;
-  /// Radius of the capsules over the sampled target radius.
+  /// Returns the radius of the capsules over the sampled target radius.
   double thinning() const;
 };
 
-/// Whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
+/// Tells whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
 bool isCoherent(const BundleInitializerOptions& options);
 
 } // namespace cactus

@@ -34,7 +34,8 @@ void requireFit(const Circles& circles, const char* property)
   }
 }
 
-/// The two bundles of a crossing, without radii and frames, each long enough for its fibres to run right through the region.
+/// Returns the two bundles of a crossing, without radii and frames, each long enough for its fibres to pass through the whole
+/// region.
 std::vector<Bundle> crossingBundles(const BundleInitializerOptions& options, double density)
 {
   const double half = 0.5 * options.crossingAngle * degree;
@@ -44,13 +45,13 @@ std::vector<Bundle> crossingBundles(const BundleInitializerOptions& options, dou
     bundles[static_cast<std::size_t>(b)].id = b + 1;
     bundles[static_cast<std::size_t>(b)].angle = b == 0 ? half : -half;
     bundles[static_cast<std::size_t>(b)].density = density;
-    // A square turned by the half angle fits into a square of this side, and the bundle covers as much in both directions.
+    // A square rotated by the half angle fits into a square of this side, and the bundle has this size in both directions.
     bundles[static_cast<std::size_t>(b)].length = regionSide(options) * (std::cos(half) + std::sin(half));
   }
   return bundles;
 }
 
-/// A layer of a crossing bundle, as wide as the bundle is long.
+/// Returns a layer of a crossing bundle, as wide as the bundle is long.
 Rectangle layerFrame(const Bundle& bundle, double low, double high)
 {
   Rectangle frame;
@@ -59,9 +60,9 @@ Rectangle layerFrame(const Bundle& bundle, double low, double high)
   return frame;
 }
 
-/// Divides a bundle's circles among thin layers: each takes the largest circles left, with room to spare, and then others in the
-/// order they were drawn, up to a thickness drawn around `wanted` (µm). Returns the layers' thicknesses, each just so that the
-/// layer has the density asked for.
+/// Divides a bundle's circles among thin layers: each receives the largest circles left, with room to spare, and then others in
+/// the order of drawing, up to a thickness drawn around `wanted` (µm). Returns the layers' thicknesses, which give each layer
+/// exactly the requested density.
 std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& options, double wanted)
 {
   Circles& circles = bundle.bottom;
@@ -90,7 +91,7 @@ std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& option
     const double room = 1.05 * 2.0 * circles.radii[largest[nextLargest]];
     const double thickness = std::max(room, wanted * (0.75 + 0.5 * uniform(engine)));
     const bool last = left < areaPerThickness * thickness;
-    // What does not fill a layer of its own thickens the one before.
+    // A rest that does not fill a layer thickens the previous one.
     const bool merge = last && !thicknesses.empty();
     const int layer = static_cast<int>(thicknesses.size()) - (merge ? 1 : 0);
     double taken = 0.0;
@@ -99,7 +100,7 @@ std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& option
       circles.frameOf[i] = layer;
       taken += pi * circles.radii[i] * circles.radii[i];
     };
-    // Large circles keep together in few thick layers, so that the others can be thin.
+    // Large circles are collected in few thick layers, so that the others can be thin.
     for (; nextLargest < circles.size() && taken < 0.6 * areaPerThickness * thickness; ++nextLargest)
     {
       if (circles.frameOf[largest[nextLargest]] < 0)
@@ -148,7 +149,7 @@ Bundle layOutSingle(const BundleInitializerOptions& options)
 std::vector<Bundle> layOutSheets(const BundleInitializerOptions& options, double density)
 {
   const double height = regionSide(options);
-  // By default every fibre that may be drawn has room.
+  // By default every possible fibre has room.
   const double wanted =
     options.sheetThickness > 0.0 ? options.sheetThickness : std::max(height / 6.0, 1.05 * 2.0 * options.radius.maximum);
   const int layers = std::max(2, static_cast<int>(std::min(height / wanted + 1e-9, 1e6)));
@@ -207,7 +208,7 @@ std::vector<Bundle> layOutInterwoven(const BundleInitializerOptions& options, do
     }
     bundle.bottom.frames.resize(shuffled.size());
   }
-  // The drawn areas miss their half by less than a circle; the layers share that out.
+  // The drawn areas miss their half by less than a circle; the layers share the difference.
   const double stretch = height / total;
   double level = -0.5 * height;
   std::array<double, 2> filled{ { 0.0, 0.0 } };

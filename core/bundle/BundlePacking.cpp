@@ -20,10 +20,10 @@ namespace
 {
 
 constexpr int trialsPerCircle = 64;
-/// How often a packing is begun anew, from other random positions, before its density counts as out of reach.
+/// The number of packings tried, from different random positions, before a density counts as unreachable.
 constexpr int attempts = 4;
 
-/// The density at which the circles do come apart: their areas are lowered by one per cent at a time.
+/// Returns the density at which the circles come apart: their areas are reduced by one per cent at a time.
 double reachableDensity(Circles circles, const Context& context)
 {
   for (int i = 0; i < 100; ++i)
@@ -45,7 +45,7 @@ double reachableDensity(Circles circles, const Context& context)
 {
   TextStream message;
   message.precision(3);
-  // In proportion: for crossing bundles the faces' density is not the domain's.
+  // Scaled, because the faces' density of crossing bundles is not the domain's.
   const double reachable = reachableDensity(jammed, context) * options.fibreVolumeFraction / bundle.density;
   message << "FibreVolumeFraction " << options.fibreVolumeFraction << " cannot be reached: the circles on the " << face
           << " face of bundle " << bundle.id << " come apart only at " << reachable
@@ -78,8 +78,8 @@ bool packBottom(Bundle& bundle, std::uint64_t seed, int attempt, const Context& 
   return relaxCircles(circles, {}, context).separated;
 }
 
-/// A place at distance `reach` from `from`, towards `azimuth` if that stays inside the frame, mirrored in one or both components
-/// where that does, else slid along the frame's longer side; nearer than `reach` only where the frame has no such place.
+/// Returns a place at distance `reach` from `from`: towards `azimuth` if that stays inside the frame, else mirrored in one or
+/// both components, else slid along the frame's longer side; nearer than `reach` only if the frame has no such place.
 Eigen::Vector2d placeOnRing(
   const Rectangle& frame, const Eigen::Vector2d& from, double radius, double reach, RandomEngine& engine)
 {
@@ -105,14 +105,14 @@ Eigen::Vector2d placeOnRing(
   shift[along] = drawn[along] < 0.0 ? -rest : rest;
   if (!frame.holds(from + shift, radius))
   {
-    // The side with more room comes nearest to the distance asked for.
+    // The side with more room comes nearest to the requested distance.
     const double middle = 0.5 * (frame.lower[along] + frame.upper[along]);
     shift[along] = from[along] > middle ? -rest : rest;
   }
   return frame.clampCentre(from + shift, radius);
 }
 
-/// Places each circle of the top face at an angle of its own.
+/// Places each circle of the top face at its own random angle.
 void placeOnRings(Bundle& bundle, const BundleInitializerOptions& options, int attempt)
 {
   Circles& top = bundle.top;
@@ -125,7 +125,7 @@ void placeOnRings(Bundle& bundle, const BundleInitializerOptions& options, int a
     if (trial == 0)
     {
       engine = randomStream(options.seed, RandomStage::Directions, itemOf(i, bundle.id, attempt));
-      // No place on the face is further away than its diagonal, and near 90° the tangent is out of all bounds.
+      // No place on the face is farther away than its diagonal, and near 90° the tangent diverges.
       reach = std::min(bundle.length * std::tan(directions.sampleAngle(engine)), top.frame(i).size().norm());
     }
     return placeOnRing(top.frame(i), bundle.bottom.centres[i], top.radii[i], reach, engine);
@@ -133,7 +133,7 @@ void placeOnRings(Bundle& bundle, const BundleInitializerOptions& options, int a
   placeCircles(top, onRing, trialsPerCircle);
 }
 
-/// Carries the top face's circles from where the bottom's are, all in one flow; false where it does not lead as far as asked.
+/// Carries the circles of the bottom face to the top in one flow; false if the flow does not reach the requested angle.
 bool carryAlong(Bundle& bundle, const BundleInitializerOptions& options, int attempt, const Context& context)
 {
   Circles& top = bundle.top;
@@ -256,7 +256,7 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const C
     else
     {
       jammed.reset();
-      // Another flow may lead a little farther, but not as far as this.
+      // Another flow may reach a little farther, but not this far.
       if (isCoherent(options) && dispersion < 0.5 * options.meanDispersion)
       {
         break;

@@ -12,20 +12,20 @@
 namespace cactus
 {
 
-/// How a bundle's fibres lie to its nominal axis.
+/// The orientation of a bundle's fibres relative to its nominal axis.
 struct Orientation
 {
-  double meanAngle = 0.0; ///< degrees, of the fibres to the axis
-  double drift = 0.0;     ///< degrees, of the fibres' mean direction to the axis
-  /// Per component, sum over sum of magnitudes of the fibres' directions: by how much one sense outweighs the other.
+  double meanAngle = 0.0; ///< degrees, between the fibres and the axis
+  double drift = 0.0;     ///< degrees, between the fibres' mean direction and the axis
+  /// Per component, the sum of the fibres' directions over the sum of their magnitudes: how much one sense outweighs the other.
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
 };
 
-/// Precondition: both faces are packed.
+/// Measures a bundle. Precondition: both faces are packed.
 Orientation orientationOf(const Bundle& bundle);
 
-/// Places the circles on both faces of bundles that have been laid out, so that none overlap and the fibres between them have the
-/// dispersion asked for (see initialiseBundles()). Throws Infeasible where density or dispersion cannot be met, and Cancelled.
+/// Places the circles on both faces of laid-out bundles, so that none overlap and the fibres between them have the requested
+/// dispersion (see initialiseBundles()). Throws Infeasible if density or dispersion cannot be met, and Cancelled.
 void packFaces(std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context);
 
 } // namespace cactus

@@ -13,13 +13,13 @@
 namespace cactus
 {
 
-/// Square cells over a rectangle, to find the circles near a point.
+/// A grid of square cells over a rectangle that finds the circles near a point.
 struct CircleGrid
 {
   CircleGrid(const Rectangle& bounds, double wantedCell, std::size_t circles)
     : origin(bounds.lower)
   {
-    // Never many more cells than circles, however small the circles are beside the rectangle.
+    // Avoids many more cells than circles, however small the circles are beside the rectangle.
     const double least = std::sqrt(bounds.area() / (4.0 * static_cast<double>(circles) + 16.0));
     cell = std::max(wantedCell, least);
     for (int axis = 0; axis < 2; ++axis)

@@ -31,7 +31,7 @@ public:
 
   void add(std::size_t circle) { this->Cells[this->Grid.index(this->All.centres[circle])].push_back(circle); }
 
-  /// Sum of the squared depths by which a circle would overlap the others; some sum above `enough` where it is above that.
+  /// Returns the sum of the squared depths by which a circle would overlap the others; above `enough`, any sum above it.
   double overlap(const Eigen::Vector2d& centre, double radius, double enough) const
   {
     double sum = 0.0;

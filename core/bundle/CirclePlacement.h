@@ -15,7 +15,7 @@ namespace cactus
 /// Proposes the n-th centre to try for a circle. The centre must keep the circle inside its rectangle.
 using CentreProposal = std::function<Eigen::Vector2d(std::size_t circle, int trial)>;
 
-/// The circles by radius, the largest first; equal ones by index.
+/// Returns the circles by radius, the largest first; equal ones by index.
 std::vector<std::size_t> largestFirst(const std::vector<double>& radii);
 
 /// Sets all centres: circles are placed largest first, each at the first of its proposals that overlaps no circle

@@ -16,7 +16,7 @@ namespace cactus
 namespace
 {
 
-/// The direction in which the circle of the lower index is pushed where two centres coincide.
+/// Returns the direction in which circle i is pushed off circle j if their centres coincide.
 Eigen::Vector2d tieBreak(std::size_t i, std::size_t j)
 {
   const double angle = goldenAngle * static_cast<double>(std::min(i, j));
@@ -24,7 +24,7 @@ Eigen::Vector2d tieBreak(std::size_t i, std::size_t j)
   return sign * Eigen::Vector2d(std::cos(angle), std::sin(angle));
 }
 
-/// What FIRE has to know of all circles.
+/// The sums over all circles that FIRE needs.
 struct Sums
 {
   double power = 0.0;
@@ -38,11 +38,11 @@ struct Sums
 /// The steps of FIRE with its published constants, in units of the inverse frequency of one contact.
 struct Fire
 {
-  double keep = 0.0; ///< share of a velocity that stays
-  double turn = 0.0; ///< share of the force that is added to it, besides the step
+  double keep = 0.0; ///< fraction of the velocity that is kept
+  double turn = 0.0; ///< fraction of the force that is added to it, besides the step
   double step = 0.1;
 
-  /// Chooses the next step: longer as long as the way leads downhill, else short and from a stand.
+  /// Chooses the next step: longer as long as the energy falls, else short and from rest.
   void adapt(const Sums& total)
   {
     constexpr double largestStep = 0.5;
@@ -71,7 +71,7 @@ private:
   int Downhill = 0;
 };
 
-/// The moving parts of relaxCircles.
+/// The state of relaxCircles().
 struct Relaxer
 {
   Relaxer(Circles& given, const RelaxationOptions& wanted, const Context& caller)
@@ -92,8 +92,8 @@ struct Relaxer
     mass.resize(n);
     for (std::size_t i = 0; i < n; ++i)
     {
-      // A circle has about as many contacts as its circumference has room for; masses in proportion give all of them about the
-      // same frequency, hence the same largest stable step.
+      // A circle has about as many contacts as its circumference has room for. Masses in this proportion give all circles about
+      // the same frequency, hence the same largest stable step.
       mass[i] = std::max(0.25, circles.radii[i] / meanRadius);
       centres[i] = circles.frame(i).clampCentre(centres[i], circles.radii[i]);
     }
@@ -143,7 +143,7 @@ struct Relaxer
     parallelBlocks(n, blockSize, threads, body);
   }
 
-  /// Forces at the current centres, and the sums FIRE needs: per block in parallel, then over the blocks in order.
+  /// Computes the forces at the current centres and FIRE's sums: per block in parallel, then over the blocks in order.
   Sums evaluate()
   {
     overBlocks(
@@ -172,7 +172,7 @@ struct Relaxer
     return total;
   }
 
-  /// The force of all neighbours on circle i, which are also taken into the sums.
+  /// Returns the force of all neighbours on circle i, and adds it to the sums.
   Eigen::Vector2d contactForce(std::size_t i, Sums& sum) const
   {
     const double swell = 1.0 + options.clearance;
@@ -197,7 +197,7 @@ struct Relaxer
     return net;
   }
 
-  /// A wall carries what pushes a circle against it, so that is no force that could still move the circle.
+  /// Removes the force that pushes a circle against a wall: the wall carries it.
   void restOnWalls(std::size_t i)
   {
     const Rectangle& frame = circles.frame(i);
@@ -268,11 +268,11 @@ struct Relaxer
       }
     }
 
-    std::vector<std::size_t> start; ///< of each cell, in circles
+    std::vector<std::size_t> start; ///< start of each cell, in circles
     std::vector<std::size_t> circles;
   };
 
-  /// use(j) for all circles nearer to circle i than touching plus the skin.
+  /// Calls use(j) for all circles nearer to circle i than touching plus the skin.
   template <typename Use>
   void forNeighbours(const CircleGrid& grid, const Members& members, std::size_t i, Use&& use) const
   {

@@ -7,17 +7,17 @@
 namespace cactus
 {
 
-/// How relaxCircles moves circles and when it gives up.
+/// How relaxCircles() moves circles and when it stops.
 struct RelaxationOptions
 {
   int maximumIterations = 20000;
   /// Radii are taken larger by this fraction while moving, so that the true circles come apart after finitely many steps.
   double clearance = 2e-5;
-  /// Given up as jammed once the net forces are this small beside the contact forces.
+  /// Circles count as jammed once the net forces are this small relative to the contact forces.
   double jammedBalance = 1e-4;
 };
 
-/// What relaxCircles reached.
+/// Result of relaxCircles().
 struct Relaxation
 {
   bool separated = false;      ///< no two circles overlap
@@ -27,8 +27,8 @@ struct Relaxation
 
 /// Moves the circles apart until no two overlap, each staying inside its rectangle: harmonic repulsion of overlapping pairs,
 /// minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006) on neighbour lists with a skin. Circles that do not
-/// overlap at the start stay where they are. Same bits on any number of threads. Where the circles jam or the iterations run out
-/// the result says so, and the centres are the last ones. Throws Cancelled.
+/// overlap at the start stay in place. Gives the same bits on any number of threads. If the circles jam or the iterations run
+/// out, the result says so, and the centres are the last ones. Throws Cancelled.
 Relaxation relaxCircles(Circles& circles, const RelaxationOptions& options = {}, const Context& context = {});
 
 } // namespace cactus

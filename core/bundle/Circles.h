@@ -17,7 +17,7 @@ struct Rectangle
 
   Eigen::Vector2d size() const { return upper - lower; }
   double area() const { return size().prod(); }
-  /// Where a circle's centre may be so that the circle is wholly inside; the middle where it is too large for that.
+  /// Returns the nearest centre for which the circle is wholly inside; the middle of the rectangle if the circle is too large.
   Eigen::Vector2d clampCentre(const Eigen::Vector2d& centre, double radius) const
   {
     const Eigen::Vector2d margin = (0.5 * size()).cwiseMin(radius);
@@ -39,11 +39,11 @@ struct Circles
 
   std::size_t size() const { return radii.size(); }
   const Rectangle& frame(std::size_t circle) const { return frames[static_cast<std::size_t>(frameOf[circle])]; }
-  /// Sum of the circles' areas over the sum of the rectangles'.
+  /// Returns the sum of the circles' areas over the sum of the rectangles'.
   double density() const;
 };
 
-/// The smallest rectangle that holds all of them, of which there is at least one.
+/// Returns the smallest rectangle that holds all frames, of which there is at least one.
 Rectangle boundingRectangle(const std::vector<Rectangle>& frames);
 
 } // namespace cactus

@@ -15,13 +15,13 @@ namespace cactus
 namespace
 {
 
-/// Steps by which points cross one correlation length.
+/// Number of steps in which points cross one correlation length.
 constexpr double stepsPerLength = 16.0;
-/// Correlation lengths after which what has not come far enough goes round in circles.
+/// Number of correlation lengths after which points that have not reached the angle go round in circles.
 constexpr double farthest = 6.0;
-/// However short the way.
+/// Least number of steps.
 constexpr int fewestSteps = 8;
-/// Relative, of the mean angle.
+/// Relative precision of the mean angle.
 constexpr double precision = 1e-6;
 
 double meanAngleOf(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to, double height)
@@ -53,7 +53,7 @@ Eigen::Vector2d FlowPaths::bend(std::size_t point, double share) const
   const double t = share * last - i;
   const Eigen::Vector2d from = bendAt(i);
   const Eigen::Vector2d to = bendAt(i + 1);
-  // Beyond the ends the way goes on as straight as it can.
+  // Beyond the ends the path continues as straight as possible.
   const Eigen::Vector2d before = i > 0 ? bendAt(i - 1) : Eigen::Vector2d(3.0 * (from - to) + bendAt(i + 2));
   const Eigen::Vector2d after = i + 1 < last ? bendAt(i + 2) : Eigen::Vector2d(3.0 * (to - from) + bendAt(i - 1));
   return from +

@@ -13,20 +13,19 @@
 namespace cactus
 {
 
-/// The ways of points that a flow has carried along.
+/// The paths of points that a flow has carried.
 struct FlowPaths
 {
-  std::vector<std::vector<Eigen::Vector2d>> places; ///< of all points at evenly spaced times, from the first to the last (µm)
-  bool isFarEnough = false;                         ///< whether they came as far as they should
+  std::vector<std::vector<Eigen::Vector2d>> places; ///< all points at evenly spaced times, from the first to the last (µm)
+  bool isFarEnough = false;                         ///< whether the requested mean angle was reached
 
-  /// Where a point is after a share of the time less where it would be on the straight line between its ends (µm), by cubics
-  /// through its places (Catmull and Rom 1974). Zero where there are no places, and at both ends.
+  /// Returns a point's position at a fraction of the time minus that on the straight line between its ends (µm), by cubics
+  /// through its places (Catmull and Rom 1974). Zero if there are no places, and at both ends.
   Eigen::Vector2d bend(std::size_t point, double share) const;
 };
 
-/// A steady random flow within a rectangle that keeps areas and lets nothing through the rim: the curl of a Gaussian random
-/// stream function that is zero there. Points that it carries along are shifted alike where they are near each other, and are
-/// neither crowded nor thinned out.
+/// A steady random flow within a rectangle that preserves areas and does not cross the rim: the curl of a Gaussian random stream
+/// function that is zero there. Nearby points are shifted alike, and are neither crowded nor thinned out.
 ///
 /// The stream function is a sum of sin(mπx/a) sin(nπy/b) with normal coefficients, scaled by exp(−k²ℓ²/8), k being the wave
 /// number and ℓ the correlation length: away from the rim its correlation at a distance d is exp(−d²/ℓ²). A length beyond the
@@ -37,18 +36,18 @@ public:
   /// The smallest correlation length, as a share of the rectangle's longer side, that can be resolved.
   static constexpr double smallestLength = 1.0 / 128.0;
 
-  /// Lengths in µm. Throws InvalidInput, naming CorrelationLength, where it is shorter than smallestLength allows.
+  /// Draws the flow. Lengths in µm. Throws InvalidInput, naming CorrelationLength, if it is shorter than smallestLength allows.
   CoherentFlow(const Rectangle& frame, double correlationLength, RandomEngine& engine);
 
   /// Carries all points, which lie in the rectangle, until the mean of atan2(shift, height) over them is `meanAngle` (radians).
-  /// Where it never becomes that large, because the flow carries them round and back, they stop where it is largest, which is not
-  /// far enough. Throws Cancelled. Same bits on any number of threads.
+  /// If the mean never becomes that large, because the flow carries the points round and back, they stop where it is largest, and
+  /// isFarEnough is false. Throws Cancelled. Gives the same bits on any number of threads.
   FlowPaths carry(const std::vector<Eigen::Vector2d>& points, double height, double meanAngle, const Context& context = {}) const;
 
 private:
   Eigen::Vector2d velocity(const Eigen::Vector2d& point, std::vector<double>& work) const;
   double stepTime() const;
-  /// The time after which the mean angle is the one asked, or largest.
+  /// Returns the time after which the mean angle is `meanAngle`, or largest.
   double timeTo(
     const std::vector<Eigen::Vector2d>& start, double height, double meanAngle, bool& isFarEnough, const Context& context) const;
   void advance(std::vector<Eigen::Vector2d>& points, double time, const Context& context) const;

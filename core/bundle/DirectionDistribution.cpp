@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-/// Mean angle (radians) of the Watson model: ∫θ w / ∫w with w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
+/// Returns the mean angle (radians) of the Watson model: ∫θ w / ∫w with w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
 double meanWatsonAngle(double kappa)
 {
   const double end = std::min(0.5 * pi, 9.0 / std::sqrt(kappa));
@@ -31,7 +31,8 @@ double meanWatsonAngle(double kappa)
   return weighted / weights;
 }
 
-/// Mean angle of directions uniform in a cap of half angle a: ∫θ sin θ / ∫sin θ on [0, a], by its series where that cancels.
+/// Returns the mean angle of directions uniform in a cap of half angle a: ∫θ sin θ / ∫sin θ on [0, a], by its series for small a,
+/// where digits cancel.
 double meanConeAngle(double a)
 {
   if (a < 1e-2)
@@ -81,7 +82,7 @@ double DirectionDistribution::sampleAngle(RandomEngine& engine) const
   }
   else
   {
-    // The density of x is ∝ exp(−κ(2x − x²)) ≤ exp(−κx): a truncated exponential, accepted at least every other time or so.
+    // The density of x is ∝ exp(−κ(2x − x²)) ≤ exp(−κx): a truncated exponential, accepted at least about every other time.
     do
     {
       x = -std::log1p(uniform(engine) * std::expm1(-Parameter)) / Parameter;

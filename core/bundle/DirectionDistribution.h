@@ -9,12 +9,12 @@ namespace cactus
 /// How the directions of a bundle's fibres are distributed about its axis.
 enum class DispersionModel
 {
-  Watson, ///< each fibre for itself, from a Watson distribution about the axis: density of directions ∝ exp(κ cos²θ), κ ≥ 0
-  Cone,   ///< each fibre for itself, uniform in the cap of a cone around the axis
-  Coherent ///< neighbours alike: fibres follow a smooth random flow from face to face (see CoherentFlow)
+  Watson,  ///< independent, from a Watson distribution about the axis: density of directions ∝ exp(κ cos²θ), κ ≥ 0
+  Cone,    ///< independent, uniform in the cap of a cone around the axis
+  Coherent ///< similar for neighbours: fibres follow a smooth random flow from face to face (see CoherentFlow)
 };
 
-/// Angles to an axis from a model, Watson or Cone, whose mean angle is given; the azimuth is uniform in both.
+/// Draws angles to an axis from a model, Watson or Cone, with a given mean angle; the azimuth is uniform in both.
 class DirectionDistribution
 {
 public:
@@ -22,9 +22,9 @@ public:
   /// or DispersionModel.
   DirectionDistribution(DispersionModel model, double meanAngle);
 
-  /// κ of the Watson model, half opening angle of the cone (radians) of the other.
+  /// Returns κ of the Watson model, or the cone's half opening angle (radians).
   double parameter() const { return Parameter; }
-  /// One angle to the axis (radians, in [0, π/2]).
+  /// Draws one angle to the axis (radians, in [0, π/2]).
   double sampleAngle(RandomEngine& engine) const;
 
 private:

@@ -20,7 +20,7 @@ namespace
 constexpr std::size_t longestLine = 1 << 20;
 constexpr std::size_t mostRadii = 1 << 24;
 
-/// A line without its end, as long as lines of tables are.
+/// Reads a line without its end; limited to the length of plausible lines.
 bool takeLine(std::istream& stream, const std::string& name, std::string& line)
 {
   line.clear();
@@ -58,7 +58,7 @@ std::string trimmed(std::string_view cell)
   return std::string(cell);
 }
 
-/// The cells of a line; separators in quotation marks are none.
+/// Returns the cells of a line; separators in quotation marks do not count.
 std::vector<std::string> cellsOf(const std::string& line, char separator)
 {
   std::vector<std::string> cells;
@@ -93,7 +93,7 @@ std::vector<double> readRadiusColumn(std::istream& stream, const std::string& na
   takeLine(stream, name, line);
   if (line.rfind("\xef\xbb\xbf", 0) == 0)
   {
-    line.erase(0, 3); // the mark that some programs put before UTF-8
+    line.erase(0, 3); // byte-order mark of UTF-8
   }
   const char separator = separatorOf(line);
   const std::vector<std::string> names = cellsOf(line, separator);

@@ -43,11 +43,11 @@ double draw(const RadiusDistributionOptions& options, RandomEngine& engine)
   return lognormalVariate(std::log(options.lognormalMean) - 0.5 * variance, std::sqrt(variance), engine);
 }
 
-/// Between limits so near each other, relative to the radius, the density of any distribution is as good as constant.
+/// Between limits so near each other, relative to the radius, any density is nearly constant.
 constexpr double narrow = 1e-4;
-/// Draws for one radius.
+/// Number of draws for one radius.
 constexpr int tries = 100000;
-/// The smallest share of draws within the limits for which radii are drawn by the thousand.
+/// The smallest fraction of draws within the limits for which thousands of radii can be drawn.
 constexpr double smallestShare = 1e-4;
 
 [[noreturn]] void throwHardlyAny(const RadiusDistributionOptions& options)
@@ -213,7 +213,7 @@ void requireShareWithinLimits(const RadiusDistributionOptions& options)
   {
     const double radius = draw(options, engine);
     within += radius >= options.minimum && radius <= options.maximum;
-    // By far the most distributions show at once that they are not so.
+    // Most distributions pass at once.
     if (within >= 20)
     {
       return;
@@ -225,7 +225,7 @@ void requireShareWithinLimits(const RadiusDistributionOptions& options)
 namespace
 {
 
-/// Appends the numbers of a text; returns false and leaves `text` at the word that is no number where there is one.
+/// Appends the numbers of a text. At a word that is no number it returns false and leaves `text` there.
 bool appendRadii(std::string_view& text, std::vector<double>& table)
 {
   constexpr std::string_view separators = " \t\r\n\v\f,;";
@@ -277,7 +277,7 @@ std::vector<double> readRadiusTable(std::istream& stream, const std::string& nam
       text.resize(before + got);
     }
   }
-  catch (const std::ios_base::failure& error) // a folder, a broken disk
+  catch (const std::ios_base::failure& error) // a folder or a disk error
   {
     throw FileError("RadiusTableFile " + name + " cannot be read: " + error.code().message());
   }
@@ -288,7 +288,7 @@ std::vector<double> readRadiusTable(std::istream& stream, const std::string& nam
   std::string_view rest = text;
   if (rest.substr(0, 3) == "\xef\xbb\xbf")
   {
-    rest.remove_prefix(3); // the mark that some editors put before UTF-8
+    rest.remove_prefix(3); // byte-order mark of UTF-8
   }
   std::vector<double> table;
   if (!appendRadii(rest, table))

@@ -11,10 +11,10 @@ namespace cactus
 namespace
 {
 
-/// Three people have read the five histograms off the figure, each for himself: N. Stikov (github.com/rfdougherty/dSim, 2009),
-/// the authors of github.com/guruucsd/CallosalData, and H.-H. Lee (github.com/NYU-DiffusionMRI/monte-carlo-simulation-recipes,
-/// 2018), who takes the diameters as those of axons without myelin. A share here, in per cent, is the middle one of theirs, each
-/// scaled to 100 together; those of one bar are 1.4 apart at most. Bars stand at multiples of 0.2 µm.
+/// Three groups have read the five histograms off the figure independently: N. Stikov (github.com/rfdougherty/dSim, 2009), the
+/// authors of github.com/guruucsd/CallosalData, and H.-H. Lee (github.com/NYU-DiffusionMRI/monte-carlo-simulation-recipes, 2018),
+/// who takes the diameters as those of axons without myelin. A share here, in per cent, is the median of the three, each scaled
+/// to a sum of 100; values of one bar differ by at most 1.4. Bars stand at multiples of 0.2 µm.
 RadiusHistogram aboitiz(const std::string& region, std::vector<double> shares)
 {
   constexpr double width = 0.2;
@@ -24,8 +24,8 @@ RadiusHistogram aboitiz(const std::string& region, std::vector<double> shares)
     0.5 * width, width, std::move(shares) };
 }
 
-/// Read off the curves by the authors of CallosalData, less the height of a curve's own line where there is nothing. They count
-/// axons by their conduction velocity in steps of 2 m/s, which is 5.5 d / 0.7 for an axon of d µm without its myelin.
+/// Read off the curves by the authors of CallosalData, minus the height of a curve's own line where it is empty. The curves count
+/// axons by conduction velocity in steps of 2 m/s; the velocity is 5.5 d / 0.7 for an axon of d µm without its myelin.
 RadiusHistogram caminiti(const std::string& area, std::vector<double> shares)
 {
   return { "Human " + area + " (Caminiti 2009)",
@@ -34,8 +34,8 @@ RadiusHistogram caminiti(const std::string& area, std::vector<double> shares)
     0.0, 2.0 * 0.7 / 5.5, std::move(shares) };
 }
 
-/// Measured for this on the 227 axons that come with the programs of Lee et al. 2020 (doi:10.1038/s42003-020-1050-x): of each the
-/// mean over 180 cuts, 0.1 µm apart, of the diameter of a circle of the cut's area. Shares are numbers of axons.
+/// Measured for this project on the 227 axons that come with the programs of Lee et al. 2020 (doi:10.1038/s42003-020-1050-x): the
+/// mean, over 180 cuts 0.1 µm apart, of the diameter of a circle of the cut's area. Shares are numbers of axons.
 RadiusHistogram lee()
 {
   return { "Mouse genu (Lee 2019)",

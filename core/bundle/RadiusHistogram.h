@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How thick axons are, as it was published.
+// Published histograms of axon diameters.
 #pragma once
 
 #include "base/Random.h"
@@ -10,7 +10,7 @@
 namespace cactus
 {
 
-/// The histograms that there are, in the order of radiusHistograms().
+/// The available histograms, in the order of radiusHistograms().
 enum class PublishedRadii
 {
   HumanGenu,
@@ -25,23 +25,23 @@ enum class PublishedRadii
   MouseGenu
 };
 
-/// How many axons of a tissue have diameters from where to where. All of them are inner diameters (of axons without their myelin)
-/// in tissue as it was fixed, whose shrinkage is not made good.
+/// The numbers of axons by diameter in a tissue. All are inner diameters (of axons without their myelin) in fixed tissue, not
+/// corrected for shrinkage.
 struct RadiusHistogram
 {
   std::string name;           ///< tissue and source in a few words
-  std::string source;         ///< paper and figure, what was measured there and how it came here
+  std::string source;         ///< paper and figure, the quantity measured, and how the numbers were obtained
   double begin;               ///< lower end of the first bin, µm of diameter
-  double width;               ///< of each bin, µm of diameter
-  std::vector<double> shares; ///< of the axons in each bin; they need not add up to 1
+  double width;               ///< width of each bin, µm of diameter
+  std::vector<double> shares; ///< fraction of the axons in each bin; the sum need not be 1
 
-  /// Mean of the radius, and of its powers: ⟨rⁿ⟩ in µmⁿ, where every axon has the diameter of the middle of its bin.
+  /// Returns ⟨rⁿ⟩ in µmⁿ, where every axon has the diameter of the middle of its bin.
   double meanPower(int power) const;
   double meanRadius() const { return this->meanPower(1); }
   double deviation() const;
-  /// (⟨r⁶⟩ / ⟨r²⟩)^¼, which decides on the signal of diffusion across axons.
+  /// Returns (⟨r⁶⟩ / ⟨r²⟩)^¼, which determines the diffusion signal across axons.
   double effectiveRadius() const;
-  /// Lower end of the first bin that has axons, and upper end of the last one, as radii (µm).
+  /// Returns the lower end of the first non-empty bin, or the upper end of the last one, as a radius (µm).
   double smallestRadius() const;
   double largestRadius() const;
 };
@@ -50,10 +50,11 @@ const std::vector<RadiusHistogram>& radiusHistograms();
 
 const RadiusHistogram& radiusHistogram(PublishedRadii which);
 
-/// Their names, as choices.
+/// Returns their names, as choices.
 std::vector<std::string> radiusHistogramNames();
 
-/// An axon's diameter (µm): bins are as likely as their shares, and within a bin all diameters are alike. Takes one number.
+/// Draws an axon's diameter (µm): bins are as likely as their shares, and diameters are uniform within a bin. Uses one number of
+/// the engine.
 double sampleDiameter(const RadiusHistogram& histogram, RandomEngine& engine);
 
 } // namespace cactus

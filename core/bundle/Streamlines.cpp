@@ -51,7 +51,7 @@ std::vector<std::size_t> selected(const Streamlines& streamlines, const TractFib
   throw InvalidInput(text("there is no streamline ", options.first, " (FirstStreamline): the input has ", streamlines.size()));
 }
 
-/// The point half way along a streamline.
+/// Returns the point half way along a streamline.
 Eigen::Vector3d halfWay(const Streamlines& streamlines, std::size_t streamline)
 {
   const std::size_t begin = streamlines.offsets[streamline];
@@ -97,7 +97,7 @@ StreamlinePlace nearestPlace(const Streamlines& streamlines, std::size_t streaml
   return nearest;
 }
 
-/// The places of all these streamlines, the nearest first, equal ones in their order.
+/// Returns the nearest places to `to` on these streamlines, the nearest first, equal ones in their order.
 std::vector<StreamlinePlace> placesBy(
   const Streamlines& streamlines, const std::vector<std::size_t>& which, const Eigen::Vector3d& to)
 {

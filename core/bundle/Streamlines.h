@@ -11,12 +11,12 @@
 namespace cactus
 {
 
-/// Polylines, in whatever unit: streamline s owns the points [offsets[s], offsets[s + 1]).
+/// Polylines in any unit: streamline s owns the points [offsets[s], offsets[s + 1]).
 struct Streamlines
 {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::size_t> offsets{ 0 }; ///< size() + 1 entries
-  std::vector<int> bundleIds;            ///< one per streamline, positive; empty where none are known
+  std::vector<int> bundleIds;            ///< one per streamline, positive; empty if unknown
 
   std::size_t size() const { return offsets.size() - 1; }
   std::size_t pointCount(std::size_t streamline) const { return offsets[streamline + 1] - offsets[streamline]; }
@@ -26,7 +26,7 @@ struct Streamlines
 /// or more with finite coordinates of reasonable size, not all in one place.
 void validate(const Streamlines& streamlines);
 
-/// The place on a streamline that is nearest to somewhere.
+/// The point on a streamline that is nearest to a given position.
 struct StreamlinePlace
 {
   std::size_t streamline = 0;
@@ -35,17 +35,17 @@ struct StreamlinePlace
   double distance = 0.0;
 };
 
-/// Where the domain is put, and the streamlines that were chosen.
+/// The position of the domain, and the chosen streamlines.
 struct StreamlineChoice
 {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  /// Their places nearest to the middle, the nearest streamline first.
+  /// The nearest place to the middle on each chosen streamline, the nearest streamline first.
   std::vector<StreamlinePlace> places;
 };
 
-/// Takes the streamlines that the options select. The middle is the place on them that is nearest to the point asked for, or to
-/// the mean of the points half way along each. Kept are as many of those nearest to the middle as asked for, none of them farther
-/// than `reach`, in the unit of the points. Precondition: validate(streamlines). Throws InvalidInput where none is selected.
+/// Chooses the streamlines that the options select. The middle is the nearest place on them to the requested point, or to the
+/// mean of their half-way points. The requested number of streamlines nearest to the middle is kept, none of them farther than
+/// `reach`, in the unit of the points. Precondition: validate(streamlines). Throws InvalidInput if none is selected.
 StreamlineChoice chooseStreamlines(const Streamlines& streamlines, const TractFibresOptions& options, double reach);
 
 } // namespace cactus

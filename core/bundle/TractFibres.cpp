@@ -20,9 +20,9 @@ namespace cactus
 namespace
 {
 
-/// A path bends with a radius no smaller than this many of its bundle's.
+/// The smallest bend radius of a path, in radii of its bundle.
 constexpr double leastBend = 1.1;
-/// Circles that are packed at least, so that their density can be that asked for.
+/// Least number of packed circles for the density to be accurate.
 constexpr double fewestCircles = 64.0;
 
 /// Sizes (µm) that follow from the options.
@@ -30,7 +30,7 @@ struct TractSizes
 {
   BundleInitializerOptions straight; ///< the bundle with its fibres as thin as they start
   double thinning = 1.0;
-  double reach = 0.0; ///< of the farthest that a fibre may be from the domain's middle and still come into it
+  double reach = 0.0; ///< largest distance from the domain's middle of a fibre that still enters the domain
 };
 
 TractSizes sizesOf(const TractFibresOptions& options)
@@ -43,7 +43,7 @@ TractSizes sizesOf(const TractFibresOptions& options)
   return sizes;
 }
 
-/// How long a stretch runs within the domain (µm).
+/// Returns the length of a stretch within the domain (µm).
 double lengthWithin(const std::vector<Eigen::Vector3d>& points, const Domain& domain)
 {
   double length = 0.0;
@@ -55,11 +55,11 @@ double lengthWithin(const std::vector<Eigen::Vector3d>& points, const Domain& do
   return length;
 }
 
-/// The stretches of the streamlines that come into the domain, as samples as far apart as a bundle that covers it allows.
+/// The streamlines that enter the domain, sampled as coarsely as a bundle that covers it allows.
 struct ChosenStretches
 {
   std::vector<StreamlinePlace> places;
-  double length = 0.0; ///< µm, of all of them within the domain
+  double length = 0.0; ///< µm, total within the domain
 };
 
 ChosenStretches stretchesWithin(
@@ -79,7 +79,7 @@ ChosenStretches stretchesWithin(
   return chosen;
 }
 
-/// Throws OutOfMemory where the circles of one bundle, and the fibres in the domain, could not be held.
+/// Throws OutOfMemory if the circles of one bundle, or the fibres in the domain, would not fit into memory.
 void requireMemoryForTract(const TractFibresOptions& options, const TractSizes& sizes, double radius)
 {
   const double each = meanCircleArea(sizes.straight.radius);
@@ -97,8 +97,8 @@ struct PlacedCircle
   double radius;
 };
 
-/// Packed circles around the origin whose area comes as near as whole circles do to the part asked of a disc plus `owed`, which
-/// is left with what is missing (µm²).
+/// Returns packed circles around the origin whose area comes as near as whole circles allow to the requested fraction of a disc
+/// plus `owed`, which receives the missing area (µm²).
 std::vector<PlacedCircle> circlesWithin(
   double radius, const TractSizes& sizes, std::size_t path, double& owed, const Context& context)
 {
@@ -106,7 +106,7 @@ std::vector<PlacedCircle> circlesWithin(
   const double needed = std::sqrt(fewestCircles * meanCircleArea(square.radius) / square.fibreVolumeFraction);
   square.side = std::max({ 2.0 * (radius + square.radius.maximum), 4.0 * square.radius.maximum, needed });
   square.margin = 0.0;
-  square.seed = sizes.straight.seed + (static_cast<std::uint64_t>(path) << 32); // seeds of users have 31 bits
+  square.seed = sizes.straight.seed + (static_cast<std::uint64_t>(path) << 32); // users' seeds have 31 bits
   std::vector<Bundle> bundles = { layOutSingle(square) };
   packFaces(bundles, square, context);
   const Circles& circles = bundles.front().bottom;
@@ -138,11 +138,11 @@ std::vector<PlacedCircle> circlesWithin(
   return placed;
 }
 
-/// The part of a line from where it first comes into a domain grown by `margin` to where it last leaves it.
+/// Returns the part of a line between its first entry into a domain grown by `margin` and its last exit.
 std::vector<Eigen::Vector3d> partWithin(const std::vector<Eigen::Vector3d>& line, const Domain& domain, double margin)
 {
   std::vector<Eigen::Vector3d> kept;
-  std::vector<Eigen::Vector3d> outside; ///< since it was left
+  std::vector<Eigen::Vector3d> outside; ///< points since the last exit
   for (std::size_t i = 0; i + 1 < line.size(); ++i)
   {
     const auto part = domain.clip(line[i], line[i + 1], margin);
@@ -165,7 +165,7 @@ std::vector<Eigen::Vector3d> partWithin(const std::vector<Eigen::Vector3d>& line
   return kept;
 }
 
-/// Adds a fibre along a line, its control points evenly apart.
+/// Adds a fibre along a line, with evenly spaced control points.
 void addAlong(
   const std::vector<Eigen::Vector3d>& line, double length, int bundleId, double radius, double spacing, Fibres& fibres)
 {
@@ -202,7 +202,7 @@ void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, 
     const double target = circle.radius / thinning;
     const std::vector<Eigen::Vector3d> kept = partWithin(line, fibres.domain, options.margin + target);
     const double length = lengthOf(kept);
-    // What is shorter cuts a corner of the grown domain too far outside for the fibre to touch the domain.
+    // A shorter piece cuts a corner of the grown domain, too far outside for the fibre to touch the domain.
     if (length > 0.8 * target)
     {
       const double spacing = std::clamp(options.spacingFactor * circle.radius, options.minimumSpacing, options.maximumSpacing);
@@ -212,7 +212,7 @@ void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, 
   }
 }
 
-/// Sets what the fibres are to grow to, in proportion to what they fill of the domain.
+/// Sets the fraction that growth is to fill, in proportion to the fibres' fraction of the domain.
 void setGrownFraction(const TractFibresOptions& options, double thinning, double reached, Fibres& fibres)
 {
   const double grown = reached / (thinning * thinning);
@@ -224,7 +224,7 @@ void setGrownFraction(const TractFibresOptions& options, double thinning, double
   fibres.grownFraction = options.grownFibreVolumeFraction > 0.0 ? grown : 0.0;
 }
 
-/// How many ends of streamlines lie in the domain.
+/// Returns the number of streamline ends in the domain.
 int endsWithin(const TractStretch& stretch, const Domain& domain)
 {
   return static_cast<int>(

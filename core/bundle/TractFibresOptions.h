@@ -11,45 +11,47 @@
 namespace cactus
 {
 
-/// Among which streamlines those are looked for that fibres follow.
+/// The streamlines that fibres may follow.
 enum class StreamlineSelection
 {
   All,
-  Range, ///< by their places in the input
+  Range, ///< by index in the input
   Bundle ///< by BundleId
 };
 
-/// Where in the tract the middle of the domain lies.
+/// The position of the domain's middle in the tract.
 enum class TractMiddle
 {
   Tract, ///< at the mean of the points half way along each streamline
   Point  ///< at a given point
 };
 
-/// What layTractFibres() is to make. Lengths in µm but for those that are said to be in the streamlines' unit.
+/// Options of layTractFibres(). Lengths in µm unless they are said to be in the streamlines' unit.
 struct TractFibresOptions
 {
   StreamlineSelection select = StreamlineSelection::All;
-  int first = 1; ///< of StreamlineSelection::Range, counted from 1
-  int last = 1;  ///< the same, included; beyond the last one for all that follow
+  int first = 1; ///< for StreamlineSelection::Range, from 1
+  int last = 1;  ///< the last one, included; a larger number means all that follow
   int bundleId = 1;
-  int numberOfStreamlines = 1; ///< of those selected, the nearest to the middle, that fibres follow; 0 for all
+  int numberOfStreamlines = 1; ///< of the selected ones, this many nearest to the middle; 0 for all
   TractMiddle middle = TractMiddle::Tract;
-  double pointX = 0.0; ///< of TractMiddle::Point, in the streamlines' unit
+  double pointX = 0.0; ///< for TractMiddle::Point, in the streamlines' unit
   double pointY = 0.0;
   double pointZ = 0.0;
-  LengthUnit lengthUnit = LengthUnit::Micrometre; ///< of the streamlines' points
-  double scaleFactor = 1.0;                       ///< a length in the substrate over the same length in the tract
+  LengthUnit lengthUnit = LengthUnit::Micrometre; ///< unit of the streamlines' points
+  double scaleFactor = 1.0;                       ///< length in the substrate over length in the tract
   double side = 30.0;                             ///< side of the cubic domain [-side/2, side/2]³
-  /// Part of each bundle's cross-section that the fibres' circles cover.
+  /// Fraction of each bundle's cross-section that the fibres' circles cover.
   double fibreVolumeFraction = 0.7;
-  /// Part of each bundle that growth is to fill later; see BundleInitializerOptions.
+  /// Fraction of each bundle that growth is to fill later; see BundleInitializerOptions.
   double grownFibreVolumeFraction = 0.9;
-  /// Of the bundle around each streamline; 0: a single bundle covers the domain, several are together as large as the domain.
+  /// Diameter of the bundle around each streamline; 0: a single bundle covers the domain, several are together as large as the
+  /// domain.
   double bundleDiameter = 0.0;
-  double margin = 0.0;                                             ///< by which the fibres extend beyond the domain on all sides
-  RadiusDistributionOptions radius;                                ///< of the fibres' outer radii
-  double spacingFactor = BundleInitializerOptions().spacingFactor; ///< as in BundleInitializerOptions, like those that follow
+  double margin = 0.0;                                             ///< width by which the fibres extend beyond the domain on all
+                                                                   ///< sides
+  RadiusDistributionOptions radius;                                ///< outer radii of the fibres
+  double spacingFactor = BundleInitializerOptions().spacingFactor; ///< as in BundleInitializerOptions, like the next two
   double minimumSpacing = BundleInitializerOptions().minimumSpacing;
   double maximumSpacing = BundleInitializerOptions().maximumSpacing;
   std::uint64_t seed = 1;
@@ -57,9 +59,9 @@ struct TractFibresOptions
   static const PropertyList<TractFibresOptions>& properties();
   /// Throws InvalidInput, naming the property, unless every value that has an effect is within its range.
   void validate() const;
-  /// The straight bundle of the same fibres, whose faces are as wide as the domain with its margin.
+  /// Returns the straight bundle of the same fibres, whose faces are as wide as the domain with its margin.
   BundleInitializerOptions straightBundle() const;
-  /// Micrometres in the substrate for one unit of the streamlines.
+  /// Returns micrometres in the substrate for one unit of the streamlines.
   double scale() const { return this->scaleFactor * micrometresIn(this->lengthUnit); }
 };
 

@@ -21,20 +21,22 @@ constexpr double mostSamples = 1024.0; ///< on either side of the middle
 /// A polyline from the middle outwards.
 using Arm = std::vector<Eigen::Vector3d>;
 
-/// The direction in which an arm ends: that of its last step, or where it has none, of the first step of the other one reversed.
+/// Returns the direction at the end of an arm: that of its last step or, without a step, the reverse of the other arm's first
+/// step.
 Eigen::Vector3d endOf(const Arm& arm, const Arm& other)
 {
   return arm.size() > 1 ? (arm[arm.size() - 1] - arm[arm.size() - 2]).normalized() : (other[0] - other[1]).normalized();
 }
 
-/// How far from `from` in a direction (a unit vector) a ball about the origin is left, in which `from` lies.
+/// Returns the distance from `from`, inside a ball about the origin, to the ball's surface in a direction (a unit vector).
 double wayOut(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double radius)
 {
   const double along = from.dot(direction);
   return std::sqrt(std::max(0.0, along * along + radius * radius - from.squaredNorm())) - along;
 }
 
-/// Points as far as they are within `far` of the origin, where the first one is, without steps that have no direction.
+/// Returns the points until the line leaves the ball of radius `far` about the origin, the exit point included; zero-length steps
+/// are skipped.
 Arm armOf(const std::vector<Eigen::Vector3d>& points, double far)
 {
   const double shortest = 1e-9 * far;
@@ -59,7 +61,7 @@ Arm armOf(const std::vector<Eigen::Vector3d>& points, double far)
   return arm;
 }
 
-/// The points of a polyline at each `spacing` of its length, without its beginning.
+/// Returns the points of a polyline at each `spacing` of its length, without its beginning.
 std::vector<Eigen::Vector3d> sampled(const std::vector<Eigen::Vector3d>& line, double spacing)
 {
   std::vector<Eigen::Vector3d> samples;
@@ -91,7 +93,7 @@ std::vector<Eigen::Vector3d> tangentsOf(const std::vector<Eigen::Vector3d>& poin
   return tangents;
 }
 
-/// How points deviate from the chord between the first and the last, as a sum of sines, which are zero at both.
+/// The deviations of points from the chord between the first and the last, as a sum of sines, which are zero at both.
 class Deviations
 {
 public:
@@ -117,7 +119,7 @@ public:
     }
   }
 
-  /// All points but the first and the last, smoothed by a Gaussian whose standard deviation is given in steps.
+  /// Smooths all points but the first and the last by a Gaussian whose standard deviation is given in steps.
   void smooth(double deviation, std::vector<Eigen::Vector3d>& points) const
   {
     const double decay = pi * deviation / static_cast<double>(this->Steps);
@@ -151,18 +153,18 @@ private:
   Eigen::Vector3d First;
   Eigen::Vector3d Last;
   std::size_t Steps;
-  std::vector<double> Sines;                 ///< of π i over the steps
-  std::vector<Eigen::Vector3d> Coefficients; ///< from the longest wave on
+  std::vector<double> Sines;                 ///< sin(π i / Steps)
+  std::vector<Eigen::Vector3d> Coefficients; ///< longest wave first
 };
 
-/// The sample next to the origin.
+/// Returns the index of the sample nearest to the origin.
 std::size_t nearestSample(const std::vector<Eigen::Vector3d>& points)
 {
   const auto nearer = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.squaredNorm() < b.squaredNorm(); };
   return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), nearer) - points.begin());
 }
 
-/// Some direction across another one: the part across it of the axis that is most nearly so.
+/// Returns a direction across `tangent`: the part across it of the axis that is most nearly perpendicular.
 Eigen::Vector3d acrossOf(const Eigen::Vector3d& tangent)
 {
   Eigen::Index axis = 0;
@@ -171,7 +173,7 @@ Eigen::Vector3d acrossOf(const Eigen::Vector3d& tangent)
   return (chosen - chosen.dot(tangent) * tangent).normalized();
 }
 
-/// The axis across of the next point: the one here, reflected twice.
+/// Returns the next point's axis: this one, reflected twice.
 Eigen::Vector3d carriedAxis(
   const Eigen::Vector3d& axis, const Eigen::Vector3d& step, const Eigen::Vector3d& tangent, const Eigen::Vector3d& nextTangent)
 {
@@ -182,7 +184,7 @@ Eigen::Vector3d carriedAxis(
   const double squared = between.squaredNorm();
   const Eigen::Vector3d carried =
     squared > 0.0 ? Eigen::Vector3d(mirrored - 2.0 / squared * between.dot(mirrored) * between) : mirrored;
-  return (carried - carried.dot(nextTangent) * nextTangent).normalized(); // against rounding
+  return (carried - carried.dot(nextTangent) * nextTangent).normalized(); // corrects rounding
 }
 
 } // namespace
@@ -248,7 +250,7 @@ double smallestBend(const std::vector<Eigen::Vector3d>& points)
     const Eigen::Vector3d after = points[i + 1] - points[i];
     const double sides = before.norm() * after.norm() * (before + after).norm();
     const double area = 2.0 * before.cross(after).norm();
-    const bool turnsBack = before.dot(after) <= 0.0; // or stands still
+    const bool turnsBack = before.dot(after) <= 0.0; // or does not move
     if (area > 0.0 || turnsBack)
     {
       smallest = std::min(smallest, turnsBack ? 0.0 : sides / area);
@@ -267,7 +269,7 @@ double roundOff(TractStretch& stretch, double radius)
   const Deviations deviations(stretch.points);
   const double spacing = (stretch.points[1] - stretch.points[0]).norm();
   const auto steps = static_cast<double>(stretch.points.size());
-  constexpr double finer = 1.25; ///< of each Gaussian to the one before
+  constexpr double finer = 1.25; ///< ratio of each Gaussian to the one before
   for (double deviation = 0.5; chord >= radius && deviation < 4.0 * steps; deviation *= finer)
   {
     deviations.smooth(deviation, stretch.points);

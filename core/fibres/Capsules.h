@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// Both ends of a capsule with their radii in one cache line, which is what a loop over pairs reads.
+/// Both ends of a capsule with their radii in one cache line, the unit that a loop over pairs reads.
 struct alignas(64) Capsule
 {
   double p0[3];
@@ -23,14 +23,13 @@ struct Capsules
 {
   std::vector<Capsule> bodies;
   std::vector<std::uint32_t> first;
-  std::vector<std::uint32_t> fibre; ///< index of the fibre in its Fibres, not FibreId
-  std::vector<Eigen::Vector3d>
-    places; ///< per fibre, where it belongs beside others that lie in the same place: random, by FibreId
+  std::vector<std::uint32_t> fibre;    ///< index of the fibre in its Fibres, not FibreId
+  std::vector<Eigen::Vector3d> places; ///< per fibre, a random point by FibreId that breaks ties between fibres in the same place
 
   std::size_t size() const { return bodies.size(); }
 };
 
-/// Consecutive ones: begin … end − 1.
+/// Consecutive capsules: begin … end − 1.
 struct CapsuleRange
 {
   std::size_t begin = 0;
@@ -41,7 +40,7 @@ struct CapsuleRange
 
 Capsules capsulesOf(const Fibres& fibres);
 
-/// The places of fibres (see Capsules), given their FibreIds.
+/// Returns the places of fibres (see Capsules) by FibreId.
 std::vector<Eigen::Vector3d> placesOf(const std::vector<int>& fibreIds);
 
 } // namespace cactus

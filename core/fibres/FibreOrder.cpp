@@ -15,7 +15,7 @@ namespace cactus
 namespace
 {
 
-/// The bits of a number below 2²¹, each followed by two zeros.
+/// Returns the bits of a number below 2²¹, each followed by two zeros.
 std::uint64_t spread(std::uint64_t x)
 {
   x = (x | (x << 32)) & 0x001f00000000ffffu;

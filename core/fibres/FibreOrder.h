@@ -9,18 +9,18 @@
 namespace cactus
 {
 
-/// Fibres in an order in which those that lie beside each other mostly follow each other, so that loops over neighbours find what
-/// they read in the cache: along a Morton curve through the fibres' middles. Made once, for a set of fibres and all states of it.
+/// An order in which fibres beside each other mostly follow each other, so that loops over neighbours read from the cache: along
+/// a Morton curve through the fibres' middles. Made once, for a set of fibres and all its states.
 class FibreOrder
 {
 public:
   /// Precondition: validate(fibres).
   explicit FibreOrder(const Fibres& fibres);
 
-  /// The same fibres in this order. What is given has as many fibres and control points as those it was made for.
+  /// Returns the same fibres in this order. `fibres` has as many fibres and control points as those of the constructor.
   Fibres ordered(const Fibres& fibres) const;
 
-  /// Puts values per control point, taken in this order, where they belong in the fibres that it was made for.
+  /// Writes values per control point, given in this order, in the order of the constructor's fibres.
   template <typename Value>
   void restore(const std::vector<Value>& ordered, std::vector<Value>& original) const
   {
@@ -31,8 +31,8 @@ public:
     }
   }
 
-  /// The same for some of the values, the first of which belongs to the control point at `place` in this order. `original` has
-  /// room for all.
+  /// Does the same for a part of the values, the first of which belongs to the control point at `place` in this order. `original`
+  /// already has its full size.
   template <typename Value>
   void restore(const Value* ordered, std::size_t count, std::size_t place, std::vector<Value>& original) const
   {
@@ -43,8 +43,8 @@ public:
   }
 
 private:
-  std::vector<std::size_t> Order;  ///< fibre by place
-  std::vector<std::size_t> Points; ///< control point by place
+  std::vector<std::size_t> Order;  ///< fibre index by place
+  std::vector<std::size_t> Points; ///< control point index by place
 };
 
 } // namespace cactus

@@ -29,7 +29,7 @@ double largestCrossingAngle(const Fibres& fibres)
   {
     for (std::size_t b = a + 1; b < axes.size(); ++b)
     {
-      // The arc tangent keeps its precision where bundles are nearly parallel.
+      // The arc tangent keeps its precision for nearly parallel bundles.
       largest = std::max(largest, radian * std::atan2(axes[a].cross(axes[b]).norm(), std::abs(axes[a].dot(axes[b]))));
     }
   }
@@ -71,7 +71,7 @@ FibreShape measureShape(const Fibres& fibres)
         continue;
       }
       const Eigen::Vector3d u = fibres.points[i] - fibres.points[i - 1];
-      // Turns below a millionth are rounding.
+      // Angles below a millionth are rounding.
       const double sine = u.cross(v).norm() / (u.norm() * v.norm());
       if (sine > 1e-6 || u.dot(v) < 0.0)
       {
@@ -93,7 +93,7 @@ double radiusDistance(const Fibres& a, const Fibres& b)
   std::size_t j = 0;
   while (i < first.size() && j < second.size())
   {
-    // Past all that equal the smaller of the two, on both sides.
+    // Skips all values that equal the smaller of the two, on both sides.
     const double radius = std::min(first[i], second[j]);
     while (i < first.size() && first[i] == radius)
     {

@@ -6,7 +6,7 @@
 namespace cactus
 {
 
-/// How fibres run; what an optimiser should change as little as it can.
+/// The shape of fibres, which an optimiser should change as little as it can.
 struct FibreShape
 {
   double meanDispersion = 0.0;     ///< degrees, see meanDispersion
@@ -18,7 +18,7 @@ struct FibreShape
   double smallestCurvatureRadius = 0.0; ///< µm, the smallest such radius itself
 };
 
-/// Measures the fibres from end to end, also outside the domain.
+/// Measures the fibres over their whole length, also outside the domain.
 FibreShape measureShape(const Fibres& fibres);
 
 /// Kolmogorov–Smirnov distance between the radii of two sets of fibres: the largest difference of their distribution functions,

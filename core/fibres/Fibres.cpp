@@ -125,7 +125,7 @@ void validate(const Fibres& fibres)
     {
       validateControlPoint(fibres, f, i, name);
     }
-    // After the radii, from which a missing target is made.
+    // Checked after the radii, from which a missing target is computed.
     if (!limits::radius.holds(fibres.targetRadii[f]))
     {
       requireWithin((name + ": TargetRadius").c_str(), fibres.targetRadii[f], limits::radius);

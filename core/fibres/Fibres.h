@@ -23,7 +23,7 @@ struct Fibres
   std::vector<int> bundleIds;            ///< one per fibre, positive
   std::vector<double> targetRadii;       ///< sampled outer radius, one per fibre
   Domain domain;
-  /// Part of the domain that the fibres are to fill once growth has brought them to their target radii; 0 where none is known.
+  /// Fraction of the domain that the fibres are to fill once growth has brought them to their target radii; 0 if unknown.
   double grownFraction = 0.0;
 
   std::size_t size() const { return offsets.size() - 1; }
@@ -53,14 +53,14 @@ double capsuleVolumeInDomain(const Fibres& fibres);
 /// of the end-to-end unit directions of the bundle's fibres. `bundleId` 0 averages over all bundles' fibres.
 double meanDispersion(const Fibres& fibres, int bundleId = 0);
 
-/// The same for the directions of all segments, weighted by their length.
+/// Returns the same for the directions of all segments, weighted by their length.
 double meanTangentDispersion(const Fibres& fibres, int bundleId = 0);
 
-/// The axis (unit vector) of a bundle: the normalised sum of its fibres' end-to-end unit directions, each counted in the
-/// sense that agrees with the first fibre's; +z where all of them end where they begin.
+/// Returns the axis (unit vector) of a bundle: the normalised sum of its fibres' end-to-end unit directions, each reversed if it
+/// points against the first fibre's; +z if every fibre ends where it begins.
 Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId);
 
-/// The axes of all bundles, by BundleId.
+/// Returns the axes of all bundles, by BundleId.
 std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres);
 
 } // namespace cactus

@@ -17,7 +17,7 @@ namespace cactus
 namespace
 {
 
-/// The ids of `added`, all moved above the largest of `taken` if one of them is in use.
+/// Returns the ids of `added`, all moved above the largest of `taken` if one of them is in use.
 std::vector<int> freeIds(const std::vector<int>& taken, const std::vector<int>& added)
 {
   const std::unordered_set<int> used(taken.begin(), taken.end());

@@ -14,10 +14,10 @@ namespace cactus
 /// is no id free.
 void appendFibres(const Fibres& added, Fibres& all);
 
-/// All fibres as those of one substrate, in their order. Throws InvalidInput where the domains differ, or as appendFibres() does.
+/// Joins fibres into one substrate, in their order. Throws InvalidInput if the domains differ, or as appendFibres() does.
 Fibres joinFibres(std::vector<Fibres> inputs);
 
-/// Whether two domains are the same to 1e-9 µm.
+/// Tells whether two domains are equal to 1e-9 µm.
 bool isSame(const Domain& a, const Domain& b);
 
 } // namespace cactus

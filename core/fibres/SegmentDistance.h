@@ -40,9 +40,9 @@ inline __attribute__((always_inline)) void closestParameters(
   s = free == t ? first : second;
 }
 
-/// Parameters in single precision, for vectors of floats: of points whose squared distance is that of the closest ones but for
-/// 10⁻⁵ (a + e + distance²) at most, also where segments are next to parallel, and the determinant is nothing but rounding (which
-/// is less than 10⁻⁶ a·e). There the cost of another s than the stationary one is small as long as it lies on the same side.
+/// Computes parameters in single precision, for vectors of floats. The squared distance of their points exceeds the smallest one
+/// by at most 10⁻⁵ (a + e + distance²), even for nearly parallel segments, whose determinant is only rounding (below 10⁻⁶ a·e).
+/// For those, an s other than the stationary one costs little if it lies on the same side.
 template <typename Floats>
 inline __attribute__((always_inline)) void nearlyClosestParameters(const Floats& a, const Floats& inverseA, const Floats& e,
   const Floats& b, const Floats& c, const Floats& f, Floats& s, Floats& t)

@@ -9,10 +9,10 @@
 namespace cactus
 {
 
-/// The fibres with these numbers, in their order, with all that is known of them, in the same domain.
+/// Returns the fibres with these indices, in this order, with all their data and the same domain.
 Fibres selectFibres(const Fibres& fibres, const std::vector<std::size_t>& which);
 
-/// The numbers of all of them by increasing id.
+/// Returns the indices of all fibres by increasing FibreId.
 std::vector<std::size_t> orderById(const Fibres& fibres);
 
 } // namespace cactus

@@ -13,8 +13,8 @@ namespace cactus
 namespace
 {
 
-/// Whether a fibre that leaves after one control point comes back at another so near that the two pieces could meet, grown by up
-/// to their radius: then they are one.
+/// Tells whether a fibre that leaves after one control point comes back at another so near that the two pieces, grown by up to
+/// their radius, could meet: then they stay one piece.
 bool comesBackAtOnce(const Fibres& fibres, std::size_t left, std::size_t back)
 {
   return (fibres.points[back] - fibres.points[left]).norm() < 2.0 * (fibres.radii[left] + fibres.radii[back]);

@@ -18,7 +18,7 @@ namespace
 /// Width of the classes (µm) in which arrivals are counted.
 constexpr double growthClass = 0.00025;
 
-/// The layers of a grid that are this process's, whole blocks of a sweep.
+/// Returns the layers of a grid that this process counts, in whole blocks of a sweep.
 VoxelGrid partOf(const VoxelGrid& grid, const Sharing& sharing)
 {
   constexpr int layers = 16;
@@ -44,7 +44,7 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   const double first = -largestRadius(fibres) - growthClass;
   const auto classes = std::size_t(std::ceil((reach - first) / growthClass)) + 1;
   Context sweeping = context;
-  sweeping.threads = context.threadCount(); // which may say something else the next time
+  sweeping.threads = context.threadCount(); // fixed here, because it may change between calls
   std::vector<std::vector<std::uint64_t>> perThread(std::size_t(sweeping.threads), std::vector<std::uint64_t>(classes + 1, 0));
   const auto never = static_cast<int>(classes);
   FieldRelevance relevance;
@@ -57,7 +57,7 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   field.sweep(partOf(grid, sharing), relevance, sweeping, 0.3, 0.5, "finding the growth that reaches the target",
     [&](const FieldCell& cell, int thread)
     {
-      // First the class of each sample, without branches, where those that never arrive have one of their own.
+      // First the class of each sample, without branches; samples that never arrive have their own class.
       std::array<int, FieldCell::size> classOf;
       for (std::size_t n = 0; n < classOf.size(); ++n)
       {
@@ -109,7 +109,7 @@ VoxelGrid sampleGrid(const Domain& domain, double samples)
   {
     const int count = std::max(1, static_cast<int>(std::round(size[axis] / grid.spacing)));
     grid.count[static_cast<std::size_t>(axis)] = count;
-    // Centred: what a side leaves over is shared by its two ends.
+    // Centred: the rest of a side is divided between its two ends.
     grid.origin[axis] = domain.lower[axis] + 0.5 * (size[axis] - (count - 1) * grid.spacing);
   }
   return grid;

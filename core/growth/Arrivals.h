@@ -13,10 +13,10 @@
 namespace cactus
 {
 
-/// Growth beyond this (µm) is not looked for.
+/// Growth beyond this (µm) is not considered.
 constexpr double largestGrowth = 8.0;
 
-/// At how much growth the samples of a grid become part of a fibre: counts by classes of growth.
+/// A histogram of the growth at which the samples of a grid become part of a fibre.
 struct Arrivals
 {
   double first = 0.0;                ///< growth at the lower end of the first class
@@ -25,20 +25,20 @@ struct Arrivals
   std::uint64_t samples = 0;         ///< all samples
 };
 
-/// Counts over `grid`, up to a growth of `reach`. Throws OutOfMemory and Cancelled.
+/// Counts the samples of `grid`, up to a growth of `reach`. Throws OutOfMemory and Cancelled.
 Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& options, const VoxelGrid& grid, double reach,
   const Context& context, const Sharing& sharing = Sharing());
 
-/// The growth at which `target` of the samples lie in a fibre; infinite where the counts end before.
+/// Returns the growth at which `target` of the samples lie in a fibre; infinite if the counts end before.
 double growthAt(const Arrivals& arrivals, double target);
 
-/// So many samples are counted to find the growth that meets a target.
+/// Number of samples that are counted to find the growth that meets a target.
 constexpr double samplesForTarget = 8e6;
 
-/// About `samples` points spread evenly over the domain.
+/// Returns a grid of about `samples` points spread evenly over the domain.
 VoxelGrid sampleGrid(const Domain& domain, double samples);
 
-/// The growth at which the target is met over few samples: roughly how far to grow; infinite where it is not met.
+/// Returns the growth at which few samples meet the target, as a rough estimate; infinite if they do not.
 double roughGrowth(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing = Sharing());
 

@@ -14,18 +14,18 @@ namespace
 
 constexpr double blockHalf = 0.5 * (BlockEvaluation::blockSize - 1);
 constexpr int cellSize = FieldCell::edge;
-/// Samples along each side of the parts of a block whose cells have their narrowed candidates in common.
+/// Samples along each side of the parts of a block whose cells share their narrowed candidates.
 constexpr int partSize = 8;
-/// A search takes as long as looking at so many pieces, were there none.
+/// The fixed cost of a search, as a number of pieces.
 constexpr double piecesPerSearch = 32.0;
 
-/// Single precision is good to some 1e-7 of a block's neighbourhood; the slack keeps decisions on the safe side of it.
+/// Single precision has an error of some 1e-7 of a block's neighbourhood; the slack keeps decisions on the safe side of it.
 double slackened(double extent)
 {
   return extent * (1.0 + 1e-5) + 1e-5;
 }
 
-/// So many samples along each edge.
+/// Returns a cube with `samples` samples along each edge.
 SamplePlace cubeOf(int samples, double spacing)
 {
   const double half = 0.5 * spacing * (samples - 1);
@@ -68,7 +68,8 @@ BlockEvaluation::BlockEvaluation(const CapsuleSeeds& seeds, const SeedBins& bins
   }
 }
 
-/// Where samples lie close together, a block has its candidates in common; where they are further apart, it would have too many.
+/// Chooses the edge that costs least: closely spaced samples of a block share their candidates; for widely spaced ones there
+/// would be too many.
 int BlockEvaluation::chooseSearchEdge() const
 {
   int best = blockSize;
@@ -100,7 +101,7 @@ void BlockEvaluation::evaluate(const Eigen::Array3i& lower)
   }
 }
 
-/// Of the cube that begins `at` a place of the block.
+/// Finds the candidates of the cube that begins `at` a place of the block.
 Candidates& BlockEvaluation::findCandidates(const Eigen::Array3i& lower, const Eigen::Array3i& at)
 {
   const double h = this->Grid.spacing;
@@ -111,7 +112,7 @@ Candidates& BlockEvaluation::findCandidates(const Eigen::Array3i& lower, const E
     place(first + at.cast<double>() + half), slackened(h * half * std::sqrt(3.0)), this->Relevance, place(first + blockHalf));
 }
 
-/// Of samples that have their candidates in common.
+/// Evaluates samples that share their candidates.
 void BlockEvaluation::evaluateCube(const Eigen::Array3i& lower, const Eigen::Array3i& at)
 {
   int begin[3];
@@ -139,7 +140,7 @@ void BlockEvaluation::evaluateCube(const Eigen::Array3i& lower, const Eigen::Arr
   }
 }
 
-/// part: where in the block it begins.
+/// Evaluates a part of a block. part: where in the block it begins.
 void BlockEvaluation::evaluatePart(const Eigen::Array3i& lower, const Eigen::Array3i& part, const ConeGroups& candidates)
 {
   int begin[3];
@@ -163,7 +164,7 @@ void BlockEvaluation::evaluatePart(const Eigen::Array3i& lower, const Eigen::Arr
   }
 }
 
-/// at: where in the block the cell begins.
+/// Evaluates a cell. at: where in the block it begins.
 void BlockEvaluation::evaluateCell(const Eigen::Array3i& lower, const Eigen::Array3i& at, const ConeGroups& candidates)
 {
   FieldCell cell;
@@ -185,7 +186,7 @@ void BlockEvaluation::evaluateCell(const Eigen::Array3i& lower, const Eigen::Arr
   this->HandOver(cell, this->Thread);
 }
 
-/// Which samples of a cube the grid holds, counted from its first one, `lower`; false for none.
+/// Finds the samples of a cube that the grid contains, relative to its first one, `lower`; false if there are none.
 bool BlockEvaluation::findHeld(const Eigen::Array3i& lower, int edge, int (&begin)[3], int (&end)[3]) const
 {
   for (int axis = 0; axis < 3; ++axis)

@@ -17,17 +17,17 @@
 namespace cactus
 {
 
-/// Evaluates one block of the index space after the other, cell by cell; each thread has one of its own.
+/// Evaluates blocks of the index space, cell by cell; each thread has its own.
 class BlockEvaluation
 {
 public:
-  /// Samples along each side of a block, in which single-precision arithmetic is relative to the block's centre.
+  /// Samples along each side of a block. Single-precision arithmetic is relative to the block's centre.
   static constexpr int blockSize = 16;
 
   BlockEvaluation(const CapsuleSeeds& seeds, const SeedBins& bins, const VoxelGrid& grid, const FieldRelevance& relevance,
     const FieldSink& sink, int thread);
 
-  /// Hands over those of a block's cells that the grid holds samples of. lower: index of the block's first sample.
+  /// Passes those of a block's cells that contain samples of the grid to the sink. lower: index of the block's first sample.
   void evaluate(const Eigen::Array3i& lower);
 
 private:
@@ -46,11 +46,11 @@ private:
   const FieldKernels& Kernels = bestKernels<FieldKernels>();
   const FieldSink& HandOver;
   int Thread;
-  int SearchEdge;  ///< of the cubes of samples for each of which candidates are looked for
-  Candidates Near; ///< of those of a block, the ones that matter in a part of it
+  int SearchEdge;  ///< edge of the cubes of samples that share a search for candidates
+  Candidates Near; ///< those of a block's candidates that matter in a part of it
   SamplePlace Part;
   CellSamples Samples;
-  /// Relative to a block's centre along each axis, the samples of cells that begin at one place of a block after the other.
+  /// Per axis, the sample positions relative to a block's centre, for each place where a cell may begin.
   std::vector<std::array<float, FieldCell::size>> Positions[3];
 };
 

@@ -16,8 +16,8 @@ namespace
 {
 
 /// Distance (µm) of the knots between which the calibre varies, and of the places between which it varies linearly. Beads follow
-/// each other every few µm (Andersson et al. 2020); shorter ones would grow into a grainy surface rather than an uneven calibre,
-/// and take many triangles.
+/// each other every few µm (Andersson et al. 2020); shorter ones would give a grainy surface rather than an uneven calibre, and
+/// need many triangles.
 constexpr double knotSpacing = 2.0;
 constexpr double linearLength = 1.0;
 
@@ -53,7 +53,7 @@ double FibreCalibre::fraction(double length)
   return this->Fraction;
 }
 
-/// u(l).
+/// Returns u(l).
 double FibreCalibre::narrowing(double length)
 {
   const double knots = length / knotSpacing;
@@ -70,7 +70,7 @@ double FibreCalibre::narrowing(double length)
   return sum;
 }
 
-/// Draws for the four knots from this one on, and keeps what is drawn of them already.
+/// Draws numbers for the four knots from this one on, and keeps those drawn before.
 void FibreCalibre::moveTo(double firstKnot)
 {
   if (firstKnot == this->FirstKnot)
@@ -91,7 +91,7 @@ void FibreCalibre::moveTo(double firstKnot)
   }
 }
 
-/// The root of a knot's coefficient.
+/// Returns the root of a knot's coefficient.
 double FibreCalibre::drawnAt(std::uint32_t knot) const
 {
   RandomEngine engine =

@@ -8,36 +8,36 @@
 namespace cactus
 {
 
-/// How a fibre's calibre varies.
+/// Options of a fibre's calibre.
 struct CalibreOptions
 {
-  /// How far, as a fraction of the local radius, the seeded shape may fall short of the capsule: 0 seeds the capsule itself, more
-  /// makes the calibre uneven. In [0, 0.5].
+  /// How far, as a fraction of the local radius, the seeded shape may fall short of the capsule: 0 seeds the capsule itself,
+  /// larger values make the calibre uneven. In [0, 0.5].
   double surfaceRoughness = 0.1;
   std::uint64_t seed = 1;
 };
 
-/// How thick a fibre is along its axis: the radius that its seed has, as a fraction of that of its capsules, at each length from
-/// its first control point. Another way for a calibre to vary (beading) belongs here: what uses it takes these
-/// fractions and the longest piece, and knows no more.
+/// A fibre's thickness along its axis: the radius of its seed, as a fraction of that of its capsules, at each length from its
+/// first control point. Other variations of calibre (beading) belong here: callers use only these fractions and the longest
+/// piece.
 ///
 /// The paper places seed points at random within all capsules ("FRG description"). Here the fraction is 1 - ρ u(l) with ρ the
 /// SurfaceRoughness and u a smooth random function from 0 to 1: a cubic B-spline over the length l whose coefficients follow the
-/// arcsine distribution, so that most are near 0 or 1. It depends on seed, fibre id and length alone.
+/// arcsine distribution, so that most are near 0 or 1. It depends only on seed, fibre id and length.
 class Calibre
 {
 public:
-  /// Throws InvalidInput for options out of range.
+  /// Checks the options; throws InvalidInput if one is out of range.
   explicit Calibre(const CalibreOptions& options);
 
-  /// Whether the fraction differs from 1 anywhere.
+  /// Tells whether the fraction differs from 1 anywhere.
   bool varies() const { return this->Options.surfaceRoughness > 0.0; }
 
-  /// No fraction is smaller: what is sure to be left of a fibre at any place.
+  /// Returns a lower bound of the fraction.
   double smallestFraction() const { return 1.0 - this->Options.surfaceRoughness; }
 
-  /// Length (µm) of a piece along which the radius may be taken to vary linearly between its ends; infinite for a calibre that
-  /// does not vary.
+  /// Returns the length (µm) of a piece along which the radius may be taken to vary linearly between its ends; infinite for a
+  /// calibre that does not vary.
   double longestPiece() const;
 
 private:
@@ -46,15 +46,14 @@ private:
   CalibreOptions Options;
 };
 
-/// The calibre of one fibre, for one length after the other: what two of them near each other have in common is drawn once, which
-/// changes no bit.
+/// The calibre of one fibre. It keeps the random numbers that nearby lengths share; this changes no bit.
 class FibreCalibre
 {
 public:
-  /// The calibre is to live as long.
+  /// Makes the calibre of a fibre. `calibre` must outlive this object.
   FibreCalibre(const Calibre& calibre, int fibreId);
 
-  /// The fraction, in (0, 1], at `length` (µm, not negative) along the fibre.
+  /// Returns the fraction, in (0, 1], at `length` (µm, not negative) along the fibre.
   double fraction(double length);
 
 private:

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Of searches, in extents, that mostly need not be made again where fibres lie close together.
+/// Reach of a search, in extents, that usually suffices at once if fibres lie close together.
 constexpr double usualReach = 2.5;
 
 } // namespace
@@ -157,7 +157,7 @@ void CandidateSearch::rankFields()
   }
 }
 
-/// How far all pieces must have been collected, given the fields at the centre and that they are 1-Lipschitz.
+/// Returns how far all pieces must have been collected, given the fields at the centre and that they are 1-Lipschitz.
 double CandidateSearch::neededReach(double extent, const FieldRelevance& relevance) const
 {
   double needed = std::min(relevance.bestReach + extent, 2.0 * extent - this->Best);
@@ -169,7 +169,7 @@ double CandidateSearch::neededReach(double extent, const FieldRelevance& relevan
   return needed;
 }
 
-/// Keeps of the fibres found those that can be one of the two largest within `extent`, and of their pieces those that can be
+/// Keeps those of the fibres found that can be one of the two largest within `extent`, and those of their pieces that can be
 /// their largest.
 void CandidateSearch::keep(double extent, const Eigen::Vector3d& origin)
 {

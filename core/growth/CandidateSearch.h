@@ -25,10 +25,10 @@ public:
   void add(const Cone& cone, const Eigen::Vector3d& origin);
   /// Makes the columns readable in whole vectors.
   void finish();
-  /// Makes room for some of others, in the place of what is here.
+  /// Allocates memory for a part of `others`, in place of the present content.
   void makeRoomFor(const Candidates& others);
 
-  /// For kernels, until the candidates change.
+  /// Returns columns for kernels, valid until the candidates change.
   ConeGroups all();
 
 private:
@@ -37,16 +37,16 @@ private:
   std::size_t Count = 0;
 };
 
-/// Finds the candidates of one block after the other; each thread has one of its own.
+/// Finds the candidates of blocks; each thread has its own.
 class CandidateSearch
 {
 public:
   CandidateSearch(const CapsuleSeeds& seeds, const SeedBins& bins);
 
-  /// About how many pieces are looked at to find what can matter within `extent` of a place.
+  /// Returns the approximate number of pieces that a search within `extent` of a place looks at.
   double piecesWithin(double extent) const;
 
-  /// All that can matter within `extent` of `centre`, relative to `origin`, until the next call.
+  /// Returns all cones that can matter within `extent` of `centre`, relative to `origin`, valid until the next call.
   Candidates& find(const Eigen::Vector3d& centre, double extent, const FieldRelevance& relevance, const Eigen::Vector3d& origin);
 
 private:
@@ -56,12 +56,12 @@ private:
     std::uint32_t piece;
     double value; ///< at the centre
   };
-  /// What is known of a piece.
+  /// The last visits to a piece.
   struct Seen
   {
-    std::uint32_t collection = 0; ///< the last one that met it
-    std::uint32_t search = 0;     ///< the last one that evaluated it
-    double value = 0.0;           ///< then, at the centre
+    std::uint32_t collection = 0; ///< last collection that met it
+    std::uint32_t search = 0;     ///< last search that evaluated it
+    double value = 0.0;           ///< value at the centre in that search
   };
 
   void collect(const Eigen::Vector3d& centre, double reach);
@@ -76,9 +76,9 @@ private:
   std::uint32_t Search = 0;
   std::vector<Found> Pieces;  ///< those with a field above the reach at the centre
   std::vector<double> Fields; ///< per rank: the largest field at the centre
-  std::vector<int> Ranks;     ///< of the fibres found
-  double Best = 0.0;          ///< the largest field at the centre, of the fibres found
-  double Second = 0.0;        ///< and the second largest
+  std::vector<int> Ranks;     ///< ranks of the fibres found
+  double Best = 0.0;          ///< largest field at the centre, of the fibres found
+  double Second = 0.0;        ///< second largest
   Candidates Kept;
 };
 

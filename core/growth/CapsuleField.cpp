@@ -36,7 +36,7 @@ struct Blocks
   }
 
   std::size_t size() const { return std::size_t(this->count[0] * this->count[1] * this->count[2]); }
-  /// Index of the first sample of a block.
+  /// Returns the index of the first sample of a block.
   Eigen::Array3i lower(std::size_t block) const
   {
     const auto n = std::int64_t(block);
@@ -49,11 +49,11 @@ struct Blocks
   std::int64_t count[3];
 };
 
-/// Where s is computed in single precision, it may be more than it is by this part of a voxel, and much less.
+/// The largest excess of s in single precision, as a fraction of a voxel, with a wide margin.
 constexpr double roundingInVoxels = 0.01;
 
-/// Whether the field of a cone may be above -`reach` at samples of a block: looks at its eighths, in which the field is no more
-/// than in their middle by what that is away from their corners.
+/// Tells whether the field of a cone may be above -`reach` at samples of a block: checks its eighths, in which the field exceeds
+/// its value in their middle by no more than the distance to their corners.
 bool comesNear(const Cone& cone, const VoxelGrid& grid, const std::array<int, 3>& block, double reach)
 {
   constexpr int half = BlockEvaluation::blockSize / 2;

@@ -41,28 +41,29 @@ class CapsuleField
 {
 public:
   /// Prepares the fields for samples inside `region` where only values above -`reach` matter: capsules farther away are left out.
-  /// Precondition: validate(fibres). Throws InvalidInput for options out of range and OutOfMemory where the seeds do not fit.
-  /// Threads share the work.
+  /// Precondition: validate(fibres). Throws InvalidInput for options out of range and OutOfMemory if the seeds do not fit into
+  /// memory. Threads share the work.
   CapsuleField(
     const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads = 1);
 
   std::size_t size() const { return this->Seeds.fibreOfRank.size(); }
-  /// Index into the fibres given, by rank.
+  /// Returns the index into the given fibres, by rank.
   std::size_t fibre(int rank) const { return this->Seeds.fibreOfRank[static_cast<std::size_t>(rank)]; }
 
-  /// s of one fibre at a point, in double precision over all its balls: slow, the reference for `sweep`.
+  /// Returns s of one fibre at a point, in double precision over all its balls: slow, the reference for `sweep`.
   double value(int rank, const Eigen::Vector3d& x) const;
 
-  /// Of all of a fibre's balls' centres: the length of their lines (µm), of which middle becomes the centroid; that is left as it
-  /// is where there are none.
+  /// Returns the length (µm) of a fibre's centre lines and sets `middle` to their centroid; `middle` stays as it is if there are
+  /// none.
   double length(int rank, Eigen::Vector3d& middle) const;
 
-  /// All blocks of a grid's index space (see BlockEvaluation) that hold samples of the grid where s of a fibre, rounded as in
-  /// sweep(), is above -`reach`, and maybe others near it: the first sample by the size of a block, per axis; each of them once.
+  /// Returns all blocks of a grid's index space (see BlockEvaluation) with samples of the grid where s of a fibre, rounded as in
+  /// sweep(), is above -`reach`, and possibly others near it: the first sample divided by the size of a block, per axis; each
+  /// block once.
   std::vector<std::array<int, 3>> blocksNear(int rank, const VoxelGrid& grid, double reach) const;
 
-  /// Evaluates the two largest fields at the samples that `grid` holds and hands them over cell by cell. `sink` is called from
-  /// several threads at once (its second argument is the thread, below context.threadCount()), in any order, once per cell.
+  /// Evaluates the two largest fields at the samples of `grid` and passes them on cell by cell. `sink` is called from several
+  /// threads at once (its second argument is the thread, below context.threadCount()), in any order, once per cell.
   ///
   /// A value depends on the sample's place in the whole grid (origin, spacing, index), never on which samples are asked for or on
   /// the number of threads: the arithmetic is relative to blocks of the index space. Its rounding error is that of single
@@ -70,8 +71,8 @@ public:
   void sweep(const VoxelGrid& grid, const FieldRelevance& relevance, const Context& context, double progressFrom,
     double progressTo, const std::string& message, const FieldSink& sink) const;
 
-  /// What evaluates single blocks of `grid` in the same way, for one thread at a time, of which it tells `sink` the number. What
-  /// is given by reference has to outlive it.
+  /// Returns an evaluation of single blocks of `grid` with the same values. One thread at a time may use it; it passes `thread`
+  /// to `sink`. All arguments passed by reference have to outlive it.
   std::unique_ptr<BlockEvaluation> evaluation(
     const VoxelGrid& grid, const FieldRelevance& relevance, const FieldSink& sink, int thread) const;
 

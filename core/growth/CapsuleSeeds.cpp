@@ -16,10 +16,10 @@ namespace cactus
 namespace
 {
 
-/// What a thread takes at a time.
+/// Number of fibres that a thread takes at a time.
 constexpr std::size_t fibresAtOnce = 16;
 
-/// How many pieces the segment from control point p to the next is cut into.
+/// Returns the number of pieces of the segment from control point p to the next.
 int pieceCount(const Fibres& fibres, const Calibre& calibre, std::size_t p)
 {
   const double length = (fibres.points[p + 1] - fibres.points[p]).norm();
@@ -36,7 +36,8 @@ bool isInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& r
   return box.squaredExteriorDistance(region) <= grown * grown;
 }
 
-/// Cuts the segment from control point p to the next, `start` along the fibre of that rank, into so many parts; the end of them.
+/// Cuts the segment from control point p to the next, `start` along the fibre of that rank, into `parts` pieces; returns their
+/// end.
 SeedPiece* cutSegment(
   const Fibres& fibres, FibreCalibre& calibre, std::size_t p, double start, int parts, int rank, SeedPiece* piece)
 {
@@ -83,7 +84,7 @@ CapsuleSeeds::CapsuleSeeds(
       const std::size_t f = this->fibreOfRank[rank];
       FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
       SeedPiece* piece = this->pieces.data() + this->pieceOffsets[rank];
-      double start = 0.0; // length of the fibre up to the segment
+      double start = 0.0; // length of the fibre before the segment
       for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
       {
         if (isInReach(fibres, p, region, reach))

@@ -13,20 +13,20 @@
 namespace cactus
 {
 
-/// A piece of a fibre's seed. Pieces are short, so that boxes are tight and single precision is enough near one.
+/// A piece of a fibre's seed. Pieces are short, so that boxes are tight and single precision suffices near one.
 struct SeedPiece
 {
   Cone cone;
-  int rank; ///< of the fibre, see CapsuleSeeds
+  int rank; ///< rank of the fibre, see CapsuleSeeds
 };
 
-/// What growth starts from: the fibres' capsules with their calibre, cut into pieces. Fibres are ranked by increasing fibre id.
+/// The seeds of growth: the fibres' capsules with their calibre, cut into pieces. Fibres are ranked by increasing fibre id.
 struct CapsuleSeeds
 {
-  /// All pieces that come within `reach` of the region; segments farther away are left out. Throws OutOfMemory.
+  /// Makes all pieces that come within `reach` of the region; segments farther away are left out. Throws OutOfMemory.
   CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach, int threads);
 
-  std::vector<std::size_t> fibreOfRank;  ///< index into the fibres given
+  std::vector<std::size_t> fibreOfRank;  ///< index into the given fibres
   std::vector<std::size_t> pieceOffsets; ///< those of rank r are pieces[pieceOffsets[r]] … pieces[pieceOffsets[r + 1] − 1]
   std::vector<SeedPiece> pieces;
 };

@@ -16,13 +16,14 @@ struct Cone
   double length;
   double radius; ///< at the start
   double slope;
-  double lean; ///< how far past the foot point, per distance from the axis, the nearest ball's centre lies: m / sqrt(1 - m²)
+  double lean; ///< distance along the axis from a point's foot to the centre of its nearest ball, per distance from the axis: m /
+               ///< sqrt(1 - m²)
 };
 
-/// The cone from p0 to p1. Where one end's ball holds the other, it is that ball.
+/// Returns the cone from p0 to p1; the larger ball alone if it contains the other.
 Cone coneBetween(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, double r0, double r1);
 
-/// The largest radius minus distance to the centre over all balls of the cone.
+/// Returns the largest radius minus distance to the centre over all balls of the cone.
 double coneValue(const Cone& cone, const Eigen::Vector3d& x);
 
 Eigen::AlignedBox3d boundingBox(const Cone& cone);

@@ -23,7 +23,7 @@ FibrePair pairOf(const Crowding& crowding)
   return { crowding.thick, crowding.thin };
 }
 
-/// Capsules that could come so near to each other that one of the two is severed.
+/// Finds the capsules that could come so near to each other that one of the two is severed.
 NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wished, double thickening, int threads)
 {
   std::vector<float> reaches(capsules.size());
@@ -37,7 +37,7 @@ NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wish
   return neighbours;
 }
 
-/// Of the entries of each pair of fibres makes one, the tightest in every respect.
+/// Merges the entries of each pair of fibres into the tightest in every respect.
 void joinPairs(std::vector<Crowding>& all)
 {
   std::stable_sort(all.begin(), all.end(), [](const Crowding& a, const Crowding& b) { return pairOf(a) < pairOf(b); });

@@ -11,19 +11,19 @@
 namespace cactus
 {
 
-/// Bounds of the factors by which fibres are thickened, relative to those that one starts from.
+/// Bounds of the fibres' thickness factors, relative to their initial values.
 struct FactorBounds
 {
   double thickening; ///< at most larger by this factor
   double thinning;   ///< at most smaller by this factor
 };
 
-/// A thick fibre beside a thin one. Once the radii of either have changed by its factor, the thin one is whole where
-/// thick factor · radius <= room + thin factor · core.
+/// A thick fibre beside a thin one. With any factors on their radii, the thin one is in one piece if thick factor · radius <=
+/// room + thin factor · core.
 ///
 /// On the centre line of the thin fibre its own field is at least (1 - ρ) times its radius there, and that of the thick one at
-/// most the latter's radius less the distance of the centre lines. Asked for is that the first is larger by the gap and half the
-/// radius that came, so that a depth of a quarter of it is left.
+/// most its radius minus the distance of the centre lines. The condition requires the first to exceed the second by the gap plus
+/// half the initial radius, so that a depth of a quarter of it remains.
 struct Crowding
 {
   std::uint32_t thick;
@@ -33,13 +33,13 @@ struct Crowding
   double core;
 };
 
-/// All pairs of fibres of which one could sever the other however the factors change from those `wished`, within the bounds;
-/// ordered by thick and thin fibre. Throws OutOfMemory.
+/// Finds all pairs of fibres of which one could sever the other for some factors within `bounds` of those `wished`; ordered by
+/// thick and thin fibre. Throws OutOfMemory.
 std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowthOptions& options,
   const std::vector<double>& wished, const FactorBounds& bounds, int threads);
 
-/// The largest factor of fibre `thick` with which all thin ones beside it, at their present factors, are whole; infinite where
-/// there are none.
+/// Returns the largest factor of fibre `thick` for which all thin ones beside it, at their present factors, stay in one piece;
+/// infinite if there are none.
 double largestFactor(const std::vector<Crowding>& crowding, std::size_t thick, const std::vector<double>& factors);
 
 } // namespace cactus

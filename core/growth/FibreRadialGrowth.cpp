@@ -29,7 +29,7 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
     throw InvalidInput(text("VoxelSize ", options.voxelSize, " divides the domain's ", size.maxCoeff(),
       " µm into more voxels than can be counted: choose a larger VoxelSize"));
   }
-  // Candidates in the order of their distance from the spacing asked for; a cube takes the first.
+  // Candidates in the order of their distance from the requested spacing; a cube takes the first.
   const double ideal = size[0] / options.voxelSize;
   const double nearest = std::max(1.0, std::round(ideal));
   const int tries = static_cast<int>(std::min(20000.0, 0.1 * ideal + 1.0));

@@ -13,13 +13,13 @@ struct FieldCell
   static constexpr int size = edge * edge * edge;
 
   int lower[3];        ///< grid index of the cell's first sample
-  int begin[3];        ///< the part asked for: cell-relative indices [begin, end)
+  int begin[3];        ///< the requested part: cell-relative indices [begin, end)
   int end[3];          ///<
   const float* best;   ///< largest field, `size` values
   const float* second; ///< largest field of any other fibre
-  const int* rank;     ///< whose field `best` is (rank as in CapsuleField), -1 where no fibre is near
+  const int* rank;     ///< fibre of `best` (rank as in CapsuleField), -1 if no fibre is near
 
-  /// visit(n) for the samples asked for: their places in `best`, `second` and `rank`.
+  /// Calls visit(n) for the requested samples: n is the index into `best`, `second` and `rank`.
   template <typename Visit>
   void forEachSample(Visit&& visit) const
   {
@@ -37,7 +37,7 @@ struct FieldCell
   }
 };
 
-/// What is done with a cell by a thread.
+/// Receives a cell and the index of the calling thread.
 using FieldSink = std::function<void(const FieldCell&, int)>;
 
 } // namespace cactus

@@ -10,13 +10,13 @@ namespace
 {
 
 constexpr float nowhere = -1e30f;
-/// Room for the rounding of bounds, as a part of a cell's extent and µm.
+/// Slack for the rounding of bounds, as a fraction of a cell's extent and in µm.
 constexpr float boundSlack = 1e-4f;
 constexpr float leastSlack = 1e-5f;
 
 using Columns = ConeColumns;
 
-/// Numbers of one cone, or of as many as a vector holds.
+/// Numbers of one cone, or of a vector of cones.
 template <typename Number>
 struct ConeNumbers
 {
@@ -28,7 +28,7 @@ struct ConeNumbers
   Number lean;
 };
 
-/// take(n): number n of them.
+/// Calls take(n) for each number n.
 template <typename Number, typename Take>
 CACTUS_KERNEL_INLINE ConeNumbers<Number> numbersOf(const Take& take)
 {
@@ -47,14 +47,14 @@ CACTUS_KERNEL_INLINE ConeNumbers<float> coneAt(const Columns& cones, std::size_t
   return numbersOf<float>([&](int n) __attribute__((always_inline)) { return cones.of[n][c]; });
 }
 
-/// Lane by lane, the field of cones at positions (see coneValue()) and the ball of the cone that it is of.
+/// Lane by lane, the field of cones at positions (see coneValue()) and the ball that gives it.
 struct NearestBall
 {
-  Floats offset[3]; ///< from its centre to the position
-  Floats distance;  ///< how long that is
+  Floats offset[3]; ///< from the ball's centre to the position
+  Floats distance;  ///< length of the offset
   Floats field;
 
-  /// What is everywhere as thick (`isEven`) takes a root less.
+  /// Finds the ball. A cone of constant radius (`isEven`) needs one root less.
   template <bool isEven, typename Position, typename Number>
   CACTUS_KERNEL_INLINE static NearestBall of(const ConeNumbers<Number>& cone, const Position (&at)[3])
   {
@@ -76,9 +76,9 @@ struct NearestBall
   }
 };
 
-/// Writes each cone's field at a place, and what it is below around: a concave function lies below its tangents, so at an offset
-/// from the place it is below Bound + Gradient · offset. Near a cone's axis the gradient is not known well, and the field is only
-/// known to be 1-Lipschitz.
+/// Writes each cone's field at a place, and a bound around it: a concave function lies below its tangents, so at an offset from
+/// the place it is below Bound + Gradient · offset. Near a cone's axis the gradient is inaccurate, and only the 1-Lipschitz bound
+/// is used.
 CACTUS_KERNEL_INLINE void evaluateAt(const Columns& cones, const SamplePlace& place)
 {
   const Floats zero = {};
@@ -98,14 +98,14 @@ CACTUS_KERNEL_INLINE void evaluateAt(const Columns& cones, const SamplePlace& pl
 }
 
 constexpr int corners = 8;
-/// Whole vectors; what is beyond the corners is the same again.
+/// Whole vectors; lanes beyond the corners repeat them.
 constexpr int cornerLanes = floats > corners ? floats : corners;
 
-/// On which side of the place they are, along each axis.
+/// The side of the place that each corner lies on, along each axis.
 alignas(64) constexpr float cornerSigns[3][2 * corners] = { { -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1 },
   { -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1 }, { -1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1 } };
 
-/// Of a cone at the corners of the cube around a place.
+/// A cone's field at the corners of the cube around a place.
 struct alignas(64) AtCorners
 {
   float field[cornerLanes];
@@ -127,10 +127,10 @@ CACTUS_KERNEL_INLINE AtCorners fieldAtCorners(const Columns& cones, std::size_t 
   return result;
 }
 
-/// Which of the cones from c on may be above a concave function somewhere in the cube, given what that is at the corners.
+/// Tells which of the cones from c on may be above a concave function somewhere in the cube, given its values at the corners.
 CACTUS_KERNEL_INLINE FloatMask mayExceed(const Columns& cones, std::size_t c, const SamplePlace& place, const AtCorners& least)
 {
-  // A tangent less a concave function is convex, so it is largest at a corner.
+  // A tangent minus a concave function is convex, so it is largest at a corner.
   Floats step[3];
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -148,11 +148,11 @@ CACTUS_KERNEL_INLINE FloatMask mayExceed(const Columns& cones, std::size_t c, co
   return above;
 }
 
-/// The fibres, and of these the cones, that can make a difference in the cube around a place.
+/// The fibres, and their cones, that can matter in the cube around a place.
 class Relevant
 {
 public:
-  /// Writes what is known of each cone at the place.
+  /// Evaluates each cone at the place.
   CACTUS_KERNEL_INLINE Relevant(const ConeGroups& all, const CellRelevance& relevance, const SamplePlace& place)
     : All(all)
     , Place(place)
@@ -185,7 +185,7 @@ public:
     }
     if (all.count > 2)
     {
-      // The second largest field is nowhere below the smaller one of two.
+      // The second largest field is nowhere below the smaller one of any two.
       this->OfFirst = fieldAtCorners(all.cones, all.groups[this->First].ahead, place);
       this->OfRunnerUp = fieldAtCorners(all.cones, all.groups[this->RunnerUp].ahead, place);
       for (int i = 0; i < cornerLanes; i += floats)
@@ -195,7 +195,7 @@ public:
     }
   }
 
-  /// visit(c) for those cones of a group.
+  /// Calls visit(c) for the relevant cones of a group.
   template <typename Visit>
   CACTUS_KERNEL_INLINE void forEachOf(std::size_t g, const Visit& visit) const
   {
@@ -212,7 +212,7 @@ public:
     for (std::size_t c = group.begin; c < group.end; c += floats)
     {
       unsigned set = bitsOf(mayExceed(cones, c, this->Place, ahead));
-      set |= group.ahead - c < floats ? 1u << (group.ahead - c) : 0u; // not, where that is before c
+      set |= group.ahead - c < floats ? 1u << (group.ahead - c) : 0u; // false if that is before c
       set &= isOfTwo ? ~0u : bitsOf(mayExceed(cones, c, this->Place, this->Lesser));
       set &= group.end - c < floats ? (1u << (group.end - c)) - 1u : ~0u;
       for (; set != 0; set &= set - 1)
@@ -223,7 +223,7 @@ public:
   }
 
 private:
-  /// Whether a fibre with this field at the place can be one of the two largest that matter.
+  /// Tells whether a fibre with this field at the place can be one of the two largest that matter.
   CACTUS_KERNEL_INLINE bool matters(float field) const
   {
     const float extent = this->Place.extent;
@@ -241,11 +241,11 @@ private:
   float Best = nowhere;
   float Second = nowhere;
   std::size_t First = 0;    ///< group of the largest field at the place
-  std::size_t RunnerUp = 0; ///< and of the second largest
-  // If there are others:
-  AtCorners OfFirst; ///< of the cone that is ahead there
+  std::size_t RunnerUp = 0; ///< group of the second largest
+  // Only with further groups:
+  AtCorners OfFirst; ///< of the cone with the largest field there
   AtCorners OfRunnerUp;
-  AtCorners Lesser; ///< of the two
+  AtCorners Lesser; ///< the smaller of the two
 };
 
 void narrow(const ConeGroups& all, const CellRelevance& relevance, const SamplePlace& place, ConeGroups& near)
@@ -272,7 +272,7 @@ void narrow(const ConeGroups& all, const CellRelevance& relevance, const SampleP
   near.cones.count = kept;
 }
 
-/// Takes one cone's field into that of its fibre.
+/// Merges one cone's field into that of its fibre.
 template <bool isEven>
 CACTUS_KERNEL_INLINE void evaluateCone(
   const ConeNumbers<float>& cone, const CellSamples& samples, float (&field)[FieldCell::size])
@@ -284,7 +284,7 @@ CACTUS_KERNEL_INLINE void evaluateCone(
   }
 }
 
-/// Takes one fibre's field into the two largest.
+/// Merges one fibre's field into the two largest.
 CACTUS_KERNEL_INLINE void merge(int rank, const float (&field)[FieldCell::size], CellSamples& samples)
 {
   for (int i = 0; i < FieldCell::size; i += floats)

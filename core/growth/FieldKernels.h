@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// Cones that can matter somewhere, relative to the centre of a block: one column per number, readable and writable up to
+/// Cones that can matter near a block, relative to its centre: one column per number, readable and writable up to
 /// FieldKernels::padding beyond the last.
 struct ConeColumns
 {
@@ -21,9 +21,9 @@ struct ConeColumns
     Radius,
     Slope,
     Lean,
-    Given,         ///< so many numbers say what a cone is; kernels write the others
+    Given,         ///< the numbers above define a cone; kernels write the others
     Field = Given, ///< of the cone, at a place
-    Bound,         ///< with the gradient: what the field is below around the place
+    Bound,         ///< with the gradient, an upper bound of the field around the place
     Gradient,      ///< x, y, z
     Numbers = Gradient + 3
   };
@@ -39,8 +39,8 @@ struct ConeGroup
   std::size_t begin;
   std::size_t end;
   // Written by kernels.
-  float field;       ///< the fibre's at a place
-  std::size_t ahead; ///< the cone that has it
+  float field;       ///< the fibre's field at a place
+  std::size_t ahead; ///< the cone with that field
 };
 
 /// Cones by fibre.
@@ -48,7 +48,7 @@ struct ConeGroups
 {
   ConeColumns cones;
   ConeGroup* groups; ///< by rank, increasing
-  std::size_t count; ///< of groups
+  std::size_t count; ///< number of groups
 };
 
 /// FieldRelevance in single precision.
@@ -64,11 +64,11 @@ struct CellRelevance
 struct SamplePlace
 {
   float centre[3];
-  float half;   ///< along each axis, how far the samples reach, with room for rounding
-  float extent; ///< distance to the farthest sample, likewise
+  float half;   ///< half edge of the cube of samples, with room for rounding
+  float extent; ///< distance to the farthest sample, with room for rounding
 };
 
-/// The samples of one cell, relative to the block's centre, and what comes out.
+/// The samples of one cell, relative to the block's centre, and the results.
 struct alignas(64) CellSamples
 {
   float position[3][FieldCell::size];
@@ -78,17 +78,17 @@ struct alignas(64) CellSamples
   int rank[FieldCell::size];
 };
 
-/// The loops in which growth spends its time. The field of a cone is 1-Lipschitz and concave, so what it is at a place and at the
-/// corners of a cube around that tells which fibres, and which of their cones, can make no difference at any sample in the cube.
+/// The loops that dominate growth. The field of a cone is 1-Lipschitz and concave, so its values at a place and at the corners of
+/// a cube around it tell which fibres, and which of their cones, cannot affect any sample in the cube.
 struct FieldKernels
 {
-  /// What is read in whole vectors is there for so many numbers beyond the last.
+  /// Arrays read in whole vectors have this many numbers beyond the last.
   static constexpr std::size_t padding = 16;
 
-  /// Those of some cones that can matter at the samples around a place. `near` has room for all of them.
+  /// Selects the cones that can matter at the samples around a place. `near` has room for all of them.
   void (*narrow)(const ConeGroups& all, const CellRelevance& relevance, const SamplePlace& place, ConeGroups& near);
 
-  /// The two largest fields at the samples of one cell, and whose the largest is.
+  /// Computes the two largest fields at the samples of one cell, and the fibre of the largest.
   void (*evaluateCell)(const ConeGroups& all, const CellRelevance& relevance, CellSamples& samples);
 };
 

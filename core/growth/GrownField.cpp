@@ -23,7 +23,7 @@ FieldRelevance relevanceOf(double growth, double band, double halfGap)
   return relevance;
 }
 
-/// How far seeds matter.
+/// Returns the distance within which seeds matter.
 double reachOf(const Fibres& fibres, const FieldRelevance& relevance, double spacing)
 {
   const double largestRadius = *std::max_element(fibres.radii.begin(), fibres.radii.end());
@@ -72,7 +72,7 @@ int GrownField::rankOf(std::int32_t fibreId) const
 
 std::vector<std::array<int, 3>> GrownField::blocksOf(int rank) const
 {
-  // A sample is in a fibre only where its seed's field is above -growth, see enter().
+  // A sample is in a fibre only if its seed's field is above -growth, see enter().
   return this->Seeds.blocksNear(rank, this->Part, this->Growth);
 }
 
@@ -100,7 +100,7 @@ void GrownField::enter(const FieldCell& cell, const VoxelGrid& held, std::int32_
       {
         const float f = fields[std::size_t(i)];
         const std::int32_t id = this->IdOfRank[static_cast<std::size_t>(std::max(cell.rank[i], 0))];
-        *ids = f > 0.0f ? id : 0; // without a jump
+        *ids = f > 0.0f ? id : 0; // branch-free
         *depths = std::max(f, lowest);
       }
     }

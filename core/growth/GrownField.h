@@ -16,11 +16,11 @@
 namespace cactus
 {
 
-/// What growFibres() makes of the seed fields at samples, ready to be computed in a part of the image.
+/// The field that growFibres() computes from the seed fields, for parts of the image.
 class GrownField
 {
 public:
-  /// `part` is a part of growthGrid(), the fibres are valid and the growth is finite. Throws OutOfMemory.
+  /// Prepares the field. `part` is a part of growthGrid(), the fibres are valid and the growth is finite. Throws OutOfMemory.
   GrownField(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part, int threads);
 
   /// The part.
@@ -28,21 +28,21 @@ public:
   const CapsuleField& seeds() const { return this->Seeds; }
   const FieldRelevance& relevance() const { return this->Relevance; }
 
-  /// By rank, see CapsuleField.
+  /// Returns the outline of a fibre by rank, see CapsuleField.
   FibreOutline outline(int rank) const;
-  /// -1 where no fibre has that id.
+  /// Returns -1 if no fibre has that id.
   int rankOf(std::int32_t fibreId) const;
-  /// All blocks that hold samples of a fibre, and maybe others near it (see CapsuleField::blocksNear()).
+  /// Returns all blocks with samples of a fibre, and possibly others near it (see CapsuleField::blocksNear()).
   std::vector<std::array<int, 3>> blocksOf(int rank) const;
 
-  /// Writes FibreId and Depth at a cell's samples to where they are in `held`, which holds all of them.
+  /// Writes FibreId and Depth of a cell's samples to their places in `held`, which contains all of them.
   void enter(const FieldCell& cell, const VoxelGrid& held, std::int32_t* fibreId, float* depth) const;
 
 private:
   VoxelGrid Part;
   double HalfGap;
   double Growth;
-  double Band; ///< µm outside a fibre, beyond which depths are only known to be as far
+  double Band; ///< µm outside a fibre, beyond which depths are only bounded
   FieldRelevance Relevance;
   CapsuleField Seeds;
   std::vector<std::int32_t> IdOfRank; ///< increasing

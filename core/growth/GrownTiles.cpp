@@ -20,7 +20,7 @@ static_assert(GrownTiles::edge == BlockEvaluation::blockSize, "a tile is what is
 namespace
 {
 
-/// Along an axis: 33 million samples.
+/// Largest number of tiles along an axis: 33 million samples.
 constexpr int mostTiles = 1 << 21;
 
 const Fibres& checked(const Fibres& fibres, double growth)
@@ -30,7 +30,7 @@ const Fibres& checked(const Fibres& fibres, double growth)
   return fibres;
 }
 
-/// Whatever a thread needs to compute tiles.
+/// Per-thread data for computing tiles.
 class TileWorker
 {
 public:
@@ -60,7 +60,7 @@ private:
 
 } // namespace
 
-/// The field, and the workers of as many threads as have ever asked at the same time.
+/// The field, and a worker for each thread that has been active at the same time.
 class GrownTiles::Growing : public KnownFibres
 {
 public:
@@ -170,7 +170,7 @@ std::shared_ptr<const Tile> GrownTiles::tile(const std::array<int, 3>& at) const
   return tile;
 }
 
-/// Copies what `held` holds of a tile.
+/// Copies the part of a tile that `held` contains.
 void GrownTiles::copyTile(const Tile& tile, const VoxelGrid& held, LabelBuffer& buffer)
 {
   std::array<int, 3> begin{};

@@ -15,13 +15,13 @@
 namespace cactus
 {
 
-/// The label image that growFibres() makes, computed tile by tile where it is asked for, with the same bits. Tiles that were used
-/// last are kept. Memory goes with the fibres and with what is kept, not with the image.
+/// The label image of growFibres(), computed tile by tile on demand, with the same bits. The most recently used tiles are kept.
+/// Memory is proportional to the fibres and the kept tiles, not to the image.
 class GrownTiles : public LabelSource
 {
 public:
-  /// What growFibres() is given; `fibres` need not outlive the object. `kept` tiles are kept (bytesPerTile each, 1 or more).
-  /// Threads share what is to be prepared. Throws as growFibres().
+  /// Takes the arguments of growFibres(); `fibres` need not outlive the object. `kept` tiles are kept (bytesPerTile each, 1 or
+  /// more). Threads share the preparation. Throws as growFibres().
   GrownTiles(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, std::size_t kept, int threads = 1);
   ~GrownTiles() override;
 
@@ -34,7 +34,7 @@ public:
   LabelImageView samples(const SampleRange& range, LabelBuffer& buffer) const override;
   const KnownFibres* knownFibres() const override;
 
-  /// How many tiles were computed, those computed again included.
+  /// Returns how many tiles were computed, repetitions included.
   std::size_t computed() const { return this->Computed; }
 
 private:

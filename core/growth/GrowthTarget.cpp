@@ -22,7 +22,7 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
     return options.growthIterations * whole.spacing;
   }
 
-  // Few samples tell roughly how far to grow: the less far the many have to look, the faster.
+  // Few samples give a rough estimate: the smaller the reach of the full count, the faster it is.
   double reach = std::min(roughGrowth(fibres, options, context, sharing) + 0.1, largestGrowth);
   Arrivals arrivals = countArrivals(fibres, options, sampleGrid(fibres.domain, samplesForTarget), reach, context, sharing);
   while (!std::isfinite(growthAt(arrivals, target)) && reach < largestGrowth)

@@ -12,8 +12,8 @@
 namespace cactus
 {
 
-/// Samples on a regular grid of cubic voxels, x fastest. Sample (i, j, k) lies at origin + spacing · (i, j, k), the centre of
-/// its voxel, so that a face of the domain runs half a voxel outside the outermost samples.
+/// A regular grid of cubic voxels, x fastest. Sample (i, j, k) lies at origin + spacing · (i, j, k), the centre of its voxel, so
+/// that a face of the domain lies half a voxel outside the outermost samples.
 struct VoxelGrid
 {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< µm, the position of sample (0, 0, 0)
@@ -28,7 +28,7 @@ struct VoxelGrid
            std::size_t(count[0]) * (std::size_t(j - lower[1]) + std::size_t(count[1]) * std::size_t(k - lower[2]));
   }
   Eigen::Vector3d position(int i, int j, int k) const { return origin + spacing * Eigen::Vector3d(i, j, k); }
-  /// The box (µm) of the samples held, of which there is at least one.
+  /// Returns the box (µm) of the samples, of which there is at least one.
   Eigen::AlignedBox3d box() const
   {
     return Eigen::AlignedBox3d(position(lower[0], lower[1], lower[2]),
@@ -36,12 +36,13 @@ struct VoxelGrid
   }
 };
 
-/// Which fibre each voxel belongs to, and how deep it lies in it.
+/// The fibre of each voxel, and its depth in the fibre.
 ///
-/// With `gap` the room that growth kept between neighbours, the pair gives every fibre i a field on the grid: depth where fibreId
-/// is i, and -(depth + gap) where another fibre is. Where fibreId is 0, depth is the largest of all fields; it is not positive.
-/// So where it is above -gap/2 it is that of one fibre, the nearest, and all others have at most -(depth + gap); else it stands
-/// for all. The fields of two fibres sum to at most -gap at every sample, so their zero surfaces cannot meet. See FibreField.
+/// With `gap` the distance that growth kept between neighbours, the pair gives every fibre i a field on the grid: depth where
+/// fibreId is i, and -(depth + gap) where another fibre is. Where fibreId is 0, depth is the largest of all fields; it is not
+/// positive. There, a depth above -gap/2 belongs to one fibre, the nearest, and all others have at most -(depth + gap); a lower
+/// depth stands for all fibres. The fields of two fibres sum to at most -gap at every sample, so their zero surfaces cannot meet.
+/// See FibreField.
 struct LabelImage
 {
   VoxelGrid grid;
@@ -49,13 +50,13 @@ struct LabelImage
   std::vector<float> depth;          ///< µm, positive inside a fibre; never more than the distance to its outer surface
 };
 
-/// A label image, or a part of it, held by somebody else; see LabelImage for what its numbers mean.
+/// A view of a label image, or of a part of it; see LabelImage for the meaning of its numbers.
 struct LabelImageView
 {
   VoxelGrid grid;
   const std::int32_t* fibreId = nullptr;
   const float* depth = nullptr;
-  double gap = 0.0; ///< µm, the room that growth kept between two fibres; see FibreRadialGrowthOptions::gap
+  double gap = 0.0; ///< µm, distance that growth kept between two fibres; see FibreRadialGrowthOptions::gap
 };
 
 } // namespace cactus

@@ -18,57 +18,57 @@ struct SampleRange
   std::array<int, 3> count{ { 0, 0, 0 } };
 };
 
-/// Room for samples that are made when they are asked for.
+/// Memory for samples that are computed on demand.
 struct LabelBuffer
 {
   std::vector<std::int32_t> fibreId;
   std::vector<float> depth;
-  std::shared_ptr<const void> held; ///< instead of room: what a view shows a part of
+  std::shared_ptr<const void> held; ///< used instead by views of existing memory
 };
 
-/// What is known of a fibre before any sample is made.
+/// Properties of a fibre that are known before any sample is computed.
 struct FibreOutline
 {
   std::int32_t fibreId = 0;
   double targetRadius = 0.0;                ///< µm
-  double length = 0.0;                      ///< of its centre line, µm, in and near the image
-  std::array<int, 3> middle{ { 0, 0, 0 } }; ///< of that: the sample nearest to it; it may be outside the image
+  double length = 0.0;                      ///< length of its centre line, µm, in and near the image
+  std::array<int, 3> middle{ { 0, 0, 0 } }; ///< nearest sample to the centroid of that line; possibly outside the image
 };
 
-/// The fibres of an image whose samples are made of them.
+/// The fibres from which the samples of an image are computed.
 class KnownFibres
 {
 public:
   virtual ~KnownFibres() = default;
 
-  /// All, in any order.
+  /// Returns all fibres, in any order.
   virtual std::vector<FibreOutline> outlines() const = 0;
-  /// All tiles of the image that hold samples of a fibre, and maybe others near it: the first sample by the edge of a tile, per
-  /// axis. Each is there once. Of an id that no fibre has, none.
+  /// Returns all tiles of the image with samples of a fibre, and possibly others near it: the first sample divided by the edge of
+  /// a tile, per axis. Each tile is listed once; none for an unknown id.
   virtual std::vector<std::array<int, 3>> tilesOf(std::int32_t fibreId) const = 0;
 };
 
-/// Where the samples of a label image come from. May be used from several threads.
+/// The source of a label image's samples. Thread-safe.
 class LabelSource
 {
 public:
   virtual ~LabelSource() = default;
 
-  /// Edge of the tiles in which samples are best asked for; they begin at its multiples in the image.
+  /// Edge of the tiles in which samples are best requested; they begin at multiples of it in the image.
   static constexpr int tileEdge = 16;
 
-  /// The whole image.
+  /// Returns the grid of the whole image.
   virtual const VoxelGrid& grid() const = 0;
-  /// µm, the room that growth kept between two fibres; see FibreRadialGrowthOptions::gap().
+  /// Returns the distance (µm) that growth kept between two fibres; see FibreRadialGrowthOptions::gap().
   virtual double gap() const = 0;
-  /// A view that holds the samples of `range`, of which none is outside the image, and maybe others. It is good until `buffer`,
-  /// which each thread has one of its own of, is used again.
+  /// Returns a view of at least the samples of `range`, all inside the image. It is valid until `buffer`, of which each thread
+  /// has its own, is used again.
   virtual LabelImageView samples(const SampleRange& range, LabelBuffer& buffer) const = 0;
-  /// Null where only samples tell.
+  /// Returns null if fibres are known only from the samples.
   virtual const KnownFibres* knownFibres() const { return nullptr; }
 };
 
-/// All of an image, held by somebody else.
+/// A view of a whole image in memory.
 class LabelImageInMemory : public LabelSource
 {
 public:

@@ -17,11 +17,10 @@ namespace cactus
 namespace
 {
 
-/// A search comes to fewer bins if these are larger, and to fewer of them for the same piece, but to more pieces that are too
-/// far.
+/// Larger bins mean fewer bins per search and per piece, but more pieces that are too far.
 constexpr double piecesPerBin = 16.0;
 
-/// Threads put pieces into bins part by part, each of which counts for itself what a bin gets: so many parts at most.
+/// Threads fill the bins part by part, and each part counts its own pieces per bin: at most this many parts.
 constexpr int mostParts = 8;
 constexpr std::size_t piecesAtOnce = 65536;
 
@@ -48,7 +47,7 @@ SeedBins::SeedBins(const std::vector<SeedPiece>& pieces, int threads)
         eachBin(pieces[p], [&](std::size_t bin) { ++next[part][bin]; });
       }
     });
-  // In each bin pieces follow one another by their numbers, whatever the parts.
+  // Within each bin, pieces are in the order of their indices, whatever the parts.
   this->Offsets.resize(bins + 1);
   std::uint32_t sum = 0;
   for (std::size_t bin = 0; bin < bins; ++bin)
@@ -71,7 +70,7 @@ SeedBins::SeedBins(const std::vector<SeedPiece>& pieces, int threads)
     });
 }
 
-/// About one bin for `piecesPerBin` pieces, and no more than a thousand along an axis.
+/// Chooses about one bin for `piecesPerBin` pieces, and no more than a thousand along an axis.
 void SeedBins::choose(const std::vector<SeedPiece>& pieces, int threads)
 {
   std::vector<Eigen::AlignedBox3d> parts(pieces.size() / piecesAtOnce + 1);

@@ -14,22 +14,23 @@
 namespace cactus
 {
 
-/// Uniform bins over the bounding boxes of pieces, to find those near a point.
+/// Uniform bins over the bounding boxes of pieces, which find those near a point.
 class SeedBins
 {
 public:
-  /// Throws OutOfMemory.
+  /// Bins the pieces. Throws OutOfMemory.
   SeedBins(const std::vector<SeedPiece>& pieces, int threads);
 
-  /// Of the edge of a bin, µm.
+  /// Returns the edge of a bin (µm).
   double size() const { return this->Size; }
-  /// Pieces in a µm³, on average; those that several bins hold count several times.
+  /// Returns the mean number of pieces per µm³; a piece counts once for each of its bins.
   double density() const
   {
     return static_cast<double>(this->Pieces.size()) / (static_cast<double>(this->Offsets.size() - 1) * std::pow(this->Size, 3.0));
   }
 
-  /// visit(piece) for the indices of all pieces whose bounding boxes overlap the box, and others; some of them several times.
+  /// Calls visit(piece) for the indices of all pieces whose bounding boxes overlap the box, and for others; for some of them
+  /// several times.
   template <typename Visit>
   void forEachNear(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, Visit&& visit) const
   {
@@ -44,7 +45,7 @@ public:
   }
 
 private:
-  /// visit(bin) for all bins that the box reaches.
+  /// Calls visit(bin) for all bins that the box touches.
   template <typename Visit>
   void forEachBin(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper, Visit&& visit) const
   {
@@ -75,7 +76,7 @@ private:
   void requireRoom(const std::vector<SeedPiece>& pieces, std::size_t bins, std::size_t parts, int threads) const;
 
   Eigen::Vector3d Origin = Eigen::Vector3d::Zero();
-  double Size = 1.0; ///< of a bin (µm)
+  double Size = 1.0; ///< edge of a bin (µm)
   Eigen::Array3i Count = Eigen::Array3i::Ones();
   std::vector<std::uint32_t> Offsets;
   std::vector<std::uint32_t> Pieces;

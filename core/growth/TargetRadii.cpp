@@ -20,19 +20,19 @@ namespace cactus
 namespace
 {
 
-/// Rounds in which radii are corrected, and the samples that they count: per fibre, and at least.
+/// Rounds of radius correction, and the samples that each counts: per fibre, and at least.
 constexpr int rounds = 3;
 constexpr double samplesPerFibre = 2000.0;
 constexpr double fewestSamples = 5e5;
-/// How much of a shortage is made up in one round: more than all, since the surface that two fibres share moves by half of what
+/// The fraction of a shortage corrected in one round: more than 1, since the surface that two fibres share moves by half of what
 /// one is thickened.
 constexpr double correction = 1.4;
-/// How far a factor may end up from the one that it starts from.
+/// Limits of a factor relative to its initial value.
 constexpr FactorBounds factorBounds = { 1.2, 1.5 };
-/// By how much of the volume what fibres fill at their target radii may part from what they were made for: their dispersion and
-/// what winding adds to their lengths.
+/// The usual relative difference between the volume that fibres fill at their target radii and that they were made for:
+/// dispersion and winding lengthen them.
 constexpr double usualDifference = 0.15;
-/// Samples are counted in slabs of this many layers, the blocks of a sweep.
+/// Layers of samples in a slab, as in the blocks of a sweep.
 constexpr int slabLayers = 16;
 
 /// Layers of samples along z.
@@ -41,14 +41,14 @@ int layersOf(const Domain& domain, double spacing)
   return std::max(1, static_cast<int>(std::round(domain.size()[2] / spacing)));
 }
 
-/// The samples of one slab of the domain. Every slab is shifted across by an amount of its own, that of `round` too, so that
-/// fibres along an axis do not line up with them.
+/// Returns the samples of one slab of the domain. Every slab has its own lateral shift in every `round`, so that fibres along an
+/// axis do not line up with the samples.
 VoxelGrid slabGrid(const Domain& domain, double spacing, int slab, int round)
 {
   const Eigen::Array3d size = domain.size().array();
   const int layers = layersOf(domain, spacing);
   const int slabs = (layers + slabLayers - 1) / slabLayers;
-  // The plane's low-discrepancy sequence of the least Pisot number of degree 3.
+  // The low-discrepancy sequence in the plane by the smallest Pisot number of degree 3.
   const double n = slab + 0.5 + round * slabs;
   const double across[2] = { std::fmod(n * 0.7548776662466927, 1.0), std::fmod(n * 0.5698402909980532, 1.0) };
   VoxelGrid grid;
@@ -64,7 +64,7 @@ VoxelGrid slabGrid(const Domain& domain, double spacing, int slab, int round)
   return grid;
 }
 
-/// How many samples of the domain, `spacing` apart, each fibre holds after growth.
+/// Returns how many samples of the domain, `spacing` apart, each fibre holds after growth.
 std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, double spacing,
   int round, const Context& context, double from, double to, const Sharing& sharing)
 {
@@ -77,7 +77,7 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   const CapsuleField field(
     fibres, { options.surfaceRoughness, options.seed }, domain, std::max(reach, 0.0), context.threadCount());
   Context sweeping = context;
-  sweeping.threads = context.threadCount(); // which may say something else the next time
+  sweeping.threads = context.threadCount(); // fixed here, because it may change between calls
   std::vector<std::vector<std::uint64_t>> perThread(
     static_cast<std::size_t>(sweeping.threads), std::vector<std::uint64_t>(fibres.size(), 0));
   const auto gap = static_cast<float>(options.gap());
@@ -119,7 +119,7 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   return samples;
 }
 
-/// How thick fibres are to become: per fibre, the factor on its radii and the volume that it is to fill.
+/// The intended thickness of fibres: per fibre, the factor on its radii and the volume that it is to fill.
 struct Aim
 {
   std::vector<double> factors;
@@ -128,7 +128,7 @@ struct Aim
   double volume() const { return std::accumulate(this->volumes.begin(), this->volumes.end(), 0.0); }
 };
 
-/// Each fibre at its own target radius.
+/// Returns the aim in which each fibre has its target radius.
 Aim aimAtOwnRadii(const Fibres& fibres)
 {
   Aim aim;
@@ -145,8 +145,8 @@ Aim aimAtOwnRadii(const Fibres& fibres)
   return aim;
 }
 
-/// Changes the aim so that all capsules together fill the volume `target`, were it not for overlaps, gaps and roughness: little
-/// growth is left to come.
+/// Changes the aim so that all capsules together, without overlaps, gaps and roughness, fill the volume `target`: little growth
+/// remains.
 void fillTarget(const Fibres& fibres, double target, Aim& aim)
 {
   const double volume = aim.volume();
@@ -158,7 +158,7 @@ void fillTarget(const Fibres& fibres, double target, Aim& aim)
     }
     return;
   }
-  // All thicker by δ, that of the volumes w (1 + δ / r)² which add up to the target.
+  // All radii grow by δ, so that the volumes w (1 + δ / r)² add up to the target.
   double linear = 0.0;
   double quadratic = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
@@ -185,15 +185,15 @@ std::vector<std::size_t> fromThinToThick(const Fibres& fibres)
   return order;
 }
 
-/// Keeps a fibre's factor within its bounds, and to what leaves the thinner fibres beside it whole.
+/// Limits a fibre's factor to its bounds, and so that the thinner fibres beside it stay in one piece.
 double boundedFactor(std::size_t f, const std::vector<double>& factors, double wished, const std::vector<Crowding>& crowding)
 {
   const double factor = std::min(std::max(factors[f], wished / factorBounds.thinning), wished * factorBounds.thickening);
-  // Capsules of the radii that came leave each other room.
+  // Capsules of the initial radii leave each other room.
   return std::min(factor, std::max(largestFactor(crowding, f, factors), std::min(1.0, wished)));
 }
 
-/// Makes those fibres thicker that hold fewer samples than their share, and those thinner that hold more.
+/// Thickens fibres that hold fewer samples than their share, and thins those that hold more.
 void correctFactors(const std::vector<double>& counted, const std::vector<double>& wished, Aim& aim)
 {
   const double perVolume = std::accumulate(counted.begin(), counted.end(), 0.0) / aim.volume();
@@ -202,7 +202,7 @@ void correctFactors(const std::vector<double>& counted, const std::vector<double
     const double expected = perVolume * aim.volumes[f];
     if (expected > 0.0)
     {
-      // Half the relative shortage of volume is that of the radius; a fibre of few samples knows its own badly.
+      // The relative shortage of radius is half that of volume; that of a fibre of few samples is inaccurate.
       const double shortage = std::max(-1.0, 1.0 - counted[f] / expected);
       aim.factors[f] += 0.5 * correction * wished[f] * shortage * expected / (expected + 16.0);
     }
@@ -254,7 +254,7 @@ std::vector<double> factorsForTargetRadii(
   fillTarget(fibres, target * fibres.domain.volume(), aim);
   const std::vector<double> wished = aim.factors;
   const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
-  // Thin fibres first: how thick a fibre may become depends on those thinner than it.
+  // Thin fibres first: the limit of a fibre depends on the thinner ones.
   const std::vector<std::size_t> order = fromThinToThick(fibres);
   const double samples = std::max(fewestSamples, samplesPerFibre * static_cast<double>(fibres.size()));
   const double spacing = std::cbrt(fibres.domain.volume() / samples);

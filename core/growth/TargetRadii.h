@@ -12,31 +12,31 @@
 namespace cactus
 {
 
-/// The fibres with capsules of other radii, from which common growth to the target fraction ends with every fibre at its target
-/// radius: each fills as much of the domain as capsules of that radius would. Where all of them together would fill less than the
-/// fraction, their radii are to end larger by the same amount; where more, smaller by the same factor. Without a target, the
-/// fibres as they are.
+/// Returns the fibres with capsule radii from which common growth to the target fraction brings every fibre to its target radius:
+/// each fills as much of the domain as capsules of that radius would. If all of them together would fill less than the fraction,
+/// all final radii are larger by the same amount; if more, smaller by the same factor. Without a target, returns the fibres
+/// unchanged.
 ///
-/// Found by a few rounds: grow on a coarse grid, count each fibre's samples, and change all radii of a fibre by a common factor
-/// that follows its shortage or excess. From the counts of whole samples the result is the same on any number of threads.
+/// It takes a few rounds: grow on a coarse grid, count each fibre's samples, and change all radii of a fibre by a common factor
+/// that follows its shortage or excess. Counts are integers, so the result is the same on any number of threads.
 ///
-/// Of fibres whose capsules did not overlap none is cut in two by a neighbour: a fibre beside a much thinner one is not thickened
-/// beyond what leaves that one whole, and gets the rest from growth, like all others.
+/// No fibre is cut in two by a neighbour if their capsules did not overlap: a fibre beside a much thinner one is thickened only
+/// as far as that one stays in one piece, and gets the rest from growth, like all others.
 ///
-/// Throws InvalidInput (options, fibres), OutOfMemory, Cancelled.
-/// Processes that share it count a part of the samples each, and all get the result.
+/// Throws InvalidInput (options, fibres), OutOfMemory, Cancelled. Processes that share the work count a part of the samples each,
+/// and all get the result.
 Fibres aimAtTargetRadii(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {}, const Sharing& sharing = Sharing());
 
-/// How aimAtTargetRadii() finds them: per fibre the factor on its radii; none without a target.
+/// Returns the factors of aimAtTargetRadii(), one per fibre; none without a target.
 std::vector<double> factorsForTargetRadii(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context = {}, const Sharing& sharing = Sharing());
 
-/// The fibres with capsules of radii so many times as large, within limits::radius; as they are where there are no factors.
+/// Returns the fibres with their capsule radii multiplied by the factors, within limits::radius; unchanged without factors.
 Fibres scaledBy(const std::vector<double>& factors, const Fibres& fibres);
 
-/// What is to be said where growth will not end at the target radii because the fibres were made for another fraction than the
-/// one that they are grown to, with the difference; empty where the two agree, and where it is not known what they were made for.
+/// Returns a remark if growth will not end at the target radii, because the fibres were made for another fraction than the one
+/// they grow to, with the difference; empty if the two agree, or if the fraction they were made for is unknown.
 std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions& options);
 
 } // namespace cactus

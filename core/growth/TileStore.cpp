@@ -10,7 +10,7 @@ namespace cactus
 namespace
 {
 
-/// Tiles that get their room together.
+/// Number of tiles that are allocated together.
 constexpr std::size_t fewestTogether = 16;
 constexpr std::size_t mostTogether = 2048;
 
@@ -26,7 +26,7 @@ bool isPrime(std::size_t number)
   return true;
 }
 
-/// A prime, so that tiles which lie behind one another along an axis are not all of few sets.
+/// Returns a prime, so that tiles behind one another along an axis do not fall into few sets.
 std::size_t setsFor(std::size_t most, std::size_t ways)
 {
   std::size_t sets = std::max<std::size_t>(1, most / ways);
@@ -49,7 +49,7 @@ TileStore::TileStore(std::size_t most)
 TileStore::~TileStore()
 {
   const std::lock_guard<std::mutex> lock(this->Space->mutex);
-  this->Space->isUsed = false; // somebody may still have a tile
+  this->Space->isUsed = false; // tiles may still be held
   this->Space->idle.clear();
 }
 
@@ -58,11 +58,11 @@ TileStore::Room TileStore::Rooms::take()
   const std::lock_guard<std::mutex> lock(this->mutex);
   if (this->idle.empty())
   {
-    // As many as there are already.
+    // Doubles the number of tiles.
     const std::size_t more = std::clamp(this->count, fewestTogether, mostTogether);
     const std::shared_ptr<Tile[]> slab(new Tile[more]);
     this->count += more;
-    this->idle.reserve(this->count); // so that giving back needs no memory
+    this->idle.reserve(this->count); // so that returning a tile needs no memory
     for (std::size_t i = more; i-- > 0;)
     {
       this->idle.push_back({ slab.get() + i, slab });
@@ -122,7 +122,7 @@ void TileStore::keep(std::uint64_t number, std::shared_ptr<const Tile> tile)
     set.uses[oldest] = ++set.use;
     set.tiles[oldest].swap(tile);
   }
-  // The one that went is given back here, without the lock.
+  // The evicted tile is released here, after the lock.
 }
 
 std::size_t TileStore::rooms() const

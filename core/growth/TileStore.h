@@ -14,7 +14,7 @@
 namespace cactus
 {
 
-/// The samples of a label image in one of its tiles, x fastest, as many as `grid` says.
+/// The samples of a label image in one of its tiles, x fastest; `grid` gives their number.
 struct Tile
 {
   static constexpr std::size_t size =
@@ -25,29 +25,29 @@ struct Tile
   std::array<float, size> depth;
 };
 
-/// Keeps the tiles that were used last, up to a certain number. May be used from several threads.
+/// A cache of the most recently used tiles, limited in number. Thread-safe.
 ///
-/// Each tile has its place in one of many small sets, by its number, and the one that goes is that of the set which was used
-/// longest ago. So a look at one touches little memory; what is asked for millions of times would wait for more. Tiles of
-/// numbers that follow one another are spread evenly. Room of tiles that nobody has any longer is used again; it is given back
-/// with the store, but for the slabs (64 MB at most) of tiles that somebody still has.
+/// It is set-associative: each tile has a place in one of many small sets, by its number, and the least recently used tile of the
+/// set is evicted. So a look-up touches little memory, which matters for millions of them. Consecutive numbers are spread evenly
+/// over the sets. Memory of tiles that nobody holds is reused; it is freed with the store, except the slabs (64 MB at most) of
+/// tiles that are still held.
 class TileStore
 {
 public:
-  /// At most so many are kept, 1 or more.
+  /// Keeps at most this many tiles, 1 or more.
   explicit TileStore(std::size_t most);
   ~TileStore();
   TileStore(const TileStore&) = delete;
   TileStore& operator=(const TileStore&) = delete;
 
-  /// One to be filled, whose numbers are not defined yet.
+  /// Returns a tile to be filled; its numbers are undefined.
   std::shared_ptr<Tile> make();
-  /// Null where that tile is not kept, or no longer.
+  /// Returns null if that tile was never kept or was evicted.
   std::shared_ptr<const Tile> find(std::uint64_t number);
-  /// Where another thread was faster, its tile stays.
+  /// Keeps the tile, unless another thread has already kept it.
   void keep(std::uint64_t number, std::shared_ptr<const Tile> tile);
 
-  /// For how many tiles there is room by now.
+  /// Returns for how many tiles memory is allocated.
   std::size_t rooms() const;
 
 private:
@@ -57,11 +57,11 @@ private:
   struct Set
   {
     std::array<std::uint64_t, ways> numbers{};
-    std::array<std::uint64_t, ways> uses{}; ///< of each tile the last one, 0 for an empty place
-    std::uint64_t use = 0;                  ///< counts them
+    std::array<std::uint64_t, ways> uses{}; ///< last use of each tile, 0 for an empty place
+    std::uint64_t use = 0;                  ///< counter of uses
     std::array<std::shared_ptr<const Tile>, ways> tiles;
   };
-  /// For a tile, in a slab of many: among all that comes and goes, tiles would leave no large room free.
+  /// Memory of a tile, in a slab of many: separate tiles would fragment the heap.
   struct Room
   {
     Tile* tile;
@@ -72,14 +72,14 @@ private:
     std::mutex mutex;
     std::vector<Room> idle;
     std::size_t count = 0;
-    bool isUsed = true; ///< else what is given back is of no use any longer
+    bool isUsed = true; ///< false once the store is gone: returned memory is freed
 
     Room take();
   };
 
-  std::size_t Ways; ///< of each set that are in use
+  std::size_t Ways; ///< ways of each set that are in use
   std::vector<Set> Sets;
-  std::array<std::mutex, locks> Locks; ///< each of the sets whose number leaves that rest
+  std::array<std::mutex, locks> Locks; ///< each guards the sets whose number has that remainder
   std::shared_ptr<Rooms> Space;
 };
 

@@ -15,7 +15,7 @@ namespace cactus
 namespace
 {
 
-/// Area (µm²) of the disc around `centre` across the unit vector `axis` that lies in the domain.
+/// Returns the area (µm²) in the domain of the disc around `centre` across the unit vector `axis`.
 double discInDomain(const Domain& domain, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis, double radius)
 {
   const double depth = domain.depth(centre);
@@ -23,7 +23,7 @@ double discInDomain(const Domain& domain, const Eigen::Vector3d& centre, const E
   {
     return depth > 0.0 ? pi * radius * radius : 0.0;
   }
-  // A sunflower: each point stands for the same area, and no line of points runs along the domain's faces.
+  // A sunflower: each point stands for the same area, and no line of points is parallel to the domain's faces.
   constexpr int points = 96;
   const Eigen::Vector3d side = axis.unitOrthogonal();
   const Eigen::Vector3d other = axis.cross(side);
@@ -51,7 +51,7 @@ double volumeInDomain(const Fibres& fibres, std::size_t f, double factor)
     const double radius = factor * std::min(fibres.radii[p], fibres.radii[p + 1]);
     constexpr double mostSteps = 1000.0;
     const double wanted = std::ceil(2.0 * length / radius);
-    // Of what is longer only the part in the domain.
+    // For very long segments, only the part in the domain.
     const std::array<double, 2> part = wanted <= mostSteps ? std::array<double, 2>{ { 0.0, 1.0 } }
                                                            : fibres.domain.clip(fibres.points[p], fibres.points[p + 1],
                                                                factor * std::max(fibres.radii[p], fibres.radii[p + 1]));

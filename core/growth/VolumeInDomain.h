@@ -8,8 +8,8 @@
 namespace cactus
 {
 
-/// Volume (µm³) that a fibre's chain fills in the domain with `factor` times its radii: its cross-sections along the centre line,
-/// which is what a bent tube holds, and the two half balls at its ends.
+/// Returns the volume (µm³) in the domain of a fibre's chain with `factor` times its radii: its cross-sections along the centre
+/// line, which give the volume of a bent tube, and the two half balls at its ends.
 double volumeInDomain(const Fibres& fibres, std::size_t f, double factor);
 
 } // namespace cactus

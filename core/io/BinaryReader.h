@@ -10,24 +10,24 @@
 namespace cactus
 {
 
-/// Reads numbers of either byte order from a stream whose end is known, so that no count in it is believed before its bytes are
-/// seen to be there. Throws FileError, "NAME is truncated: ...", where they are not.
+/// Reads numbers of either byte order from a stream of known length. A count in the stream is accepted only if its bytes exist;
+/// throws FileError, "NAME is truncated: ...", if they do not.
 class BinaryReader
 {
 public:
-  /// `name` is what messages call the stream, which has to be one that can be sought in.
+  /// `name` is the stream's name in messages; the stream has to be seekable.
   BinaryReader(std::istream& stream, std::string name);
 
   std::uint64_t size() const { return this->Size; }
   std::uint64_t position() const { return this->Position; }
   std::uint64_t left() const { return this->Size - this->Position; }
-  /// `position` has to lie within the stream.
+  /// Moves to `position`, which has to lie within the stream.
   void seek(std::uint64_t position);
 
-  /// Whether numbers have their bytes in the other order than this machine's.
+  /// Sets whether numbers have the opposite byte order of this machine.
   void setSwapped(bool swapped) { this->Swapped = swapped; }
 
-  /// Throws unless `count` things of `bytes` each are still to come; `what` says what they are.
+  /// Throws unless `count` elements of `bytes` each remain; `what` names them.
   void require(std::uint64_t count, std::uint64_t bytes, const std::string& what) const;
 
   template <typename Number>
@@ -40,7 +40,7 @@ public:
     }
   }
 
-  /// The next line without its end, of at most `longest` characters; throws for a longer one.
+  /// Reads the next line without its end, of at most `longest` characters; throws for a longer one.
   std::string line(std::size_t longest);
 
   [[noreturn]] void fail(const std::string& what) const;

@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// A certificate's value; empty if it is not a number.
+/// Returns a certificate's value; empty if it is not a number.
 std::string cell(const CertificateColumn& column, std::size_t row)
 {
   const double value = column.values[row];

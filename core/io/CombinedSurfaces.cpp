@@ -17,12 +17,12 @@ namespace cactus
 namespace
 {
 
-constexpr double metre = 1e-6; ///< of one µm
+constexpr double metre = 1e-6; ///< metres in one µm
 
-/// What a file has of a surface, which has so many points before it.
+/// Returns a surface's part of a file that already has that many points.
 using SurfaceText = std::function<std::string(const TriangleMesh&, std::size_t)>;
 
-/// Writes a file of a head and of what text() gives for each surface, in each of `passes` over them, and returns its checksum.
+/// Writes a file of a head and of text() for each surface, in each of `passes` over them, and returns its checksum.
 std::string writeInPasses(const FibreSurfaces& surfaces, const std::string& path, const std::string& head, PlyEncoding encoding,
   const StagingFolder& folder, const Context& context, const std::vector<SurfaceText>& passes)
 {
@@ -58,7 +58,7 @@ void requireNumbered(const SurfaceBox& box, const std::string& whose)
   }
 }
 
-/// In metres.
+/// Returns the vertices in metres.
 std::string caminoVertices(const TriangleMesh& mesh)
 {
   constexpr int digits = 9;
@@ -81,7 +81,7 @@ std::string faceText(const TriangleMesh& mesh, PlyEncoding encoding, std::size_t
   return text;
 }
 
-/// The head of a file of rows of three numbers (NumPy's format 1.0), which ends at a multiple of 64 bytes.
+/// Returns the header of a file of rows of three numbers (NumPy's format 1.0), which ends at a multiple of 64 bytes.
 std::string npyHead(const char* type, std::size_t rows)
 {
   std::string description =

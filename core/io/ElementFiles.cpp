@@ -22,11 +22,11 @@ namespace cactus
 namespace
 {
 
-/// µm. MyelinSurface ends axons a quarter of a voxel before a face at most.
+/// µm. MyelinSurface ends axons at most a quarter of a voxel before a face.
 constexpr double furthestExtension = 0.5;
 constexpr char place[] = "substrate_dir/substrate_mesh";
 
-/// Which number is whose, from 0.
+/// The numbers of compartments, from 0.
 struct CompartmentNumbers
 {
   std::int32_t axons = 0;
@@ -36,15 +36,16 @@ struct CompartmentNumbers
   std::int32_t myelin(std::size_t outer) const { return this->axons + static_cast<std::int32_t>(outer); }
   std::int32_t extraAxonal() const { return this->axons + this->fibres; }
   std::int32_t count() const { return this->extraAxonal() + 1; }
-  /// Of a triangle, by what is behind and before it, from 0: interfaces by what is behind them, then faces of the domain.
+  /// Returns the boundary of a triangle, from 0, by the compartments behind and before it: interfaces by the one behind, then
+  /// faces of the domain.
   std::int32_t boundary(const std::array<std::int32_t, 2>& sides) const
   {
     return sides[0] + (sides[1] == BoxedSurfaces::beyond ? this->extraAxonal() : 0);
   }
 };
 
-/// Extends an axon up to the domain's faces, but for those up to which it would meet the outer surface, or itself. Whether there
-/// are none of these.
+/// Extends an axon up to the domain's faces, except those where it would meet the outer surface, or itself. Returns whether it
+/// reaches all of them.
 bool extendAxon(TriangleMesh& inner, const TriangleMesh& outer, const Domain& domain)
 {
   const TriangleTree around(outer, trianglesOffFaces(outer, domain));
@@ -63,7 +64,7 @@ bool extendAxon(TriangleMesh& inner, const TriangleMesh& outer, const Domain& do
   return isWhole;
 }
 
-/// All surfaces, axons first, as the PLY files have them but for the axons' ends.
+/// Returns all surfaces, axons first, as in the PLY files except for the axons' ends.
 std::vector<CompartmentSurface> compartmentSurfaces(
   const SubstrateFolderContents& contents, const CompartmentNumbers& numbers, std::vector<int>& closed, const Context& context)
 {
@@ -130,7 +131,7 @@ void writeLines(const std::string& path, FolderWriter& writer, const Context& co
     });
 }
 
-/// SpinDoctor's reader counts lines: those of comments have to be where they are.
+/// Writes the complex for SpinDoctor, whose reader counts lines: comments have fixed lines.
 void writeComplex(const BoxedSurfaces& joined, const std::vector<CompartmentPoint>& points, const CompartmentNumbers& numbers,
   FolderWriter& writer, const Context& context)
 {
@@ -195,7 +196,7 @@ std::string compartmentTable(
   return table;
 }
 
-/// The circles that SpinDoctor would have made cylinders of; it asks for the file, and shows them.
+/// Returns the circles from which SpinDoctor would have made cylinders; it requires the file, and shows them.
 std::string cellText(
   const std::vector<CompartmentSurface>& surfaces, const CompartmentNumbers& numbers, const std::vector<double>& volumes)
 {
@@ -225,7 +226,7 @@ std::string cellText(
   return text;
 }
 
-/// A first simulation for SpinDoctor: that of MC/DC's scheme, in µm and µs.
+/// Returns a first simulation for SpinDoctor: that of MC/DC's scheme, in µm and µs.
 std::string setupText(const SubstrateFolderContents& contents, const CompartmentNumbers& numbers)
 {
   constexpr double second = 1e6;               // µs

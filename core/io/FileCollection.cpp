@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t chunk = std::size_t(1) << 20;
 
-/// An error number of libzip that is freed.
+/// An error object of libzip that is freed.
 class ZipError
 {
 public:
@@ -36,7 +36,7 @@ private:
   zip_error_t Error{};
 };
 
-/// Opens an archive and takes the source over, which may be null.
+/// Opens an archive and takes ownership of the source, which may be null.
 zip_t* openArchive(zip_source_t* source, const std::string& name, ZipError& error)
 {
   zip_t* archive = source != nullptr ? zip_open_from_source(source, ZIP_RDONLY, error.get()) : nullptr;
@@ -60,7 +60,7 @@ zip_t* openBytes(const std::string& bytes, const std::string& name)
   return openArchive(zip_source_buffer_create(bytes.data(), bytes.size(), 0, error.get()), name, error);
 }
 
-/// Reads until nothing more comes, or more than `size`: read(to, count) gives how many bytes came, or a number below 0.
+/// Reads until the end, or until more than `size`: read(to, count) returns the number of bytes, negative for an error.
 template <typename Read>
 bool readAll(std::uint64_t size, std::vector<char>& bytes, Read&& read)
 {
@@ -208,7 +208,7 @@ std::string zipText(const std::vector<std::pair<std::string, std::string>>& file
     zip_source_free(target);
     throw failed();
   }
-  // The archive is gone once it is closed, and what it was written to with it, unless that is kept.
+  // Closing the archive frees its target, too, unless that is kept.
   zip_source_keep(target);
   const std::unique_ptr<zip_source_t, void (*)(zip_source_t*)> kept(target, zip_source_free);
   std::unique_ptr<zip_t, void (*)(zip_t*)> open(archive, zip_discard);
@@ -221,7 +221,7 @@ std::string zipText(const std::vector<std::pair<std::string, std::string>>& file
       zip_source_free(source);
       throw FileError("cannot add " + name + " to a zip archive: " + zip_strerror(archive));
     }
-    // The same time in all of them, so that the same files give the same archive.
+    // All files get the same time, so that the same files give the same archive.
     zip_file_set_dostime(archive, static_cast<zip_uint64_t>(place), 0, (1 << 5) | 1, 0);
     zip_set_file_compression(archive, static_cast<zip_uint64_t>(place), ZIP_CM_STORE, 0);
   }
@@ -229,7 +229,7 @@ std::string zipText(const std::vector<std::pair<std::string, std::string>>& file
   {
     throw FileError(std::string("cannot make a zip archive: ") + zip_strerror(archive));
   }
-  static_cast<void>(open.release()); // it has been closed
+  static_cast<void>(open.release()); // closed above
   std::string text;
   zip_stat_t found;
   zip_stat_init(&found);

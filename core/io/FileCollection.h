@@ -11,7 +11,7 @@ struct zip;
 namespace cactus
 {
 
-/// What is in a folder or an archive: names, relative and with slashes, of files that can be read.
+/// The readable files in a folder or an archive, by their relative names with slashes.
 class FileCollection
 {
 public:
@@ -21,18 +21,19 @@ public:
   FileCollection& operator=(const FileCollection&) = delete;
 
   virtual std::vector<std::string> names() const = 0;
-  /// Bytes, as the collection says.
+  /// Returns the bytes of a file, as listed by the collection.
   virtual std::uint64_t size(const std::string& name) const = 0;
-  /// A whole file; no more is kept than comes. Throws FileError where it cannot be read or is not of size().
+  /// Reads a whole file; memory grows only with the bytes read. Throws FileError if it cannot be read or its length differs from
+  /// size().
   virtual std::vector<char> read(const std::string& name) const = 0;
 };
 
-/// A zip archive, packed or not (libzip). Throws FileError for what is none.
+/// A zip archive, compressed or not (libzip). Throws FileError if it is none.
 class ZipArchive : public FileCollection
 {
 public:
   explicit ZipArchive(const std::string& path);
-  /// The bytes of an archive, which have to outlive this object; `name` is what messages call it.
+  /// Uses the bytes of an archive, which have to outlive this object; `name` is its name in messages.
   ZipArchive(const std::string& bytes, const std::string& name);
 
   std::vector<std::string> names() const override;
@@ -46,7 +47,7 @@ private:
   std::unique_ptr<struct zip, void (*)(struct zip*)> Archive;
 };
 
-/// A folder, with the folders in it as deep as they go. Throws FileError where there is none.
+/// A folder with all its subfolders. Throws FileError if it does not exist.
 class Folder : public FileCollection
 {
 public:
@@ -60,8 +61,8 @@ private:
   std::string Path;
 };
 
-/// The bytes of a zip archive of these files, in their order and not packed, so that readers can map them into memory. Throws
-/// FileError.
+/// Returns the bytes of a zip archive of these files, in their order and not compressed, so that readers can map them into
+/// memory. Throws FileError.
 std::string zipText(const std::vector<std::pair<std::string, std::string>>& files);
 
 } // namespace cactus

@@ -11,8 +11,8 @@
 namespace cactus
 {
 
-/// Findings in a folder: FOLDER/findings, and FOLDER/findings-00001 and so on of processes of a team beside the first. Of those
-/// of the same name the last one counts. Throws as TeamLog does.
+/// A FindingsStore in a folder: FOLDER/findings, and FOLDER/findings-00001 and so on for the other processes of a team. Of
+/// several findings of the same name the last one counts. Throws as TeamLog does.
 class FindingsFile : public FindingsStore
 {
 public:
@@ -20,11 +20,11 @@ public:
 
   std::optional<std::string> take(const std::string& name) override;
   void keep(const std::string& name, const std::string& bytes) override;
-  /// Whether something was there when it was opened.
+  /// Tells whether there were findings when it was opened.
   bool foundSome() const { return this->FoundSome; }
-  /// Whether no process has kept anything. Only while no other one is at work.
+  /// Tells whether no process has kept anything. Call it only while no other process runs.
   bool isEmpty() const { return this->Log.isEmpty(); }
-  /// Removes the files. Nothing may be kept any more.
+  /// Removes the files. Nothing may be kept afterwards.
   void remove() { this->Log.remove(); }
 
 private:

@@ -26,7 +26,7 @@ namespace
 
 constexpr std::uintmax_t largestManifest = std::uintmax_t(1) << 29; ///< bytes; about 110 for a file
 
-/// Names of files that are written piece by piece, and so have another one until they are whole.
+/// Names of files that are written piece by piece, and so have another name until they are complete.
 const std::set<std::string>& streamedFiles()
 {
   static const std::set<std::string> names{ "fibres.strands", manifestName, "optimized_final.txt", "outer.ply", "inner.ply",
@@ -35,7 +35,7 @@ const std::set<std::string>& streamedFiles()
   return names;
 }
 
-/// Names of the other files, those of surfaces apart.
+/// Names of the other files, except those of surfaces.
 const std::set<std::string>& wholeFiles()
 {
   static const auto names = []
@@ -53,7 +53,7 @@ const std::set<std::string>& wholeFiles()
   return names;
 }
 
-/// Whether a path is `start`, five digits or more, and `end`.
+/// Tells whether a path is `start`, five digits or more, and `end`.
 bool isNumbered(const std::string& path, const std::string& start, const std::string& end)
 {
   constexpr std::size_t digits = 5;
@@ -65,10 +65,10 @@ bool isNumbered(const std::string& path, const std::string& start, const std::st
   return path.substr(start.size(), path.size() - start.size() - end.size()).find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// A path under which the writer has a file, before there is a manifest: in a folder whose writing was ended.
+/// Tells whether the writer uses this path, for a folder whose writing was interrupted before there was a manifest.
 bool isFileOfWriter(const std::string& path)
 {
-  const std::string whole = wholeName(path); // of what is written piece by piece
+  const std::string whole = wholeName(path); // name of a file that is written piece by piece
   const std::string strand = "meshes/simulations/strand_";
   for (const std::string kind : { "outer/", "inner/" })
   {
@@ -96,7 +96,7 @@ bool sameTime(const timespec& a, const timespec& b)
   return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
 }
 
-/// Whether the disk has one and the same file as it was.
+/// Tells whether a file on the disk is unchanged.
 bool untouched(const struct stat& a, const struct stat& b)
 {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size && sameTime(a.st_mtim, b.st_mtim) &&
@@ -137,7 +137,7 @@ public:
     this->readManifestOfFolder();
     if (this->Found.isSubstrate && !this->Found.isFinished)
     {
-      return this->Found; // an early version's, of which nobody knows what is ours
+      return this->Found; // an early version's, of which it is unknown what is ours
     }
     this->walk("");
     this->compare(context);
@@ -230,7 +230,7 @@ private:
     this->Found.files[path] = status;
   }
 
-  /// Reads the files that the manifest lists, and moves those that are something else now to the changed ones.
+  /// Reads the files that the manifest lists, and moves changed ones to `changed`.
   void compare(const Context& context)
   {
     if (!this->Found.isFinished)
@@ -241,7 +241,7 @@ private:
     for (const auto& file : this->Found.files)
     {
       const auto former = this->Earlier.files.find(file.first);
-      // A change within the tick of the clock in which a file was read would not be seen.
+      // A change within the clock tick in which a file was read would not be detected.
       const bool known = former != this->Earlier.files.end() && untouched(former->second, file.second) &&
                          file.second.st_ctim.tv_sec + 2 < this->Earlier.started;
       if (!known && file.first != manifestName)
@@ -302,7 +302,7 @@ bool removeInspected(const fs::path& folder, const FolderInspection& inspection)
       remove(file.first, file.second);
     }
   }
-  // In reverse order a folder comes after what is in it; the outermost, "", is the last.
+  // In reverse order a folder comes after its content; the outermost, "", is the last.
   for (auto inner = inspection.folders.rbegin(); inner != inspection.folders.rend(); ++inner)
   {
     const auto manifest = inspection.files.find(manifestName);

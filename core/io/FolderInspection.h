@@ -15,35 +15,35 @@
 namespace cactus
 {
 
-/// A substrate folder on the disk, held against what its manifest says was written: what in it is the user's. Paths are relative
-/// to the folder and sorted.
+/// A substrate folder on the disk compared with its manifest, which shows what belongs to the user. Paths are relative to the
+/// folder and sorted.
 struct FolderInspection
 {
-  bool exists = false; ///< and is a folder
+  bool exists = false; ///< it exists and is a folder
   bool empty = false;
   bool isSubstrate = false;                   ///< it has a manifest of ours
-  bool isFinished = false;                    ///< and that manifest says what was written
+  bool isFinished = false;                    ///< the manifest lists the written files
   std::vector<std::string> added;             ///< not written by us: files, links, folders (with a slash at the end)
-  std::vector<std::string> changed;           ///< written by us, and no longer as it was
+  std::vector<std::string> changed;           ///< written by us, but changed since
   std::vector<std::string> writeProtected;    ///< files and folders
-  std::map<std::string, struct stat> files;   ///< as written, and how the disk had them when they were read
+  std::map<std::string, struct stat> files;   ///< files as written, with their status on the disk when they were read
   std::map<std::string, struct stat> folders; ///< ours, "" for the folder itself
-  std::time_t started = 0;                    ///< s, by the clock
+  std::time_t started = 0;                    ///< s, start of the inspection by the clock
 
-  /// Nothing in it is anybody's but ours.
+  /// Tells whether nothing in it belongs to the user.
   bool asWritten() const { return added.empty() && changed.empty() && writeProtected.empty(); }
 };
 
-/// Looks at a folder and reads every file that the manifest lists, except those that `earlier`, an inspection of the same
-/// folder, has read and that have not been touched since. Throws FileError where something in it cannot be read, and Cancelled.
+/// Inspects a folder and reads every file that the manifest lists, except those that `earlier`, an inspection of the same folder,
+/// has read and that are untouched since. Throws FileError if something in it cannot be read, and Cancelled.
 FolderInspection inspectFolder(
   const std::filesystem::path& folder, const Context& context = {}, const FolderInspection& earlier = {});
 
-/// Removes what an inspection found to be as written, if nobody has touched it since, the manifest last; and the folders that are
-/// empty then. Whether nothing is left.
+/// Removes the files that an inspection found to be as written, if they are untouched since, the manifest last, and then empty
+/// folders. Returns whether nothing is left.
 bool removeInspected(const std::filesystem::path& folder, const FolderInspection& inspection);
 
-/// Up to five names, and how many more there are.
+/// Returns up to five names, and how many more there are.
 std::string listed(const std::vector<std::string>& names);
 
 } // namespace cactus

@@ -22,14 +22,14 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// The path without links and dots, or an empty one, with errno saying why.
+/// Returns the path without links and dots, or an empty one with the reason in errno.
 std::string realPath(const fs::path& path)
 {
   const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
   return real ? real.get() : "";
 }
 
-/// Whether a file system, or a part of one that files cannot be renamed into, begins there.
+/// Tells whether the place is a mount point, of a file system or of a part into which files cannot be renamed.
 bool isMountPoint(const fs::path& place)
 {
   struct statx folder;

@@ -26,15 +26,15 @@ constexpr int attempts = 100;
 constexpr mode_t permissionBits = 07777;
 constexpr unsigned exchangeFlag = 2; // RENAME_EXCHANGE of <linux/fs.h>
 
-/// What tells one file or folder of the disk from another; zeros if there is none.
+/// Returns the identity of a file or folder on the disk; zeros if there is none.
 std::pair<dev_t, ino_t> identityOf(const fs::path& path)
 {
   struct stat status;
   return ::lstat(path.c_str(), &status) == 0 ? std::make_pair(status.st_dev, status.st_ino) : std::pair<dev_t, ino_t>();
 }
 
-/// Gives a folder the owners and permissions of the one whose place it takes, as far as possible. If the group cannot be kept,
-/// permissions are only taken away.
+/// Gives a folder the owners and permissions of the one that it replaces, as far as possible. If the group cannot be kept,
+/// permissions are only removed.
 void makeAlike(const FolderInspection& former, const fs::path& folder)
 {
   const struct stat& whole = former.folders.at("");
@@ -96,7 +96,7 @@ FolderReplacement::~FolderReplacement()
   }
   catch (...)
   {
-    // It is looked for at the next write.
+    // The next write finds it.
   }
 }
 
@@ -119,7 +119,7 @@ void FolderReplacement::inspectPlace(const Context& context)
     }
     catch (const FileError&)
     {
-      // While it was looked at, another writer may have put a new one there.
+      // Meanwhile another writer may have put a new one there.
       if (before == identityOf(this->Place) || attempt + 1 == attempts)
       {
         throw;
@@ -132,8 +132,8 @@ void FolderReplacement::inspectPlace(const Context& context)
   }
 }
 
-/// Changes the staged folder for the one in the place; the latter goes where the staged one was, or to former() if that takes two
-/// steps. Whether there was one.
+/// Exchanges the staged folder with the one in the place; the latter goes where the staged one was, or to former() if that takes
+/// two steps. Returns whether there was one.
 bool FolderReplacement::exchange() const
 {
   const fs::path staged = this->Staging->substrate();
@@ -181,7 +181,7 @@ void FolderReplacement::replace(const Context& context)
   }
   catch (...)
   {
-    // Somebody has changed it in the last moment: back with it.
+    // It was changed at the last moment: undo the exchange.
     if (inTwoSteps)
     {
       std::rename(this->Place.c_str(), staged.c_str());
@@ -205,7 +205,7 @@ void FolderReplacement::commit(const Context& context)
     {
       makeAlike(this->Former, this->Staging->substrate());
     }
-    // From here to the end it takes no time, and it is too late to stop.
+    // The rest is quick and cannot be stopped.
     Context unstoppable;
     unstoppable.threads = context.threads;
     this->replace(unstoppable);

@@ -10,7 +10,7 @@
 namespace cactus
 {
 
-/// Writes the files of a folder, and remembers them for its manifest.
+/// Writes the files of a folder, and records them for its manifest.
 class FolderWriter
 {
 public:

@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// The surfaces of one kind, where they are.
+/// Returns the surfaces of one kind, which stay in their store.
 FibreSurfaces surfacesIn(
   const SurfaceSource& store, const std::vector<FibreSurfacePair>& fibres, SurfaceReport FibreSurfacePair::*report, double gap)
 {

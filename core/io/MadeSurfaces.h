@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From growth to the writer: what surfaces are to be told of the image, and the writer of them.
+// The steps from growth to the writer: facts of the image for the surfaces, and surfaces for the writer.
 #pragma once
 
 #include "fibres/Fibres.h"
@@ -14,12 +14,12 @@
 namespace cactus
 {
 
-/// Of the image that these options grow from the fibres: labelImageFacts() with the fibres' lengths in the domain.
+/// Returns labelImageFacts() for the image grown from the fibres with these options, with the fibres' lengths in the domain.
 LabelImageFacts grownImageFacts(const Fibres& fibres, const FibreRadialGrowthOptions& growth);
 
-/// Puts the surfaces that a SurfaceMaker has made, wherever they are, into what is to be written, with the ids of the fibres that
-/// were to have some. `outer` and `inner` hold them by the places of their fibres in `fibres`, and have to outlive `contents`.
-/// `gap` (µm) is what they were made to keep from each other.
+/// Adds the surfaces of a SurfaceMaker, wherever they are stored, to the contents to be written, with the ids of the fibres that
+/// were to have some. `outer` and `inner` hold them by the indices of their fibres in `fibres`, and have to outlive `contents`.
+/// `gap` (µm) is the distance that they were made to keep from each other.
 void addMadeSurfaces(const std::vector<FibreSurfacePair>& fibres, const SurfaceSource& outer, const SurfaceSource& inner,
   double gap, SubstrateFolderContents& contents);
 

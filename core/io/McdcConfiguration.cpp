@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-constexpr double gyromagneticRatio = 267.51525e6; ///< rad/(s·T), as the simulator has it
+constexpr double gyromagneticRatio = 267.51525e6; ///< rad/(s·T), as in the simulator
 
 void writeBox(std::ostream& out, const Eigen::Vector3d& lower, const Eigen::Vector3d& upper)
 {
@@ -49,7 +49,7 @@ std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, 
       << "write_traj_file 0\n";
   if (options.permeability > 0.0)
   {
-    // Of all obstacles, too: else the simulator takes walkers that have crossed for its own errors.
+    // For all obstacles, too: otherwise the simulator counts crossings as its own errors.
     out << "permeability " << options.permeability << '\n';
   }
   out << "<obstacle>\n"

@@ -11,8 +11,7 @@
 namespace cactus
 {
 
-/// A first simulation with the MC/DC simulator (Rafael-Patino et al. 2020), to be edited by whoever runs it. SI units, as in its
-/// files.
+/// A first simulation with the MC/DC simulator (Rafael-Patino et al. 2020), for the user to edit. SI units, as in its files.
 struct McdcOptions
 {
   int walkers = 1000;
@@ -22,28 +21,30 @@ struct McdcOptions
   double gradientSeparation = 0.020;            ///< s, Δ
   double echoTime = 0.035;                      ///< s, also the simulated time; more than Δ + δ
   std::vector<double> bValues{ 1e9, 2e9, 3e9 }; ///< s/m²
-  double permeability = 0.0;                    ///< part of the hits on a surface that lead through it
+  double permeability = 0.0;                    ///< probability of crossing a surface at a hit
   int directions = 30;                          ///< per b-value, spread over the half sphere
 
-  /// Root mean square displacement (µm) of a free walker along one axis within the echo time.
+  /// Returns the root mean square displacement (µm) of a free walker along one axis within the echo time.
   double displacement() const;
 };
 
-/// The configuration of one simulation, with paths relative to the folder it is started in. Walkers start inside the domain (µm),
-/// off its boundary by their free displacement or, if that is less, a quarter of the side; the voxel leaves them so much room
-/// around the domain that none reaches its periodic walls, which would map it into another fibre. Keys are written exactly as the
-/// simulator spells them, because it takes similar ones for each other.
+/// Returns the configuration of one simulation, with paths relative to the working directory. Walkers start inside the domain
+/// (µm), away from its boundary by their free displacement or, if that is less, a quarter of the side; the voxel leaves so much
+/// room around the domain that no walker reaches its periodic walls, which would map it into another fibre. Keys are spelt
+/// exactly as in the simulator, because it confuses similar ones.
 std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, const std::string& plyList,
   const std::string& scheme, const std::string& outputPrefix, const std::string& compartment);
 
-/// The acquisition (PGSE, format VERSION: STEJSKALTANNER): one line without gradient, then every b-value along every direction.
+/// Returns the acquisition (PGSE, format VERSION: STEJSKALTANNER): one line without gradient, then every b-value along every
+/// direction.
 std::string mcdcScheme(const McdcOptions& options);
 
-/// Unit vectors: a golden-angle spiral from the pole to the equator, of which the first runs close to the bundles' usual axis, z.
+/// Returns unit vectors: a golden-angle spiral from the pole to the equator; the first one is close to the bundles' usual axis,
+/// z.
 std::vector<Eigen::Vector3d> mcdcDirections(int count);
 
-/// The list of obstacles: the scale from µm to the simulator's mm, then one path per line; for permeable ones, one line each of
-/// path, scale and permeability.
+/// Returns the list of obstacles: the scale from µm to the simulator's mm, then one path per line; for permeable ones, one line
+/// each of path, scale and permeability.
 std::string mcdcPlyList(const std::vector<std::string>& paths, double permeability = 0.0);
 
 } // namespace cactus

@@ -25,7 +25,7 @@ char* writeCoordinate(char (&text)[longestNumber], double value)
   return std::to_chars(text, text + longestNumber, value, std::chars_format::general, 9).ptr;
 }
 
-/// Throws for what a reader would take for something else.
+/// Throws for a comment that a reader would misunderstand.
 void requireComment(const std::string& comment)
 {
   std::istringstream words(comment);

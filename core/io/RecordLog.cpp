@@ -84,7 +84,7 @@ std::vector<std::string> RecordLog::recordsOf(const std::string& path, const std
   return std::move(log.Records);
 }
 
-/// Takes the first record away, which says what the file belongs to; whether there was one.
+/// Removes the first record, which says what the file belongs to; returns whether there was one.
 bool RecordLog::takeIdentity(const std::string& identity)
 {
   if (this->Records.empty())
@@ -99,7 +99,7 @@ bool RecordLog::takeIdentity(const std::string& identity)
   return true;
 }
 
-/// Reads all whole records; returns where they end.
+/// Reads all complete records; returns their end.
 std::size_t RecordLog::read()
 {
   std::string all;

@@ -11,21 +11,21 @@
 namespace cactus
 {
 
-/// A file to which records (bytes) are added one by one, and which holds all that were added before its writer was killed. Each
-/// has its length and CRC-64; what a writer left half-written is cut off by the next one. One process at a time may have it open.
+/// A log file to which records (bytes) are appended, and which keeps all complete records if its writer is killed. Each has its
+/// length and CRC-64; the next writer cuts off a half-written one. One process at a time may have it open.
 class RecordLog
 {
 public:
-  /// Opens the file, or makes it. `identity` says what it belongs to. Throws InvalidInput where that is another one, and
-  /// FileError where the file cannot be used, or another process uses it.
+  /// Opens the file, or creates it. `identity` says what it belongs to. Throws InvalidInput if the file has another one, and
+  /// FileError if the file cannot be used, or another process uses it.
   RecordLog(const std::string& path, const std::string& identity);
 
-  /// What was in the file when it was opened; once.
+  /// Returns the records that the file had when it was opened; once.
   std::vector<std::string> takeRecords() { return std::exchange(this->Records, {}); }
-  /// What is in a file that another process may have open, or has left. Throws as the constructor does, but for a file that is
-  /// not there or empty, which has no records.
+  /// Returns the records of a file that another process may have open, or has left. Throws as the constructor does; a missing or
+  /// empty file has no records.
   static std::vector<std::string> recordsOf(const std::string& path, const std::string& identity);
-  /// Several threads may add. Throws FileError.
+  /// Appends a record. Thread-safe. Throws FileError.
   void add(const std::string& record);
 
 private:

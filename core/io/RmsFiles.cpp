@@ -21,11 +21,11 @@ namespace
 constexpr double squareMetrePerSecond = 1e9;  ///< µm²/ms
 constexpr double secondPerSquareMetre = 1e-9; ///< ms/µm²
 constexpr double second = 1e3;                ///< ms
-constexpr double noRelaxation = 1e9;          ///< ms, of a T2 that has to be positive
-constexpr double mostOfAVoxel = 0.5;          ///< that a step leads through; RMS looks for walls one voxel ahead
-constexpr double savedMoments = 1000.0;       ///< of which the number of steps has to be a multiple
+constexpr double noRelaxation = 1e9;          ///< ms, since T2 has to be positive
+constexpr double mostOfAVoxel = 0.5;          ///< largest step; RMS looks for walls one voxel ahead
+constexpr double savedMoments = 1000.0;       ///< the number of steps has to be a multiple of this
 
-/// Which voxels have walkers.
+/// The voxels with walkers.
 using WalkerVoxels = std::vector<bool>;
 
 SubstrateSamplerOptions voxelsOf(double voxelSize)
@@ -35,7 +35,7 @@ SubstrateSamplerOptions voxelsOf(double voxelSize)
   return options;
 }
 
-/// Inside the axons, or inside the fibres where there are no inner surfaces at all.
+/// Returns the voxels inside the axons, or inside the fibres if there are no inner surfaces at all.
 WalkerVoxels insideVoxels(const SampledSubstrate& sampled, bool hasInner)
 {
   WalkerVoxels inside(sampled.voxels.size());
@@ -56,7 +56,7 @@ WalkerVoxels outsideVoxels(const SampledSubstrate& sampled)
   return outside;
 }
 
-/// Throws where two fibres' voxels share a face.
+/// Throws if two fibres' voxels share a face.
 void requireApart(const SampledSubstrate& sampled, const WalkerVoxels& inside)
 {
   const std::array<int, 3>& count = sampled.voxels.count;
@@ -106,7 +106,7 @@ void writeLabels(
     });
 }
 
-/// Time steps: as many as keep a step below mostOfAVoxel.
+/// Returns the parameters, with enough time steps to keep a step below mostOfAVoxel.
 std::string parameterText(const McdcOptions& options, const VoxelBoxes& voxels)
 {
   const double reach = mostOfAVoxel * voxels.spacing;

@@ -22,7 +22,7 @@ std::string programIn(const fs::path& folder)
     {
       continue;
     }
-    std::error_code unknown; // another user's, or ended meanwhile
+    std::error_code unknown; // of another user, or ended meanwhile
     const fs::path current = fs::read_symlink(process->path() / "cwd", unknown);
     if (!unknown && (current.string() + "/").compare(0, within.size(), within) == 0)
     {

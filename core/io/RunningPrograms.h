@@ -7,8 +7,8 @@
 namespace cactus
 {
 
-/// A program, other than this one, whose current folder is `folder` (whole, without links) or inside it, as "name (process 123)";
-/// nothing if there is none. Of other users' programs only an administrator learns.
+/// Returns a program, other than this one, whose working directory is `folder` (absolute, without links) or inside it, as "name
+/// (process 123)"; nothing if there is none. Only an administrator sees other users' programs.
 std::string programIn(const std::filesystem::path& folder);
 
 } // namespace cactus

@@ -54,7 +54,7 @@ StagingFolder::StagingFolder(fs::path place, fs::path container)
 {
 }
 
-/// Whether that has worked; if not, another name may. Throws FileError if none will.
+/// Returns whether it succeeded; if not, another name may. Throws FileError if none will.
 bool StagingFolder::make()
 {
   const fs::path container = folderOf(this->Place) / partialName(this->Place.filename().string());
@@ -70,7 +70,7 @@ bool StagingFolder::make()
   int error = this->Lock ? 0 : errno;
   if (error == ENOENT || (error == 0 && !lockForWriting(this->Lock.get()) && errno == EWOULDBLOCK))
   {
-    return false; // another process has taken it for one that was left, and clears it away
+    return false; // another process has taken it for a leftover, and removes it
   }
   const std::string text = lockText(this->Place);
   error = error == 0 ? writeAll(this->Lock.get(), text.data(), text.size()) : error;
@@ -149,7 +149,7 @@ std::string StagingFolder::writeBy(const std::string& path, const std::function<
 
 void StagingFolder::synchronise() const
 {
-  // All of the file system in one go: a request for each of thousands of files takes longer.
+  // The whole file system at once: requests for thousands of single files take longer.
   const Descriptor folder(::open(this->substrate().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!folder || (::syncfs(folder.get()) != 0 && errno != ENOSYS))
   {
@@ -196,7 +196,7 @@ void recoverStaging(const fs::path& place, std::vector<std::string>& leftovers)
     const Descriptor lock(::open((container / lockName).c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!lock)
     {
-      ::rmdir(container.c_str()); // succeeds for one that is empty: no more than a name
+      ::rmdir(container.c_str()); // succeeds if it is empty
       continue;
     }
     if (!lockForWriting(lock.get()))

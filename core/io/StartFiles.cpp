@@ -13,7 +13,7 @@ namespace
 
 constexpr int digits = 9;
 
-/// Simulator's lengths in a µm.
+/// Returns the simulator's lengths per µm.
 double unitOf(SubstrateFormat format)
 {
   switch (format)

@@ -20,7 +20,7 @@ namespace cactus
 namespace
 {
 
-/// Reads numbers line by line, and knows which line it is on.
+/// Reads numbers line by line, and counts the lines.
 class LineReader
 {
 public:
@@ -30,7 +30,7 @@ public:
   {
   }
 
-  /// The one number of the next line.
+  /// Reads the only number of the next line.
   double only(const std::string& meaning)
   {
     this->begin(meaning);
@@ -49,7 +49,7 @@ public:
     return static_cast<std::size_t>(value);
   }
 
-  /// The four numbers of the next line.
+  /// Reads the four numbers of the next line.
   void four(const std::string& meaning, double (&values)[4])
   {
     this->begin(meaning);
@@ -75,7 +75,7 @@ public:
   }
 
 private:
-  /// Goes to the next line that is not blank; false where there is none.
+  /// Goes to the next line that is not blank; false if there is none.
   bool next()
   {
     do
@@ -90,7 +90,7 @@ private:
     return true;
   }
 
-  /// The next line, whether it ends as under Unix, Windows or the old Mac; false at the end of the file.
+  /// Reads the next line, with a line end of Unix, Windows or the old Mac; false at the end of the file.
   bool readLine()
   {
     constexpr std::size_t longest = 4096;
@@ -117,13 +117,13 @@ private:
         this->Buffer.sbumpc();
       }
     }
-    catch (const std::ios_base::failure& error) // a folder, a broken disk
+    catch (const std::ios_base::failure& error) // a folder, or a disk error
     {
       throw FileError("cannot read " + this->Name + " after line " + std::to_string(this->Line) + ": " + error.code().message());
     }
     if (this->Line == 1 && this->Text.compare(0, 3, "\xef\xbb\xbf") == 0)
     {
-      this->Text.erase(0, 3); // the mark that some editors put before UTF-8
+      this->Text.erase(0, 3); // byte-order mark of UTF-8
     }
     return true;
   }
@@ -195,7 +195,7 @@ void readStrand(LineReader& reader, std::size_t number, std::size_t strands, Fib
   mean = radiusSum / static_cast<double>(points);
   for (const double limit : { limits::radius.lowest, limits::radius.highest })
   {
-    // The mean of radii at a limit is not beyond it, however their sum was rounded.
+    // The mean of radii at a limit counts as within it, however their sum was rounded.
     mean = std::abs(mean - limit) <= 1e-9 * limit ? limit : mean;
   }
 }

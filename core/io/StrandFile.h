@@ -13,22 +13,22 @@ namespace cactus
 /// `x y z r` per line. The domain becomes the centred cube. Fibre ids count from 1, all fibres are of bundle 1, and a fibre's
 /// target radius is the mean of its radii.
 ///
-/// Each of these has a line of its own; blank lines, blanks around numbers, any line ends and a byte order mark make no
-/// difference, nor does the locale. Numbers are as takeNumber() has them; counts are whole ("23", also "23.0"). Nothing is set
-/// aside for a count before its lines are there.
+/// Each of these has its own line; blank lines, blanks around numbers, the kind of line end, a byte order mark and the locale
+/// make no difference. Numbers are read by takeNumber(); counts are whole ("23", also "23.0"). Memory is allocated for lines that
+/// exist, not for counts.
 ///
-/// Throws FileError (path, line, what was expected there and what was found), also where text is left after the last strand,
-/// and InvalidInput as `validate` does.
+/// Throws FileError (path, line, what was expected and what was found), also for text after the last strand, and InvalidInput as
+/// `validate` does.
 Fibres readStrandFile(const std::string& path);
 
-/// The same from a stream; `name` is what messages call it.
+/// Does the same with a stream; `name` is its name in messages.
 Fibres readStrandFile(std::istream& stream, const std::string& name);
 
-/// Whether the format can say what domain it is: a cube centred on the origin.
+/// Tells whether the format can hold the domain: a cube centred on the origin.
 bool fitsStrandFile(const Domain& domain);
 
 /// Writes the same format with 9 significant digits, whatever the locale. The file appears whole or not at all. Throws FileError,
-/// and InvalidInput where the domain does not fit.
+/// and InvalidInput if the domain does not fit.
 void writeStrandFile(const Fibres& fibres, const std::string& path);
 
 } // namespace cactus

@@ -19,64 +19,65 @@
 namespace cactus
 {
 
-/// Whose reader a substrate folder is for.
+/// The reader that a substrate folder is for.
 enum class SubstrateFormat
 {
   Mcdc = 0,       ///< MC/DC: a PLY file per surface (µm), configurations that run as written
   Reference = 1,  ///< the reference program's run folder, as dmipy-sim loads it (µm)
   Camino = 2,     ///< one PLY file per kind of surface (m)
   Disimpy = 3,    ///< NumPy arrays of vertices (m) and faces per kind of surface
-  Rms = 4,        ///< RMS: labels of voxels, beside a PLY file per surface (µm)
-  Surfaces = 5,   ///< no simulator's: a PLY file per surface (µm) and nothing beside
+  Rms = 4,        ///< RMS: voxel labels, beside a PLY file per surface (µm)
+  Surfaces = 5,   ///< for no simulator: only a PLY file per surface (µm)
   SpinDoctor = 6, ///< finite elements: one complex of triangles for tetgen, beside a PLY file per surface (µm)
-  Bundles = 7     ///< no simulator's: a PLY file per bundle and kind of surface (µm) and nothing beside
+  Bundles = 7     ///< for no simulator: only a PLY file per bundle and kind of surface (µm)
 };
 
-/// What they are called, by their numbers.
+/// Their names, by their numbers.
 constexpr const char* formatNames[] = { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone", "SpinDoctor",
   "Surfaces by bundle" };
 
-/// A substrate's fibres that surfaces were made of, where these are not all.
+/// A sample of a substrate's fibres of which surfaces were made.
 struct SubstrateSample
 {
-  std::size_t fibres = 0; ///< all that the substrate has
-  double share = 1.0;     ///< of the volume of all fibres, that of the sample
+  std::size_t fibres = 0; ///< number of all fibres of the substrate
+  double share = 1.0;     ///< volume of the sample over that of all fibres
 };
 
-/// What goes into a substrate folder.
+/// The content of a substrate folder.
 struct SubstrateFolderContents
 {
   Domain domain;
   FibreSurfaces outer;
   FibreSurfaces inner;
-  const Fibres* fibres = nullptr;        ///< centre lines, if they are to be written too (`fibres.strands`)
-  std::optional<SubstrateSample> sample; ///< if the surfaces are of a part of the fibres
-  std::optional<Placement> placement;    ///< in an image's space; files stay in the substrate's own, and the manifest says it
-  Provenance provenance;                 ///< of the surfaces, and what is to be written of them
+  const Fibres* fibres = nullptr;        ///< centre lines to be written (`fibres.strands`), or null
+  std::optional<SubstrateSample> sample; ///< if the surfaces belong to a sample of the fibres
+  std::optional<Placement> placement;    ///< in an image's space; files stay in the substrate's space, and the manifest records
+                                         ///< the placement
+  Provenance provenance;                 ///< of the surfaces and their output
   bool allowOpenSurfaces = false;        ///< write surfaces that leak, too
   SubstrateCertificateOptions certificate;
   SubstrateFormat format = SubstrateFormat::Mcdc;
   PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files that no simulator reads, see mayBeBinary()
   McdcOptions mcdc;
   double voxelSize = 0.1; ///< µm, of label volumes
-  int startPositions = 0; ///< points in each compartment for walkers to start from
-  std::uint64_t seed = 1; ///< of their places
+  int startPositions = 0; ///< number of start positions in each compartment
+  std::uint64_t seed = 1; ///< of the start positions
 };
 
-/// Whether the folder has the centre lines: a strand file holds them.
+/// Tells whether the folder has the centre lines: a strand file can hold them.
 inline bool hasStrandFile(const SubstrateFolderContents& contents)
 {
   return contents.fibres != nullptr && fitsStrandFile(contents.fibres->domain);
 }
 
-/// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
+/// Tells whether a format has PLY files that may be binary: simulators that read PLY files only read ASCII.
 inline bool mayBeBinary(SubstrateFormat format)
 {
   return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor ||
          format == SubstrateFormat::Bundles;
 }
 
-/// One surface's file, as the manifest lists it.
+/// The file of one surface, as listed in the manifest.
 struct SubstrateFile
 {
   std::string path; ///< relative to the folder
@@ -89,14 +90,14 @@ struct SubstrateFile
   bool closed = false; ///< a closed 2-manifold that points outward
 };
 
-/// What has been written, and how good it is.
+/// The written substrate, and its certificate.
 struct WrittenSubstrate
 {
   std::vector<SubstrateFile> files;
-  SubstrateCertificate certificate; ///< of the surfaces as the files hold them
-  /// What its user has to know of it as the format has it: a sentence for each thing.
+  SubstrateCertificate certificate; ///< of the surfaces as stored in the files
+  /// Remarks for the user on the substrate in this format, a sentence each.
   std::vector<std::string> remarks;
-  /// What writes that were killed have left beside the folder and is kept, as it holds what is the user's: a sentence for each.
+  /// A sentence for each leftover of killed writes beside the folder that is kept because it holds the user's files.
   std::vector<std::string> leftovers;
 
   std::vector<std::string> allRemarks() const

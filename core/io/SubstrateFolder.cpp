@@ -35,14 +35,14 @@ namespace cactus
 namespace
 {
 
-/// The folder of one surface's file, with a slash, where each fibre has a file; `kind` is "outer" or "inner".
+/// Returns the folder of one surface's file, with a slash, if each fibre has a file; `kind` is "outer" or "inner".
 std::string surfaceFolder(const SubstrateFolderContents& contents, const std::string& kind, int id)
 {
   const bool isMany = std::max(contents.outer.size(), contents.inner.size()) > filesInAFolder;
   return kind + '/' + (isMany ? fiveDigits(std::size_t(id) / filesInAFolder) + '/' : "");
 }
 
-/// The file of one surface.
+/// Returns the file of one surface.
 std::string surfacePath(const SubstrateFolderContents& contents, const std::string& kind, int id, int bundleId)
 {
   const std::string digits = fiveDigits(std::size_t(id));
@@ -61,7 +61,7 @@ std::string surfacePath(const SubstrateFolderContents& contents, const std::stri
   }
 }
 
-/// Whether all surfaces of one kind go into one file.
+/// Tells whether all surfaces of one kind go into one file.
 bool isCombined(SubstrateFormat format)
 {
   return format == SubstrateFormat::Camino || format == SubstrateFormat::Disimpy;
@@ -102,7 +102,7 @@ void requireSound(const SubstrateCertificate& certificate, const std::string& wa
   }
 }
 
-/// What the manifest says of each surface.
+/// Returns the manifest's entries of the surfaces.
 std::vector<SubstrateFile> surfaceFiles(
   const SubstrateFolderContents& contents, const std::string& kind, const SubstrateCertificate& certificate)
 {
@@ -120,7 +120,7 @@ std::vector<SubstrateFile> surfaceFiles(
   return files;
 }
 
-/// What a part of the writing needs of its caller.
+/// The context and the processes of a part of the writing.
 struct SharedRun
 {
   const Context& context;
@@ -128,7 +128,7 @@ struct SharedRun
   const Recollection& known;
 };
 
-/// The folders that these files are in, the outer ones first.
+/// Makes the folders of these files, the outer ones first.
 void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
 {
   std::set<std::string> made;
@@ -144,7 +144,7 @@ void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
   }
 }
 
-/// Writes each surface to a file of its own.
+/// Writes each surface to its own file.
 void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, PlyEncoding encoding,
   FolderWriter& writer, const SharedRun& run, double from, double to)
 {
@@ -165,14 +165,14 @@ void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateF
   }
 }
 
-/// Those of a bundle.
+/// The surfaces of a bundle.
 struct BundleSurfaces
 {
   FibreSurfaces surfaces;
-  std::vector<std::size_t> places; ///< among all
+  std::vector<std::size_t> places; ///< indices among all
 };
 
-/// By bundle. What is given has to outlive the result.
+/// Groups the surfaces by bundle. `all` has to outlive the result.
 std::map<int, BundleSurfaces> byBundle(const FibreSurfaces& all)
 {
   std::map<int, BundleSurfaces> bundles;
@@ -191,7 +191,7 @@ std::map<int, BundleSurfaces> byBundle(const FibreSurfaces& all)
   return bundles;
 }
 
-/// For what runs in several threads: only the one that made it asks the caller whether to stop.
+/// Returns a context for several threads: only the thread that made it asks the caller whether to stop.
 Context askedByOne(const Context& context)
 {
   Context shared = context;
@@ -256,7 +256,7 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
     }
     return files;
   }
-  if (run.sharing.isFirst() && contents.format != SubstrateFormat::Reference) // whose surfaces of both kinds are in one folder
+  if (run.sharing.isFirst() && contents.format != SubstrateFormat::Reference) // it has surfaces of both kinds in one folder
   {
     makeFolders(files, writer);
   }
@@ -266,7 +266,7 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
   return files;
 }
 
-/// The surfaces as a reader of the files gets them.
+/// Returns the surfaces as a reader of the files gets them.
 FibreSurfaces asWritten(const FibreSurfaces& surfaces, PlyEncoding encoding)
 {
   FibreSurfaces written = surfaces;
@@ -325,13 +325,13 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   }
 }
 
-/// Writes everything but the surfaces, the manifest last: where there is one, the folder is whole.
+/// Writes everything but the surfaces, the manifest last: its existence shows that the folder is complete.
 void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, FolderWriter& writer)
 {
   if (hasStrandFile(contents))
   {
     const bool isReference = contents.format == SubstrateFormat::Reference;
-    // By id, as certificate and manifest have them: a strand file has no ids, and pieces of a fibre have theirs at the end.
+    // By id, as in certificate and manifest: a strand file has no ids, and the pieces of a fibre have theirs at the end.
     const std::vector<int>& ids = contents.fibres->fibreIds;
     const bool isSorted = std::is_sorted(ids.begin(), ids.end());
     writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands", [&](const std::string& path)
@@ -353,7 +353,7 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
     });
 }
 
-/// Format SpinDoctor joins all surfaces in memory.
+/// Checks the memory for format SpinDoctor, which joins all surfaces in memory.
 void requireMemoryForElements(const SubstrateCertificate& certificate)
 {
   constexpr double bytesOfTriangle = 80.0; // twice with its part of the points, once with the compartments of its sides
@@ -367,7 +367,7 @@ void requireMemoryForElements(const SubstrateCertificate& certificate)
     "choose another Format, or make a smaller substrate");
 }
 
-/// Judges and writes all but what one process has to write by itself.
+/// Judges and writes the parts that processes share.
 WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWriter& writer, const SharedRun& run)
 {
   // Judging takes about as long as writing.
@@ -456,7 +456,7 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
   const Sharing& sharing, const Recollection& known)
 {
   WrittenSubstrate substrate;
-  std::optional<FolderReplacement> replacement; // the first process's, who removes what nobody writes into any more
+  std::optional<FolderReplacement> replacement; // of the first process, which removes it once nobody writes into it any more
   sharing.together(
     [&]
     {

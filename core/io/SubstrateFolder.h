@@ -10,11 +10,11 @@
 namespace cactus
 {
 
-/// Throws InvalidInput where the files of a format are not to be had in an encoding, see mayBeBinary().
+/// Throws InvalidInput if a format's files do not exist in an encoding, see mayBeBinary().
 void requireEncoding(SubstrateFormat format, PlyEncoding encoding);
 
-/// Throws InvalidInput where the files of a format cannot hold a substrate of this domain: the reference program's any other than
-/// a cube centred on the origin, RMS's one that voxels of this size (µm) do not fill.
+/// Throws InvalidInput if a format cannot hold a substrate of this domain: the reference program requires a cube centred on the
+/// origin, RMS one that voxels of this size (µm) fill.
 void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize);
 
 /// Writes a folder for simulators:
@@ -27,14 +27,14 @@ void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
 ///   certificate.csv, certificate_fibres.csv   what certify() found on the surfaces as written
 ///   manifest.json, README.txt
 ///
-/// The folder appears whole or not at all, and its name holds a whole folder, the former or the new one, at any time (see
-/// FolderReplacement). One that is there is replaced if it is a substrate folder in which all is as it was written, by the
-/// checksums in its manifest; it is refused, by name, where anything was added, changed or write-protected: results of
-/// simulations, an edited configuration, notes. Surfaces that meet or come too near are written, and their certificate says so.
-/// Throws InvalidInput (no surfaces, an encoding that the simulator cannot read, a surface that is not a closed outward
-/// 2-manifold, unless allowed; the message names the fibre), FileError, and Cancelled when stopped.
-/// Processes that share it judge and write the surfaces together, and all get the result; what else is in the folder the first
-/// one writes. What is `known` of these very surfaces and centre lines is not judged again.
+/// The folder appears whole or not at all, and its name refers to a whole folder, the former or the new one, at any time (see
+/// FolderReplacement). An existing one is replaced if it is a substrate folder in which everything is as written, by the
+/// checksums in its manifest; it is refused, by name, if anything was added, changed or write-protected: results of simulations,
+/// an edited configuration, notes. Surfaces that meet or come too near are written, and their certificate says so. Throws
+/// InvalidInput (no surfaces, an encoding that the simulator cannot read, a surface that is not a closed outward 2-manifold,
+/// unless allowed; the message names the fibre), FileError, and Cancelled. Processes that share the work judge and write the
+/// surfaces together, and all get the result; the first one writes the other files. Results in the cache `known`, for the same
+/// surfaces and centre lines, are not judged again.
 WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, const std::string& folder,
   const Context& context = {}, const Sharing& sharing = Sharing(), const Recollection& known = {});
 

@@ -13,12 +13,12 @@ namespace cactus
 namespace
 {
 
-/// What the manifest says it is; by this a folder is known as one of ours.
+/// The manifest's format name, which identifies a folder as one of ours.
 constexpr char format[] = "CACTUS substrate folder";
 constexpr char ownChecksum[] = "manifest_sha256";
 constexpr std::size_t checksumDigits = 64;
 
-/// One line for each property and for each thing in a list, which a person can read and `grep` can find.
+/// Lays JSON out with one line for each property and list item, for readers and `grep`.
 std::string laidOut(const Json& manifest)
 {
   std::string text = "{";
@@ -49,7 +49,7 @@ Json fileEntry(const SubstrateFile& file)
     { "triangles", file.triangles }, { "volume_um3", file.volume }, { "area_um2", file.area }, { "closed", file.closed } };
 }
 
-/// The record of each stage as a value; what is no record stays as it is.
+/// Returns the record of each stage as a value; other texts stay as they are.
 Json stagesOf(const Provenance& provenance)
 {
   Json stages = Json::array();
@@ -66,14 +66,14 @@ bool isText(const Json& object, const char* name)
   return found != object.end() && found->is_string();
 }
 
-/// The manifest's text as it was when its own checksum was taken.
+/// Returns the manifest's text as it was when its own checksum was computed.
 std::string withoutOwnChecksum(std::string text, const std::string& checksum)
 {
   const std::size_t place = text.rfind(checksum);
   return place == std::string::npos ? text : text.replace(place, checksum.size(), std::string(checksumDigits, '0'));
 }
 
-/// The rows of the affine, or null.
+/// Returns the rows of the affine, or null.
 Json placementRows(const std::optional<Placement>& placement)
 {
   if (!placement)
@@ -155,7 +155,7 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
 
 std::optional<SubstrateManifest> readManifest(const std::string& text)
 {
-  // What is of no use here is not kept: neither the list of surfaces nor what is nested more deeply than ours.
+  // Unneeded values are skipped: the list of surfaces, and deeper nesting than ours.
   const Json::parser_callback_t wanted = [](int depth, Json::parse_event_t event, Json&)
   { return depth < 2 || (event != Json::parse_event_t::object_start && event != Json::parse_event_t::array_start); };
   const Json manifest = Json::parse(text, wanted, false);

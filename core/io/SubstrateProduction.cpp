@@ -34,7 +34,7 @@ namespace cactus
 namespace
 {
 
-/// Shares of the work.
+/// Shares of the total progress.
 constexpr double growthSolved = 0.025;
 constexpr double surfacesMade = 0.92;
 
@@ -61,7 +61,7 @@ std::string valuesOf(const Options& options)
   return values;
 }
 
-/// Of all that surfaces depend on.
+/// Returns the identity of everything that surfaces depend on.
 std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
 {
   Sha256 sum;
@@ -83,7 +83,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   return sum.digest();
 }
 
-/// Axons fill less than the fibres, some of which is myelin.
+/// Throws if axons are to fill more than the fibres leave for them beside myelin.
 void requireRoomForMyelin(const Fibres& fibres, const ProductionOrder& order)
 {
   const double filled = targetFraction(fibres, order.growth);
@@ -96,7 +96,7 @@ void requireRoomForMyelin(const Fibres& fibres, const ProductionOrder& order)
   }
 }
 
-/// The fibres whose surfaces are made: one at least.
+/// Returns the fibres whose surfaces are made: at least one.
 Fibres madeOf(const Fibres& fibres, const ProductionOrder& order)
 {
   std::vector<double> numbers;
@@ -132,7 +132,7 @@ std::unique_ptr<SurfaceSpool> openSpool(
   }
 }
 
-/// Whose progress tells the pace of the whole, too.
+/// Returns a context whose progress also reports the speed.
 Context paced(const Context& context)
 {
   Context whole = context;
@@ -145,7 +145,7 @@ Context paced(const Context& context)
   return whole;
 }
 
-/// Else they would make different things into one folder.
+/// Throws unless all processes have the same request; otherwise they would mix results in one folder.
 void requireAlike(const std::string& identity, const std::string& folder, const Sharing& sharing)
 {
   for (const std::string& other : sharing.exchange(identity + folder))
@@ -155,7 +155,7 @@ void requireAlike(const std::string& identity, const std::string& folder, const 
   }
 }
 
-/// How many tiles a process keeps: its part of the image with some of what lies around it, of a large image less.
+/// Returns how many tiles a process keeps: its part of the image with some of its surroundings, less for a large image.
 std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
 {
   std::size_t tiles = 1;
@@ -167,7 +167,7 @@ std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
   return std::max(together / std::size_t(processes), tilesPerThread * std::size_t(threads));
 }
 
-/// What is solved for before any surface is made.
+/// The quantities that are solved for before any surface is made.
 struct SolvedGrowth
 {
   std::vector<double> factors; ///< on each fibre's radii, see factorsForTargetRadii()
@@ -200,7 +200,7 @@ SolvedGrowth solvedFrom(const std::string& bytes)
   return solved;
 }
 
-/// Makes the surfaces of `made`, the fibres or a sample of them, into the spool, and says what is to be written of them.
+/// Makes the surfaces of `made`, the fibres or a sample of them, into the spool, and returns the contents to be written.
 SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
   ProducedSubstrate& result, const Context& context, const Sharing& sharing)
 {
@@ -240,19 +240,20 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   return contents;
 }
 
-/// The message, and how to go on with surfaces that could not be written.
+/// Returns the message with advice on how to continue with surfaces that could not be written.
 std::string withWaysOn(const std::string& message, const std::string& folder)
 {
   const std::string work = workFolderOf(folder);
   if (message.find(work) != std::string::npos)
   {
-    return message; // it is of the work folder itself, and says what to do
+    return message; // it is about the work folder itself, and gives advice
   }
   return message + ". The surfaces are made, and kept in " + work +
          ": this FolderName goes on with them once that is mended. For another one, rename " + work + " to its name with .work";
 }
 
-/// Throws what writeSubstrateFolder() does; where the surfaces, which stay, cannot be written, that says how to go on with them.
+/// Throws the errors of writeSubstrateFolder(); if the surfaces, which stay, cannot be written, the message says how to continue
+/// with them.
 WrittenSubstrate writeMade(const SubstrateFolderContents& contents, const std::string& folder, const Context& context,
   const Sharing& sharing, const Recollection& known)
 {
@@ -307,11 +308,11 @@ ProducedSubstrate produceSubstrate(
   const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context, Team* team)
 {
   const std::string work = workFolderOf(folder);
-  // Of this run alone: another one that fails, since this one has the folder, does not end it.
+  // For this run only: another run that fails, because this one has the folder, must not end it.
   const Sharing sharing(team, work + '/' + Sharing(team).fromFirst(partialName(SurfaceSpool::stopName)));
   ProducedSubstrate result;
   std::unique_ptr<SurfaceSpool> spool;
-  bool isMade = false; // all surfaces are
+  bool isMade = false; // whether all surfaces are made
   const auto produce = [&]
   {
     validate(fibres);
@@ -323,7 +324,7 @@ ProducedSubstrate produceSubstrate(
     requireAlike(identity, folder, sharing);
     if (sharing.isFirst())
     {
-      const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
+      const FolderReplacement refuses(folder, context); // fails now, rather than at the end, if it cannot be written
     }
     const Fibres sample = order.sampledFraction < 1.0 ? madeOf(fibres, order) : Fibres();
     const Fibres& made = order.sampledFraction < 1.0 ? sample : fibres;
@@ -339,7 +340,7 @@ ProducedSubstrate produceSubstrate(
       spool->remove();
     }
   };
-  // What an earlier run has left, and what another order may write, is of use.
+  // Keeps the work of an earlier run, and surfaces that another order may write.
   const auto removeUseless = [&]
   {
     if (spool != nullptr && sharing.isFirst() && !isMade && result.found == 0)
@@ -358,7 +359,7 @@ ProducedSubstrate produceSubstrate(
   }
   catch (const InvalidInput& error)
   {
-    removeUseless(); // nobody will go on with what cannot be made
+    removeUseless(); // nobody can continue a request that cannot be met
     throw InvalidInput(error.what() + whereKept());
   }
   catch (const Infeasible& error)
@@ -379,7 +380,7 @@ ProducedSubstrate produceSubstrate(
   {
     if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces() && !spool->foundFindings())
     {
-      removeUseless(); // what this run has solved for would only stand in the way of other parameters
+      removeUseless(); // the solved growth would only conflict with other parameters
     }
     throw;
   }

@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// What stands in a folder besides what all have, and how it is used.
+/// Returns the files of a format besides the common ones, and their use.
 std::string filesFor(SubstrateFormat format)
 {
   switch (format)
@@ -54,7 +54,7 @@ std::string filesFor(SubstrateFormat format)
   }
 }
 
-/// What this substrate is, and whether it is certified.
+/// Returns the description of the substrate, and whether it is certified.
 std::string headText(const SubstrateFolderContents& contents, const SubstrateCertificate& certificate)
 {
   const bool hasInner = contents.inner.size() > 0;
@@ -84,13 +84,13 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
   return text;
 }
 
-/// Whether each surface is in a file of its own below outer and inner.
+/// Tells whether each surface has its own file below outer and inner.
 bool hasFilePerSurface(SubstrateFormat format)
 {
   return format == SubstrateFormat::Mcdc || mayBeBinary(format);
 }
 
-/// How MC/DC is run here.
+/// Returns how to run MC/DC here.
 std::string mcdcText(bool hasInner, bool hasOuter)
 {
   std::string text = "mcdc/           configurations for the MC/DC simulator (github.com/jonhrafe/MCDC_Simulator_public)\n\n";

@@ -8,7 +8,7 @@
 namespace cactus
 {
 
-/// The README.txt of a substrate folder: what is in it, how good it is, and how to simulate with it.
+/// Returns the README.txt of a substrate folder: its content, its certificate, and how to simulate with it.
 std::string readmeText(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate);
 
 } // namespace cactus

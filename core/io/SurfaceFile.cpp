@@ -29,15 +29,15 @@ namespace
 {
 
 const std::string surfaceTitle = "CACTUS surface 2\n";
-/// Reads otherwise where bytes have another order.
+/// Reads as another number if the byte order differs.
 constexpr std::uint64_t orderOfBytes = 0x0102030405060708u;
 
 constexpr double leastLayerHeight = 1.0; ///< µm
 constexpr std::size_t trianglesOfLayer = 128;
-/// Layers beside each other are read at once, up to so many bytes.
+/// Adjacent layers are read at once, up to this many bytes.
 constexpr std::uint64_t longestRead = 1 << 20;
 
-/// What stands in front: all that tells one file of surfaces from another.
+/// Returns the front of a file: everything that distinguishes one surface file from another.
 std::string frontOf(const SurfaceFileOwner& owner)
 {
   ByteWriter put;
@@ -57,24 +57,24 @@ std::uint64_t seedOf(const SurfaceFileOwner& owner)
   return checksumOf(frontOf(owner), 0);
 }
 
-/// So that no layer, nor its entry, can be taken for another one.
+/// Returns a seed that distinguishes layers, and their entries, from each other.
 std::uint64_t seedOf(std::uint64_t before, std::uint64_t layer)
 {
   return crc64(&layer, sizeof(layer), before);
 }
 
-/// How a surface is divided.
+/// The division of a surface into layers.
 struct Layering
 {
-  /// Of a height, which may be beside all layers.
+  /// Returns the layer of a height, which may be outside all layers.
   std::uint64_t at(double z) const
   {
     const double place = std::floor((z - this->first) / this->height);
     return place > 0.0 ? static_cast<std::uint64_t>(std::min(place, static_cast<double>(this->count - 1))) : 0;
   }
 
-  double first = 0.0;  ///< µm, where they begin
-  double height = 1.0; ///< µm, of each
+  double first = 0.0;  ///< µm, lower end of the first layer
+  double height = 1.0; ///< µm, height of each layer
   std::uint64_t count = 0;
 };
 
@@ -108,16 +108,16 @@ double highestCorner(const TriangleMesh& surface, const std::array<std::int32_t,
     { surface.points[std::size_t(t[0])][2], surface.points[std::size_t(t[1])][2], surface.points[std::size_t(t[2])][2] });
 }
 
-/// Where a layer is, and how far its triangles reach.
+/// The place of a layer in the file, and the reach of its triangles.
 struct LayerEntry
 {
-  std::uint64_t begin = 0; ///< in the file
+  std::uint64_t begin = 0; ///< place in the file
   std::uint64_t size = 0;  ///< bytes
   std::uint64_t checksum = 0;
-  double top = -std::numeric_limits<double>::infinity(); ///< µm, of its highest corner
+  double top = -std::numeric_limits<double>::infinity(); ///< µm, highest corner
   std::uint64_t reachedFrom = 0;                         ///< the lowest layer whose highest corner is in this one or above
 };
-constexpr std::size_t bytesOfEntry = 48; // with the checksum of all that
+constexpr std::size_t bytesOfEntry = 48; // including its checksum
 
 std::string entryText(const LayerEntry& entry, std::uint64_t seed)
 {
@@ -131,12 +131,12 @@ std::string entryText(const LayerEntry& entry, std::uint64_t seed)
   return put.bytes();
 }
 
-/// What stands at the end.
+/// The end of the file.
 struct SurfaceFileEnd
 {
   std::uint64_t points = 0;
   std::uint64_t triangles = 0;
-  std::uint64_t entries = 0; ///< where they begin
+  std::uint64_t entries = 0; ///< place of the entries
   Layering layers;
 };
 constexpr std::size_t bytesOfEnd = 56;
@@ -154,7 +154,7 @@ std::string endText(const SurfaceFileEnd& end, std::uint64_t seed)
   return put.bytes();
 }
 
-/// Increasing numbers, as their differences in groups of seven bits.
+/// Writes increasing numbers, as their differences in groups of seven bits.
 void putIncreasing(ByteWriter& put, const std::vector<std::int32_t>& numbers)
 {
   std::uint32_t before = 0;
@@ -170,7 +170,7 @@ void putIncreasing(ByteWriter& put, const std::vector<std::int32_t>& numbers)
   }
 }
 
-/// So many, all below `end`.
+/// Reads `count` increasing numbers; throws if one is not below `end`.
 void getIncreasing(ByteReader& get, std::vector<std::int32_t>& numbers, std::uint32_t count, std::uint64_t end)
 {
   std::uint64_t number = 0;
@@ -190,7 +190,7 @@ void getIncreasing(ByteReader& get, std::vector<std::int32_t>& numbers, std::uin
   }
 }
 
-/// Some of a surface's triangles, increasing, and their points, likewise.
+/// Some of a surface's triangles and points, both in increasing order.
 struct SurfaceLayer
 {
   std::vector<std::int32_t> pointOf;
@@ -198,7 +198,7 @@ struct SurfaceLayer
   TriangleMesh mesh;
 };
 
-/// The coordinates' type, so that layers are short.
+/// Writes points; the template gives the coordinates' type, to keep layers short.
 template <typename Coordinate>
 void putPoints(ByteWriter& put, const TriangleMesh& mesh)
 {
@@ -224,7 +224,7 @@ void getPoints(ByteReader& get, std::uint32_t count, TriangleMesh& mesh)
   }
 }
 
-/// The corners' type, likewise.
+/// Writes corners; the template gives their type.
 template <typename Corner>
 void putCorners(ByteWriter& put, const TriangleMesh& mesh)
 {
@@ -290,7 +290,7 @@ SurfaceLayer layerFrom(const std::string& bytes, const SurfaceFileEnd& end)
   return layer;
 }
 
-/// Takes a surface apart, layer by layer from below.
+/// Cuts a surface into layers, from below.
 class LayerCutter
 {
 public:
@@ -334,7 +334,7 @@ public:
     }
     for (std::size_t p = 0; number == 0 && p < this->PlaceOf.size(); ++p)
     {
-      if (this->PlaceOf[p] == none) // of no triangle, and to be kept all the same
+      if (this->PlaceOf[p] == none) // a point without triangles is kept, too
       {
         layer.pointOf.push_back(static_cast<std::int32_t>(p));
       }
@@ -363,12 +363,12 @@ private:
   static constexpr std::int32_t used = 0;
 
   const TriangleMesh& Surface;
-  std::vector<std::size_t> Starts;   ///< of layers in Order, and the end
+  std::vector<std::size_t> Starts;   ///< per layer, its start in Order, and the end
   std::vector<std::int32_t> Order;   ///< triangles by layer, increasing in each
-  std::vector<std::int32_t> PlaceOf; ///< of a point, in the layer that was cut last of those that have it
+  std::vector<std::int32_t> PlaceOf; ///< per point, its place in the last layer cut that has it
 };
 
-/// Fills in which layer is the lowest to reach each.
+/// Fills in, for each layer, the lowest layer that reaches it.
 void noteReach(std::vector<LayerEntry>& entries, const Layering& layers)
 {
   std::uint64_t done = 0;
@@ -382,7 +382,7 @@ void noteReach(std::vector<LayerEntry>& entries, const Layering& layers)
   }
 }
 
-/// Reads a surface's file where it is asked to.
+/// Reads parts of a surface's file.
 class SurfaceFileReader
 {
 public:
@@ -409,7 +409,7 @@ public:
     get(this->End.layers.count);
     this->require(endText(this->End, this->Seed) == bytes);
     const std::uint64_t left = this->Size - bytesOfEnd - front;
-    // A point takes 13 bytes at least, and a triangle 7.
+    // A point takes at least 13 bytes, and a triangle 7.
     this->require(this->End.points <= left / 13 && this->End.triangles <= left / 7 &&
                   this->End.layers.count <= left / bytesOfEntry &&
                   this->End.entries == this->Size - bytesOfEnd - bytesOfEntry * this->End.layers.count);
@@ -435,7 +435,7 @@ public:
     return bytes;
   }
 
-  /// Those of the layers from `first` to `last`.
+  /// Returns the entries of the layers from `first` to `last`.
   std::vector<LayerEntry> entries(std::uint64_t first, std::uint64_t last) const
   {
     const std::string bytes = this->read(this->End.entries + bytesOfEntry * first, bytesOfEntry * (last + 1 - first));
@@ -455,7 +455,7 @@ public:
     return entries;
   }
 
-  /// Calls visit(layer) for layers of `entries`, which begin with that of the layer `first`, if `isWanted(entry)`.
+  /// Calls visit(layer) for the layers of `entries`, the first of which is layer `first`, if `isWanted(entry)`.
   template <typename IsWanted, typename Visit>
   void visitLayers(const std::vector<LayerEntry>& entries, std::uint64_t first, IsWanted&& isWanted, Visit&& visit) const
   {
@@ -495,7 +495,7 @@ private:
   SurfaceFileEnd End;
 };
 
-/// Adds a layer's triangles and points, with the numbers that they have in the whole.
+/// Adds a layer's triangles and points, with their indices in the whole surface.
 void addLayer(const SurfaceLayer& layer, std::vector<std::pair<std::int32_t, Eigen::Vector3d>>& points,
   std::vector<std::pair<std::int32_t, std::array<std::int32_t, 3>>>& triangles)
 {
@@ -553,7 +553,7 @@ void writeSurface(const std::string& path, const SurfaceFileOwner& owner, const 
   write(endText(end, seed));
   if (std::filesystem::exists(path))
   {
-    // Only what is this run's is replaced.
+    // Only this run's own file is replaced.
     const std::size_t shared = front.size() - sizeof(owner.index);
     std::string there(shared, '\0');
     std::ifstream(path, std::ios::binary).read(&there[0], static_cast<std::streamsize>(shared));
@@ -574,7 +574,7 @@ TriangleMesh readSurface(const std::string& path, const SurfaceFileOwner& owner)
   surface.points.resize(std::size_t(file.end().points));
   surface.triangles.resize(std::size_t(file.end().triangles));
   std::uint64_t triangles = 0;
-  std::uint64_t next = front.size(); // nothing may be between layers
+  std::uint64_t next = front.size(); // no gaps are allowed between layers
   const std::uint64_t count = file.end().layers.count;
   const std::vector<LayerEntry> entries = count > 0 ? file.entries(0, count - 1) : std::vector<LayerEntry>();
   for (const LayerEntry& entry : entries)

@@ -19,7 +19,7 @@ namespace cactus
 namespace
 {
 
-// What the records of a journal begin with.
+// First bytes of a journal's records.
 constexpr char outerMade = 'o';
 constexpr char spaced = 's';
 constexpr char spacingDone = 'S';
@@ -47,7 +47,7 @@ std::string surfaceName(std::size_t index)
   return fiveDigits(index) + ".surface";
 }
 
-/// Removes the files of some names, and those that have such a name to come.
+/// Removes the files of some names, and partial files of these names.
 void removeFrom(const std::filesystem::path& folder, const std::set<std::string>& names)
 {
   std::vector<std::filesystem::path> found;
@@ -81,7 +81,7 @@ std::string SurfaceSpool::Files::pathOf(std::size_t index) const
   return (this->Folder / kind / fiveDigits(index / filesInAFolder) / surfaceName(index)).string();
 }
 
-/// What `read(path, owner)` reads of a surface's file. Throws FileError, which says what to do.
+/// Returns the result of `read(path, owner)` for a surface's file. Throws FileError, which says what to do.
 template <typename Read>
 auto SurfaceSpool::Files::from(std::size_t index, Read&& read) const
 {
@@ -100,7 +100,7 @@ auto SurfaceSpool::Files::from(std::size_t index, Read&& read) const
 
 bool SurfaceSpool::Files::has(std::size_t index) const
 {
-  std::error_code ignored; // whoever puts the surface then says what is the matter
+  std::error_code ignored; // an error is reported when the surface is put
   return std::filesystem::exists(this->pathOf(index), ignored);
 }
 
@@ -143,7 +143,7 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
   this->Outer.isFinal = this->Inner.isFinal = this->IsSpacingDone;
   if (!this->IsSpacingDone)
   {
-    // What was moved is moved again, from what was contoured.
+    // Moved surfaces are moved again, from their contours.
     std::fill(this->Outer.isSpaced.begin(), this->Outer.isSpaced.end(), 0);
   }
   for (std::size_t i = 0; i < count; ++i)
@@ -196,7 +196,7 @@ bool SurfaceSpool::recallOuter(std::size_t index, FibreSurfacePair& pair) const
   FibreSurfacePair found = pairFrom(this->OuterNotes[index].back());
   if (!this->Outer.has(index) || (found.isInnerMade && !this->Inner.has(index)))
   {
-    return false; // somebody has removed what was damaged
+    return false; // a damaged file was removed
   }
   pair = std::move(found);
   return true;
@@ -232,7 +232,7 @@ void SurfaceSpool::noteSpaced(const std::vector<FibreSurfacePair>& pairs)
 
 bool SurfaceSpool::recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const
 {
-  // The latest first, which is the one whose surface is there.
+  // The latest first, since its surface is the stored one.
   const auto& notes = this->InnerNotes[index];
   for (auto note = notes.rbegin(); note != notes.rend(); ++note)
   {
@@ -253,7 +253,7 @@ void SurfaceSpool::noteInner(std::size_t index, const FibreSurfacePair& pair)
 
 void SurfaceSpool::remove()
 {
-  std::error_code ignored; // what is left is named by who finds it
+  std::error_code ignored; // later readers report leftovers
   for (const char* kind : kinds)
   {
     for (std::size_t first = 0; first < this->Count; first += filesInAFolder)

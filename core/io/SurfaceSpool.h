@@ -18,37 +18,36 @@
 namespace cactus
 {
 
-/// Surfaces on the disk while they are made, and the journal of how far they have come:
+/// Surfaces on the disk while they are made, and the journal of their progress:
 ///
-///   FOLDER/journal            what is known of each fibre, and FOLDER/findings what was solved for before any surface was
-///                             made, and found when surfaces were looked at, to keep them apart and to judge them; of
-///                             processes of a team beside the first in FOLDER/journal-00001 and so on (see TeamLog)
-///   FOLDER/outer/00000/…      outer surfaces as they were contoured, a file each, at most 1,000 in a folder
-///   FOLDER/spaced/…, inner/…  those that were moved to keep them apart, and inner surfaces
+///   FOLDER/journal            the record of each fibre; FOLDER/findings has the growth, which is solved for first, and the
+///                             results of keeping surfaces apart and of judging them; the other processes of a team have
+///                             FOLDER/journal-00001 and so on (see TeamLog)
+///   FOLDER/outer/00000/…      outer surfaces as contoured, a file each, at most 1,000 in a folder
+///   FOLDER/spaced/…, inner/…  surfaces that were moved to keep them apart, and inner surfaces
 ///   FOLDER/stop.partial-…     while one process of a team tells the others to end (see Sharing)
 ///
-/// Files appear whole or not at all, and what is in a journal is in its file. One that was never put
-/// is an error. A file that is gone before surfaces are kept apart is that of a fibre of which nothing is known. Memory is one
-/// surface for each that is asked for, or the part of it (see SurfaceFile.h). Any number of processes goes on with what any other
-/// has left.
+/// Files appear whole or not at all, and a surface in a journal is in its file. Reading one that was never put is an error. A
+/// file that is missing before surfaces are kept apart counts as a fibre without a record. Each request holds one surface in
+/// memory, or a part of it (see SurfaceFile.h). Any number of processes continues the work that any others have left.
 class SurfaceSpool : public SurfaceJournal
 {
 public:
   static constexpr char stopName[] = "stop";
 
-  /// For so many fibres, in a folder that is made, or goes on where one of the same `identity` ended. Throws InvalidInput for a
-  /// folder of another identity, and FileError. Processes that share it make theirs together.
+  /// Makes the folder for `count` fibres, or continues in one of the same `identity`. Throws InvalidInput for a folder of another
+  /// identity, and FileError. Collective: processes that share it make theirs together.
   SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing = Sharing());
 
   SurfaceStore& outer() { return this->Outer; }
   SurfaceStore& inner() { return this->Inner; }
-  /// How many fibres' surfaces were there at the beginning: outer or, where these are spaced, inner ones.
+  /// Returns how many fibres' surfaces existed at the beginning: outer or, if these are spaced, inner ones.
   std::size_t found() const { return this->Found; }
-  /// Whether an earlier run had left findings.
+  /// Tells whether an earlier run had left findings.
   bool foundFindings() const { return this->Findings->foundSome(); }
-  /// Whether nothing is in any journal, nor among any findings. Only while no other process is at work.
+  /// Tells whether all journals and findings are empty. Call it only while no other process runs.
   bool isEmpty() const { return !this->holdsSurfaces() && this->Findings->isEmpty(); }
-  /// Whether something of a fibre is in a journal. Only while no other process is at work.
+  /// Tells whether a journal has a record of a fibre. Call it only while no other process runs.
   bool holdsSurfaces() const { return !this->Log->isEmpty(); }
 
   bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
@@ -60,11 +59,11 @@ public:
   void noteInner(std::size_t index, const FibreSurfacePair& pair) override;
   Recollection findings() override { return Recollection(*this->Findings); }
 
-  /// Removes all that is its own, with what a killed process has left half-written; the folder, too, if nothing else is in it.
+  /// Removes all its own files, including half-written ones of a killed process; also the folder, if nothing else is in it.
   void remove();
 
 private:
-  /// Surfaces of one kind.
+  /// The surfaces of one kind.
   class Files : public SurfaceStore
   {
   public:
@@ -78,7 +77,7 @@ private:
     void putElsewhere(std::size_t index) override { this->isSpaced[index] = this->isSpacing ? 1 : 0; }
 
     bool isSpacing = false;
-    bool isFinal = false;       ///< surfaces are kept apart, so that one of them alone is not made again
+    bool isFinal = false;       ///< surfaces are kept apart, so that a single one is not made again
     std::vector<char> isSpaced; ///< whether it was put while isSpacing
 
   private:
@@ -104,7 +103,7 @@ private:
   Files Outer;
   Files Inner;
   bool IsSpacingDone = false;
-  // Of each fibre, in the order of the journal.
+  // Records of each fibre, in the order of the journal.
   std::vector<std::vector<std::string>> OuterNotes;
   std::vector<std::vector<std::string>> SpacedNotes;
   std::vector<std::vector<std::string>> InnerNotes;

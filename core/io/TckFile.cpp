@@ -25,23 +25,23 @@ constexpr char firstLine[] = "mrtrix tracks";
 constexpr std::size_t longestFirstLine = 64;
 constexpr std::size_t longestLine = 1 << 20; ///< command_history has whole commands, with all their files
 constexpr std::size_t longestHeader = 64 << 20;
-/// Points that are read at once.
+/// Number of points that are read at once.
 constexpr std::size_t block = 4096;
 
 struct TckHeader
 {
   bool isDouble = false;
-  double count = 0.0; ///< 0 where it is not said
+  double count = 0.0; ///< 0 if missing
 };
 
-/// Without blanks at its end: MRtrix leaves four after the first line, where an END was before the header was written.
+/// Reads a line without blanks at its end: MRtrix leaves four after the first line, in place of a former END.
 std::string readLine(BinaryReader& reader, std::size_t longest)
 {
   const std::string line = reader.line(longest);
   return line.substr(0, line.find_last_not_of(" \t") + 1);
 }
 
-/// The lines `key: value` up to END; of keys that come twice the last.
+/// Reads the lines `key: value` up to END; of duplicate keys the last counts.
 std::map<std::string, std::string> readLines(BinaryReader& reader)
 {
   if (reader.size() == 0 || readLine(reader, longestFirstLine) != firstLine)
@@ -66,7 +66,7 @@ std::map<std::string, std::string> readLines(BinaryReader& reader)
   reader.fail("its header has no line END");
 }
 
-/// Where the points begin.
+/// Returns where the points begin.
 std::uint64_t dataBegin(const BinaryReader& reader, const std::map<std::string, std::string>& lines)
 {
   const auto file = lines.find("file");
@@ -76,7 +76,7 @@ std::uint64_t dataBegin(const BinaryReader& reader, const std::map<std::string, 
   }
   std::string_view text = file->second;
   double offset = -1.0;
-  const bool isHere = text.substr(0, 1) == "."; // and not in another file
+  const bool isHere = text.substr(0, 1) == "."; // not in another file
   text.remove_prefix(isHere ? 1 : 0);
   skipBlanks(text);
   if (!isHere || !takeNumber(text, offset) || offset != std::floor(offset) || offset < static_cast<double>(reader.position()) ||
@@ -108,7 +108,7 @@ TckHeader readHeader(BinaryReader& reader)
   return header;
 }
 
-/// What becomes of the points one after the other.
+/// Sorts points into streamlines, one after the other.
 class TrackCollector
 {
 public:
@@ -118,7 +118,7 @@ public:
   {
   }
 
-  /// False where it is the end of the file.
+  /// Takes a point; false at the end of the file.
   bool take(const std::array<double, 3>& point)
   {
     if (std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]))
@@ -136,7 +136,7 @@ public:
     {
       if (points > this->Tracks.offsets.back())
       {
-        this->Tracks.offsets.push_back(points); // the last one, where its writer has left the mark out
+        this->Tracks.offsets.push_back(points); // the last one, if its writer has omitted the mark
       }
       return false;
     }
@@ -182,7 +182,7 @@ Tractogram readTck(std::istream& stream, const std::string& name, const Context&
   BinaryReader reader(stream, name);
   const TckHeader header = readHeader(reader);
   Tractogram tractogram;
-  // Room for all triplets as points and as marks of an end: what is not used of it is never touched, and so costs nothing.
+  // Reserves memory for all triplets as points and as ends: unused memory is never touched, and so costs nothing.
   const std::uint64_t triplets = reader.left() / (3 * (header.isDouble ? sizeof(double) : sizeof(float)));
   requireMemory(double(triplets) * bytesPerPoint, name, "choose streamlines from it first, e.g. with tckedit");
   tractogram.points.reserve(3 * triplets);
@@ -201,7 +201,7 @@ void writeTck(const Fibres& fibres, const Placement& placement, const std::strin
   validate(fibres);
   const std::string count = std::to_string(fibres.size());
   std::string header = "mrtrix tracks\ndatatype: Float32LE\nlength_unit: mm\ncount: " + count + "\ntotal_count: " + count + '\n';
-  // The offset stands in the header, and counts its own digits.
+  // The offset is part of the header, and includes its own digits.
   constexpr char before[] = "file: . ";
   constexpr char after[] = "\nEND\n";
   std::size_t offset = header.size() + sizeof(before) + sizeof(after) - 2;

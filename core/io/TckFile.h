@@ -13,14 +13,14 @@ namespace cactus
 {
 
 /// Reads MRtrix's tracks (.tck, "mrtrix tracks"): a header in text, then x y z in single or double precision of either byte
-/// order, three NaNs after each streamline and three infinities at the end. A count in the header that is not what there is gives
-/// a remark, as MRtrix leaves a wrong one where it is stopped.
+/// order, three NaNs after each streamline and three infinities at the end. A wrong count in the header gives a remark, since
+/// MRtrix leaves one when it is stopped.
 ///
-/// Throws FileError (no such file, truncated, a coordinate that is no number, by streamline), OutOfMemory and Cancelled.
+/// Throws FileError (no such file, truncated, an invalid coordinate, with its streamline), OutOfMemory and Cancelled.
 Tractogram readTck(std::istream& stream, const std::string& name, const Context& context = {});
 
-/// Writes the centre lines of fibres (µm) as tracks in mm, where they are placed, Float32LE. Radii and ids do not fit into the
-/// format. The file appears whole or not at all; throws FileError, and InvalidInput as `validate` does.
+/// Writes the centre lines of fibres (µm) as tracks in mm, at their placement, Float32LE. The format has no radii and ids. The
+/// file appears whole or not at all; throws FileError, and InvalidInput as `validate` does.
 void writeTck(const Fibres& fibres, const Placement& placement, const std::string& path);
 
 } // namespace cactus

@@ -18,7 +18,7 @@ TeamLog::TeamLog(std::filesystem::path folder, std::string name, std::string ide
   , Name(std::move(name))
   , Identity(std::move(identity))
 {
-  // The first one's file is locked before any other process looks into the folder, and nobody adds before all have read.
+  // The first one's file is locked before any other process reads the folder, and nobody adds before all have read.
   const std::filesystem::path own =
     this->Folder / (this->Name + (sharing.isFirst() ? "" : '-' + fiveDigits(std::size_t(sharing.place()))));
   if (sharing.isFirst())
@@ -45,7 +45,7 @@ std::vector<std::string> TeamLog::takeRecords()
   return std::exchange(this->Found, {});
 }
 
-/// Those of all processes that have ever worked here, sorted.
+/// Returns the files of all processes that have ever worked here, sorted.
 std::vector<std::filesystem::path> TeamLog::files() const
 {
   std::vector<std::filesystem::path> found;
@@ -76,7 +76,7 @@ bool TeamLog::isEmpty() const
 void TeamLog::remove()
 {
   this->Own.reset();
-  std::error_code ignored; // what is left is named by who finds it
+  std::error_code ignored; // later readers report leftovers
   for (const std::filesystem::path& file : this->files())
   {
     std::filesystem::remove(file, ignored);

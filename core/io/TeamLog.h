@@ -12,21 +12,22 @@
 namespace cactus
 {
 
-/// Records of all processes of a team, each of which adds to a RecordLog of its own: FOLDER/NAME is the first one's, and
-/// FOLDER/NAME-00001 and so on are the others'. Any number of processes goes on with what any other has left.
+/// The records of all processes of a team, each of which appends to its own RecordLog: FOLDER/NAME for the first one, and
+/// FOLDER/NAME-00001 and so on for the others. Any number of processes continues the logs that any others have left.
 class TeamLog
 {
 public:
-  /// In a folder that the first process finds. Processes that share it make theirs together. Throws as RecordLog does.
+  /// Opens the logs in a folder that exists for the first process. Collective: processes that share it make theirs together.
+  /// Throws as RecordLog does.
   TeamLog(std::filesystem::path folder, std::string name, std::string identity, const Sharing& sharing);
 
-  /// What was there when it was opened, process by process; once.
+  /// Returns the records that existed when it was opened, process by process; once.
   std::vector<std::string> takeRecords();
-  /// Several threads may add. Throws FileError.
+  /// Appends a record. Thread-safe. Throws FileError.
   void add(const std::string& record) { this->Own->add(record); }
-  /// Whether no process has added anything. Only while no other one is at work.
+  /// Tells whether no process has added anything. Call it only while no other process runs.
   bool isEmpty() const;
-  /// Removes the files. Nothing may be added any more.
+  /// Removes the files. Nothing may be added afterwards.
   void remove();
 
 private:

@@ -12,7 +12,7 @@ namespace
 
 constexpr std::uint32_t gone = std::numeric_limits<std::uint32_t>::max();
 
-/// Moves what belongs to thing `from` to the place of thing `to`, before it.
+/// Moves the values of element `from` to element `to`, before it.
 void move(std::vector<double>& values, std::size_t components, std::size_t from, std::size_t to)
 {
   for (std::size_t c = 0; c < components; ++c)
@@ -21,7 +21,7 @@ void move(std::vector<double>& values, std::size_t components, std::size_t from,
   }
 }
 
-/// Moves all that is kept to the front, and gives each streamline's new number.
+/// Moves all kept streamlines to the front, and returns each one's new number.
 std::vector<std::uint32_t> compact(Tractogram& tractogram)
 {
   std::vector<std::uint32_t> numbers(tractogram.size(), gone);
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> compact(Tractogram& tractogram)
   std::size_t begin = 0;
   for (std::size_t s = 0; s < numbers.size(); ++s)
   {
-    const std::size_t first = begin; // the former offsets[s], in whose place a new one may stand
+    const std::size_t first = begin; // the former offsets[s], which may be overwritten
     const std::size_t last = tractogram.offsets[s + 1];
     begin = last;
     if (last - first < 2)
@@ -115,7 +115,7 @@ std::vector<int> bundlesByGroup(const Tractogram& tractogram)
   {
     for (const std::uint32_t streamline : groups[g].streamlines)
     {
-      bundles[streamline] = static_cast<int>(g) + 1; // the first one last
+      bundles[streamline] = static_cast<int>(g) + 1; // in reverse, so that the first group wins
     }
   }
   return bundles;

@@ -21,7 +21,7 @@ namespace cactus
 namespace
 {
 
-/// In small letters, with its dot.
+/// Returns the extension in lower case, with its dot.
 std::string extensionOf(std::string path)
 {
   while (path.size() > 1 && path.back() == '/')
@@ -34,7 +34,7 @@ std::string extensionOf(std::string path)
   return extension;
 }
 
-/// The file, or folder, by a name that says what it is.
+/// Opens the file, or folder, after a check of its name.
 std::ifstream opened(const std::string& path)
 {
   const std::string extension = extensionOf(path);

@@ -15,11 +15,11 @@ namespace cactus
 /// left out. Throws FileError, which names the file, OutOfMemory and Cancelled.
 Tractogram readTractogram(const std::string& path, const Context& context = {});
 
-/// Throws FileError where readTractogram() could not begin: for a name of another kind, and a file that cannot be opened.
+/// Throws FileError if readTractogram() could not begin: for a name of another kind, and a file that cannot be opened.
 void requireTractogram(const std::string& path);
 
-/// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); in mm, where they are placed.
-/// The file appears whole or not at all. Throws FileError, and InvalidInput for other extensions and as `validate` does.
+/// Writes fibres by the extension: .tck (only centre lines) or .trx (with radii, ids and bundles); in mm, at their placement. The
+/// file appears whole or not at all. Throws FileError, and InvalidInput for other extensions and as `validate` does.
 void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path);
 
 } // namespace cactus

@@ -23,7 +23,7 @@ constexpr std::size_t headerSize = 1000;
 constexpr std::size_t namesPerKind = 10;
 constexpr std::size_t nameLength = 20;
 
-// Where in the header things stand.
+// Positions in the header.
 constexpr std::size_t dimensionsAt = 6;
 constexpr std::size_t voxelSizesAt = 12;
 constexpr std::size_t scalarsAt = 36;
@@ -36,7 +36,7 @@ constexpr std::size_t countAt = 988;
 constexpr std::size_t versionAt = 992;
 constexpr std::size_t headerSizeAt = 996;
 
-/// The 1000 bytes that a file begins with, and the numbers in them.
+/// The first 1000 bytes of a file, and the numbers in them.
 class HeaderBytes
 {
 public:
@@ -49,7 +49,7 @@ public:
     }
     constexpr auto wanted = static_cast<std::int32_t>(headerSize);
     this->Swapped = this->number<std::int32_t>(headerSizeAt) != wanted;
-    if (this->number<std::int32_t>(headerSizeAt) != wanted) // in the other order, too
+    if (this->number<std::int32_t>(headerSizeAt) != wanted) // also in the other order
     {
       reader.fail("its header gives its own size as other than 1000 in either byte order: it is damaged");
     }
@@ -68,7 +68,7 @@ public:
     return value;
   }
 
-  /// As far as there is no zero.
+  /// Returns the text up to its first zero.
   std::string text(std::size_t at, std::size_t length) const
   {
     std::string found(this->Bytes.data() + at, length);
@@ -99,7 +99,7 @@ TrkSpace spaceOf(const HeaderBytes& header)
   return space;
 }
 
-/// How many numbers a name stands for: a digit or two after the zero that ends it, as nibabel has it; else one.
+/// Returns how many numbers a name stands for: a digit or two after the zero that ends it, as in nibabel; else one.
 std::size_t componentsOf(const HeaderBytes& header, std::size_t at, const std::string& name)
 {
   std::size_t components = 1;
@@ -111,7 +111,7 @@ std::size_t componentsOf(const HeaderBytes& header, std::size_t at, const std::s
   return components;
 }
 
-/// The values that go by the names in the header; those that no name is left for are called "KIND n".
+/// Returns the values with their names in the header; those without a name are called "KIND n".
 std::vector<TractogramValues> valuesOf(const HeaderBytes& header, std::size_t count, std::size_t namesAt, const std::string& kind)
 {
   std::vector<TractogramValues> all;
@@ -143,7 +143,7 @@ void append(std::vector<TractogramValues>& all, const float* numbers)
   }
 }
 
-/// Reads streamlines, one after the other, as the header lays them out.
+/// Reads streamlines, one after the other, in the header's layout.
 class TrackReader
 {
 public:
@@ -156,7 +156,7 @@ public:
   {
   }
 
-  /// Makes room for all that can be in the file: what is not used of it is never touched, and so costs nothing.
+  /// Reserves memory for the whole file: unused memory is never touched, and so costs nothing.
   void reserve(std::size_t count)
   {
     const std::size_t points = this->Reader.left() / (sizeof(float) * this->Columns);
@@ -262,7 +262,7 @@ Tractogram readTrk(std::istream& stream, const std::string& name, const Context&
   {
     reader.fail(error.what());
   }
-  // All numbers of the file in double precision, and what polylines take besides.
+  // All numbers of the file in double precision, and the further memory of polylines.
   requireMemory(
     bytesPerPoint / (3.0 * sizeof(float)) * static_cast<double>(reader.left()), name, "choose streamlines from it first");
   TrackReader tracks(reader, toScanner, tractogram);

@@ -14,14 +14,14 @@ namespace cactus
 namespace
 {
 
-/// Where each axis of voxels leads: along which axis of the scanner, and in which sense.
+/// The axis of the scanner along which each axis of voxels leads, and its sense.
 struct Orientation
 {
   std::array<int, 3> axis{ { 0, 1, 2 } };
   std::array<double, 3> sense{ { 1.0, 1.0, 1.0 } };
 };
 
-/// Of a matrix from voxels to the scanner: its nearest rotation says which axes lie closest, the strongest first.
+/// Returns that of a matrix from voxels to the scanner: its nearest rotation tells which axes are closest, the strongest first.
 Orientation orientationOf(const Eigen::Matrix3d& matrix)
 {
   Eigen::Matrix3d directions = matrix;
@@ -56,7 +56,7 @@ Orientation orientationOf(const Eigen::Matrix3d& matrix)
   return orientation;
 }
 
-/// Of three letters, each of which says where an axis leads: L or R, A or P, S or I.
+/// Returns that of three letters, each of which gives an axis: L or R, A or P, S or I.
 Orientation orientationOf(const std::string& order)
 {
   Orientation orientation;
@@ -100,8 +100,8 @@ Eigen::Affine3d trkToScanner(TrkSpace space, std::vector<std::string>& remarks)
   }
   const Orientation file = orientationOf(space.voxelOrder);
   const Orientation image = orientationOf(Eigen::Matrix3d(space.voxelToRas.topLeftCorner<3, 3>()));
-  // From the file's voxels to those that vox_to_ras is for, as nibabel has it: where axes are not only flipped but also
-  // exchanged, the format leaves open which of the two is meant, and files go by the readers that there are.
+  // From the file's voxels to those of vox_to_ras, as in nibabel: if axes are not only flipped but also permuted, the format does
+  // not say which of the two is meant, and files follow the existing readers.
   Eigen::Affine3d turn = Eigen::Affine3d::Identity();
   turn.linear().setZero();
   for (std::size_t i = 0; i < 3; ++i)

@@ -20,7 +20,7 @@ namespace
 
 constexpr char headerName[] = "header.json";
 
-/// Reads the parts of a tractogram, which are files of one kind of number each.
+/// Reads the parts of a tractogram, each a file of numbers of one type.
 class TrxReader
 {
 public:
@@ -51,7 +51,7 @@ private:
   std::uint64_t count(const Json& header, const char* key) const
   {
     const auto found = header.find(key);
-    // Floating-point numbers are written by some: whole ones are taken.
+    // Some programs write floating-point numbers: whole ones are accepted.
     const double value = found != header.end() && found->is_number() ? found->get<double>() : -1.0;
     if (value < 0.0 || value != std::floor(value) || value > double(std::numeric_limits<std::uint32_t>::max()))
     {
@@ -77,7 +77,7 @@ private:
     this->Streamlines = this->count(*header, "NB_STREAMLINES");
   }
 
-  /// The numbers of a file of which there have to be so many.
+  /// Reads the numbers of a file, which must have `count` of them.
   std::vector<double> numbers(const TrxPart& part, std::uint64_t count)
   {
     const std::uint64_t size = this->Files.size(part.path);
@@ -90,7 +90,7 @@ private:
     return trxNumbers(this->Files.read(part.path), part);
   }
 
-  /// A name that nothing else of its kind has.
+  /// Throws if the name exists among others of its kind.
   void requireNew(const std::vector<TractogramValues>& all, const TrxPart& part) const
   {
     if (std::any_of(all.begin(), all.end(), [&](const TractogramValues& values) { return values.name == part.name; }))

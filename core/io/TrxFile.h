@@ -11,19 +11,18 @@
 namespace cactus
 {
 
-/// Reads a .trx tractogram (tee-ar-ex, version 1): `header.json`, `positions.3.float16|32|64`, `offsets.uint32|64` (with the
-/// number of points at its end, or without), `dpv/`, `dps/` and `groups/`. Positions are in the scanner's mm as they stand.
-/// Values of groups
+/// Reads a .trx tractogram (tee-ar-ex, version 1): `header.json`, `positions.3.float16|32|64`, `offsets.uint32|64` (with or
+/// without the number of points at its end), `dpv/`, `dps/` and `groups/`. Positions are in the scanner's mm. Values of groups
 /// (`dpg/`) are left out, with a remark.
 ///
-/// Throws FileError, which begins with `name` or names the file in it, where something is missing, is not as long as the header
-/// says, or holds what cannot be; and OutOfMemory.
+/// Throws FileError, which begins with `name` or names the file in it, if something is missing, has a length that differs from
+/// the header, or has impossible values; and OutOfMemory.
 Tractogram readTrx(const FileCollection& files, const std::string& name);
 
-/// Writes fibres (µm) as a .trx archive in mm, where they are placed: positions in single precision, in double precision where
-/// their origin was moved (100 mm from the scanner's, single precision has steps of 0.008 µm); `dpv/Radius` (mm), `dps/FibreId`,
+/// Writes fibres (µm) as a .trx archive in mm, at their placement: positions in single precision, or in double precision if their
+/// origin was moved (100 mm from the scanner's, single precision has steps of 0.008 µm); `dpv/Radius` (mm), `dps/FibreId`,
 /// `dps/BundleId`, and a group `bundle_00001` for each bundle. The header's image is the domain in voxels of 1 µm, or larger ones
-/// where it would have more than 65535 along a side. The file appears whole or not at all; throws FileError, and InvalidInput as
+/// if it would have more than 65535 along a side. The file appears whole or not at all; throws FileError, and InvalidInput as
 /// `validate` does.
 void writeTrx(const Fibres& fibres, const Placement& placement, const std::string& path);
 

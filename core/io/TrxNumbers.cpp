@@ -40,7 +40,7 @@ struct TrxType
   std::vector<double> (*convert)(const std::vector<char>&);
 };
 
-/// A bit takes a byte.
+/// The types and their sizes; a bit takes a byte.
 constexpr TrxType types[] = { { "float32", 4, converted<float> }, { "float16", 2, converted<Eigen::half> },
   { "float64", 8, converted<double> }, { "uint8", 1, converted<std::uint8_t> }, { "uint16", 2, converted<std::uint16_t> },
   { "uint32", 4, converted<std::uint32_t> }, { "uint64", 8, converted<std::uint64_t> }, { "int8", 1, converted<std::int8_t> },
@@ -59,7 +59,7 @@ std::optional<TrxPart> trxPart(const std::string& path)
 {
   TrxPart part;
   part.path = path;
-  part.name = path.substr(path.rfind('/') + 1); // all of it where there is no slash
+  part.name = path.substr(path.rfind('/') + 1); // the whole path without a slash
   const std::size_t dot = part.name.rfind('.');
   const TrxType* type = dot != std::string::npos ? typeOf(part.name.substr(dot + 1)) : nullptr;
   if (type == nullptr)

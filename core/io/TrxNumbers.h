@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// A file of numbers in a .trx, as its name says: `FOLDER/NAME.COMPONENTS.TYPE`, or `NAME.TYPE` for one component.
+/// A file of numbers in a .trx, as described by its name: `FOLDER/NAME.COMPONENTS.TYPE`, or `NAME.TYPE` for one component.
 struct TrxPart
 {
   std::string path;
@@ -21,10 +21,11 @@ struct TrxPart
   bool isFloating() const { return this->type.compare(0, 5, "float") == 0; }
 };
 
-/// Nothing where a name is not of that form, or its type is none that a .trx has (float16 to 64, int8 to 64, uint8 to 64, bit).
+/// Parses a file name; nothing for a name of another form, or a type that .trx does not have (float16 to 64, int8 to 64, uint8 to
+/// 64, bit).
 std::optional<TrxPart> trxPart(const std::string& path);
 
-/// The numbers that bytes (little-endian) stand for; as many as there are whole ones.
+/// Converts bytes (little-endian) to numbers, as many as are complete.
 std::vector<double> trxNumbers(const std::vector<char>& bytes, const TrxPart& part);
 
 } // namespace cactus

@@ -29,7 +29,7 @@ std::string bytesOf(std::size_t count, Value&& value)
   return bytes;
 }
 
-/// The domain as an image, whose first voxel's centre is half a voxel from the corner.
+/// Returns the header: the domain as an image, whose first voxel's centre is half a voxel from the corner.
 std::string headerText(const Fibres& fibres, const Placement& placement)
 {
   constexpr double most = 65535.0;                                            // voxels along a side

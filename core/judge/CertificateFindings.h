@@ -11,7 +11,7 @@
 namespace cactus
 {
 
-/// What was found on one fibre. What needs a surface, a neighbour or a centre line that is not there is NaN, or 0 for counts.
+/// The findings on one fibre. Values that need a missing surface, neighbour or centre line are NaN, or 0 for counts.
 struct FibreCertificate
 {
   int fibreId = 0;
@@ -22,38 +22,40 @@ struct FibreCertificate
   SurfaceReport inner;
   std::size_t outerSelfIntersections = 0; ///< pairs of triangles, see selfIntersections(); at most 10,000 are counted
   std::size_t innerSelfIntersections = 0;
-  bool outerSelfNested = false; ///< a piece of the surface lies inside another one of its pieces
+  bool outerSelfNested = false; ///< whether a piece of the surface lies inside another one of its pieces
   bool innerSelfNested = false;
-  std::size_t meetingFibres = 0; ///< whose outer surfaces cut, touch, hold this one's, or lie inside it
-  bool innerLeaves = false;      ///< the inner surface cuts or touches its outer one, or has a piece that does not lie inside it
+  std::size_t meetingFibres = 0; ///< fibres whose outer surfaces cut, touch or contain this one's, or lie inside it
+  bool innerLeaves = false;      ///< whether the inner surface cuts or touches its outer one, or has a piece that does not lie
+                                 ///< inside it
   double gap = 0.0;              ///< µm, smallest distance to the outer surface of another fibre
-  int nearestFibre = 0;          ///< whose that is; the smaller id where two are as near
+  int nearestFibre = 0;          ///< the fibre at that distance; the smaller id of two at the same
   double myelinThickness = 0.0;  ///< µm, smallest distance of the inner surface to the outer one's wall, without its caps
   RadiusAlongFibre outerRadius;
   RadiusAlongFibre innerRadius;
   double gRatio = 0.0; ///< sqrt(inner volume / outer volume)
 };
 
-/// What was found on a substrate, and the verdict. All yes-or-no answers come from exact predicates; none depends on rounding.
+/// The findings on a substrate, and the verdict. All yes-or-no answers come from exact predicates; none depends on rounding.
 struct SubstrateCertificate
 {
-  bool outerJudged = false; ///< whether there were outer surfaces to judge; fibres that lack one of them are counted below
+  bool outerJudged = false; ///< whether there were outer surfaces to judge; fibres without one are counted below
   bool innerJudged = false; ///< the same for inner ones
   std::size_t outerSurfaces = 0;
   std::size_t innerSurfaces = 0;
-  std::size_t notClosed = 0;        ///< surfaces, outer or inner, with an edge that is not two triangles', in opposite senses
+  std::size_t notClosed = 0;        ///< surfaces, outer or inner, with an edge that does not belong to exactly two triangles, in
+                                    ///< opposite senses
   std::size_t notManifold = 0;      ///< surfaces that are closed but pinched in a point, or use a corner twice
   std::size_t notOutward = 0;       ///< surfaces with a component that encloses no positive volume
   std::size_t selfIntersecting = 0; ///< surfaces that cut, touch or fold onto themselves
-  std::size_t selfNested = 0;       ///< surfaces of which one piece lies inside another
+  std::size_t selfNested = 0;       ///< surfaces with one piece inside another
   std::size_t meetingPairs = 0;     ///< pairs of fibres whose outer surfaces cut or touch each other
-  std::size_t nestedPairs = 0;      ///< pairs of fibres of which one has a piece inside the other
+  std::size_t nestedPairs = 0;      ///< pairs of fibres, one of which has a piece inside the other
   std::size_t leavingInner = 0;     ///< inner surfaces that do not lie strictly inside their outer ones
   std::size_t wantedFibres = 0;     ///< fibres with a surface, or that were to have one
   std::size_t withoutOuter = 0;     ///< of these, without an outer surface
-  std::size_t withoutInner = 0;     ///< with an outer surface, and no inner one: myelin throughout; no fault
+  std::size_t withoutInner = 0;     ///< with an outer surface, but no inner one: myelin throughout; no fault
   std::size_t thinMyelin = 0;       ///< fibres whose myelin is thinner than their maker promised
-  double promisedGap = 0.0;         ///< µm, what was promised; 0 where nothing was
+  double promisedGap = 0.0;         ///< µm, as promised by their maker; 0 without a promise
   double requiredGap = 0.0;         ///< µm, minimumGap
   double smallestGap = 0.0;         ///< µm, between the outer surfaces of two fibres; NaN for a single one
   int gapFibreA = 0;
@@ -61,7 +63,7 @@ struct SubstrateCertificate
   double smallestMyelin = 0.0; ///< µm, smallest distance of an inner surface to the wall of its outer one
   int myelinFibre = 0;
   double smallestFeature = 0.0; ///< µm, smallest altitude of a triangle; no edge is shorter
-  double largestAspect = 0.0;   ///< of a triangle: longest edge over the altitude on it
+  double largestAspect = 0.0;   ///< longest edge of a triangle over the altitude on it
   double largestSquaredEdgeRatio = 0.0;
   double reach = 0.0; ///< µm by which surfaces reach out of the domain; above 0.1 fractions are NaN, and a remark says so
   double fibreVolumeFraction = 0.0;
@@ -70,18 +72,18 @@ struct SubstrateCertificate
   double aggregateGRatio = 0.0;
   std::size_t triangles = 0;
   double trianglesPerArea = 0.0;        ///< µm⁻²
-  std::vector<std::string> faults;      ///< what keeps it from being certified, a sentence each
-  std::vector<std::string> remarks;     ///< what could not be measured and why, a sentence each; no part of the verdict
-  std::vector<FibreCertificate> fibres; ///< of every fibre with a surface, or that was to have one, by increasing id
+  std::vector<std::string> faults;      ///< reasons against certification, a sentence each
+  std::vector<std::string> remarks;     ///< unmeasured quantities and why, a sentence each; no part of the verdict
+  std::vector<FibreCertificate> fibres; ///< every fibre with a surface, or that was to have one, by increasing id
 
-  /// Every surface is a closed, outward 2-manifold that neither meets nor holds a part of itself, no two outer surfaces meet or
-  /// lie inside one another, every inner surface lies strictly inside its outer one, and fibres keep the required gap. No fibre
-  /// that was to have an outer surface is without one, and myelin is as thick as its maker promised.
+  /// Tells whether every surface is a closed, outward 2-manifold that neither meets nor contains a part of itself, no two outer
+  /// surfaces meet or lie inside one another, every inner surface lies strictly inside its outer one, fibres keep the required
+  /// gap, no fibre lacks an outer surface that it was to have, and myelin is as thick as its maker promised.
   bool certified() const { return this->faults.empty(); }
-  /// The faults in one sentence; "certified" without any.
+  /// Returns the faults in one sentence; "certified" without any.
   std::string verdict() const;
-  /// Which kind of surfaces was judged, as words that follow "certified": empty where both were, else "for its outer surfaces
-  /// alone, as there are no inner ones" or the reverse.
+  /// Returns which kind of surfaces was judged, as words that follow "certified": empty if both were, else "for its outer
+  /// surfaces alone, as there are no inner ones" or the reverse.
   std::string scope() const;
 };
 

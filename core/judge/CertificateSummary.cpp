@@ -15,7 +15,7 @@ namespace cactus
 namespace
 {
 
-/// µm that a surface may reach out of the domain, as the rounding of a clip does.
+/// Distance (µm) by which a surface may reach out of the domain, as after the rounding of a clip.
 constexpr double clipTolerance = 0.1;
 
 void add(SubstrateCertificate& all, bool has, const SurfaceReport& report, std::size_t intersections)
@@ -34,7 +34,7 @@ void add(SubstrateCertificate& all, bool has, const SurfaceReport& report, std::
   all.largestSquaredEdgeRatio = std::fmax(all.largestSquaredEdgeRatio, report.largestSquaredEdgeRatio);
 }
 
-/// Counts and extremes; the sums are for summarise().
+/// Adds a fibre to counts and extremes; summarise() computes the sums.
 void addFibre(SubstrateCertificate& all, const FibreCertificate& fibre)
 {
   add(all, fibre.hasOuter, fibre.outer, fibre.outerSelfIntersections);
@@ -51,7 +51,7 @@ void addFibre(SubstrateCertificate& all, const FibreCertificate& fibre)
   }
 }
 
-/// The first fibre for which `is` holds, for a sentence.
+/// Names, for a sentence, the first fibre for which `is` holds.
 template <typename Is>
 std::string first(const SubstrateCertificate& all, Is&& is)
 {
@@ -102,7 +102,7 @@ void summarise(const Domain& domain, const FibreSurfaces& outer, const FibreSurf
 void listFaults(SubstrateCertificate& all)
 {
   using Fibre = FibreCertificate;
-  // Each with the first fibre that it is true of.
+  // Each with the first fibre for which it is true.
   const auto fault = [&all](std::size_t count, const std::string& what, auto&& isOf)
   {
     if (count > 0)

@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-/// Columns over rows of anything.
+/// Builds columns over rows of any type.
 template <typename Row>
 class Columns
 {

@@ -17,21 +17,21 @@ struct CertificateColumn
   std::vector<double> values;
 };
 
-/// The certificate as a table of one row, the verdict `Certified` (0 or 1) first.
+/// Returns the certificate as a table of one row, the verdict `Certified` (0 or 1) first.
 std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& certificate);
 
-/// A row for each fibre.
+/// Returns a table with a row for each fibre.
 std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certificate);
 
-/// One thing that the certificate says, to be read.
+/// One statement of the certificate, as text.
 struct CertificateLine
 {
-  std::string finding; ///< what it is about: "Verdict", else a column of the substrate's table
+  std::string finding; ///< its subject: "Verdict", else a column of the substrate's table
   std::string value;
 };
 
-/// The certificate to be read line by line: the verdict in words with what it is of, then the columns of the substrate's table.
-/// Numbers have six digits; what was not measured is "-".
+/// Returns the certificate as lines of text: the verdict in words with its scope, then the columns of the substrate's table.
+/// Numbers have six digits; unmeasured values are "-".
 std::vector<CertificateLine> certificateLines(const SubstrateCertificate& certificate);
 
 } // namespace cactus

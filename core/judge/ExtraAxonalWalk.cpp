@@ -24,17 +24,17 @@ namespace
 
 using Eigen::Vector3d;
 
-/// µm that a walker keeps from what has reflected it: far above rounding, far below any gap.
+/// Distance (µm) that a walker keeps from the wall that has reflected it: far above rounding, far below any gap.
 constexpr double clearance = 1e-7;
-/// Reflections in a step, after which a walker is given up: it is where no room is, such as between a cap and a face.
+/// Reflections in a step, after which a walker is given up: it has no room, for example between a cap and a face.
 constexpr int mostReflections = 1000;
-/// Of one walker: half a minute, after which a run can be stopped.
+/// Steps of one walker: half a minute, after which a run can be stopped.
 constexpr double mostSteps = 2e7;
-/// Points in the domain that are tried for one walker to start from.
+/// Points in the domain that are tried as the start of one walker.
 constexpr int mostTries = 5000;
 constexpr double bytesPerTriangle = 150.0;
 
-/// All surfaces as one, which are apart from each other.
+/// Joins all surfaces, which are apart from each other, into one mesh.
 TriangleMesh joined(const FibreSurfaces& surfaces, const Context& context)
 {
   TriangleMesh all;
@@ -43,7 +43,7 @@ TriangleMesh joined(const FibreSurfaces& surfaces, const Context& context)
     context.checkpoint();
     const TriangleMesh mesh = surfaces.mesh(i);
     const auto first = static_cast<std::int32_t>(all.points.size());
-    // The tree over all of them comes last.
+    // The tree over all of them is made last.
     requireMemory(bytesPerTriangle * static_cast<double>(all.triangles.size() + mesh.triangles.size()),
       "a walk outside the surfaces", "switch ExtraAxonalWalkers off, or cut a smaller substrate");
     if (all.points.size() + mesh.points.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
@@ -59,14 +59,14 @@ TriangleMesh joined(const FibreSurfaces& surfaces, const Context& context)
   return all;
 }
 
-/// Where a way meets something: how far along it, and the wall's normal.
+/// The hit of a path on a wall: its distance along the path, and the wall's normal.
 struct Hit
 {
   double distance;
   Vector3d normal;
 };
 
-/// What there is outside the fibres.
+/// The space outside the fibres.
 class Outside
 {
 public:
@@ -78,7 +78,7 @@ public:
 
   bool holds(const Vector3d& point) const { return sideOf(this->Walls, point) == Side::Outside; }
 
-  /// The first wall within `length` µm.
+  /// Finds the first wall within `length` µm.
   bool firstWall(const Vector3d& from, const Vector3d& direction, double length, Hit& hit) const
   {
     const Vector3d to = from + length * direction;
@@ -98,7 +98,7 @@ public:
   const Domain& box() const { return this->Box; }
 
 private:
-  /// By Möller and Trumbore 1997. A nearer hit than the one so far takes its place.
+  /// Tests a triangle (Möller and Trumbore 1997). A nearer hit replaces the previous one.
   bool meets(std::uint32_t triangle, const Vector3d& from, const Vector3d& direction, Hit& hit) const
   {
     const Vector3d& corner = this->Walls.corner(triangle, 0);
@@ -157,7 +157,7 @@ public:
     throw Infeasible(text("ExtraAxonalWalkers: of ", mostTries, " points in the domain none lay outside the fibres"));
   }
 
-  /// One step, with all reflections on its way. False where there is no end to them.
+  /// Makes one step, with all reflections on its way. Returns false if they do not end.
   bool step(double length)
   {
     Vector3d direction = randomDirection(this->Engine);
@@ -224,10 +224,10 @@ private:
   RandomEngine& Engine;
   Vector3d Place = Vector3d::Zero();
   Vector3d Moved = Vector3d::Zero();           ///< in the space that faces mirror without end
-  Vector3d Mirrored = Vector3d::Constant(1.0); ///< −1 along axes that are mirrored where the walker is
+  Vector3d Mirrored = Vector3d::Constant(1.0); ///< −1 along axes that are mirrored at the walker
 };
 
-/// What one walk shows: the growth of the squared displacement over its second half.
+/// The result of one walk: the growth of the squared displacement over its second half.
 struct Walk
 {
   Vector3d growth = Vector3d::Zero(); ///< µm²

@@ -15,11 +15,11 @@
 namespace cactus
 {
 
-/// How walkers go outside the fibres.
+/// Options of a random walk outside the fibres.
 struct ExtraAxonalWalkOptions
 {
   int walkers = 0; ///< 0: none
-  /// µm along each axis that a free walker has moved in the end (root mean square).
+  /// Root mean square displacement (µm) of a free walker along each axis at the end.
   double distance = 5.0;
   double step = 0.1; ///< µm, between two changes of direction
   std::uint64_t seed = 1;
@@ -27,25 +27,25 @@ struct ExtraAxonalWalkOptions
   static const PropertyList<ExtraAxonalWalkOptions>& properties();
 };
 
-/// Diffusion outside the fibres over the free one, in the long run; NaN without walkers.
+/// The long-time diffusivity outside the fibres relative to free diffusion; NaN without walkers.
 struct ExtraAxonalDiffusion
 {
   Eigen::Vector3d ratio = Eigen::Vector3d::Constant(notANumber);         ///< D∞/D₀ along x, y and z
   Eigen::Vector3d standardError = Eigen::Vector3d::Constant(notANumber); ///< of each
-  std::size_t leaked = 0; ///< walkers that came to be inside a fibre or in no room, and do not count
+  std::size_t leaked = 0; ///< walkers that came to be inside a fibre or without any room; they do not count
 };
 
-/// A random walk outside the surfaces: steps of one length in random directions, which walls and the domain's faces reflect. A
-/// face mirrors the substrate, so that walkers go on in its mirror image: the space has no end, and displacements are those in
-/// it.
+/// Simulates a random walk outside the surfaces: steps of one length in random directions, which walls and the domain's faces
+/// reflect. A face mirrors the substrate, so that walkers continue in its mirror image: the space is unbounded, and displacements
+/// are measured in it.
 ///
-/// The ratio is the growth of the mean squared displacement over the second half of the walk, over that of free walkers: what
-/// happened before the walkers had seen the fibres around them drops out (D(t) − D∞ falls off as ln t / t, Burcaw et al.
-/// 2015, NeuroImage 114:18). A step may be longer than a gap is wide: between parallel walls it moves a walker along them as it
-/// would without them. The result does not depend on threads.
+/// The ratio is the growth of the mean squared displacement over the second half of the walk, relative to that of free walkers:
+/// the early part, before the walkers have seen the fibres around them, drops out (D(t) − D∞ falls off as ln t / t, Burcaw et al.
+/// 2015, NeuroImage 114:18). A step may be longer than the width of a gap: between parallel walls it moves a walker along them as
+/// without them. The result does not depend on threads.
 ///
-/// Surfaces have to be closed, apart from each other, and in the domain. Throws Infeasible where hardly any of the domain is
-/// outside, and where more than one in a hundred walkers leaks; InvalidInput for options out of range; Cancelled.
+/// Surfaces have to be closed, apart from each other, and in the domain. Throws Infeasible if hardly any of the domain is
+/// outside, or if more than one in a hundred walkers leaks; InvalidInput for options out of range; Cancelled.
 ExtraAxonalDiffusion walkOutside(
   const Domain& domain, const FibreSurfaces& outer, const ExtraAxonalWalkOptions& options, const Context& context = {});
 

@@ -20,10 +20,10 @@ namespace cactus
 namespace
 {
 
-/// Pairs of triangles of a surface that are counted: a ruined one may have half a billion.
+/// Largest number of pairs of triangles that is counted: a badly damaged surface may have half a billion.
 constexpr std::size_t mostIntersections = 10000;
 
-/// The triangles of `mesh` that are not among `some`, which are in increasing order.
+/// Returns the triangles of `mesh` that are not in `some`, which is in increasing order.
 std::vector<std::uint32_t> othersThan(const std::vector<std::uint32_t>& some, const TriangleMesh& mesh)
 {
   std::vector<std::uint32_t> others;
@@ -102,11 +102,11 @@ std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre,
     if (fibre.hasOuter)
     {
       fibre.gRatio = gRatioOf(fibre.inner.volume, fibre.outer.volume);
-      // In a file caps lie where the number is that it has for the face.
+      // In a file, caps lie at the nearest number in single precision to the face.
       const std::vector<std::uint32_t> wall = wallTriangles(outer->mesh, this->Box, lostInFiles);
       const SurfaceGap gap = smallestGap(inner->tree, TriangleTree(outer->mesh, wall));
       fibre.myelinThickness = gap.found() ? gap.distance : notANumber;
-      // Unless every piece can be shown to lie strictly inside. Where a gap is, the wall is not met.
+      // Unless every piece can be shown to lie strictly inside. With a gap, the wall is not met.
       fibre.innerLeaves = !fibre.outer.closed() || gap.distance == 0.0 ||
                           surfacesMeet(inner->tree, TriangleTree(outer->mesh, othersThan(wall, outer->mesh))) ||
                           !liesInside(inner->mesh, fibre.inner, outer->tree);

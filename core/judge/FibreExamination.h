@@ -16,27 +16,27 @@
 namespace cactus
 {
 
-/// Finds out what a certificate says of one fibre by itself. May be used from several threads.
+/// Determines the certificate's findings on single fibres. Thread-safe.
 class FibreExamination
 {
 public:
-  /// `fibres` may be null. What is given by reference has to outlive the object.
+  /// `fibres` may be null. All arguments passed by reference have to outlive the object.
   FibreExamination(
     const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* fibres, double cutSpacing);
 
-  /// Fills in the findings on the fibre with the id that they hold, except those that depend on other fibres, and raises `reach`
-  /// to what its surfaces reach out of the domain (µm). Returns the outer surface, or null if there is none. Throws InvalidInput
-  /// for a damaged surface, which it names.
+  /// Fills in the findings on the fibre of the given id, except those that depend on other fibres, and raises `reach` to the
+  /// distance (µm) by which its surfaces reach out of the domain. Returns the outer surface, or null if there is none. Throws
+  /// InvalidInput for a damaged surface, which it names.
   std::unique_ptr<TreedSurface> examine(FibreCertificate& fibre, double& reach) const;
 
-  /// The outer surface of a fibre that has one.
+  /// Returns the outer surface of a fibre that has one.
   std::unique_ptr<TreedSurface> outerOf(int fibreId) const;
 
 private:
   using Index = std::unordered_map<int, std::size_t>;
   static Index indexOf(const std::vector<int>& ids);
 
-  /// What is measured on an outer and on an inner surface.
+  /// The measures of one outer or inner surface.
   struct Findings
   {
     SurfaceReport& report;

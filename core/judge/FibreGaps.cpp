@@ -21,10 +21,10 @@ namespace
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr float unboundedLine = std::numeric_limits<float>::infinity();
-/// Share of the work that looking for neighbours takes.
+/// Share of the progress for finding neighbours.
 constexpr double neighboursShare = 0.3;
 
-/// Two fibres.
+/// A pair of fibres.
 struct FibrePair
 {
   std::size_t a = 0;
@@ -99,7 +99,7 @@ public:
   }
 
 private:
-  // Fibres are known by their ranks: those that follow each other are near each other, so that few surfaces are in use at a time.
+  // Fibres are numbered by rank: consecutive ones are near each other, so that few surfaces are in use at a time.
 
   std::shared_ptr<const TreedSurface> surface(std::size_t rank) const { return this->Outer.get(this->Present[rank]); }
   const FibreCertificate& findings(std::size_t rank) const { return this->Result.fibres[this->Present[rank]]; }
@@ -118,9 +118,9 @@ private:
   const OuterSurfaces& Outer;
   SubstrateCertificate& Result;
   BoxTree Branches;                 ///< over the parts of all surfaces
-  std::vector<std::size_t> RankOf;  ///< of the fibre of a part
-  std::vector<std::size_t> Present; ///< places of fibres with an outer surface, by rank
-  std::vector<double> Bound;        ///< µm, by rank: another fibre is as near as that
+  std::vector<std::size_t> RankOf;  ///< of the part's fibre
+  std::vector<std::size_t> Present; ///< indices of fibres with an outer surface, by rank
+  std::vector<double> Bound;        ///< µm, by rank: an upper bound of the gap
 };
 
 GapSearch::GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certificate)
@@ -156,7 +156,7 @@ GapSearch::GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certifica
   this->Bound.resize(this->Present.size(), infinite);
 }
 
-/// The fibre with the part whose box is nearest to the middle of this one's middle part; itself where there is no other.
+/// Returns the fibre with the part whose box is nearest to the middle of this one's middle part; itself if there is no other.
 std::size_t GapSearch::likeliestNeighbour(std::size_t rank) const
 {
   const std::vector<FloatBox>& own = this->Outer.branches(this->Present[rank]);
@@ -188,7 +188,7 @@ double GapSearch::gapToLikeliest(std::size_t rank) const
   return likeliest == rank ? infinite : smallestGap(this->surface(rank)->tree, this->surface(likeliest)->tree).distance;
 }
 
-/// The fibres of which a part's box is as near to one of this fibre's.
+/// Returns the fibres with a part whose box is within `distance` of one of this fibre's.
 std::vector<std::size_t> GapSearch::thoseWithin(std::size_t rank, double distance) const
 {
   std::vector<std::size_t> found;
@@ -212,7 +212,7 @@ std::vector<std::size_t> GapSearch::thoseWithin(std::size_t rank, double distanc
   return found;
 }
 
-/// Adds the fibres that may hold a piece of this one.
+/// Adds the fibres that may contain a piece of this one.
 void GapSearch::addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const
 {
   const std::shared_ptr<const TreedSurface> own = this->surface(rank);
@@ -228,7 +228,8 @@ void GapSearch::addThoseAround(std::size_t rank, std::vector<std::size_t>& found
   }
 }
 
-/// The fibres that have parts' boxes on the half-lines from a point in all six directions, as what holds the point has.
+/// Returns the fibres that have parts' boxes on the half-lines from a point in all six directions, as every surface around the
+/// point has.
 std::vector<std::size_t> GapSearch::thoseOnAllSides(const Eigen::Vector3d& point) const
 {
   std::vector<std::size_t> all;
@@ -261,7 +262,7 @@ std::vector<std::size_t> GapSearch::thoseOnAllSides(const Eigen::Vector3d& point
   return all;
 }
 
-/// Each pair once, with that of its fibres which has the smaller rank.
+/// Returns each pair once, under the smaller of its ranks.
 std::vector<std::vector<FibrePair>> GapSearch::pairsOf(const std::vector<std::vector<std::size_t>>& near) const
 {
   std::vector<std::pair<std::size_t, std::size_t>> ranks;
@@ -277,7 +278,7 @@ std::vector<std::vector<FibrePair>> GapSearch::pairsOf(const std::vector<std::ve
   std::vector<std::vector<FibrePair>> pairs(near.size());
   for (const auto& [one, other] : ranks)
   {
-    // The smaller place first: the last bits of a distance depend on it.
+    // The smaller index first: the last bits of a distance depend on it.
     const bool isInOrder = this->Present[one] < this->Present[other];
     pairs[one].push_back({ isInOrder ? one : other, isInOrder ? other : one });
   }
@@ -288,23 +289,23 @@ void GapSearch::measure(FibrePair& pair) const
 {
   const std::shared_ptr<const TreedSurface> a = this->surface(pair.a);
   const std::shared_ptr<const TreedSurface> b = this->surface(pair.b);
-  // A little more than the bound, so that what equals it is found.
+  // A little more than the bound, so that an equal value is found.
   const double below = 1.000001 * std::max(this->Bound[pair.a], this->Bound[pair.b]) + 1e-9;
   pair.gap = smallestGap(a->tree, b->tree, below).distance;
   pair.nested = pair.gap > 0.0 && (this->hasPieceInside(*a, pair.a, *b, pair.b) || this->hasPieceInside(*b, pair.b, *a, pair.a));
 }
 
-/// For surfaces that do not meet.
+/// Requires that the surfaces do not meet.
 bool GapSearch::hasPieceInside(
   const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const
 {
-  return this->findings(aroundRank).outer.closed() && // else it has no inside, and is a fault by itself
+  return this->findings(aroundRank).outer.closed() && // otherwise it has no inside, and is a fault itself
          anyLiesInside(inside.mesh, this->findings(insideRank).outer, around.tree);
 }
 
 void GapSearch::enter(const std::vector<std::vector<FibrePair>>& pairsOfRanks)
 {
-  std::vector<FibrePair> pairs; // by places
+  std::vector<FibrePair> pairs; // by indices
   for (const std::vector<FibrePair>& ofRank : pairsOfRanks)
   {
     for (const FibrePair& pair : ofRank)

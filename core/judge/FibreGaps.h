@@ -10,11 +10,10 @@
 namespace cactus
 {
 
-/// Measures how near the outer surfaces of fibres come to each other, which of them meet and which lie inside one another, for
-/// each fibre and the whole certificate, whose fibres' `outer` surfaces are by their places in it. A tree over the boxes of the
-/// surfaces' parts tells which fibres can matter to each other: O(n log n) for n fibres that have about equally many neighbours.
-/// Progress runs from `from` to 1. Throws Cancelled. Processes share it, and all get the result. What is `known` of fibres' gaps
-/// is not measured again.
+/// Measures the gaps between the outer surfaces of fibres, which of them meet and which lie inside one another, for each fibre
+/// and the whole certificate; `outer` has the surfaces by the indices of its fibres. A tree over the boxes of the surfaces' parts
+/// finds the relevant pairs: O(n log n) for n fibres with about equally many neighbours. Progress runs from `from` to 1. Throws
+/// Cancelled. Processes share the work, and all get the result. Gaps in the cache `known` are not measured again.
 void findGaps(const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context, double from,
   const Sharing& sharing = Sharing(), const Recollection& known = {});
 

@@ -17,11 +17,11 @@ namespace cactus
 namespace
 {
 
-/// µm. An outline nearer to the domain's boundary, or to a cap of its surface before that, has been cut off by it; above the
+/// µm. An outline nearer to the domain's boundary, or to a cap of its surface before that, counts as cut off; larger than the
 /// rounding of single-precision coordinates.
 constexpr double boundaryTolerance = 1e-3;
 
-/// The position (µm) at arc length `s` along a fibre's centre line, whose cumulative lengths are `arc`.
+/// Returns the position (µm) at arc length `s` along a fibre's centre line, whose cumulative lengths are `arc`.
 Eigen::Vector3d positionAt(const Fibres& fibres, std::size_t fibre, const std::vector<double>& arc, double s)
 {
   const auto after = std::upper_bound(arc.begin() + 1, arc.end() - 1, s);
@@ -31,7 +31,7 @@ Eigen::Vector3d positionAt(const Fibres& fibres, std::size_t fibre, const std::v
   return (1.0 - weight) * fibres.points[first] + weight * fibres.points[first + 1];
 }
 
-/// Length (µm) of a centre line up to each of its points.
+/// Returns the length (µm) of a centre line up to each of its points.
 std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre)
 {
   std::vector<double> arc{ 0.0 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one process has found on a fibre, as bytes for another one.
+// The findings of one process on a fibre, as bytes for another one.
 #pragma once
 
 #include "judge/CertificateFindings.h"
@@ -11,10 +11,11 @@
 namespace cactus
 {
 
-/// With how far it reaches out of the domain (µm), and the boxes of its outer surface's parts.
+/// Returns the findings, the distance by which the fibre reaches out of the domain (µm), and the boxes of its outer surface's
+/// parts.
 std::string bytesOf(const FibreCertificate& fibre, double reach, const std::vector<FloatBox>& branches);
 
-/// The reverse. Throws FileError for bytes that are something else.
+/// Reads them back. Throws FileError for other bytes.
 void getFindings(const std::string& bytes, FibreCertificate& fibre, double& reach, std::vector<FloatBox>& branches);
 
 } // namespace cactus

@@ -17,12 +17,12 @@ namespace cactus
 namespace
 {
 
-/// Pixels along a side: what image formats and other programs bear.
+/// Largest number of pixels along a side, a limit of image formats and other programs.
 constexpr double mostPixels = 65535.0;
-/// Fibres that are cut side by side before they are drawn in their order.
+/// Fibres that are cut in parallel before they are drawn in their order.
 constexpr std::size_t sectionBatch = 256;
 
-/// The pixels of one fibre, by rows: each from the first column to before the second.
+/// A run of pixels of one fibre in a row: from the first column to before the second.
 struct PixelRun
 {
   int row;
@@ -71,10 +71,10 @@ public:
 private:
   using Place = std::array<double, 2>; // along columns and rows, in pixels from the middle of the first
 
-  /// The first pixel whose middle does not lie before a place.
+  /// Returns the first pixel whose middle is not before a place.
   int columnFrom(double place) const { return int(std::clamp(std::ceil(place), 0.0, double(this->Mask.count[0]))); }
 
-  /// Where an edge that has its ends on two sides of the plane goes through it, the same from either end.
+  /// Returns where an edge with its ends on two sides of the plane crosses it, the same from either end.
   Place crossing(const TriangleMesh& mesh, std::int32_t first, std::int32_t second) const
   {
     const Eigen::Vector3d& p = mesh.points[std::size_t(std::min(first, second))];
@@ -98,8 +98,8 @@ private:
     {
       const std::int32_t from = triangle[i];
       const std::int32_t to = triangle[(i + 1) % 3];
-      // A corner in the plane counts as beyond it (in the domain's lowest face, as before it): a closed curve comes out of a
-      // closed surface.
+      // A corner in the plane counts as beyond it (in the domain's lowest face, as before it), so that a closed surface gives a
+      // closed curve.
       if (this->isBeyond(mesh, from) != this->isBeyond(mesh, to))
       {
         ends[found++] = this->crossing(mesh, from, to);
@@ -117,7 +117,7 @@ private:
     return this->IsLowest ? place > this->Position : place >= this->Position;
   }
 
-  /// Where a piece of the outline passes the rows.
+  /// Adds the crossings of a piece of the outline with the rows.
   void addPiece(const Place& from, const Place& to, std::vector<std::vector<double>>& crossings) const
   {
     const Place& low = from[1] <= to[1] ? from : to;
@@ -179,7 +179,7 @@ HistologyMask maskGrid(const Domain& domain, const HistologyMaskOptions& options
   mask.pixelSize = options.pixelSize;
   for (std::size_t i = 0; i < 2; ++i)
   {
-    // Those whose middle lies within the domain: beyond it is no tissue, which would hide that a fibre reaches the border.
+    // Only pixels with their middle within the domain: background beyond it would hide that a fibre reaches the border.
     const double count = std::max(1.0, std::ceil(domain.size()[mask.axes[i]] / options.pixelSize - 0.5 - 1e-6));
     if (count > mostPixels)
     {

@@ -31,7 +31,7 @@ const double diagonal = std::sqrt(2.0);
 const std::array<PixelStep, 8> pixelSteps{ { { -1, 0, 1.0 }, { 1, 0, 1.0 }, { 0, -1, 1.0 }, { 0, 1, 1.0 }, { -1, -1, diagonal },
   { 1, -1, diagonal }, { -1, 1, diagonal }, { 1, 1, diagonal } } };
 
-/// Finds axons and hands myelin to them.
+/// Finds axons and assigns myelin to them.
 class MaskMeasurement
 {
 public:
@@ -97,7 +97,7 @@ private:
     }
   }
 
-  /// Shortest ways from all axons at once.
+  /// Computes shortest paths from all axons at once.
   void spread()
   {
     using Way = std::tuple<double, std::int32_t, std::size_t>; // length, axon, pixel

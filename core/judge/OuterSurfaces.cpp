@@ -9,9 +9,9 @@ namespace cactus
 namespace
 {
 
-/// Triangles that a box holds, about.
+/// Approximate number of triangles in a box.
 constexpr std::size_t trianglesOfBranch = 256;
-/// Of a triangle of a tree: its entry (see BoxTree) and its plane.
+/// Bytes per triangle in a tree: its entry (see BoxTree) and its plane.
 constexpr std::size_t bytesOfEntry = 70 + sizeof(TrianglePlane);
 
 std::size_t bytesOf(const TreedSurface& surface)
@@ -20,7 +20,7 @@ std::size_t bytesOf(const TreedSurface& surface)
          surface.mesh.triangles.size() * (sizeof(surface.mesh.triangles[0]) + bytesOfEntry);
 }
 
-/// The boxes of a tree's nodes at the depth that has about `wanted` of them.
+/// Returns the boxes of a tree's nodes at the depth that has about `wanted` of them.
 std::vector<FloatBox> branchesOf(const BoxTree& tree, std::size_t wanted)
 {
   std::vector<std::uint32_t> level;

@@ -28,24 +28,25 @@ struct TreedSurface
   TriangleTree tree;
 };
 
-/// The outer surfaces of a certificate's fibres, by their places in it. Those that were used last are kept, as many as a certain
-/// memory holds; others are made again when they are asked for. Of all of them it keeps a few boxes that hold their parts.
-/// Different places may be used from several threads at once, and get() with any.
+/// The outer surfaces of a certificate's fibres, by their indices in it. A cache keeps the most recently used ones, up to a
+/// certain memory; others are made again on demand. A few boxes around its parts are kept for every surface. Different indices
+/// may be used from several threads at once, and get() with any.
 class OuterSurfaces
 {
 public:
   using Maker = std::function<std::shared_ptr<const TreedSurface>(std::size_t place)>;
 
-  /// For `count` fibres, in about so many `bytes` and those of the surfaces in use.
+  /// Makes room for `count` fibres, in about `bytes` and the memory of the surfaces in use.
   OuterSurfaces(std::size_t count, std::size_t bytes, Maker maker);
 
-  /// Gets to know a surface; null for a fibre without one. Once for each place.
+  /// Registers a surface; null for a fibre without one. Call it once for each index.
   void enter(std::size_t place, std::shared_ptr<const TreedSurface> surface);
-  /// The same for one that another process has got to know, from what branches() is there.
+  /// Registers one that another process has registered, with its branches().
   void enter(std::size_t place, std::vector<FloatBox> branches) { this->Branches[place] = std::move(branches); }
 
   std::size_t size() const { return this->Branches.size(); }
-  /// The boxes that hold the parts of a surface, neighbours one after the other; none where there is no surface, or an empty one.
+  /// Returns the boxes that contain the parts of a surface, neighbours one after the other; none without a surface, or for an
+  /// empty one.
   const std::vector<FloatBox>& branches(std::size_t place) const { return this->Branches[place]; }
   std::shared_ptr<const TreedSurface> get(std::size_t place) const;
 

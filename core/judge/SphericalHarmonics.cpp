@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-/// N P_l^m(z) / (1 − z²)^(m/2) of all l up to `order` at one m, normalised for the sphere, by recursion over l.
+/// Returns N P_l^m(z) / (1 − z²)^(m/2) for all l up to `order` at one m, normalised for the sphere, by recursion over l.
 std::vector<double> legendreAt(double z, int m, int order)
 {
   std::vector<double> values(std::size_t(order) + 1, 0.0);
@@ -47,7 +47,7 @@ std::size_t harmonicCount(int order)
 std::vector<double> harmonicsAt(const Eigen::Vector3d& direction, int order)
 {
   std::vector<double> values(harmonicCount(order), 0.0);
-  // (x + iy)^m is (sin θ)^m (cos mφ + i sin mφ), at the poles too.
+  // (x + iy)^m is (sin θ)^m (cos mφ + i sin mφ), also at the poles.
   double cosine = 1.0;
   double sine = 0.0;
   for (int m = 0; m <= order; ++m)
@@ -72,7 +72,7 @@ std::vector<double> harmonicsAt(const Eigen::Vector3d& direction, int order)
 
 HarmonicRotation::HarmonicRotation(const Eigen::Matrix3d& axes, int order)
 {
-  // A degree's functions turn into such of the same degree, which are known by their values at enough directions.
+  // A degree's functions rotate into functions of the same degree, which are determined by their values at enough directions.
   const int count = 4 * (2 * order + 1);
   std::vector<std::vector<double>> here;
   std::vector<std::vector<double>> before;

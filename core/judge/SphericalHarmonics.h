@@ -10,29 +10,29 @@ namespace cactus
 {
 
 /// Real spherical harmonics of even degrees l up to an order, in MRtrix's basis and order: the coefficient of (l, m) has the
-/// place l(l + 1)/2 + m; √2 N P_l^|m|(cos θ) sin |m|φ for m < 0, N P_l(cos θ) for m = 0 and √2 N P_l^m(cos θ) cos mφ for m > 0,
-/// where N² = (2l + 1)(l − |m|)!/(4π(l + |m|)!) and P_l^m has the sign (−1)^m of Condon and Shortley. They are orthonormal over
-/// the sphere.
+/// index l(l + 1)/2 + m; √2 N P_l^|m|(cos θ) sin |m|φ for m < 0, N P_l(cos θ) for m = 0 and √2 N P_l^m(cos θ) cos mφ for m > 0,
+/// where N² = (2l + 1)(l − |m|)!/(4π(l + |m|)!) and P_l^m has the Condon–Shortley sign (−1)^m. They are orthonormal over the
+/// sphere.
 
-/// How many there are: (order + 1)(order + 2)/2. `order` is even and not negative, here and below.
+/// Returns their number: (order + 1)(order + 2)/2. `order` is even and not negative, here and below.
 std::size_t harmonicCount(int order);
 
-/// All of them at a direction (unit), by their places.
+/// Returns all of them at a direction (unit vector), by their indices.
 std::vector<double> harmonicsAt(const Eigen::Vector3d& direction, int order);
 
-/// Turns functions on the sphere that are given by coefficients.
+/// Rotates functions on the sphere that are given by coefficients.
 class HarmonicRotation
 {
 public:
-  /// `axes`: where the axes of x, y and z turn to, as columns.
+  /// `axes`: the rotated axes x, y and z, as columns.
   HarmonicRotation(const Eigen::Matrix3d& axes, int order);
 
-  /// Coefficients of the turned function, whose value at axes·d is that of the given one at d. The list is as long as
-  /// harmonicCount().
+  /// Replaces the coefficients by those of the rotated function, whose value at axes·d is that of the given one at d. The list
+  /// has harmonicCount() entries.
   void turn(std::vector<double>& coefficients) const;
 
 private:
-  std::vector<Eigen::MatrixXd> Blocks; ///< of each degree, which turn by themselves
+  std::vector<Eigen::MatrixXd> Blocks; ///< per degree, since degrees rotate separately
 };
 
 } // namespace cactus

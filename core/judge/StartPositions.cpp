@@ -16,7 +16,7 @@ namespace cactus
 namespace
 {
 
-/// What is known of a candidate. On a surface, or in one that it should not be in, it is of no use.
+/// The place of a candidate. On a surface, or in one that it should not be in, it is not used.
 enum class Place : unsigned char
 {
   Outside,
@@ -25,7 +25,7 @@ enum class Place : unsigned char
   OnSurface
 };
 
-/// Evenly over the domain; the same for the same seed and number.
+/// Draws a point evenly over the domain; the same for the same seed and number.
 Eigen::Vector3d candidate(const Domain& domain, std::uint64_t seed, std::uint64_t number)
 {
   RandomEngine random = randomStream(seed, RandomStage::StartPositions, number);
@@ -35,7 +35,7 @@ Eigen::Vector3d candidate(const Domain& domain, std::uint64_t seed, std::uint64_
   return domain.lower + domain.size().cwiseProduct(Eigen::Vector3d(x, y, z));
 }
 
-/// Which candidates lie in or on a surface.
+/// The candidates in or on a surface.
 struct Found
 {
   std::vector<std::size_t> inside;
@@ -99,7 +99,7 @@ void take(const Eigen::Vector3d& point, std::size_t count, std::vector<Eigen::Ve
 StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, std::size_t count,
   std::uint64_t seed, const Context& context)
 {
-  constexpr std::uint64_t mostDrawn = 85; // for a start position
+  constexpr std::uint64_t mostDrawn = 85; // per start position
   constexpr std::uint64_t mostAtOnce = std::uint64_t(1) << 22;
   const bool hasMyelin = outer.size() > 0 && inner.size() > 0;
   const bool hasExtra = outer.size() > 0;
@@ -110,7 +110,7 @@ StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& out
     return found.intra.size() >= count && (!hasMyelin || found.myelin.size() >= count) &&
            (!hasExtra || found.extra.size() >= count);
   };
-  // Every surface is made once a round: each draws more points than the one before, as far as memory allows.
+  // Every surface is made once per round: each round draws more points than the one before, as far as memory allows.
   std::uint64_t wanted = 8 * std::uint64_t(count) + 64;
   const std::uint64_t most = mostDrawn * wanted;
   std::uint64_t number = 0;

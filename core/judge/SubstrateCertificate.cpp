@@ -21,15 +21,16 @@ namespace cactus
 namespace
 {
 
-/// Of a fibre of which only the id is known; behind all others.
+/// Bundle of a fibre of which only the id is known; sorted behind all others.
 constexpr int unknownBundle = std::numeric_limits<int>::max();
-/// Share of the work that looking at each fibre by itself takes.
+/// Share of the progress for examining each fibre by itself.
 constexpr double surfacesDone = 0.6;
-/// What is kept of outer surfaces in all processes, and at least in each.
+/// Memory for outer surfaces in all processes, and at least in each.
 constexpr std::size_t bytesOfSurfaces = std::size_t(1) << 30;
 constexpr std::size_t leastBytesOfSurfaces = std::size_t(1) << 28;
 
-/// Those with a surface, those that were to have one, and those whose centre lines run through the domain, by increasing id.
+/// Returns fibres with a surface, those that were to have one, and those whose centre lines run through the domain, by increasing
+/// id.
 std::vector<FibreCertificate> fibresToExamine(const FibreSurfaces& outer, const FibreSurfaces& inner, const Fibres* lines)
 {
   std::vector<std::pair<int, int>> found; // id and bundle

@@ -24,9 +24,9 @@ namespace cactus
 namespace
 {
 
-/// Fibres that are sampled side by side before what they have is added up in their order.
+/// Fibres that are sampled in parallel before their results are added in their order.
 constexpr std::size_t batch = 64;
-/// Parts of the largest voxel in the domain below which a fibre is not in one: what rounding leaves of exact sums.
+/// Fraction of the largest voxel in the domain below which a fibre is not in a voxel: the rounding of exact sums.
 constexpr double nothing = 1e-9;
 
 /// One fibre in the voxels around it.
@@ -34,9 +34,9 @@ struct SampledFibre
 {
   int fibreId = 0;
   int bundleId = 0;
-  VoxelVolumes outer; ///< of the inner surface where there is no outer one
+  VoxelVolumes outer; ///< of the inner surface if there is no outer one
   VoxelVolumes inner;
-  VoxelDirections directions; ///< of the voxels of `outer`
+  VoxelDirections directions; ///< for the voxels of `outer`
   int openSurfaces = 0;
 };
 
@@ -116,7 +116,7 @@ public:
       });
   }
 
-  /// From volumes to fractions, and what follows from them. `volume` is that of a voxel's part in the domain.
+  /// Converts volumes to fractions, and derives the other results. `volume` is that of a voxel's part in the domain.
   void finish(const std::vector<double>& volume)
   {
     for (auto& [id, fractions] : this->Sampled.bundleFraction)
@@ -191,7 +191,7 @@ private:
     }
   }
 
-  /// An axis in the sense in which z is not negative.
+  /// Returns an axis with its sign chosen so that z is not negative.
   static Eigen::Vector3d upward(const Eigen::Vector3d& axis) { return axis[2] < 0.0 ? Eigen::Vector3d(-axis) : axis; }
 
   static void divide(std::vector<double>& volumes, const std::vector<double>& by)
@@ -222,7 +222,7 @@ private:
   SampledSubstrate& Sampled;
   double LargestPart;
   bool WithPeaks;
-  std::vector<double> Largest; ///< volume of one fibre
+  std::vector<double> Largest; ///< volume of the largest fibre
   std::vector<Eigen::Matrix3d> Tensors;
   std::map<int, std::vector<Eigen::Matrix3d>> BundleTensors;
 };
@@ -233,7 +233,7 @@ std::optional<std::size_t> placeOf(const std::vector<int>& ids, int id)
   return found != ids.end() && *found == id ? std::optional<std::size_t>(found - ids.begin()) : std::nullopt;
 }
 
-/// µm³ of each voxel's part in the domain.
+/// Returns the volume (µm³) of each voxel's part in the domain.
 std::vector<double> volumesInDomain(const Domain& domain, const VoxelBoxes& voxels)
 {
   std::array<std::vector<double>, 3> lengths;
@@ -242,7 +242,7 @@ std::vector<double> volumesInDomain(const Domain& domain, const VoxelBoxes& voxe
     for (int i = 0; i < voxels.count[std::size_t(axis)]; ++i)
     {
       const double left = domain.size()[axis] - i * voxels.spacing;
-      // The last voxel of a domain that its size divides may be off by rounding.
+      // If the voxel size divides the domain, the last voxel may be off by rounding.
       lengths[std::size_t(axis)].push_back(left > (1.0 - 1e-6) * voxels.spacing ? voxels.spacing : left);
     }
   }
@@ -261,7 +261,7 @@ std::vector<double> volumesInDomain(const Domain& domain, const VoxelBoxes& voxe
   return volumes;
 }
 
-/// Samples fibres one by one, each by itself.
+/// Samples fibres one by one, independently.
 class FibreSampler
 {
 public:
@@ -355,7 +355,7 @@ VoxelBoxes samplerGrid(const Domain& domain, const SubstrateSamplerOptions& opti
   double size = 1.0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    // A domain that the voxels divide up to rounding needs no more of them.
+    // If the voxel size divides the domain up to rounding, no further voxel is needed.
     const double count = std::max(1.0, std::ceil(domain.size()[axis] / options.voxelSize - 1e-6));
     size *= count;
     if (size > double(std::numeric_limits<int>::max()))

@@ -18,7 +18,7 @@ namespace cactus
 /// Edges of voxels: from a hundredth of usual ones of growth to those of images.
 constexpr Range sampledVoxel{ 1e-3, 1e5, " µm" };
 
-/// Of the spherical harmonics of orientation distributions, in twos.
+/// The even order of the spherical harmonics of orientation distributions.
 enum class HarmonicsOrder
 {
   None,
@@ -34,12 +34,12 @@ struct SubstrateSamplerOptions
 {
   double voxelSize = 1.0; ///< µm, edge of a voxel
   HarmonicsOrder harmonics = HarmonicsOrder::None;
-  bool peaks = false; ///< of the bundles' directions
+  bool peaks = false; ///< whether to compute the bundles' directions
 
   static const PropertyList<SubstrateSamplerOptions>& properties();
 };
 
-/// What a voxel is mostly made of.
+/// The main compartment of a voxel.
 enum class Compartment : unsigned char
 {
   ExtraAxonal = 0,
@@ -54,35 +54,36 @@ struct SampledSubstrate
   std::vector<double> axonFraction;                  ///< of the voxel's part in the domain, inside inner surfaces
   std::vector<double> myelinFraction;                ///< inside outer surfaces and not inside inner ones
   std::map<int, std::vector<double>> bundleFraction; ///< inside the outer surfaces of a bundle, by BundleId
-  std::vector<Compartment> compartment;              ///< that with the largest fraction
-  std::vector<int> fibreId;                          ///< with the largest volume, where compartment is not extra-axonal; else 0
-  std::vector<int> fibreCount;                       ///< fibres that have a part in the voxel
-  int openSurfaces = 0; ///< that are no closed, outward 2-manifolds, and whose volumes are not to be relied on
-  /// Of the fibres' centre lines, each weighted with its fibre's volume in the voxel: the axis that they lie closest to in least
-  /// squares (unit, z not negative), and the angle (degrees) to it whose squared cosine is the mean of theirs. Empty without
-  /// centre lines; zero and NaN where there is no fibre.
+  std::vector<Compartment> compartment;              ///< the one with the largest fraction
+  std::vector<int> fibreId;                          ///< fibre with the largest volume, if the compartment is not extra-axonal;
+                                                     ///< else 0
+  std::vector<int> fibreCount;                       ///< number of fibres with a part in the voxel
+  int openSurfaces = 0; ///< surfaces that are no closed, outward 2-manifolds, so that their volumes are unreliable
+  /// Directions of the fibres' centre lines, each weighted with its fibre's volume in the voxel: the least-squares axis (unit, z
+  /// not negative), and the angle (degrees) to it whose squared cosine is the mean of theirs. Empty without centre lines; zero
+  /// and NaN without a fibre.
   std::vector<Eigen::Vector3d> direction;
   std::vector<double> dispersion;
   int harmonicsOrder = 0;        ///< 0 for none
   std::vector<double> harmonics; ///< harmonicCount(harmonicsOrder) for each voxel; see sampleSubstrate()
-  /// The axes of the peakCount bundles that fill most of the voxel, largest first, each as long as the part of the voxel that
-  /// the bundle fills; NaN where there are fewer. Empty unless asked for.
+  /// The axes of the peakCount bundles that fill most of the voxel, largest first, each as long as the fraction of the voxel that
+  /// the bundle fills; NaN for missing ones. Empty unless requested.
   static constexpr std::size_t peakCount = 3;
   std::vector<std::array<Eigen::Vector3d, peakCount>> peaks;
 };
 
-/// The grid: voxels from the domain's lower corner on, as many as cover it.
+/// Returns the grid: voxels from the domain's lower corner on, as many as cover it.
 VoxelBoxes samplerGrid(const Domain& domain, const SubstrateSamplerOptions& options);
 
 /// Samples a substrate. Fractions are exact volumes of the meshes (see voxelVolumes) over that of the voxel's part in the domain,
-/// so that their means over the domain are those of the whole. Fibres are taken one after the other: no more of their meshes than
-/// a few for each thread are held at once. The same bits on any number of threads. `fibres` may be null.
+/// so that their means over the domain are those of the whole. Only a few meshes per thread are in memory at once. Gives the same
+/// bits on any number of threads. `fibres` may be null.
 ///
-/// The fibre orientation distribution has for every fibre its directions in the voxel, with its fraction as their weight. Its
-/// integral over the sphere is the fraction of all fibres; what comes out are its coefficients up to an order (harmonicsAt).
+/// The fibre orientation distribution has, for every fibre, its directions in the voxel, weighted with its fraction. Its integral
+/// over the sphere is the fraction of all fibres; the result holds its coefficients up to an order (harmonicsAt).
 ///
-/// Throws InvalidInput for options out of range, for a grid of more voxels than can be counted, for no surfaces, and where
-/// directions are asked for without fibres; OutOfMemory, and Cancelled.
+/// Throws InvalidInput for options out of range, for a grid of too many voxels, for no surfaces, and for directions without
+/// fibres; OutOfMemory, and Cancelled.
 SampledSubstrate sampleSubstrate(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner,
   const Fibres* fibres, const SubstrateSamplerOptions& options, const Context& context = {});
 

@@ -21,10 +21,10 @@ namespace cactus
 namespace
 {
 
-/// What is kept of a cut, and what its row in a table takes, with room to grow.
+/// Memory of a cut and of its row in a table, with room to grow.
 constexpr double bytesPerCut = 3.0 * sizeof(FibreCut) + 2.0 * sizeof(ProfilePoint);
 
-/// Index of every surface by fibre id, all of which have to be fibres'.
+/// Returns the index of every surface by fibre id; every surface has to belong to a fibre.
 std::unordered_map<int, std::size_t> indexOf(const FibreSurfaces& surfaces, const Fibres& fibres, const std::string& port)
 {
   std::unordered_map<int, std::size_t> index;
@@ -59,7 +59,7 @@ void requireClipped(const TriangleMesh& mesh, const Domain& domain, double toler
   }
 }
 
-/// Mean of what is finite, in order; NaN where nothing is.
+/// Returns the mean of the finite values, in order; NaN if there are none.
 template <typename Value>
 double meanOver(const std::vector<FibreStatistics>& fibres, Value&& value)
 {
@@ -108,7 +108,7 @@ void SubstrateStatisticsOptions::validate() const
 namespace
 {
 
-/// What is measured on one surface.
+/// The measures of one surface.
 struct SurfaceMeasures
 {
   SurfaceReport& report;
@@ -134,7 +134,7 @@ void measureSurface(const Fibres& fibres, std::size_t fibre, const TriangleMesh&
   measures.wallArea = areaOf(mesh, wallTriangles(mesh, fibres.domain, largestInset));
 }
 
-/// Throws OutOfMemory where there is no room for the cuts of `sets` surfaces of each fibre.
+/// Throws OutOfMemory if the cuts of `sets` surfaces of each fibre do not fit into memory.
 void requireRoomForCuts(const Fibres& fibres, std::size_t sets, double spacing)
 {
   double cuts = 0.0;
@@ -146,7 +146,7 @@ void requireRoomForCuts(const Fibres& fibres, std::size_t sets, double spacing)
     static_cast<double>(sets) * cuts * bytesPerCut, text("CutSpacing ", spacing, " µm"), "choose a larger CutSpacing");
 }
 
-/// What the surfaces of all fibres come to; of surfaces that are not given fractions are NaN.
+/// Sums over the surfaces of all fibres; fractions of surfaces that are not given are NaN.
 void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, SubstrateStatistics& result)
 {
   // Sums in the order of the fibres: the same bits on any number of threads.
@@ -193,7 +193,7 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
   result.extraSurfaceToVolume = hasOuter && outside > 0.0 ? outerWall / outside : notANumber;
 }
 
-/// What the cuts of all axons come to.
+/// Combines the cuts of all axons.
 void sumUpCuts(SubstrateStatistics& result)
 {
   EffectiveRadius all;

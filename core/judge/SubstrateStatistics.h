@@ -15,12 +15,12 @@
 namespace cactus
 {
 
-/// How a substrate is measured.
+/// Options of the measurement.
 struct SubstrateStatisticsOptions
 {
-  /// µm between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm).
+  /// Distance (µm) between two cross-sections along a fibre's centre line (paper, "Experiments": 1 µm).
   double cutSpacing = 1.0;
-  /// µm that a surface may reach out of the domain, as the rounding of a clip does; not negative.
+  /// Distance (µm) by which a surface may reach out of the domain, as after the rounding of a clip; not negative.
   double clipTolerance = 0.1;
   ExtraAxonalWalkOptions walk;
 
@@ -29,7 +29,7 @@ struct SubstrateStatisticsOptions
   void validate() const;
 };
 
-/// What is measured on one fibre. A surface that the fibre has not leaves a report of zeros and NaN radii.
+/// The measures of one fibre. A missing surface gives a report of zeros and NaN radii.
 struct FibreStatistics
 {
   int fibreId = 0;
@@ -52,28 +52,28 @@ struct FibreStatistics
 
   double outerCalibreVariation() const { return this->outerRadius.deviation / this->outerRadius.mean; }
   double innerCalibreVariation() const { return this->innerRadius.deviation / this->innerRadius.mean; }
-  /// µm⁻¹, of the wall of the axon over its volume: 2/r for a straight circular one; NaN without an axon.
+  /// Returns the area of the axon's wall over its volume (µm⁻¹): 2/r for a straight circular one; NaN without an axon.
   double axonSurfaceToVolume() const;
 };
 
-/// sqrt(inner / outer volume); 0 unless both are positive, as those of closed, outward surfaces are.
+/// Returns sqrt(inner / outer volume); 0 unless both are positive, as for closed, outward surfaces.
 double gRatioOf(double innerVolume, double outerVolume);
 
-/// What is measured on the whole. Fractions are volumes of the surfaces, which have to be clipped to the domain, over the
-/// domain's. What needs a set of surfaces that is not given (see FibreSurfaces) is NaN; of a set without a surface it is 0.
+/// The measures of the whole substrate. Fractions are volumes of the surfaces, which have to be clipped to the domain, over the
+/// domain's. Values that need a set of surfaces that is not given (see FibreSurfaces) are NaN; for an empty set they are 0.
 struct SubstrateStatistics
 {
   double fibreVolumeFraction = 0.0;   ///< outer surfaces
   double axonVolumeFraction = 0.0;    ///< inner surfaces
   double myelinVolumeFraction = 0.0;  ///< the difference: a fibre without an inner surface is myelin throughout
   double aggregateGRatio = 0.0;       ///< sqrt(1 - MVF / FVF), Stikov 2015; 0 without fibres
-  double capsuleVolumeFraction = 0.0; ///< of the capsules, overlaps twice
+  double capsuleVolumeFraction = 0.0; ///< of the capsules, overlaps counted twice
   double largestPenetration = 0.0;    ///< D = 1 - d / (rp + rq) over all pairs of capsules of different fibres; 0 without overlap
   double meanDispersion = 0.0;        ///< degrees, end to end
   double tangentDispersion = 0.0;     ///< degrees, by segment
   double meanTargetRadius = 0.0;      ///< µm, over fibres
-  double meanOuterRadius = 0.0;       ///< µm, over fibres that have a cross-section
-  double meanInnerRadius = 0.0;       ///< µm, over fibres that have a cross-section
+  double meanOuterRadius = 0.0;       ///< µm, over fibres with a cross-section
+  double meanInnerRadius = 0.0;       ///< µm, over fibres with a cross-section
   std::size_t outerClosed = 0;        ///< closed 2-manifolds that point outward
   std::size_t outerOpen = 0;          ///< the other outer surfaces
   std::size_t innerClosed = 0;
@@ -82,29 +82,28 @@ struct SubstrateStatistics
   double trianglesPerArea = 0.0;        ///< µm⁻², over all surfaces
   double smallestAngle = 0.0;           ///< degrees, over all surfaces
   double largestSquaredEdgeRatio = 0.0; ///< over all surfaces
-  double meanTortuosity = 0.0;          ///< over fibres that have one, as the next three
+  double meanTortuosity = 0.0;          ///< over fibres that have one, like the next three
   double meanOuterCalibreVariation = 0.0;
   double meanInnerCalibreVariation = 0.0;
   double meanAreaFluctuation = 0.0;    ///< µm, AxonShape::areaFluctuation: an estimate of Γ(k → 0)
   double effectiveRadius = 0.0;        ///< µm, over all cuts of all axons
-  double middleEffectiveRadius = 0.0;  ///< µm, over the middle cut of each axon, as a section through the bundle shows them
+  double middleEffectiveRadius = 0.0;  ///< µm, over the middle cut of each axon, as in a section through the bundle
   double intraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the axons over their volume
-  double extraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the outer surfaces over what they leave of the domain
-  ExtraAxonalDiffusion outside;        ///< where walkers were asked for and there are outer surfaces
-  std::vector<FibreStatistics> fibres; ///< in the order of the fibres given
+  double extraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the outer surfaces over the rest of the domain
+  ExtraAxonalDiffusion outside;        ///< if walkers were requested and there are outer surfaces
+  std::vector<FibreStatistics> fibres; ///< in the order of the given fibres
 };
 
 /// Measures a substrate on its final surfaces, fibre by fibre in parallel. Either set of surfaces may be empty; surfaces belong
 /// to fibres by id.
 ///
-/// Throws InvalidInput, naming the fibre, where a surface belongs to no fibre or reaches out of the domain by more than
-/// clipTolerance, where walkers are asked for and a surface is open, and as `validate` does; OutOfMemory where CutSpacing makes
-/// more cuts than there is room for; Cancelled when stopped.
+/// Throws InvalidInput, naming the fibre, if a surface belongs to no fibre or reaches out of the domain by more than
+/// clipTolerance, if walkers are requested and a surface is open, and as `validate` does; OutOfMemory if CutSpacing gives more
+/// cuts than fit into memory; Cancelled.
 SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& outer, const FibreSurfaces& inner,
   const SubstrateStatisticsOptions& options = {}, const Context& context = {});
 
-/// One row of the profile of a fibre: what its surfaces are where they are cut. What needs a surface that is not cut there is
-/// NaN.
+/// One row of a fibre's profile: measures of its surfaces at a cut. Values of a surface that is not cut there are NaN.
 struct ProfilePoint
 {
   int fibreId = 0;
@@ -117,11 +116,11 @@ struct ProfilePoint
   double gRatio = 0.0;          ///< their ratio
 };
 
-/// The points of all fibres, in their order and along each, where at least one surface is cut.
+/// Returns the points of all fibres, in their order and along each, where at least one surface is cut.
 std::vector<ProfilePoint> profilesOf(const std::vector<FibreStatistics>& fibres, double spacing);
 
-/// How many of the values lie in each of `bins` equal parts of [lower, upper]; the last part holds `upper` too. NaN and values
-/// outside count nowhere. Throws InvalidInput, naming NumberOfBins, unless there are 1 to 10000.
+/// Counts the values in each of `bins` equal parts of [lower, upper]; the last part includes `upper`. NaN and values outside are
+/// not counted. Throws InvalidInput, naming NumberOfBins, unless there are 1 to 10000.
 std::vector<std::size_t> histogram(const std::vector<double>& values, double lower, double upper, std::size_t bins);
 
 } // namespace cactus

@@ -11,7 +11,7 @@ namespace cactus
 namespace
 {
 
-/// Those of the pairs' surfaces that there are, in increasing order of fibres, as the pairs are.
+/// Returns the existing surfaces of the pairs, in increasing order of fibres, like the pairs.
 FibreSurfaces surfacesOf(const std::vector<FibreSurfacePair>& pairs, TriangleMesh FibreSurfacePair::*member)
 {
   FibreSurfaces surfaces;
@@ -51,7 +51,7 @@ void markFaults(std::vector<FibreSurfacePair>& pairs, const Domain& domain, doub
   }
   if (outer.size() + inner.size() == 0)
   {
-    return; // all fibres have vanished, which is another remark
+    return; // all fibres have vanished, which another remark reports
   }
   const SubstrateCertificate certificate = certify(domain, outer, inner, nullptr, options, context);
   for (const FibreCertificate& fibre : certificate.fibres)

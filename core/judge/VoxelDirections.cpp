@@ -15,7 +15,7 @@ namespace cactus
 namespace
 {
 
-/// A block of voxels, and what a fibre's centre line has in them.
+/// A block of voxels, and a fibre's directions in them.
 class BlockDirections
 {
 public:
@@ -63,7 +63,7 @@ private:
 
   Eigen::Vector3d along(std::size_t segment) const { return this->Lines.points[segment + 1] - this->Lines.points[segment]; }
 
-  /// The voxels of the block that the box around a segment meets.
+  /// Adds a segment to the voxels of the block that meet its box.
   void addSegment(std::size_t segment)
   {
     const Eigen::Vector3d& p = this->Lines.points[segment];

@@ -12,15 +12,16 @@
 namespace cactus
 {
 
-/// Where a fibre leads in each voxel of a block: means over the directions d of its centre line.
+/// A fibre's directions in each voxel of a block: means over the directions d of its centre line.
 struct VoxelDirections
 {
   std::vector<Eigen::Matrix3d> tensors;       ///< of d·dᵀ (trace 1)
-  std::vector<std::vector<double>> harmonics; ///< of harmonicsAt(d); empty without an order, and where there is no fibre
+  std::vector<std::vector<double>> harmonics; ///< of harmonicsAt(d); empty without an order, and without a fibre
 };
 
-/// Over the part of the centre line in the voxel; where it does not pass through the voxel, of the segment closest to the voxel's
-/// middle. Only voxels in which `block` has a volume above 0 are looked at. `order` of spherical harmonics; below 0 for none.
+/// Averages over the part of the centre line in the voxel; if it does not pass through the voxel, uses the segment closest to the
+/// voxel's middle. Only voxels in which `block` has a volume above 0 are computed. `order` of spherical harmonics; below 0 for
+/// none.
 VoxelDirections voxelDirections(
   const Fibres& fibres, std::size_t fibre, const VoxelBoxes& voxels, const VoxelVolumes& block, int order = -1);
 

@@ -23,32 +23,32 @@ namespace
 
 using Eigen::Vector3d;
 
-// Parts of the largest error.
+// Fractions of the largest error.
 
-/// How far apart, across a chord, points may be that it replaces: it goes amid them.
+/// Width, across a chord, of the points that it may replace: it runs through their middle.
 constexpr double chordPart = 1.2;
-/// How far a point may move altogether.
+/// Largest displacement of a point in total.
 constexpr double movePart = 0.8;
 
-/// Loops of fewer points are of fibres so thin that there is little to gain, and an axon's room to lose.
+/// Loops of fewer points belong to fibres so thin that little can be gained, and an axon could lose its room.
 constexpr std::size_t fewestPoints = 16;
 
-/// Bands that one strip replaces at most, since longer ones end in triangles too thin to be mended, and those that are tried
-/// first.
+/// The largest number of bands that one strip replaces, since longer ones end in triangles too thin to repair, and the number
+/// tried first.
 constexpr std::size_t mostBands = 8;
 constexpr std::size_t firstBands = 8;
-/// A strip with so many times as many triangles as its loops have points is followed by one half as long, and one with less than
-/// that by one twice as long.
+/// If a strip has this many times as many triangles as its loops have points, the next one is half as long; below the second
+/// limit, twice as long.
 constexpr double tooMany = 1.7;
 constexpr double fewEnough = 1.25;
 
-/// Triangles between two planes, in the place of the bands between them.
+/// Triangles between two planes that replace the bands between them.
 struct Strip
 {
-  std::size_t begin = 0; ///< plane below, which is the number of the first band, too
+  std::size_t begin = 0; ///< plane below, and number of the first band
   std::size_t end = 0;   ///< plane above
   bool hasAllBelow = false;
-  bool hasAllAbove = false; ///< all points of the loop there, since the band behind stays as it is
+  bool hasAllAbove = false; ///< all points of the loop are used there, since the next band stays
   StitchedLoops stitched;
 };
 
@@ -94,7 +94,7 @@ private:
   const Vector3d& at(std::int32_t point) const { return this->Surface.mesh.points[std::size_t(point)]; }
   std::uint8_t facesOf(std::int32_t point) const { return this->Surface.faces[std::size_t(point)]; }
 
-  /// Finds of each loop the points that are kept, and moves these so that chords go amid those that are not.
+  /// Selects the points of each loop that are kept, and moves these so that chords run through the middle of the others.
   void simplify()
   {
     this->Few.resize(this->Loops.planeCount());
@@ -109,12 +109,12 @@ private:
     }
   }
 
-  /// The points of a loop that are kept, and how far each has to move outwards (`moves`, µm).
+  /// Returns the kept points of a loop, and the outward displacement of each (`moves`, µm).
   PlaneLoop simplified(const PlaneLoop& loop, std::vector<double>& moves) const
   {
     PlaneLoop few;
     const std::size_t count = loop.points.size();
-    std::vector<double> offsets; ///< of the points that each chord replaces, outwards
+    std::vector<double> offsets; ///< outward offsets of the points that each chord replaces
     std::size_t anchor = 0;
     for (std::size_t i = 0; i < count;)
     {
@@ -142,8 +142,8 @@ private:
     return few;
   }
 
-  /// Whether the points between two of a loop are near enough to each other, across the chord. `offset` becomes where their
-  /// middle lies, outwards.
+  /// Tells whether the points between two of a loop are near enough to each other, across the chord. Sets `offset` to the outward
+  /// position of their middle.
   bool canSkip(const PlaneLoop& loop, std::size_t from, std::size_t to, double& offset) const
   {
     const auto point = [&](std::size_t i) { return loop.points[i % loop.points.size()]; };
@@ -161,7 +161,7 @@ private:
     {
       if ((faces & ~this->facesOf(point(i))) != 0)
       {
-        return false; // the wall between two points of a face would come to lie in that
+        return false; // otherwise the wall between two points of a face would come to lie in the face
       }
       const Vector3d off = this->at(point(i)) - a;
       const double part = along.dot(off);
@@ -177,7 +177,7 @@ private:
     return true;
   }
 
-  /// Moves a point of a loop outwards in its plane, from where it was first, if no face of the box along the axis holds it.
+  /// Moves a point of a loop outwards in its plane, from its initial place, if no face of the box along the axis holds it.
   void move(const PlaneLoop& loop, std::size_t i, double way)
   {
     const std::size_t count = loop.points.size();
@@ -185,7 +185,7 @@ private:
     const Vector3d along = this->at(loop.points[(i + 1) % count]) - this->at(loop.points[(i + count - 1) % count]);
     const Vector3d outwards = along.cross(Vector3d::Unit(this->Axis));
     const double length = outwards.norm();
-    const int otherFaces = this->facesOf(p) & ~(3 << (2 * this->Axis)); // a rim stays in its own
+    const int otherFaces = this->facesOf(p) & ~(3 << (2 * this->Axis)); // a rim stays in its own face
     if (otherFaces == 0 && length > 0.0)
     {
       const Vector3d to = this->at(p) + (way / length) * outwards;
@@ -194,7 +194,7 @@ private:
     }
   }
 
-  /// Makes the caps in an outermost plane, as its loop with few points has them.
+  /// Cuts the caps in an outermost plane from its loop with few points.
   void cutCaps(std::size_t plane)
   {
     const std::vector<std::int32_t>& points = this->Few[plane].points;
@@ -215,7 +215,7 @@ private:
     }
   }
 
-  /// Lays strips from band to band, each as long as the field lets it be.
+  /// Chooses strips from band to band, each as long as the field permits.
   void chooseStrips()
   {
     std::size_t length = firstBands;
@@ -246,7 +246,7 @@ private:
     }
   }
 
-  /// Whether a band may be part of a strip.
+  /// Tells whether a band may be part of a strip.
   bool canGo(std::size_t band) const
   {
     const bool hasCaps = (band > 0 || !this->Caps[0].empty()) && (band + 1 < this->Loops.bandCount() || !this->Caps[1].empty());
@@ -254,7 +254,7 @@ private:
            this->Loops.loop(band + 1).points.size() >= fewestPoints;
   }
 
-  /// Makes those strips again which have bands that stay beside them, and leaves bands as they are where that fails.
+  /// Remakes those strips that have unreplaced bands beside them, and keeps the old bands where that fails.
   void joinStrips()
   {
     for (bool isJoined = false; !isJoined;)
@@ -283,7 +283,7 @@ private:
     }
   }
 
-  /// Puts the points of a plane back to where they were.
+  /// Moves the points of a plane back to their initial places.
   void restore(bool isRestored, std::size_t plane)
   {
     for (const std::int32_t p : isRestored ? this->Few[plane].points : std::vector<std::int32_t>())
@@ -293,8 +293,8 @@ private:
     }
   }
 
-  /// Fills a strip between its planes, and says whether it is near enough to the field's level: where the contour that it
-  /// replaces is not, no farther inside the body than that.
+  /// Fills a strip between its planes, and returns whether it is near enough to the field's level: where the replaced contour is
+  /// not, no farther inside the body than that.
   bool make(Strip& strip) const
   {
     const PlaneLoop& lower = strip.hasAllBelow ? this->Loops.loop(strip.begin) : this->Few[strip.begin];
@@ -304,7 +304,7 @@ private:
       .stitch(lower, upper, strip.begin, strip.end, strip.hasAllBelow || strip.hasAllAbove, strip.stitched);
   }
 
-  /// Moves points of strips so that the surface around each lies amid where the field is too large and too small.
+  /// Moves points of strips to balance the field's excess and deficit around each.
   void settle()
   {
     std::vector<ErrorRange> around(this->Places.size());
@@ -319,7 +319,7 @@ private:
         for (const std::int32_t p : strip.stitched.triangles[t])
         {
           around[std::size_t(p)].add(strip.stitched.errors[t][0]);
-          around[std::size_t(p)].add(strip.stitched.errors[t][1]); // of an edge that most of them are at
+          around[std::size_t(p)].add(strip.stitched.errors[t][1]); // of an edge that most of them share
         }
       }
     }
@@ -338,7 +338,7 @@ private:
     }
   }
 
-  /// Puts strips in the place of bands, and removes points that no triangle has any more.
+  /// Replaces bands by strips, and removes points without triangles.
   void replace()
   {
     std::vector<bool> isReplaced(this->Loops.bandCount(), false);
@@ -376,8 +376,8 @@ private:
   Eigen::Index Axis;
   PlaneLoops Loops;
   std::vector<PlaneLoop> Few;   ///< per plane, its loop with few points
-  std::vector<Vector3d> Places; ///< per point, where it is to go
-  std::vector<double> Moves;    ///< per point, how far it has moved outwards, µm
+  std::vector<Vector3d> Places; ///< per point, its new place
+  std::vector<double> Moves;    ///< per point, its outward displacement, µm
   BandExcesses Excesses;
   std::vector<Strip> Strips;                                    ///< from below
   std::array<std::vector<std::array<std::int32_t, 3>>, 2> Caps; ///< in the first plane and the last one
@@ -387,7 +387,7 @@ private:
 
 void coarsenBands(CappedSurface& surface, const NodeLattice& lattice, const SurfaceDecimationOptions& options)
 {
-  constexpr std::size_t fewestPlanes = 4; // so that there is a band between two inner ones
+  constexpr std::size_t fewestPlanes = 4; // so that there is a band between two inner planes
   const Eigen::Index axis = longestAxis(surface.mesh);
   std::vector<double> planes = lattice.planes[std::size_t(axis)];
   if (!surface.box.isEmpty())

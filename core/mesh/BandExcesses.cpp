@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// Of a contour's triangles, one of so many is looked at.
+/// One of this many triangles of a contour is evaluated.
 constexpr std::size_t lookEvery = 3;
 constexpr double unknown = -1.0;
 

@@ -14,10 +14,10 @@ namespace
 {
 
 constexpr float unbounded = std::numeric_limits<float>::infinity();
-/// From here on at the median, which adds at most 32 levels for 32-bit indices.
+/// Depth from which boxes are split at the median, which adds at most 32 levels for 32-bit indices.
 constexpr int depthOfMedians = 36;
 
-/// One or two steps down, or up: free of branches, and sure.
+/// Round one or two steps down, or up: branch-free, and safe.
 float roundedDown(double value)
 {
   const auto rounded = static_cast<float>(value);
@@ -38,13 +38,13 @@ struct ItemRange
   int depth;
 };
 
-/// Twice the centre of its box.
+/// Returns twice the centre of an item's box.
 float centre(const BoxTree::Item& item, int axis)
 {
   return item.box.lower[axis] + item.box.upper[axis];
 }
 
-/// Where to part the items of a range, which are put into that order; neither part is empty.
+/// Returns where to split the items of a range, which are reordered for it; neither part is empty.
 std::uint32_t part(std::vector<BoxTree::Item>& items, const ItemRange& range)
 {
   Eigen::Array4f lower = Eigen::Array4f::Constant(unbounded);
@@ -124,7 +124,7 @@ BoxTree::BoxTree(std::vector<Item> items)
     ranges.push_back({ child + 1, split, range.last, range.depth + 1 });
     ranges.push_back({ child, range.first, split, range.depth + 1 });
   }
-  // Children come after their parents.
+  // Children are stored after their parents.
   for (std::size_t n = this->Nodes.size(); n-- > 0;)
   {
     Node& node = this->Nodes[n];

@@ -12,8 +12,8 @@
 namespace cactus
 {
 
-/// An axis-aligned box in single precision, rounded outwards: it holds what it was made around. The fourth number is 0 and there
-/// for the vector unit.
+/// An axis-aligned box in single precision, rounded outwards: it contains its content in spite of rounding. The fourth number is
+/// 0, as padding for the vector unit.
 struct FloatBox
 {
   Eigen::Array4f lower = Eigen::Array4f::Zero();
@@ -24,14 +24,14 @@ struct FloatBox
     return (this->lower - other.upper).max(other.lower - this->upper).maxCoeff() <= 0.0F;
   }
 
-  /// No larger than the squared distance (µm²) of what the two boxes hold; 0 where they overlap.
+  /// Returns a lower bound of the squared distance (µm²) between the contents of the two boxes; 0 if they overlap.
   float squaredDistance(const FloatBox& other) const
   {
     const Eigen::Array4f apart = (this->lower - other.upper).max(other.lower - this->upper).max(Eigen::Array4f::Zero());
-    return 0.999999F * (apart * apart).sum(); // less what rounding may have added
+    return 0.999999F * (apart * apart).sum(); // corrects possible rounding upwards
   }
 
-  /// Makes it hold another one, too.
+  /// Extends the box to contain another one.
   void include(const FloatBox& other)
   {
     this->lower = this->lower.min(other.lower);
@@ -40,23 +40,23 @@ struct FloatBox
 
   float longestSide() const { return (this->upper - this->lower).maxCoeff(); }
 
-  /// The smallest one around three points (µm), but for rounding.
+  /// Returns the smallest box around three points (µm), up to rounding.
   static FloatBox around(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
   static FloatBox around(const Eigen::Vector3d& point) { return around(point, point, point); }
 };
 
-/// A tree over boxes, for everything that asks which of them are near something.
+/// A tree of boxes, which finds those near something.
 ///
-/// Boxes are halved at the middle of their centres (at the median, where the middle leaves one side empty or the tree has become
-/// deep), down to leaves of up to leafSize: O(n log n), and no deeper than maximumDepth. About 70 bytes an entry. The tree is
-/// the same for the same boxes, and queries allocate nothing.
+/// Boxes are split at the middle of their centres (at the median, if the middle leaves one side empty or the tree has become
+/// deep), down to leaves of up to leafSize: O(n log n), and no deeper than maximumDepth. An entry takes about 70 bytes. The tree
+/// is the same for the same boxes, and queries allocate nothing.
 class BoxTree
 {
 public:
   static constexpr std::uint32_t leafSize = 8;
   static constexpr int maximumDepth = 72;
 
-  /// What the tree is made of: a box, and what it is of.
+  /// A box and the entry that it belongs to.
   struct Item
   {
     FloatBox box;
@@ -66,7 +66,8 @@ public:
   struct Node
   {
     FloatBox box;
-    std::uint32_t first; ///< of a leaf its first place in order(), else the first of its two children, which are neighbours
+    std::uint32_t first; ///< of a leaf its first place in order(), of another node the first of its two children, which are
+                         ///< neighbours
     std::uint32_t count; ///< entries of a leaf, 0 for other nodes
     float longestSide;   ///< of the box
 
@@ -77,11 +78,11 @@ public:
   explicit BoxTree(std::vector<Item> items);
 
   bool empty() const { return this->Nodes.empty(); }
-  /// Node 0 is the root, if there is one.
+  /// Returns the nodes; node 0 is the root, if there is one.
   const std::vector<Node>& nodes() const { return this->Nodes; }
-  /// Entries by leaf.
+  /// Returns the entries by leaf.
   const std::vector<std::uint32_t>& order() const { return this->Order; }
-  /// The boxes of the entries in order().
+  /// Returns the boxes of the entries in order().
   const std::vector<FloatBox>& boxes() const { return this->Boxes; }
 
 private:
@@ -125,7 +126,7 @@ bool visitPlaces(const BoxTree& tree, Wanted&& wanted, Visit&& visit)
   return false;
 }
 
-/// Calls visit(entry) likewise.
+/// Calls visit(entry) in the same way.
 template <typename Wanted, typename Visit>
 bool visitEntries(const BoxTree& tree, Wanted&& wanted, Visit&& visit)
 {
@@ -133,7 +134,7 @@ bool visitEntries(const BoxTree& tree, Wanted&& wanted, Visit&& visit)
 }
 
 /// Calls visit(place in a.order(), place in b.order()) for all pairs whose boxes overlap, until it returns true. Returns whether
-/// it did. Of a tree with itself, each pair of different places comes once.
+/// it did. For a tree with itself, each pair of different places comes once.
 template <typename Visit>
 bool visitOverlappingPlaces(const BoxTree& a, const BoxTree& b, Visit&& visit)
 {
@@ -160,7 +161,7 @@ bool visitOverlappingPlaces(const BoxTree& a, const BoxTree& b, Visit&& visit)
     }
     if (!p.isLeaf() || !q.isLeaf())
     {
-      // Without branches, which would be guessed wrong half the time.
+      // Branch-free, since branches would be mispredicted half the time.
       const bool partA = !p.isLeaf() && (q.isLeaf() || p.longestSide >= q.longestSide);
       const std::uint32_t child = partA ? p.first : q.first;
       const BoxTree::Node* children = (partA ? a : b).nodes().data() + child;

@@ -25,9 +25,9 @@ namespace
 
 using Eigen::Vector3d;
 
-/// µm. What is as near as this to a face of the box lies on it.
+/// µm. Points this near to a face of the box lie on it.
 constexpr double faceTolerance = 1e-6;
-/// Triangles of a compartment's border from which a place inside it is sought, the largest ones.
+/// The number of triangles, the largest ones of a compartment's border, from which a point inside it is sought.
 constexpr std::size_t soundings = 16;
 
 using FaceBits = std::uint8_t; ///< as in CappedSurface
@@ -47,13 +47,13 @@ FaceBits facesAt(const Domain& box, const Vector3d& point)
   return static_cast<FaceBits>(bits);
 }
 
-/// An edge in one of its two senses.
+/// Returns the key of an edge in one of its two directions.
 std::uint64_t senseKey(std::int32_t from, std::int32_t to)
 {
   return std::uint64_t(std::uint32_t(from)) << 32 | std::uint32_t(to);
 }
 
-/// What joinInBox() works on.
+/// The state of joinInBox().
 class BoxJoint
 {
 public:
@@ -67,7 +67,7 @@ public:
   BoxedSurfaces finish();
 
 private:
-  /// An edge that has to be one of a face's triangles, too.
+  /// An edge of a surface that lies in a face.
   struct Outline
   {
     std::int32_t from;
@@ -84,15 +84,15 @@ private:
   std::int32_t Around;
   BoxedSurfaces Joined;
   std::vector<FaceBits> Faces;      ///< per point
-  std::vector<std::int32_t> Number; ///< per point of the surface at hand, that in the whole or -1
+  std::vector<std::int32_t> Number; ///< per point of the present surface, its index in the whole, or -1
   std::array<std::vector<Outline>, 6> Outlines;
   std::array<std::vector<std::int32_t>, 6> OnFace;             ///< points of surfaces, by face
   std::unordered_map<std::uint64_t, std::int32_t> Compartment; ///< behind the face's triangle that runs along an outline
-  std::map<int, std::int32_t> Corners;                         ///< of the box, as far as they are points
+  std::map<int, std::int32_t> Corners;                         ///< corners of the box that are points
   std::size_t FirstFaceTriangle = 0;
 };
 
-/// Takes a surface without its caps.
+/// Adds a surface without its caps.
 void BoxJoint::add(const CompartmentSurface& surface)
 {
   const std::vector<std::uint32_t> kept = trianglesOffFaces(surface.mesh, this->Box);
@@ -136,7 +136,7 @@ void BoxJoint::add(const CompartmentSurface& surface)
   this->Joined.sides.insert(this->Joined.sides.end(), wall.size(), { { surface.inside, surface.outside } });
 }
 
-/// Notes which edges lie in faces, and what is on either side of those where a cap was.
+/// Records the edges that lie in faces, and the compartments on either side of those where a cap was.
 void BoxJoint::noteOutlines(const std::vector<std::array<std::int32_t, 3>>& wall, const CompartmentSurface& surface)
 {
   std::unordered_map<std::uint64_t, int> uses;
@@ -168,7 +168,7 @@ void BoxJoint::noteOutlines(const std::vector<std::array<std::int32_t, 3>>& wall
       }
       if (isRim)
       {
-        // The cap ran against the wall.
+        // The cap ran in the opposite direction.
         this->Compartment[senseKey(to, from)] = surface.inside;
         this->Compartment[senseKey(from, to)] = surface.outside;
       }
@@ -176,7 +176,7 @@ void BoxJoint::noteOutlines(const std::vector<std::array<std::int32_t, 3>>& wall
   }
 }
 
-/// The point at a corner of the box, whose bits say at which axes it is at the upper end.
+/// Returns the point at a corner of the box; its bits are set for axes at the upper end.
 std::int32_t BoxJoint::cornerPoint(int corner)
 {
   const auto found = this->Corners.find(corner);
@@ -195,11 +195,11 @@ std::int32_t BoxJoint::cornerPoint(int corner)
   return this->Corners[corner] = number;
 }
 
-/// Makes the triangles of a face, which know their compartments not yet.
+/// Makes the triangles of a face, without compartments.
 void BoxJoint::cutFace(int face)
 {
   const int axis = face / 2;
-  // Along u and v, in whose sense corners run counter-clockwise seen from outside.
+  // Seen from outside, corners run counter-clockwise from u to v.
   const int u = face % 2 == 1 ? (axis + 1) % 3 : (axis + 2) % 3;
   const int v = face % 2 == 1 ? (axis + 2) % 3 : (axis + 1) % 3;
   const auto inPlane = [&](const Vector3d& p) { return Eigen::Vector2d(p[u], p[v]); };
@@ -223,7 +223,7 @@ void BoxJoint::cutFace(int face)
     const int corner = (face % 2) << axis | ends[i][0] << u | ends[i][1] << v;
     if (pointOf[i] >= 0)
     {
-      this->Corners[corner] = pointOf[i]; // a surface ends just there
+      this->Corners[corner] = pointOf[i]; // a surface ends exactly there
     }
     pointOf[i] = this->cornerPoint(corner);
   }
@@ -239,7 +239,7 @@ void BoxJoint::cutFace(int face)
   }
 }
 
-/// Spreads compartments from outlines over the faces, as far as the next ones.
+/// Propagates compartments from outlines over the faces, up to the next ones.
 void BoxJoint::assignCompartments()
 {
   const auto& triangles = this->Joined.mesh.triangles;
@@ -306,10 +306,10 @@ BoxedSurfaces BoxJoint::finish()
   return std::move(this->Joined);
 }
 
-/// Twice the number of a triangle, and one more for the side that its normal points into.
+/// Twice the index of a triangle, plus one for the side that its normal points into.
 using TriangleSide = std::uint32_t;
 
-/// The sides of triangles that bound the connected parts of compartments' borders, by compartment.
+/// Returns the triangle sides that bound the connected parts of compartments' borders, by compartment.
 std::vector<std::vector<TriangleSide>> connectedParts(const BoxedSurfaces& surfaces)
 {
   struct SideAtEdge
@@ -360,7 +360,7 @@ std::vector<std::vector<TriangleSide>> connectedParts(const BoxedSurfaces& surfa
   return result;
 }
 
-/// Distance (µm) from a point along a unit direction to the first triangle other than `except`, or `furthest`.
+/// Returns the distance (µm) from a point along a unit direction to the first triangle other than `except`, or `furthest`.
 double freeDistance(
   const TriangleTree& tree, const Vector3d& from, const Vector3d& direction, double furthest, std::uint32_t except)
 {
@@ -386,7 +386,7 @@ double freeDistance(
       const Vector3d q = s.cross(ab);
       const double r = direction.dot(q) / scale;
       const double distance = ac.dot(q) / scale;
-      constexpr double slack = 1e-9; // so that nothing slips through between two triangles
+      constexpr double slack = 1e-9; // so that no ray slips through between two triangles
       if (p >= -slack && r >= -slack && p + r <= 1.0 + 2.0 * slack && distance >= 0.0)
       {
         nearest = std::min(nearest, distance);
@@ -404,7 +404,7 @@ std::vector<double> BoxedSurfaces::volumes(std::size_t compartments) const
   for (std::size_t t = 0; t < this->mesh.triangles.size(); ++t)
   {
     const auto& corners = this->mesh.triangles[t];
-    // About one of its own points, so that it does not matter how far from the origin the box lies.
+    // About one of the surface's own points, so that a box far from the origin loses no digits.
     const Vector3d& origin = this->mesh.points.front();
     const Vector3d a = this->mesh.points[std::size_t(corners[0])] - origin;
     const Vector3d b = this->mesh.points[std::size_t(corners[1])] - origin;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed surfaces in a box as one complex of triangles, as programs that fill space with tetrahedra want it: where a surface was
-// capped on a face of the box, the face itself takes the place of the cap.
+// Closed surfaces in a box as one complex of triangles, for tetrahedral meshing.
+//
+// Where a surface was capped on a face of the box, the face itself replaces the cap.
 #pragma once
 
 #include "base/Context.h"
@@ -29,34 +30,33 @@ struct CompartmentPoint
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
 };
 
-/// Triangles that meet in corners and edges only, and cut a box into compartments.
+/// Triangles that meet only in corners and edges, and cut a box into compartments.
 struct BoxedSurfaces
 {
   static constexpr std::int32_t beyond = -1; ///< the compartment outside the box
 
   TriangleMesh mesh;
-  /// Per triangle the compartment behind it and the one that its normal points into; the faces' normals point out of the box.
+  /// Per triangle, the compartment behind it and the one that its normal points into; the faces' normals point out of the box.
   std::vector<std::array<std::int32_t, 2>> sides;
 
-  /// Volume (µm³) of each compartment, by the divergence theorem.
+  /// Returns the volume (µm³) of each compartment, by the divergence theorem.
   std::vector<double> volumes(std::size_t compartments) const;
-  /// One for each connected part of the border of a compartment, by compartment: as far as can be told at little cost from the
-  /// triangles around it.
+  /// Returns a point for each connected part of the border of a compartment, by compartment: well inside, as far as a cheap test
+  /// of the surrounding triangles can tell.
   std::vector<CompartmentPoint> pointsInside(const Context& context = {}) const;
 };
 
-/// Joins surfaces with the faces of a box. Caps, which are the triangles with all corners on one face (but for rounding), go;
-/// each face is cut into triangles between its corners and the outlines that the surfaces leave in it. `around` is the
-/// compartment where no surface is, and `inside` of one surface is `outside` of those that it holds. Throws InvalidInput where a
-/// surface is not closed or reaches out of the box, and where outlines in a face cross.
+/// Joins surfaces with the faces of a box. Caps, which are the triangles with all corners on one face (up to rounding), are
+/// removed; each face is cut into triangles between its corners and the outlines of the surfaces in it. `around` is the
+/// compartment outside all surfaces, and `inside` of one surface is `outside` of those that it contains. Throws InvalidInput if a
+/// surface is not closed or reaches out of the box, or if outlines in a face cross.
 BoxedSurfaces joinInBox(const Domain& box, const std::vector<CompartmentSurface>& surfaces, std::int32_t around);
 
-/// Moves the flat end of a surface that lies up to `furthest` (µm) before a face of the box into that face, as inner surfaces'
-/// ends do, which are a little before those of outer ones. Faces are numbered as the bits of CappedSurface. Whether anything was
-/// moved.
+/// Moves the flat end of a surface that lies up to `furthest` (µm) before a face of the box into that face: inner surfaces end a
+/// little before outer ones. Faces are numbered as the bits of CappedSurface. Returns whether anything moved.
 bool extendToFace(TriangleMesh& mesh, const Domain& box, int face, double furthest);
 
-/// The triangles of a surface but those that joinInBox() takes away.
+/// Returns the triangles of a surface without those that joinInBox() removes.
 std::vector<std::uint32_t> trianglesOffFaces(const TriangleMesh& mesh, const Domain& box);
 
 } // namespace cactus

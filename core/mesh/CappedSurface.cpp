@@ -21,8 +21,8 @@ Vector3d rounded(const Vector3d& point)
   return { inSinglePrecision(point[0]), inSinglePrecision(point[1]), inSinglePrecision(point[2]) };
 }
 
-/// Per point the sum of twice the area normals of its triangles, without caps; in a face of the box only the part along that
-/// face, so that points move in it.
+/// Returns, per point, the sum of twice the area normals of its triangles, without caps; in a face of the box only the part along
+/// that face, so that points move in it.
 std::vector<Vector3d> normals(const CappedSurface& surface)
 {
   std::vector<Vector3d> result(surface.mesh.points.size(), Vector3d::Zero());
@@ -157,7 +157,7 @@ double moveToVolume(CappedSurface& surface, double volume, double furthest)
   auto& points = surface.mesh.points;
   const std::vector<Vector3d> directions = normals(surface);
   double moved = 0.0;
-  // A step changes the volume by its length times the area; the second makes up for curvature.
+  // A step changes the volume by its length times the area; the second step corrects for curvature.
   for (int step = 0; step < 2; ++step)
   {
     const SurfaceMeasure now = measure(surface);

@@ -11,13 +11,13 @@
 namespace cactus
 {
 
-/// A closed surface in a box and, for each of its points, on which faces of the box it lies: bit 2·axis for the lower face, bit
-/// 2·axis + 1 for the upper one. Triangles whose corners share a face are the flat caps that close the surface there.
+/// A closed surface in a box with, for each of its points, the faces of the box that it lies on: bit 2·axis for the lower face,
+/// bit 2·axis + 1 for the upper one. Triangles whose corners share a face are the flat caps that close the surface there.
 struct CappedSurface
 {
   TriangleMesh mesh;
   std::vector<std::uint8_t> faces;
-  Eigen::AlignedBox3d box; ///< µm; empty where nothing is said of it
+  Eigen::AlignedBox3d box; ///< µm; empty if unknown
 
   bool isCap(const std::array<std::int32_t, 3>& t) const
   {
@@ -25,11 +25,11 @@ struct CappedSurface
   }
 };
 
-/// The faces of the box that each point of a mesh lies on, as CappedSurface has them: by its very coordinates.
+/// Returns the faces of the box that each point of a mesh lies on, as in CappedSurface: by exact coordinates.
 std::vector<std::uint8_t> facesOf(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
-/// Where a point goes that is to move from one place of the box to another: no nearer to a face than `margin` (µm) or, if that is
-/// less, than it was. So what is not cut off by a face keeps off it.
+/// Limits the move of a point in the box: it comes no nearer to a face than `margin` (µm) or, if that is less, than before. So
+/// points that no face cuts off stay off the faces.
 inline Eigen::Vector3d keptInside(
   const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to, double margin)
 {
@@ -38,21 +38,21 @@ inline Eigen::Vector3d keptInside(
   return box.isEmpty() ? to : Eigen::Vector3d(to.cwiseMax(lower).cwiseMin(upper));
 }
 
-/// A mesh as files hold it (see io/PlyFile.h), its points rounded to single precision, by which a needle may turn over; and
-/// whether one is the same there.
+/// Rounds a mesh's points to single precision, as in files (see io/PlyFile.h), which may turn a needle over; or tells whether
+/// that would change nothing.
 TriangleMesh inSinglePrecision(TriangleMesh mesh);
 bool isInSinglePrecision(const TriangleMesh& mesh);
-/// µm that a distance may lose by that.
+/// µm, the largest loss of a distance by that rounding.
 constexpr double lostInFiles = 5e-5;
 
-/// Rounds points to single precision, so that what is found of the surface holds for files, too. Points on a face of the box stay
-/// on it, whatever its coordinate, and none leaves the box.
+/// Rounds points to single precision, so that results on the surface hold for files, too. Points on a face of the box stay on it,
+/// whatever its coordinate, and none leaves the box.
 void roundPoints(TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
-/// Removes points that no triangle has, and of `faces`, where given, what is said of them. The others keep their order.
+/// Removes points that no triangle uses, and their entries in `faces`, if given. The others keep their order.
 void dropUnusedPoints(TriangleMesh& mesh, std::vector<std::uint8_t>* faces);
 
-/// How much a surface holds.
+/// The size of a surface.
 struct SurfaceMeasure
 {
   double volume = 0.0;   ///< µm³, signed: positive where normals point outward
@@ -61,9 +61,9 @@ struct SurfaceMeasure
 
 SurfaceMeasure measure(const CappedSurface& surface);
 
-/// Moves a surface along its normals, all of it by the same distance, until it holds `volume` (µm³), or by `furthest` (µm) where
-/// it would have to move more. Caps stay in their faces. Returns the distance (µm), positive outwards. Nothing is checked of
-/// what the surface may run into.
+/// Moves a surface along its normals, all of it by the same distance, until it encloses `volume` (µm³), or by `furthest` (µm) if
+/// it would have to move more. Caps stay in their faces. Returns the distance (µm), positive outwards. Collisions are not
+/// checked.
 double moveToVolume(CappedSurface& surface, double volume, double furthest);
 
 } // namespace cactus

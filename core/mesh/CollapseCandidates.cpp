@@ -13,8 +13,9 @@ namespace
 
 using Eigen::Vector3d;
 
-/// Of the triangles at u and v as they are now, from `origin`. That they are not those of the beginning lets a surface of much
-/// fewer triangles keep to the field: what earlier collapses have done to it, the field tells (Lindstrom and Turk 1998).
+/// Returns the quadric of the present triangles at u and v, from `origin`. Using the present triangles, not the initial ones,
+/// lets a surface of much fewer triangles follow the field, which tells the effect of earlier collapses (Lindstrom and Turk
+/// 1998).
 Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32_t v, const Vector3d& origin)
 {
   Quadric sum;
@@ -23,9 +24,9 @@ Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32
     {
       const std::size_t triangle = std::size_t(c) / 3;
       const auto& corners = surface.cornersOf(triangle);
-      // A triangle at both comes as one of u, too.
+      // A triangle at both was already counted at u.
       const bool isCounted = point == v && (corners[0] == u || corners[1] == u || corners[2] == u);
-      // Points of caps stay in their plane anyway; counted in, caps would water down the error of their rims.
+      // Points of caps stay in their plane anyway; counting caps would dilute the error of their rims.
       if (!isCounted && (surface.facesOf(point) == 0 || !surface.isCap(corners)))
       {
         sum.addPlane(surface.normalOf(triangle), surface.at(corners[0]) - origin);

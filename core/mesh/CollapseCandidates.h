@@ -13,7 +13,7 @@
 namespace cactus
 {
 
-/// Where the point may go that the ends of an edge become, and what that costs.
+/// The possible places of the point that replaces an edge, and their costs.
 struct CollapseCandidates
 {
   std::array<Eigen::Vector3d, 3> places; ///< µm
@@ -28,9 +28,9 @@ struct CollapseCandidates
   }
 };
 
-/// The place of the least quadric error, or the middle of the edge, and the edge's two ends. Points on faces of the box stay on
-/// them: of two on different faces only one that is on all of them is a candidate, if there is one. A point on no face keeps
-/// `margin` (µm) off the faces of `box` (see keptInside()).
+/// Returns the place of the least quadric error, or the middle of the edge, and the edge's two ends. Points on faces of the box
+/// stay on them: of two on different faces only one that is on all of them is a candidate, if there is one. A point on no face
+/// keeps `margin` (µm) off the faces of `box` (see keptInside()).
 CollapseCandidates collapseCandidates(
   const EditableSurface& surface, std::int32_t u, std::int32_t v, const Eigen::AlignedBox3d& box, double margin);
 

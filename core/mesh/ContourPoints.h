@@ -16,8 +16,8 @@
 namespace cactus
 {
 
-/// Of the second differences on either side of an edge, the smaller one, or 0 if they have different signs: across a crease one
-/// side does not predict the other.
+/// Returns the smaller one of the second differences on either side of an edge, or 0 if they have different signs: across a
+/// crease one side does not predict the other.
 inline double agreedBend(double a, double b)
 {
   return std::max(std::min(a, b), 0.0) + std::min(std::max(a, b), 0.0);
@@ -32,7 +32,7 @@ inline LatticeNode cornerOfCell(const LatticeNode& cell, int corner)
   return { { cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1), cell[2] + (corner >> 2) } };
 }
 
-/// The values of a field at the nodes of a block, which begin one node before it on every side.
+/// The values of a field at the nodes of a block, starting one node before it on every side.
 struct BlockValues
 {
   NodeRange range; ///< the nodes of the block itself
@@ -59,14 +59,14 @@ struct BlockValues
 class ContourPoints
 {
 public:
-  /// Points are added to `surface`. What is given has to outlive the object.
+  /// Adds points to `surface`. All arguments have to outlive the object.
   ContourPoints(const NodeLattice& lattice, CappedSurface& surface)
     : Lattice(lattice)
     , Surface(surface)
   {
   }
 
-  /// Goes on to another block, in the same layer along z or above it.
+  /// Continues with another block, in the same layer along z or above it.
   void begin(const BlockValues& block)
   {
     if (block.range.first[2] > this->Block.range.first[2])
@@ -92,14 +92,14 @@ public:
     }
   }
 
-  /// The point where the field is 0 between two corners of a cell, or the corner itself if both are the same.
+  /// Returns the point where the field is 0 between two corners of a cell, or the corner itself if both are the same.
   std::int32_t between(const LatticeNode& cell, int one, int other)
   {
     const std::int32_t known = this->Local[this->placeOf(cell, one, other)];
     return known >= 0 ? known : this->add(cell, one, other);
   }
 
-  /// The same of a point that no cell of the block has asked for.
+  /// Does the same for a point that no cell of the block has requested.
   std::int32_t add(const LatticeNode& cell, int one, int other)
   {
     const std::size_t place = this->placeOf(cell, one, other);
@@ -145,7 +145,7 @@ private:
     return std::size_t(node[0]) + std::size_t(count[0]) * (std::size_t(node[1]) + std::size_t(count[1]) * std::size_t(node[2]));
   }
 
-  /// The faces of the lattice on which all of an edge lies, or a node: see CappedSurface.
+  /// Returns the faces of the lattice that contain the whole edge, or a node: see CappedSurface.
   int facesAt(const LatticeNode& lower, std::size_t direction) const
   {
     int faces = 0;
@@ -174,7 +174,7 @@ private:
     return static_cast<std::int32_t>(this->Surface.mesh.points.size() - 1);
   }
 
-  /// Where on the edge that leads up from a node the field is 0, as a part of it.
+  /// Returns the zero of the field on the edge that leads up from a node, as a fraction of the edge.
   double crossing(const LatticeNode& lower, std::size_t axis) const
   {
     const float* first = this->Block.at(lower);
@@ -182,8 +182,8 @@ private:
     const float* last = first + step;
     const double a = *first;
     const double b = *last;
-    // The nodes before and behind in line. A cell at a face is flat, and the field the same on both sides of it: nothing bends
-    // there.
+    // The nodes before and behind in line. A cell at a face is flat, with the same field on both sides, so it has no second
+    // difference.
     const int node = this->Block.range.first[axis] + lower[axis];
     const int end = this->Lattice.nodes(int(axis)) - 1;
     const bool before = node > 1 && node + 1 < end;
@@ -191,7 +191,7 @@ private:
     const double bendBefore = before ? double(*(first - step)) - 2.0 * a + b : 0.0;
     const double bendBehind = behind ? a - 2.0 * b + double(*(last + step)) : 0.0;
     const double bend = !behind ? bendBefore : !before ? bendBehind : agreedBend(bendBefore, bendBehind);
-    // a + linear t + bend/2 t², of which just one root lies between the ends, since their signs differ.
+    // a + linear t + bend/2 t², which has exactly one root between the ends, since their signs differ.
     const double linear = b - a - 0.5 * bend;
     const double root = std::sqrt(std::max(0.0, linear * linear - 2.0 * bend * a));
     const double q = -0.5 * (linear + std::copysign(root, linear));
@@ -203,7 +203,7 @@ private:
   CappedSurface& Surface;
   BlockValues Block;
   std::vector<std::int32_t> Local;                  ///< points of the block, by lower node and direction, or -1
-  std::vector<std::size_t> Used;                    ///< which of them are not -1
+  std::vector<std::size_t> Used;                    ///< indices in Local that are not -1
   std::array<std::array<std::size_t, 8>, 8> Places; ///< in Local, by two corners of the first cell
   PointTable Shared;                                ///< points on planes between blocks of this layer and to that below
   PointTable SharedAbove;                           ///< and on the plane to the layer above

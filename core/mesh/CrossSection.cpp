@@ -47,7 +47,7 @@ bool holds(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& p
   return inside;
 }
 
-/// Adds where the plane cuts a triangle, if it does.
+/// Adds the cut of the plane through a triangle, if it meets it.
 void cutTriangle(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t, const Eigen::Vector3d& point,
   const Eigen::Vector3d& normal, std::vector<Piece>& pieces)
 {
@@ -81,7 +81,7 @@ void cutTriangle(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t,
   }
 }
 
-/// The loop around the point that has the smallest area, of pieces in the order of where they begin; empty where there is none.
+/// Returns the loop of smallest area around the point, from pieces in the order of their beginnings; empty if there is none.
 std::vector<Eigen::Vector3d> smallestLoop(
   const std::vector<Piece>& pieces, const Eigen::Vector3d& point, const Eigen::Vector3d& normal)
 {
@@ -104,7 +104,7 @@ std::vector<Eigen::Vector3d> smallestLoop(
     }
     if (current != first || loop.size() < 3)
     {
-      continue; // open, within this part of the surface
+      continue; // open within this part of the surface
     }
     const double area = polygonArea(loop, normal);
     if (area > 0.0 && area < bestArea && holds(loop, point, normal))
@@ -139,8 +139,8 @@ CrossSections::CrossSections(const TriangleMesh& mesh)
   (upper - lower).maxCoeff(&this->Axis);
   this->Lower = lower[this->Axis];
   this->Upper = upper[this->Axis];
-  // About 64 triangles a bin keep a bin shorter than a cut's window without filing many triangles twice.
-  // A surface without an extent has one only, which every search for an outline reaches.
+  // About 64 triangles per bin keep a bin shorter than a cut's window without storing many triangles twice. A surface without an
+  // extent has one bin, which every search reaches.
   const bool hasExtent = this->Upper > this->Lower;
   this->Begin.assign((hasExtent ? std::clamp<std::size_t>(mesh.triangles.size() / 64, 1, 65536) : 1) + 1, 0);
 
@@ -207,7 +207,7 @@ std::vector<Eigen::Vector3d> CrossSections::outlineWithin(
     for (std::size_t entry = this->Begin[bin]; entry < this->Begin[bin + 1]; ++entry)
     {
       const std::size_t triangle = this->Triangles[entry];
-      if (std::max(this->FirstBin[triangle], firstBin) == bin) // else met in an earlier bin
+      if (std::max(this->FirstBin[triangle], firstBin) == bin) // else found in an earlier bin
       {
         cutTriangle(this->Mesh, this->Mesh.triangles[triangle], point, normal, pieces);
       }

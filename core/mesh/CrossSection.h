@@ -16,12 +16,12 @@ namespace cactus
 class CrossSections
 {
 public:
-  /// Files the triangles along the surface's longest axis. `mesh` has to outlive this object; its indices have to be valid.
+  /// Bins the triangles along the surface's longest axis. `mesh` has to outlive this object; its indices have to be valid.
   explicit CrossSections(const TriangleMesh& mesh);
 
-  /// The outline (µm, counter-clockwise seen against `normal`) in which the plane through `point` with unit `normal` cuts the
-  /// surface around that point: the smallest closed loop that holds it. Empty where the point lies outside the surface or the
-  /// surface is open there. `reach` (µm, positive) is a guess of how far the outline extends; it only affects speed.
+  /// Returns the outline (µm, counter-clockwise seen against `normal`) of the surface around `point` in the plane through it with
+  /// unit `normal`: the smallest closed loop that contains the point. Empty if the point lies outside the surface or the surface
+  /// is open there. `reach` (µm, positive) is an estimate of the outline's extent; it only affects speed.
   std::vector<Eigen::Vector3d> outlineAround(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double reach) const;
 
 private:
@@ -38,10 +38,10 @@ private:
   std::vector<std::size_t> FirstBin;      ///< per triangle
 };
 
-/// Area (µm²) of a plane polygon, positive where it runs counter-clockwise seen against unit `normal`.
+/// Returns the area (µm²) of a plane polygon, positive if it runs counter-clockwise seen against unit `normal`.
 double polygonArea(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& normal);
 
-/// Perimeter (µm) of a polygon.
+/// Returns the perimeter (µm) of a polygon.
 double polygonPerimeter(const std::vector<Eigen::Vector3d>& polygon);
 
 } // namespace cactus

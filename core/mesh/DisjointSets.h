@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// Sets of the numbers from 0 to count - 1, each by itself to begin with. A set is named by its smallest member, so that names do
+/// Disjoint sets of the numbers from 0 to count - 1, initially one each. A set is named by its smallest member, so that names do
 /// not depend on the order of joins.
 template <typename Number>
 class DisjointSets

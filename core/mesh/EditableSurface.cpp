@@ -156,7 +156,7 @@ void EditableSurface::collapse(std::int32_t u, std::int32_t v, const Eigen::Vect
 {
   this->Points[u] = place;
   this->Faces[u] |= this->facesOf(v);
-  // The triangles on the edge die; v's others become u's.
+  // The triangles on the edge die; v's others move to u.
   for (std::int32_t c = this->firstCorner(v); c >= 0;)
   {
     const std::int32_t next = this->nextCorner(c);
@@ -212,7 +212,7 @@ std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen:
   this->Mark.push_back(0);
   for (const std::size_t triangle : halved)
   {
-    // The half at b stays in its place, that at a is new.
+    // The half at b keeps its index, the half at a is new.
     auto half = this->cornersOf(triangle);
     this->unlink(triangle);
     for (std::size_t i = 0; i < 3; ++i)

@@ -9,7 +9,7 @@
 namespace cactus
 {
 
-/// A closed surface whose edges can be collapsed, flipped and split, so that it stays a closed 2-manifold of the same topology.
+/// A closed surface whose edges can be collapsed, flipped and split while it stays a closed 2-manifold of the same topology.
 ///
 /// A corner is number 3 · triangle + place of a point in a triangle. Those of a point are linked in a list:
 ///
@@ -19,7 +19,7 @@ namespace cactus
 class EditableSurface
 {
 public:
-  /// Works on the surface in place; whoever made the object must not change it before compact().
+  /// Works on the surface in place; nobody else may change it before compact().
   explicit EditableSurface(CappedSurface& surface);
 
   std::size_t pointCount() const { return this->First.size(); }
@@ -29,7 +29,7 @@ public:
   const Eigen::Vector3d& at(std::int32_t point) const { return this->Points[point]; }
   std::uint8_t facesOf(std::int32_t point) const { return this->Faces[point]; }
   const std::array<std::int32_t, 3>& cornersOf(std::size_t triangle) const { return this->Triangles[triangle]; }
-  /// At right angles to a triangle and as long as twice its area, outwards: of the edges at its first corner.
+  /// Returns the outward normal of a triangle, as long as twice its area: the product of the edges at its first corner.
   const Eigen::Vector3d& normalOf(std::size_t triangle) const { return this->Normals[triangle]; }
   bool isDead(std::size_t triangle) const { return this->cornersOf(triangle)[0] < 0; }
   bool isDeadPoint(std::int32_t point) const { return this->firstCorner(point) < 0; }
@@ -38,7 +38,7 @@ public:
     return (this->Faces[corners[0]] & this->Faces[corners[1]] & this->Faces[corners[2]]) != 0;
   }
 
-  /// The other two points of a corner's triangle, in its sense.
+  /// Returns the other two points of a corner's triangle, in its orientation.
   std::array<std::int32_t, 2> oppositeEdge(std::int32_t corner) const
   {
     const auto& corners = this->cornersOf(std::size_t(corner) / 3);
@@ -46,7 +46,7 @@ public:
     return { { corners[i == 2 ? 0 : i + 1], corners[i == 0 ? 2 : i - 1] } };
   }
 
-  /// Whether a triangle at u or v, by the edge opposite to that corner, is left when u and v become one.
+  /// Tells whether a triangle at u or v, given by the edge opposite to that corner, remains when u and v are merged.
   static bool outlivesCollapse(const std::array<std::int32_t, 2>& edge, std::int32_t u, std::int32_t v)
   {
     return edge[0] != u && edge[0] != v && edge[1] != u && edge[1] != v;
@@ -60,34 +60,34 @@ public:
   template <typename Visit>
   bool visitCornersAt(std::int32_t u, std::int32_t v, Visit&& visit) const;
 
-  /// Whether two points are the ends of an edge.
+  /// Tells whether two points are the ends of an edge.
   bool areLinked(std::int32_t u, std::int32_t v) const;
-  /// How many triangles meet at a point.
+  /// Returns how many triangles meet at a point.
   int valence(std::int32_t point) const;
-  /// The triangle that runs through an edge from `from` to `to`. Throws std::logic_error where there is none, as in a surface
-  /// that is not closed.
+  /// Returns the triangle that runs through an edge from `from` to `to`. Throws std::logic_error if there is none, as in a
+  /// surface that is not closed.
   std::size_t triangleAlong(std::int32_t from, std::int32_t to) const;
-  /// Whether an edge can be collapsed: the points next to both ends are just the two that the edge's triangles have beside it,
-  /// and the surface is no tetrahedron.
+  /// Tells whether an edge can be collapsed: the common neighbours of both ends are just the two opposite points of the edge's
+  /// triangles, and the surface is no tetrahedron.
   bool isCollapsible(std::int32_t u, std::int32_t v);
 
-  /// Makes u and v one, u, at `place`. Precondition: isCollapsible().
+  /// Merges u and v into u, at `place`. Precondition: isCollapsible().
   void collapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place);
-  /// Replaces the edge that two triangles have in common, a to b in `one` and b to a in `other`, by that of the two points beside
-  /// it. Precondition: these are not linked.
+  /// Replaces the common edge of two triangles, a to b in `one` and b to a in `other`, by the edge between their opposite points.
+  /// Precondition: these are not linked.
   void flip(std::size_t one, std::size_t other, std::int32_t a, std::int32_t b);
   /// Halves the edge of two points, and its triangles, by a new point at `place`, which lies on the faces of the box that both
   /// lie on. Returns that point.
   std::int32_t split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place);
   void move(std::int32_t point, const Eigen::Vector3d& place);
-  /// Removes what is dead. Points are numbered by their first use; the object is of no use after that.
+  /// Removes dead triangles and points. Points are numbered by their first use; the object must not be used afterwards.
   void compact();
 
-  /// The corner of a triangle that is neither of two others.
+  /// Returns the corner of a triangle that is neither of two others.
   std::int32_t thirdCorner(std::size_t triangle, std::int32_t a, std::int32_t b) const;
 
 private:
-  /// Where things lie now. To be called whenever one of the surface's vectors has grown.
+  /// Stores the addresses of the surface's vectors. Call it whenever one of them has grown.
   void locate();
   void findNormal(std::size_t triangle);
   void findNormalsAt(std::int32_t point);
@@ -96,14 +96,14 @@ private:
   void unlink(std::int32_t point, std::int32_t corner);
 
   CappedSurface& Surface;
-  // Where the surface's vectors lie, for loops that look at nothing else; see locate().
+  // Addresses of the surface's vectors, for tight loops; see locate().
   Eigen::Vector3d* Points = nullptr;
   std::array<std::int32_t, 3>* Triangles = nullptr;
   std::uint8_t* Faces = nullptr;
   std::vector<Eigen::Vector3d> Normals; ///< per triangle
-  std::vector<std::int32_t> First;      ///< per point, a corner that it is, or -1
-  std::vector<std::int32_t> Next;       ///< per corner, the next one that is the same point, or -1
-  std::vector<int> Mark;                ///< per point, of isCollapsible()
+  std::vector<std::int32_t> First;      ///< per point, one of its corners, or -1
+  std::vector<std::int32_t> Next;       ///< per corner, the next one of the same point, or -1
+  std::vector<int> Mark;                ///< per point, used by isCollapsible()
   int MarkValue = 0;
   std::size_t Alive;
 };

@@ -30,8 +30,7 @@ struct ExactSum
   double rest;
 };
 
-/// A number as the exact sum of `count` doubles that do not overlap, in increasing order of size, none of them 0; at most
-/// capacity.
+/// A number as the exact sum of `count` (at most capacity) non-overlapping, non-zero doubles in increasing order of size.
 template <std::size_t capacity>
 struct Expansion
 {
@@ -59,7 +58,7 @@ struct Expansion
     this->count = kept;
   }
 
-  /// The largest part outweighs all others.
+  /// Returns the sign of the largest part, which outweighs all others.
   int sign() const { return this->count == 0 ? 0 : this->part[this->count - 1] > 0.0 ? 1 : -1; }
 };
 

@@ -8,15 +8,15 @@
 namespace cactus
 {
 
-/// Signs of determinants, never wrong by rounding: computed in double precision, and where the bound of its error leaves the sign
-/// open, once more in exact arithmetic on sums of doubles (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast
-/// robust geometric predicates"). Exact for coordinates that are 0 or between 1e-70 and 1e70 in size, in any unit.
+/// Signs of determinants, never wrong by rounding: computed in double precision and, if the error bound leaves the sign open,
+/// again in exact arithmetic on sums of doubles (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust
+/// geometric predicates"). Exact for coordinates that are 0 or between 1e-70 and 1e70 in size, in any unit.
 
-/// orientation() by exact arithmetic throughout, which is slow.
+/// Computes orientation() in exact arithmetic only, which is slow.
 int exactOrientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d);
 
-/// Sign of det(a − d, b − d, c − d): 1 where a, b, c run clockwise seen from d (d lies on the inner side of an outward triangle),
-/// −1 where they run counter-clockwise, and 0 where the four lie in one plane.
+/// Returns the sign of det(a − d, b − d, c − d): 1 if a, b, c run clockwise seen from d (d lies on the inner side of an outward
+/// triangle), −1 if they run counter-clockwise, and 0 if the four lie in one plane.
 inline int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
 {
   const double adx = a[0] - d[0];
@@ -43,12 +43,12 @@ inline int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const
   {
     return volume > 0.0 ? 1 : -1;
   }
-  // No term at all: in a plane across an axis, as caps are.
+  // All terms are 0: in a plane across an axis, as in caps.
   return size == 0.0 ? 0 : exactOrientation(a, b, c, d);
 }
 
-/// Sign of the area of a, b, c projected along coordinate axis `dropped` (0, 1, 2): 1 where they run counter-clockwise in the
-/// plane of the two axes that follow, −1 where clockwise, 0 where they lie on one line.
+/// Returns the sign of the area of a, b, c projected along coordinate axis `dropped` (0, 1, 2): 1 if they run counter-clockwise
+/// in the plane of the two axes that follow, −1 if clockwise, 0 if they lie on one line.
 int orientationAlong(int dropped, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 } // namespace cactus

@@ -10,18 +10,18 @@
 namespace cactus
 {
 
-/// One surface per fibre (all outer, or all inner), each made when it is asked for, so that a large substrate is not held twice.
+/// One surface per fibre (all outer, or all inner), each made on demand, so that a large substrate is not stored twice.
 struct FibreSurfaces
 {
   std::vector<int> fibreIds;  ///< increasing, unique
   std::vector<int> bundleIds; ///< one per surface
-  /// The surface (µm) of fibreIds[index]. May be called from several threads at once.
+  /// Returns the surface (µm) of fibreIds[index]. Thread-safe.
   std::function<TriangleMesh(std::size_t index)> mesh;
-  /// Whether there is such a set of surfaces at all, however empty; one that holds a surface counts in any case.
+  /// Whether this set of surfaces exists at all, possibly empty; a set with a surface exists in any case.
   bool isGiven = false;
-  /// Fibres that were to have a surface, where whoever made the surfaces has said so; in any order.
+  /// Fibres that were to have a surface, in any order, if the maker of the surfaces has recorded them.
   std::vector<int> wantedIds;
-  /// µm that surfaces were made to keep from each other at least; 0 where nobody has said.
+  /// Least distance (µm) that surfaces were made to keep from each other; 0 if unknown.
   double promisedGap = 0.0;
 
   bool given() const { return this->isGiven || !this->fibreIds.empty(); }

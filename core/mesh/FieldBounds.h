@@ -10,12 +10,12 @@
 namespace cactus
 {
 
-/// By how much the field is out of its range at some points, and how far these would have to move to bring it back.
+/// How far the field is out of its range at some points, and the moves that would bring it back.
 struct FieldFit
 {
-  double excess = 0.0; ///< by how much it is out of its range at the worst point, 0 or more
-  /// Between these (µm, outwards) a point may move to bring the field into its range everywhere, as far as the field changes
-  /// linearly; the lower one is larger where no move does.
+  double excess = 0.0; ///< excess at the worst point, 0 or more
+  /// A move of the point between these (µm, outwards) brings the field into its range everywhere, as far as the field is linear;
+  /// if the lower one is larger, no move does.
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
 
@@ -23,10 +23,10 @@ struct FieldFit
   bool canBeMoved() const { return this->lower <= this->upper; }
 };
 
-/// By how much the field is out of its range in a triangle, µm, 0 where it is within.
+/// The excess of the field over its range in a triangle, µm, 0 within the range.
 struct TriangleExcess
 {
-  std::array<float, 3> inMiddles; ///< of edges, that behind each corner
+  std::array<float, 3> inMiddles; ///< of edges, the one behind each corner
   float inCentroid;
 };
 
@@ -37,7 +37,8 @@ class FieldBounds
 public:
   using Field = std::function<double(const Eigen::Vector3d&)>;
 
-  /// Large triangles are looked at in points at most `sampling` (µm) apart. What is given by reference has to outlive the object.
+  /// Checks large triangles at points at most `sampling` (µm) apart. All arguments passed by reference have to outlive the
+  /// object.
   FieldBounds(const EditableSurface& surface, const Field& field, double level, double error, double sampling)
     : Surface(surface)
     , Value(field)
@@ -48,8 +49,8 @@ public:
   {
   }
 
-  /// By how much the field is out of its range at a place (µm, 0 or more), of which a bit of `faces` says on which faces of the
-  /// box it lies.
+  /// Returns the excess of the field over its range at a place (µm, 0 or more); the bits of `faces` are the faces of the box that
+  /// contain it.
   double excessAt(const Eigen::Vector3d& place, std::uint8_t faces) const
   {
     const double value = this->Value(place);
@@ -57,25 +58,25 @@ public:
   }
   TriangleExcess excessOf(const std::array<std::int32_t, 3>& triangle) const;
 
-  /// The fit at u and v when both move to `place`, and in the middles of edges and the centroids of the triangles that are left
-  /// at them then. Once `isEnough(fit so far)` is true, that is what is returned.
+  /// Returns the fit at u and v when both move to `place`, and in the middles of edges and the centroids of the triangles that
+  /// remain at them. It stops and returns the fit once `isEnough(fit so far)` is true.
   template <typename IsEnough>
   FieldFit fitAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, IsEnough&& isEnough) const;
 
-  /// Whether the field is in its range along an edge at points at most `sampling` apart, its middle left out.
+  /// Tells whether the field is in its range along an edge at points at most `sampling` apart, except its middle.
   bool holdAlong(const Eigen::Vector3d& a, const Eigen::Vector3d& b, std::uint8_t faces) const;
-  /// The same of what lies between the edges of a triangle, if that is wide.
+  /// Tells the same for the points between the edges of a triangle, if it is wide.
   bool holdWithin(const std::array<Eigen::Vector3d, 3>& corners, std::uint8_t faces) const;
-  /// Both of all triangles that are left at u and v when these move to `place`; edges that do not change are not looked at.
+  /// Tells both for all triangles that remain at u and v when these move to `place`; edges that do not change are skipped.
   bool holdAfterCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place) const;
 
-  /// The largest distance of the field from its level in the middle of the edge a b and of the triangles that it makes with c and
-  /// d, or the first one found that is above `limit`.
+  /// Returns the largest distance of the field from its level in the middle of the edge a b and of the triangles that it makes
+  /// with c and d, or the first one found above `limit`.
   double largestError(
     const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d, double limit) const;
 
 private:
-  /// Adds a point that moves by `weight` where the corner moves by 1.
+  /// Adds a point that moves by `weight` when the corner moves by 1.
   void add(FieldFit& fit, const Eigen::Vector3d& p, std::uint8_t faces, double weight) const
   {
     const double value = this->Value(p);

@@ -22,10 +22,11 @@ namespace
 {
 
 constexpr int cornerCount = 8;
-/// For which there is room at first: a block of those around a tube of a few blocks has about so many.
+/// Initially reserved number of points: typical for the blocks of a tube of a few blocks.
 constexpr std::size_t pointsOfBlock = 64;
 
-/// The corners of a face of a cell, counterclockwise as seen from outside; face 2·axis is the lower one, 2·axis + 1 the upper.
+/// Returns the corners of a face of a cell, counterclockwise as seen from outside; face 2·axis is the lower one, 2·axis + 1 the
+/// upper.
 std::array<int, 4> cornersOfFace(int face)
 {
   const int axis = face / 2;
@@ -52,15 +53,15 @@ struct CellEdge
 
   std::size_t index() const { return std::size_t(3 * (from & to) + (from ^ to) / 2); }
 };
-constexpr std::size_t edgeCount = 3 * (cornerCount - 1); // some numbers stand for none
+constexpr std::size_t edgeCount = 3 * (cornerCount - 1); // some numbers are unused
 
 const std::array<std::array<int, 4>, 6> facesOfCell = allFaces();
 
-/// The edges on which the contour crosses a face, around it, of a cell whose corners with a bit in `mask` are positive.
+/// The edges on which the contour crosses a face, in order around it, of a cell whose corners with a bit in `mask` are positive.
 struct FaceCrossings
 {
   std::array<CellEdge, 4> edges;
-  std::array<bool, 4> enters; ///< from outside to inside, or the other way round
+  std::array<bool, 4> enters; ///< from outside to inside, or the reverse
   std::size_t count = 0;
 
   FaceCrossings(const std::array<int, 4>& corners, int mask)
@@ -78,7 +79,8 @@ struct FaceCrossings
   }
 };
 
-/// The faces whose positive corners are opposite each other, so that signs alone do not tell how the contour runs there; bits.
+/// Returns, as bits, the faces whose positive corners are opposite each other, so that the signs do not determine the contour
+/// there.
 int ambiguousFaces(int mask)
 {
   int ambiguous = 0;
@@ -89,20 +91,19 @@ int ambiguousFaces(int mask)
   return ambiguous;
 }
 
-/// The closed lines along which a contour cuts through the faces of a cell: the edges that they cross, one line after the other.
+/// The closed lines in which a contour cuts the faces of a cell: the edges that they cross, one line after the other.
 struct CellLoops
 {
   std::array<CellEdge, 12> edges;
-  std::array<std::uint8_t, 12> ends; ///< of each line, where the next one begins
-  std::size_t count = 0;             ///< of lines
+  std::array<std::uint8_t, 12> ends; ///< per line, where the next one begins
+  std::size_t count = 0;             ///< number of lines
 
   std::size_t allEdges() const { return count > 0 ? ends[count - 1] : 0; }
 
-  /// A bit of `joined` says of an ambiguous face that its positive corners hang together.
+  /// A bit of `joined` says that the positive corners of an ambiguous face are connected.
   CellLoops(int mask, int joined)
   {
-    // By edge: a line goes on from there to this one. An edge on which it enters the positive part of one face is one on which it
-    // leaves that of another.
+    // Per edge, the next edge of its line. Where a line enters the positive part of one face, it leaves that of another.
     std::array<CellEdge, edgeCount> next;
     std::array<CellEdge, 12> entries;
     std::size_t entryCount = 0;
@@ -114,7 +115,7 @@ struct CellLoops
       {
         if (crossings.enters[i])
         {
-          // Around the positive corner that follows or, where positives meet, around the negative one before.
+          // Around the positive corner that follows or, if positives are connected, around the negative one before.
           next[crossings.edges[i].index()] = crossings.edges[(i + step) % crossings.count];
           entries[entryCount++] = crossings.edges[i];
         }
@@ -138,12 +139,12 @@ struct CellLoops
   }
 };
 
-/// Of every set of positive corners.
+/// Precomputed data for a set of positive corners.
 struct CellCase
 {
   int ambiguous;
-  CellLoops loops; ///< where no face is ambiguous
-  /// The edges of the loops, a bit each, that no cell before has, by the axes along which the cell is the block's first.
+  CellLoops loops; ///< if no face is ambiguous
+  /// The edges of the loops, a bit each, that no earlier cell has, by the axes along which the cell is the block's first.
   std::array<std::uint16_t, cornerCount> fresh{};
 
   explicit CellCase(int mask)
@@ -173,13 +174,13 @@ std::vector<CellCase> allCases()
   return cases;
 }
 
-/// Which of a row's values are positive, a bit each.
+/// Returns which of a row's values are positive, a bit each.
 std::uint32_t positives(const float* row, int count)
 {
   std::uint32_t bits = 0;
   int i = 0;
 #ifdef __SSE__
-  for (; i + 4 <= count; i += 4) // what compilers do not make of the loop below
+  for (; i + 4 <= count; i += 4) // compilers do not vectorise the loop below like this
   {
     bits |= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpgt_ps(_mm_loadu_ps(row + i), _mm_setzero_ps()))) << i;
   }
@@ -223,7 +224,7 @@ public:
   CappedSurface take() { return std::move(this->Surface); }
 
 private:
-  /// Writes down which nodes of the block are positive, a bit each.
+  /// Records the signs of the block's nodes, a bit each.
   void findSigns()
   {
     const auto& n = this->Block.range.count;
@@ -237,25 +238,25 @@ private:
   }
   std::uint32_t signs(int j, int k) const { return this->Signs[std::size_t(k)][std::size_t(j)]; }
 
-  /// On which faces of the lattice a cell at this place of the block ends: bit 2·axis, bit 2·axis + 1.
+  /// Returns the faces of the lattice at which a cell of the block ends: bit 2·axis, bit 2·axis + 1.
   int boundary(int axis, int cell) const
   {
     const int at = this->Block.range.first[std::size_t(axis)] + cell;
     return (at == 0 ? 1 << (2 * axis) : 0) | (at + 1 == this->Lattice.cells(axis) ? 2 << (2 * axis) : 0);
   }
 
-  /// The cells along x that begin at row (j, k) of the block.
+  /// Adds the cells along x that begin at row (j, k) of the block.
   void addRow(int j, int k)
   {
     const int count = this->Block.range.count[0] - 1;
-    // Bit by bit along x: cells with a corner inside, and those with all of them inside.
+    // Bitwise along x: cells with a corner inside, and those with all corners inside.
     const std::uint32_t rows[4] = { this->signs(j, k), this->signs(j + 1, k), this->signs(j, k + 1), this->signs(j + 1, k + 1) };
     const std::uint32_t any = rows[0] | rows[1] | rows[2] | rows[3];
     const std::uint32_t every = rows[0] & rows[1] & rows[2] & rows[3];
     const std::uint32_t cells = (1u << count) - 1u;
     const int sidesOfRow = this->boundary(1, j) | this->boundary(2, k);
     std::uint32_t inside = 0;
-    if (sidesOfRow == 0) // else all of them have caps
+    if (sidesOfRow == 0) // otherwise all of them have caps
     {
       inside = every & (every >> 1);
       inside &= ~((this->boundary(0, 0) != 0 ? 1u : 0u) | (this->boundary(0, count - 1) != 0 ? 1u << (count - 1) : 0u));
@@ -318,8 +319,8 @@ private:
     }
   }
 
-  /// Of a face whose positive corners are opposite each other: whether they hang together, as the saddle of the bilinear field
-  /// says.
+  /// Tells, for a face whose positive corners are opposite each other, whether they are connected by the saddle of the bilinear
+  /// field.
   bool positivesMeet(const LatticeNode& cell, const std::array<int, 4>& corners, int mask) const
   {
     double positives = 1.0;
@@ -331,7 +332,7 @@ private:
     return positives > negatives;
   }
 
-  /// The part of a face of the box in which the field is positive.
+  /// Adds the part of a face of the box in which the field is positive.
   void addCaps(const LatticeNode& cell, const std::array<int, 4>& corners, int mask, bool isJoined)
   {
     PointPolygon polygon;
@@ -359,7 +360,7 @@ private:
       cutByDiagonals(polygon, this->Surface.mesh);
       return;
     }
-    // Two corners: from the crossing before each to the one behind.
+    // Two corners: from the crossing before each to the one behind it.
     const std::size_t first = ((mask >> corners[0]) & 1) != 0 ? 5 : 0;
     for (std::size_t corner = 0; corner < 2; ++corner)
     {

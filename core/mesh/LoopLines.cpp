@@ -12,7 +12,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/// Points of a line between two edges keep this part of a chord off these.
+/// Points of a line between two edges keep this fraction of a chord off them.
 constexpr double clearancePart = 0.3;
 
 /// A place on a loop.
@@ -20,10 +20,10 @@ struct LoopPlace
 {
   std::size_t chord = 0;                                     ///< behind this point
   double along = 0.0;                                        ///< µm from the loop's first point
-  double distance = std::numeric_limits<double>::infinity(); ///< µm, of what it is the nearest place of
+  double distance = std::numeric_limits<double>::infinity(); ///< µm, to the point whose nearest place this is
 };
 
-/// Where an edge across meets the plane of a loop.
+/// Returns where a crossing edge meets the plane of a loop.
 Vector3d placeAcross(const LoopStack& stack, std::int32_t lower, std::int32_t upper, const PlaneLoop& loop)
 {
   const Eigen::Index axis = stack.axis;
@@ -35,7 +35,7 @@ Vector3d placeAcross(const LoopStack& stack, std::int32_t lower, std::int32_t up
 LoopPlace nearestOn(const LoopStack& stack, const PlaneLoop& loop, const Vector3d& place)
 {
   LoopPlace nearest;
-  double before = 0.0; // length of the chords before
+  double before = 0.0; // length of the previous chords
   for (std::size_t i = 0; i < loop.points.size(); ++i)
   {
     const Vector3d& a = stack.placeOf(loop.points[i]);
@@ -52,7 +52,7 @@ LoopPlace nearestOn(const LoopStack& stack, const PlaneLoop& loop, const Vector3
   return nearest;
 }
 
-/// Finds a single point of a loop amid two places, `clearance` (µm) away from both.
+/// Finds a single point of a loop between two places, `clearance` (µm) away from both.
 bool pointBetween(
   const LoopStack& stack, const PlaneLoop& loop, const Vector3d& first, const Vector3d& last, double clearance, LoopLine& found)
 {
@@ -103,7 +103,7 @@ bool lineBetween(
   const bool isAround = lower.here() == lower.last() && upper.here() == upper.last() && !lower.isAtEnd() && !upper.isAtEnd();
   double way = to.along - from.along;
   way += isAround || way < 0.0 ? around : 0.0;
-  // What comes out nearly all around, though the lines are short, goes a little back.
+  // A way nearly all around between short lines goes a little backwards instead.
   const bool isShort = !isAround && way > 1.5 * std::max(lengthOf(stack, lower), lengthOf(stack, upper)) + around / double(count);
   std::size_t begin = from.chord + 1;
   std::size_t end = begin;

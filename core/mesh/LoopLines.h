@@ -14,21 +14,21 @@
 namespace cactus
 {
 
-/// What planes across a surface make of it. What it refers to has to outlive it.
+/// The loops of a surface in planes across it. All references have to outlive it.
 struct LoopStack
 {
   const CappedSurface& surface;
-  const std::vector<Eigen::Vector3d>& places; ///< where the surface's points are now, µm
-  Eigen::Index axis;                          ///< across which the planes are
-  const PlaneLoops& all;                      ///< the loops as they are
+  const std::vector<Eigen::Vector3d>& places; ///< present places of the surface's points, µm
+  Eigen::Index axis;                          ///< the axis across the planes
+  const PlaneLoops& all;                      ///< the loops with all points
   const std::vector<PlaneLoop>& few;          ///< per plane, its loop with fewer points
-  const BandExcesses& excesses;               ///< by how much a field exceeds its level in the surface
+  const BandExcesses& excesses;               ///< excess of the field over its level in the surface
 
   const Eigen::Vector3d& placeOf(std::int32_t point) const { return this->places[std::size_t(point)]; }
   std::uint8_t facesOf(std::int32_t point) const { return this->surface.faces[std::size_t(point)]; }
 };
 
-/// A part of a loop, from one of its points to another, counted on past its end.
+/// A part of a loop, from one of its points to another; indices continue past its end.
 struct LoopLine
 {
   const PlaneLoop* loop = nullptr;
@@ -43,13 +43,13 @@ struct LoopLine
   LoopLine part(std::size_t from, std::size_t to) const { return { this->loop, from, to }; }
 };
 
-/// µm.
+/// Returns the length (µm) of a line.
 double lengthOf(const LoopStack& stack, const LoopLine& line);
 
 /// Finds the part of the loop in a plane that lies between two edges: from the beginning of `lower` to that of `upper`, lines in
-/// planes below and above, and from end to end. It has at least one point, and keeps off both edges by a part of the loop's
-/// chords; where the loop with few points has none there, it is a point of the loop as it is. Returns false where there is none
-/// either, where an edge meets the plane more than `farthest` (µm) away from the loop, or an anchor lies between.
+/// planes below and above, and from end to end. It has at least one point, and keeps off both edges by a fraction of the loop's
+/// chords; if the loop with few points has none there, it is a point of the full loop. Returns false if there is none either, if
+/// an edge meets the plane more than `farthest` (µm) away from the loop, or if an anchor lies between.
 bool lineBetween(
   const LoopStack& stack, const LoopLine& lower, const LoopLine& upper, std::size_t plane, double farthest, LoopLine& found);
 

@@ -15,18 +15,18 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// How far the field may be from its level along triangles, before points settle, as a part of the largest error.
+/// Largest distance of the field from its level along triangles, before points settle, as a fraction of the largest error.
 constexpr double slack = 1.1;
-/// The same towards the inside of the body, of triangles across one band or next to bands that stay.
+/// The same towards the inside of the body, for triangles across one band or next to bands that stay.
 constexpr double looseSlack = 4.0;
-/// Across so many bands the field may exceed its level by as much as it does in the contour itself.
+/// Across at most this many bands the field may exceed its level by as much as it does in the contour itself.
 constexpr std::size_t fewBands = 3;
 
-/// How far a place on an edge across may be from the loop in its plane, as a part of the largest error.
+/// Largest distance of a place on a crossing edge from the loop in its plane, as a fraction of the largest error.
 constexpr double farthestFromLoop = 6.0;
-/// How often it is tried to refine more around what is not as demanded.
+/// Number of attempts to refine a wider part around a bad triangle.
 constexpr int widenings = 3;
-/// What is refined is so many chords wide, at least.
+/// Least width of a refined part, in chords.
 constexpr double leastWidth = 1.0;
 
 } // namespace
@@ -79,7 +79,7 @@ bool LoopStitching::stitchRing(
 
 ErrorRange LoopStitching::allowedIn(const Span& span) const
 {
-  // Outside the body are neighbours, from which a surface that bulges would have to be moved away.
+  // Outside the body are neighbours, from which a bulging surface would have to be moved away.
   const double inside = span.isLoose || span.bands() == 1 ? looseSlack : slack;
   ErrorRange allowed{ -slack * this->Options.maximumError, inside * this->Options.maximumError };
   for (std::size_t band = span.begin; span.bands() <= fewBands && band < span.end; ++band)
@@ -99,7 +99,7 @@ Vector3d LoopStitching::middleOf(const PlaneLoop& loop) const
   return sum / double(loop.points.size());
 }
 
-/// The points of two loops that are nearest to each other, by their places.
+/// Returns the indices of the nearest points of two loops.
 std::pair<std::size_t, std::size_t> LoopStitching::nearestPair(
   const PlaneLoop& lower, const PlaneLoop& upper, const Vector3d& offset) const
 {
@@ -121,8 +121,8 @@ std::pair<std::size_t, std::size_t> LoopStitching::nearestPair(
   return nearest;
 }
 
-/// Finds which anchor of the upper loop belongs to the first one of the lower loop. Returns false where the loops do not come
-/// to the same faces, one after the other.
+/// Finds the anchor of the upper loop that belongs to the first one of the lower loop. Returns false if the loops do not meet the
+/// same faces in the same order.
 bool LoopStitching::matchAnchors(const PlaneLoop& lower, const PlaneLoop& upper, const Vector3d& offset, std::size_t& found) const
 {
   const std::size_t count = lower.anchors.size();
@@ -148,7 +148,7 @@ bool LoopStitching::matchAnchors(const PlaneLoop& lower, const PlaneLoop& upper,
   return least < std::numeric_limits<double>::infinity();
 }
 
-/// Whether a loop runs in a face of the box behind an anchor.
+/// Tells whether a loop runs in a face of the box behind an anchor.
 bool LoopStitching::isInFace(const PlaneLoop& loop, std::size_t anchor) const
 {
   const std::size_t i = loop.anchors[anchor];
@@ -160,7 +160,8 @@ LoopLine LoopStitching::behindAnchor(const PlaneLoop& loop, std::size_t anchor)
   return { &loop, loop.anchors[anchor], anchor + 1 < loop.anchors.size() ? loop.anchors[anchor + 1] : loop.points.size() };
 }
 
-/// The edges between two lines, with the triangles behind them. `before` is the normal of what lies before the first one, or 0.
+/// Returns the edges between two lines, with the triangles behind them. `before` is the normal of the triangle before the first
+/// one, or 0.
 LoopStitching::Crossed LoopStitching::cross(
   const LoopLine& lower, const LoopLine& upper, const Span& span, const Vector3d& offset, Vector3d before) const
 {
@@ -186,7 +187,7 @@ LoopStitching::Crossed LoopStitching::cross(
   }
 }
 
-/// Adds the triangles between two lines, others in the place of those that cannot stay.
+/// Adds the triangles between two lines, and replaces those that cannot stay.
 bool LoopStitching::fill(const Crossed& crossed, StitchedLoops& result) const
 {
   const std::size_t count = crossed.triangles();
@@ -194,7 +195,7 @@ bool LoopStitching::fill(const Crossed& crossed, StitchedLoops& result) const
   {
     return false;
   }
-  std::size_t done = 0; // so many triangles are added, or have been replaced
+  std::size_t done = 0; // triangles added or replaced so far
   for (std::size_t i = 0; i < count; ++i)
   {
     if (i >= done && !(crossed.isGood(i) && crossed.isGoodEdge(i + 1)) && !this->mend(crossed, i, done, result))
@@ -206,7 +207,7 @@ bool LoopStitching::fill(const Crossed& crossed, StitchedLoops& result) const
   return true;
 }
 
-/// Adds triangles up to one that cannot stay, and what replaces it and those beside it, as few as will do.
+/// Adds triangles up to a bad one, and replaces it and as few of those beside it as necessary.
 bool LoopStitching::mend(const Crossed& crossed, std::size_t bad, std::size_t& done, StitchedLoops& result) const
 {
   const std::size_t before = result.triangles.size();
@@ -232,7 +233,7 @@ bool LoopStitching::mend(const Crossed& crossed, std::size_t bad, std::size_t& d
   return false;
 }
 
-/// Makes a part wide enough for a point to lie between its ends, and lets it end where a triangle can stay.
+/// Widens a part until a point fits between its ends and it ends at triangles that can stay.
 void LoopStitching::widen(const Crossed& crossed, std::size_t done, Part& part) const
 {
   const std::size_t count = crossed.triangles();
@@ -259,7 +260,7 @@ void LoopStitching::widen(const Crossed& crossed, std::size_t done, Part& part) 
   }
 }
 
-/// Fills a part between two edges by a part of the loop midway.
+/// Fills a part between two edges with a part of the loop midway.
 bool LoopStitching::refine(const Crossed& crossed, const Part& part, StitchedLoops& result) const
 {
   const Crossing& first = crossed.crossings[part.begin];
@@ -286,7 +287,7 @@ bool LoopStitching::refine(const Crossed& crossed, const Part& part, StitchedLoo
 bool LoopStitching::fillBetween(
   const LoopLine& lower, const LoopLine& upper, const Span& span, const Vector3d& outwards, StitchedLoops& result) const
 {
-  // As far apart as their ends, in the mean.
+  // Mean offset of their ends.
   const Vector3d offset = 0.5 * (this->Stack.placeOf(upper.here()) - this->Stack.placeOf(lower.here()) +
                                   this->Stack.placeOf(upper.last()) - this->Stack.placeOf(lower.last()));
   return this->fill(this->cross(lower, upper, span, offset, outwards), result);
@@ -303,7 +304,7 @@ void LoopStitching::keep(const Crossed& crossed, std::size_t begin, std::size_t 
   }
 }
 
-/// Adds a triangle, if it is as demanded and looks outwards.
+/// Adds a triangle, if it is within the allowed errors and faces outwards.
 bool LoopStitching::addTriangle(
   const std::array<std::int32_t, 3>& triangle, const Vector3d& outwards, const ErrorRange& allowed, StitchedLoops& result) const
 {
@@ -323,8 +324,8 @@ Vector3d LoopStitching::normalOf(const std::array<std::int32_t, 3>& t) const
   return (this->Stack.placeOf(t[1]) - p).cross(this->Stack.placeOf(t[2]) - p);
 }
 
-/// Whether the next triangle has an edge of the lower loop, and what the error is on its edge to the one behind. That is the
-/// shorter one of the two in question, unless only the other one is near enough to the level.
+/// Tells whether the next triangle has an edge of the lower loop, and gives the error on its edge to the one behind. That is the
+/// shorter one of the two possible edges, unless only the other one is near enough to the level.
 bool LoopStitching::goesBelow(const LoopLine& lower, const LoopLine& upper, const Crossed& demand, double& error) const
 {
   const auto errorIf = [&](bool below)
@@ -349,8 +350,8 @@ bool LoopStitching::goesBelow(const LoopLine& lower, const LoopLine& upper, cons
   return isShorter;
 }
 
-/// By how much the field exceeds its level where it does so most, or falls below it, at the points that cut an edge into
-/// parts; in a face of the box it may be larger.
+/// Returns the field's largest excess or deficit at the points that cut an edge into parts; in a face of the box it may be
+/// larger.
 double LoopStitching::errorAlong(std::int32_t lower, std::int32_t upper, int parts) const
 {
   const Vector3d& a = this->Stack.placeOf(lower);
@@ -366,7 +367,7 @@ double LoopStitching::errorAlong(std::int32_t lower, std::int32_t upper, int par
   return largest;
 }
 
-/// The same in the middle of a triangle; 0 of a cap.
+/// Returns the same in the middle of a triangle; 0 for a cap.
 double LoopStitching::errorIn(const std::array<std::int32_t, 3>& t) const
 {
   return this->Stack.surface.isCap(t)

@@ -18,7 +18,7 @@
 namespace cactus
 {
 
-/// By how much a field may exceed its level, or does so, µm.
+/// A range of the field's excess over its level, µm.
 struct ErrorRange
 {
   double lowest = 0.0;
@@ -33,11 +33,11 @@ struct ErrorRange
   double middle() const { return 0.5 * (lowest + highest); }
 };
 
-/// Triangles between two loops, all around.
+/// Triangles all around between two loops.
 struct StitchedLoops
 {
   std::vector<std::array<std::int32_t, 3>> triangles;
-  /// Of each triangle, by how much the field exceeds its level (µm) in its middle, and on the edge to the next triangle.
+  /// Per triangle, the field's excess over its level (µm) in its middle, and on the edge to the next triangle.
   std::vector<std::array<double, 2>> errors;
 };
 
@@ -45,27 +45,26 @@ struct StitchedLoops
 class LoopStitching
 {
 public:
-  /// Of the options field, level and maximumError count. What is given has to outlive the object.
+  /// Uses the options' field, level and maximumError. All arguments have to outlive the object.
   LoopStitching(const LoopStack& stack, const SurfaceDecimationOptions& options)
     : Stack(stack)
     , Options(options)
   {
   }
 
-  /// Fills the ring between a loop in plane `begin` and one above it in plane `end`. The shorter of two edges goes across, unless
-  /// only the other one is within maximumError of the level.
+  /// Fills the ring between a loop in plane `begin` and one above it in plane `end`. Each step takes the shorter of two edges,
+  /// unless only the other one is within maximumError of the level.
   ///
-  /// Where the field is farther from its level than it may be, in the middle of a triangle or at points along an edge across, or
-  /// triangles fold, a part of the loop midway goes between, of the stack's loops with few points; and so on down to single
-  /// bands. There, and all over where `isLoose`, the surface may lie farther inside. On faces of the box it may be larger.
+  /// If the field's error is too large in the middle of a triangle or at points along a crossing edge, or if triangles fold, a
+  /// part of the loop midway is inserted, from the stack's loops with few points; and so on down to single bands. There, and
+  /// everywhere if `isLoose`, the surface may lie farther inside. On faces of the box the field may be larger.
   ///
-  /// Returns false where that does not help, and where the two loops do not come to the same faces of the box, one after the
-  /// other.
+  /// Returns false if that does not help, or if the two loops do not meet the same faces of the box in the same order.
   bool stitch(const PlaneLoop& lower, const PlaneLoop& upper, std::size_t begin, std::size_t end, bool isLoose,
     StitchedLoops& result) const;
 
 private:
-  /// Planes that lines are in, and whether errors may be larger between them.
+  /// The planes of two lines, and whether larger errors are allowed between them.
   struct Span
   {
     std::size_t begin;
@@ -75,16 +74,16 @@ private:
     std::size_t bands() const { return this->end - this->begin; }
     std::size_t middle() const { return (this->begin + this->end) / 2; }
   };
-  /// An edge across, from these places of two lines, and the triangle behind it.
+  /// An edge between these places of two lines, and the triangle behind it.
   struct Crossing
   {
     std::size_t lower;
     std::size_t upper;
     double error;          ///< along the edge, µm
     double inMiddle = 0.0; ///< of the triangle, µm
-    bool isFolded = false; ///< against the one before it
+    bool isFolded = false; ///< against the previous triangle
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    std::int32_t tip = -1; ///< the triangle's corner that is not on the edge
+    std::int32_t tip = -1; ///< the triangle's corner opposite the edge
   };
   /// Two lines, and all triangles between them.
   struct Crossed
@@ -92,8 +91,8 @@ private:
     LoopLine lower;
     LoopLine upper;
     Span span;
-    Eigen::Vector3d offset; ///< of the upper line from the lower one, µm
-    int parts;              ///< that points cut an edge across into, at which the field is looked at
+    Eigen::Vector3d offset; ///< from the lower line to the upper one, µm
+    int parts;              ///< number of parts of a crossing edge between the points at which the field is evaluated
     ErrorRange allowed;
     std::vector<Crossing> crossings; ///< one more than triangles
 

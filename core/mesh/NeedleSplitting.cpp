@@ -51,7 +51,7 @@ public:
   }
 
 private:
-  /// Which edge of a triangle is its longest, or -1 if it is no needle.
+  /// Returns the longest edge of a triangle, or -1 if it is no needle.
   int edgeToSplit(std::size_t triangle) const
   {
     const auto& t = this->Triangles[triangle];
@@ -91,7 +91,7 @@ private:
     this->Surface.faces.push_back(this->Surface.faces[std::size_t(a)] & this->Surface.faces[std::size_t(b)]);
     for (const std::size_t t : { needle, neighbour })
     {
-      // The part at one end stays in its place, the other is new.
+      // The part at one end keeps its index, the other is new.
       auto other = this->Triangles[t];
       const std::int32_t from = t == needle ? a : b;
       const std::int32_t to = t == needle ? b : a;
@@ -112,8 +112,8 @@ private:
   std::vector<Eigen::Vector3d>& Points;
   std::vector<std::array<std::int32_t, 3>>& Triangles;
   double Largest;
-  std::vector<std::size_t> Needles;                          ///< triangles that are to be looked at
-  std::unordered_map<std::uint64_t, std::size_t> TriangleOf; ///< per edge, in the sense in which its triangle runs through it
+  std::vector<std::size_t> Needles;                          ///< triangles to be checked
+  std::unordered_map<std::uint64_t, std::size_t> TriangleOf; ///< per edge, in the direction of its triangle
 };
 
 } // namespace

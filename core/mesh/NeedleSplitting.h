@@ -7,8 +7,8 @@ namespace cactus
 {
 
 /// Halves the longest edges of triangles whose longest and shortest squared edges have a ratio above `largest` (more than 16),
-/// and of what that leaves, until none has. The shape of the surface does not change. Precondition: closed, no edge without a
-/// length.
+/// and of the resulting triangles, until none has. The shape of the surface does not change. Precondition: the surface is closed
+/// and no edge has zero length.
 void splitNeedles(CappedSurface& surface, double largest);
 
 } // namespace cactus

@@ -12,7 +12,7 @@ namespace cactus
 /// A box cut into cells by planes across each axis. Its nodes are where three planes meet; the outermost planes are its faces.
 struct NodeLattice
 {
-  /// Edge of a block, in cells. Work on a lattice goes block by block, so that it can be left out where nothing is.
+  /// Edge of a block, in cells. Work on a lattice goes block by block, and skips empty blocks.
   static constexpr int blockCells = 16;
 
   std::array<std::vector<double>, 3> planes; ///< µm, increasing, at least two per axis
@@ -33,19 +33,19 @@ struct NodeRange
   std::array<int, 3> count{ { 0, 0, 0 } };
 
   std::size_t size() const { return std::size_t(count[0]) * std::size_t(count[1]) * std::size_t(count[2]); }
-  /// Of a node's value.
+  /// Returns the index of a node's value.
   std::ptrdiff_t index(int i, int j, int k) const
   {
     return std::ptrdiff_t(i - first[0]) +
            std::ptrdiff_t(count[0]) * (std::ptrdiff_t(j - first[1]) + std::ptrdiff_t(count[1]) * std::ptrdiff_t(k - first[2]));
   }
-  /// With so many nodes more on every side.
+  /// Returns the range with this many more nodes on every side.
   NodeRange widened(int nodes) const
   {
     return { { { first[0] - nodes, first[1] - nodes, first[2] - nodes } },
       { { count[0] + 2 * nodes, count[1] + 2 * nodes, count[2] + 2 * nodes } } };
   }
-  /// What it has in common with another one; without nodes where that is nothing.
+  /// Returns the intersection with another range; without nodes if it is empty.
   NodeRange within(const NodeRange& other) const
   {
     NodeRange common;
@@ -57,7 +57,7 @@ struct NodeRange
     }
     return common;
   }
-  /// The least range that holds both.
+  /// Returns the smallest range that contains both.
   NodeRange joined(const NodeRange& other) const
   {
     if (this->size() == 0 || other.size() == 0)
@@ -74,7 +74,7 @@ struct NodeRange
   }
 };
 
-/// The nodes of the cells of block number `block` (x fastest): at most blockCells + 1 per axis.
+/// Returns the nodes of the cells of block number `block` (x fastest): at most blockCells + 1 per axis.
 NodeRange nodesOfBlock(const NodeLattice& lattice, std::size_t block);
 
 } // namespace cactus

@@ -13,7 +13,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/// The loop that runs through a point; empty where it does not come back there after `count` points.
+/// Returns the loop that runs through a point; empty if it does not return there after `count` points.
 std::vector<std::int32_t> follow(const std::vector<std::int32_t>& next, std::int32_t first, std::size_t count)
 {
   std::vector<std::int32_t> points;
@@ -26,7 +26,7 @@ std::vector<std::int32_t> follow(const std::vector<std::int32_t>& next, std::int
   return point == first && points.size() == count ? points : std::vector<std::int32_t>();
 }
 
-/// The place of the point farthest from the middle of all.
+/// Returns the index of the point farthest from the middle of all.
 std::size_t farthest(const std::vector<std::int32_t>& points, const std::vector<Vector3d>& places)
 {
   Vector3d middle = Vector3d::Zero();
@@ -41,7 +41,7 @@ std::size_t farthest(const std::vector<std::int32_t>& points, const std::vector<
   return std::size_t(found - points.begin());
 }
 
-/// Finds the places at which a loop comes to a face, and where it is to begin.
+/// Finds the places at which a loop meets a face, and its beginning.
 PlaneLoop anchored(std::vector<std::int32_t> points, const CappedSurface& surface)
 {
   PlaneLoop loop;
@@ -89,7 +89,7 @@ void PlaneLoops::placePoints(const CappedSurface& surface, Eigen::Index axis, co
   this->Levels.reserve(surface.mesh.points.size());
   for (const Vector3d& point : surface.mesh.points)
   {
-    // The plane at the point or before it: rounding may have missed that by one.
+    // The plane at the point or before it: rounding may be off by one.
     const double x = point[axis];
     auto plane = static_cast<std::size_t>(std::clamp(1.0 + (x - planes[1]) / spacing, 0.0, double(last - 1)));
     while (plane > 0 && x < planes[plane])
@@ -167,7 +167,7 @@ void PlaneLoops::findRings()
 {
   for (std::size_t band = 0; band < this->bandCount(); ++band)
   {
-    // Points less edges plus triangles are 0, where each edge but those of the two loops has a triangle on either side.
+    // The Euler characteristic is 0 if each edge but those of the two loops has a triangle on either side.
     const std::size_t onLoops = this->Counts[2 * band] + this->Counts[2 * band + 2];
     this->IsRing[band] = !this->Loops[band].isEmpty() && !this->Loops[band + 1].isEmpty() &&
                          2 * this->Counts[2 * band + 1] + onLoops == this->Triangles[band];

@@ -12,32 +12,32 @@
 namespace cactus
 {
 
-/// Points of a surface in one plane, one after the other, counterclockwise as seen from the upper end of the axis.
+/// Consecutive points of a surface in one plane, counterclockwise as seen from the upper end of the axis.
 struct PlaneLoop
 {
   std::vector<std::int32_t> points;
-  /// Places in `points` at which the loop comes to a face of the box, or leaves it. It begins at the first one or, without any,
-  /// at the point farthest from the middle of all.
+  /// Indices in `points` at which the loop meets or leaves a face of the box. The loop begins at the first one or, without any,
+  /// at the point farthest from its middle.
   std::vector<std::size_t> anchors;
 
   bool isEmpty() const { return points.empty(); }
 };
 
-/// What planes across an axis make of a contour whose lattice has them: loops in the planes, and bands between them. Band b lies
-/// between planes b and b + 1.
+/// The loops of a contour in planes of its lattice across an axis, and the bands between the planes. Band b lies between planes b
+/// and b + 1.
 class PlaneLoops
 {
 public:
-  /// `planes` (µm, increasing, at least four) are those of contour()'s lattice across the axis, of which all but the outermost
-  /// two are evenly spaced. In these lie caps, which belong to the first and the last band.
+  /// `planes` (µm, increasing, at least four) are those of contour()'s lattice across the axis, all evenly spaced but the
+  /// outermost two. These contain the caps, which belong to the first and the last band.
   PlaneLoops(const CappedSurface& surface, Eigen::Index axis, const std::vector<double>& planes);
 
   std::size_t planeCount() const { return this->Loops.size(); }
   std::size_t bandCount() const { return this->IsRing.size(); }
-  /// The loop in a plane, which in the outermost ones is the rim of the caps; empty where there is none or more than one.
+  /// Returns the loop in a plane, which in the outermost ones is the rim of the caps; empty if there is none or more than one.
   const PlaneLoop& loop(std::size_t plane) const { return this->Loops[plane]; }
-  /// Whether a band, without caps, is a ring from a loop() to the next one: of Euler characteristic 0, in one plane or the other
-  /// nowhere else.
+  /// Tells whether a band, without caps, is a ring from a loop() to the next one: its Euler characteristic is 0, and it meets the
+  /// two planes nowhere else.
   bool isRing(std::size_t band) const { return this->IsRing[band]; }
   std::size_t bandOf(std::size_t triangle) const { return this->Bands[triangle]; }
 
@@ -48,10 +48,10 @@ private:
   void findRings();
 
   std::vector<int> Levels;            ///< per point: 2 p in plane p, 2 p + 1 between that and the next one
-  std::vector<std::size_t> Counts;    ///< of points, per level; in the outermost planes only those of rims
-  std::vector<std::int32_t> Next;     ///< per point, the one behind it in its plane, or -1
+  std::vector<std::size_t> Counts;    ///< number of points per level; in the outermost planes only those of rims
+  std::vector<std::int32_t> Next;     ///< per point, the next one in its plane, or -1
   std::vector<std::size_t> Bands;     ///< per triangle
-  std::vector<std::size_t> Triangles; ///< per band, how many are no caps in its planes
+  std::vector<std::size_t> Triangles; ///< per band, the number that are no caps in its planes
   std::vector<PlaneLoop> Loops;       ///< per plane
   std::vector<bool> IsRing;           ///< per band
 };

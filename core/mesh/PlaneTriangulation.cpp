@@ -14,7 +14,7 @@ namespace cactus
 namespace
 {
 
-constexpr int acrossPlane = 2; ///< the axis that has no part in it
+constexpr int acrossPlane = 2; ///< the axis across the plane
 
 int after(int corner)
 {
@@ -82,7 +82,7 @@ void PlaneTriangulation::insertEdge(std::int32_t from, std::int32_t to)
     const Edge edge = this->edgesBetween(a, b).front();
     if (!this->isConvex(edge))
     {
-      across.push_back({ { a, b } }); // it will be once others are flipped
+      across.push_back({ { a, b } }); // possible once other edges are flipped
       continue;
     }
     const std::int32_t one = this->Corners[std::size_t(edge.triangle)][std::size_t(edge.opposite)];
@@ -107,13 +107,13 @@ void PlaneTriangulation::insertEdge(std::int32_t from, std::int32_t to)
   }
 }
 
-/// 1 where a, b, c run counter-clockwise, -1 where clockwise, 0 where they lie on one line.
+/// Returns 1 if a, b, c run counter-clockwise, -1 if clockwise, 0 if they lie on one line.
 int PlaneTriangulation::turn(std::int32_t a, std::int32_t b, std::int32_t c) const
 {
   return orientationAlong(acrossPlane, this->Points[std::size_t(a)], this->Points[std::size_t(b)], this->Points[std::size_t(c)]);
 }
 
-/// Whether d lies clearly inside the circle through a, b, c, which run counter-clockwise.
+/// Tells whether d lies clearly inside the circle through a, b, c, which run counter-clockwise.
 bool PlaneTriangulation::isInCircle(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) const
 {
   const Eigen::Vector3d& origin = this->Points[std::size_t(d)];
@@ -127,11 +127,11 @@ bool PlaneTriangulation::isInCircle(std::int32_t a, std::int32_t b, std::int32_t
   const double size = p.squaredNorm() * (std::fabs(qr[0]) + std::fabs(qr[1])) +
                       q.squaredNorm() * (std::fabs(rp[0]) + std::fabs(rp[1])) +
                       r.squaredNorm() * (std::fabs(pq[0]) + std::fabs(pq[1]));
-  constexpr double bound = 2e-15; // of its rounding (Shewchuk 1997); what is within is left as it is, so that flips end
+  constexpr double bound = 2e-15; // bound of its rounding (Shewchuk 1997); edges within it are left alone, so that flips end
   return value > bound * size;
 }
 
-/// A triangle that holds a point, inside or on its border, by a walk from where the last one was found.
+/// Finds a triangle that contains a point, inside or on its border, by a walk from the last one found.
 std::int32_t PlaneTriangulation::triangleWith(const Eigen::Vector3d& point)
 {
   const auto wayOut = [&](std::int32_t t)
@@ -149,7 +149,7 @@ std::int32_t PlaneTriangulation::triangleWith(const Eigen::Vector3d& point)
     return -1;
   };
   std::int32_t triangle = this->Recent;
-  // Where triangles are not Delaunay, a walk may run in a circle.
+  // Among triangles that are not Delaunay, a walk may be cyclic.
   for (std::size_t step = 0; step < this->Corners.size(); ++step)
   {
     const int i = wayOut(triangle);
@@ -199,7 +199,7 @@ void PlaneTriangulation::set(
   }
 }
 
-/// Tells a triangle, if there is one, that its neighbour `from` is now `to`.
+/// Replaces neighbour `from` of a triangle, if there is one, by `to`.
 void PlaneTriangulation::relink(std::int32_t triangle, std::int32_t from, std::int32_t to)
 {
   if (triangle >= 0)
@@ -242,8 +242,8 @@ void PlaneTriangulation::splitEdge(Edge edge, std::int32_t point)
   this->Corners.resize(this->Corners.size() + std::size_t(added));
   this->Neighbours.resize(this->Corners.size());
   this->Fixed.resize(this->Corners.size());
-  // Of each triangle the part before the point stays in its place, the one behind it is new; `far` is the other triangle's part
-  // at the end of the edge.
+  // In each triangle the part before the point keeps its index, the part behind it is new; `far` is the other triangle's part at
+  // the end of the edge.
   const auto halve = [&](std::int32_t t, int top, std::int32_t fresh, std::int32_t farOfStart, std::int32_t farOfEnd)
   {
     const Triangle corners = this->Corners[std::size_t(t)];
@@ -294,7 +294,7 @@ void PlaneTriangulation::flip(Edge edge)
   this->set(other, { { q[u], q[v], p[i] } }, { { pn[j], one, qn[w] } }, { { pf[j], false, qf[w] } });
 }
 
-/// Whether the two triangles at an edge make a convex quadrilateral.
+/// Tells whether the two triangles at an edge form a convex quadrilateral.
 bool PlaneTriangulation::isConvex(Edge edge) const
 {
   const Triangle& p = this->Corners[std::size_t(edge.triangle)];
@@ -353,7 +353,7 @@ std::vector<std::int32_t> PlaneTriangulation::trianglesAt(std::int32_t point) co
   return found;
 }
 
-/// Fixes an edge. False where there is none between these points.
+/// Fixes an edge. Returns false if there is none between these points.
 bool PlaneTriangulation::fixIfThere(std::int32_t from, std::int32_t to)
 {
   const std::vector<Edge> edges = this->edgesBetween(from, to);
@@ -364,7 +364,7 @@ bool PlaneTriangulation::fixIfThere(std::int32_t from, std::int32_t to)
   return !edges.empty();
 }
 
-/// The edges that the line between two points crosses.
+/// Returns the edges that the line between two points crosses.
 std::vector<std::array<std::int32_t, 2>> PlaneTriangulation::edgesAcross(std::int32_t from, std::int32_t to) const
 {
   const auto refuse = [] { throw InvalidInput("two outlines on a face of the domain cross or touch each other"); };
@@ -406,12 +406,12 @@ std::vector<std::array<std::int32_t, 2>> PlaneTriangulation::edgesAcross(std::in
     {
       refuse();
     }
-    // On through the edge of the next triangle whose ends lie on both sides.
+    // Continues through the edge of the next triangle whose ends lie on both sides.
     edge = { next, this->placeOf(next, side > 0 ? left : right) };
   }
 }
 
-/// That edge as those that have it in common see it; none where it is not there.
+/// Returns that edge as seen from its triangles; none if it does not exist.
 std::vector<PlaneTriangulation::Edge> PlaneTriangulation::edgesBetween(std::int32_t from, std::int32_t to) const
 {
   std::vector<Edge> edges;

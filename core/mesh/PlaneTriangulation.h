@@ -11,25 +11,25 @@
 namespace cactus
 {
 
-/// Triangles between points of a rectangle, with given edges among theirs: a constrained Delaunay triangulation (points one after
-/// the other, Lawson 1977; edges by flips, Sloan 1993). What is left, right or on a line is decided exactly, so that the
-/// triangles always fill the rectangle without gaps or overlaps; that they are Delaunay but for rounding.
+/// Triangles between points of a rectangle that contain given edges: a constrained Delaunay triangulation (points one after the
+/// other, Lawson 1977; edges by flips, Sloan 1993). Whether a point is left or right of a line or on it is decided exactly, so
+/// that the triangles always fill the rectangle without gaps or overlaps; they are Delaunay up to rounding.
 class PlaneTriangulation
 {
 public:
   using Triangle = std::array<std::int32_t, 3>;
 
-  /// Between the corners of the box around `lower` and `upper`, which are points 0 to 3, counter-clockwise from `lower`.
+  /// Starts with the corners of the box around `lower` and `upper`, which are points 0 to 3, counter-clockwise from `lower`.
   PlaneTriangulation(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper);
 
-  /// Adds a point, and returns its number: that of the point that is there already, if one is. Points that follow each other
-  /// closely are added fastest. Throws InvalidInput for one outside the box.
+  /// Adds a point, and returns its number: that of an existing point at the same place, if there is one. Adding points close to
+  /// the previous one is fastest. Throws InvalidInput for one outside the box.
   std::int32_t insert(const Eigen::Vector2d& point);
 
-  /// Makes the line between two points an edge. Throws InvalidInput where it crosses another such edge or runs through a point.
+  /// Makes the line between two points an edge. Throws InvalidInput if it crosses another such edge or runs through a point.
   void insertEdge(std::int32_t from, std::int32_t to);
 
-  /// All triangles, counter-clockwise.
+  /// Returns all triangles, counter-clockwise.
   const std::vector<Triangle>& triangles() const { return this->Corners; }
 
 private:
@@ -60,9 +60,9 @@ private:
   std::vector<Eigen::Vector3d> Points; ///< with 0 as third coordinate
   std::vector<Triangle> Corners;
   std::vector<Triangle> Neighbours;       ///< per corner, the triangle across the edge opposite to it, or -1
-  std::vector<std::array<bool, 3>> Fixed; ///< per corner, that the edge opposite to it has to stay
-  std::vector<std::int32_t> TriangleOf;   ///< per point, one at it
-  std::int32_t Recent = 0;                ///< where the search for a point begins
+  std::vector<std::array<bool, 3>> Fixed; ///< per corner, whether the edge opposite to it is fixed
+  std::vector<std::int32_t> TriangleOf;   ///< per point, one of its triangles
+  std::int32_t Recent = 0;                ///< start of the search for a point
 };
 
 } // namespace cactus

@@ -9,13 +9,13 @@
 namespace cactus
 {
 
-/// Numbers of points by keys, all in one place in memory: a table of the standard library allocates for each.
+/// A hash table of point numbers in one block of memory: tables of the standard library allocate for each entry.
 class PointTable
 {
 public:
   static constexpr std::int32_t none = -1;
 
-  /// The number at a key, `none` where it is new; good until the next call. Any key but the largest one.
+  /// Returns the number of a key, `none` if it is new; valid until the next call. Any key but the largest one is allowed.
   std::int32_t& operator[](std::uint64_t key)
   {
     if (2 * this->Count >= this->Entries.size())
@@ -31,7 +31,7 @@ public:
     return entry.number;
   }
 
-  /// Forgets all, and keeps the room.
+  /// Removes all entries, and keeps the memory.
   void clear()
   {
     if (this->Count > 0)
@@ -44,11 +44,11 @@ public:
 private:
   struct Entry
   {
-    std::uint64_t key = std::numeric_limits<std::uint64_t>::max(); ///< of none
+    std::uint64_t key = std::numeric_limits<std::uint64_t>::max(); ///< the largest key marks an empty entry
     std::int32_t number = none;
   };
 
-  /// That of a key, or the one where it is to be.
+  /// Returns the entry of a key, or the one where it belongs.
   Entry& entryOf(std::uint64_t key)
   {
     const std::size_t last = this->Entries.size() - 1; // a power of two

@@ -11,7 +11,7 @@
 namespace cactus
 {
 
-/// Points of a surface, around a part of it that is in one cell of a lattice or on one face of a cell.
+/// Points of a surface around its part in one cell of a lattice or on one face of a cell.
 struct PointPolygon
 {
   std::array<std::int32_t, 12> corners;
@@ -46,7 +46,7 @@ inline void cutByDiagonals(PointPolygon p, TriangleMesh& mesh)
     mesh.triangles.push_back({ { c[0], c[1], c[2] } });
     return;
   }
-  // Of two diagonals, without branches: it cannot be foretold which is the shorter one.
+  // The shorter of two diagonals, branch-free: the choice is unpredictable.
   const std::size_t cut = squaredLength(c[0], c[2]) < squaredLength(c[3], c[1]) ? 1 : 0;
   mesh.triangles.push_back({ { c[(cut + 3) % 4], c[cut], c[cut + 1] } });
   mesh.triangles.push_back({ { c[1 - cut], c[2], c[3] } });

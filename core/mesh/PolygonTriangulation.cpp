@@ -14,11 +14,11 @@ namespace cactus
 namespace
 {
 
-/// Of all that lies in the box around a polygon, whose corners come behind those of the box.
+/// The points of the box come before the polygon's.
 constexpr std::int32_t boxCorners = 4;
 
-/// Fills the box around a polygon with triangles, with the polygon's sides among their edges. Returns false where two corners are
-/// at one place. Throws InvalidInput where sides cross, or a corner lies on another side.
+/// Fills the box around a polygon with triangles that have the polygon's sides among their edges. Returns false if two corners
+/// are at the same place. Throws InvalidInput if sides cross, or a corner lies on another side.
 bool fillBox(PlaneTriangulation& box, const std::vector<Eigen::Vector2d>& polygon)
 {
   const auto count = static_cast<std::int32_t>(polygon.size());
@@ -36,7 +36,7 @@ bool fillBox(PlaneTriangulation& box, const std::vector<Eigen::Vector2d>& polygo
   return true;
 }
 
-/// Whether the corners of a triangle come in the polygon's order: inside it they do, outside they come the other way round.
+/// Tells whether the corners of a triangle are in the polygon's order: they are inside it, and reversed outside.
 bool isInside(const PlaneTriangulation::Triangle& t)
 {
   const int rises = int(t[0] < t[1]) + int(t[1] < t[2]) + int(t[2] < t[0]);

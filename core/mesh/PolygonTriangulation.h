@@ -10,9 +10,9 @@
 namespace cactus
 {
 
-/// Cuts a polygon, whose corners go round counter-clockwise, into the triangles of its constrained Delaunay triangulation (see
-/// PlaneTriangulation), counter-clockwise, too, by the numbers of their corners. Returns none where the polygon crosses or
-/// touches itself, and of less than three corners.
+/// Cuts a polygon, whose corners run counter-clockwise, into the triangles of its constrained Delaunay triangulation (see
+/// PlaneTriangulation), also counter-clockwise, as indices of corners. Returns none if the polygon crosses or touches itself, or
+/// has fewer than three corners.
 std::vector<std::array<std::int32_t, 3>> trianglesOf(const std::vector<Eigen::Vector2d>& polygon);
 
 } // namespace cactus

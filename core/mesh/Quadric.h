@@ -8,7 +8,7 @@
 namespace cactus
 {
 
-/// Sum of squared distances to the planes of triangles, weighted by the squares of their areas, as a function of the place
+/// The sum of squared distances to the planes of triangles, weighted by the squares of their areas, as a function of the place
 /// (Garland and Heckbert 1997). Lengths in µm.
 struct Quadric
 {
@@ -16,7 +16,7 @@ struct Quadric
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   double c = 0.0;
 
-  /// The plane through a point; the length of its normal is the weight's root.
+  /// Adds the plane through a point; the length of its normal is the weight's root.
   void addPlane(const Eigen::Vector3d& normal, const Eigen::Vector3d& point)
   {
     const double offset = -normal.dot(point);
@@ -35,15 +35,15 @@ struct Quadric
     return { xx * p[0] + xy * p[1] + xz * p[2], xy * p[0] + yy * p[1] + yz * p[2], xz * p[0] + yz * p[1] + zz * p[2] };
   }
 
-  /// Mean squared distance; 0 without planes.
+  /// Returns the mean squared distance; 0 without planes.
   double error(const Eigen::Vector3d& p) const
   {
     const double weight = xx + yy + zz;
     return weight > 0.0 ? std::max(0.0, (p.dot(this->times(p)) + 2.0 * b.dot(p) + c) / weight) : 0.0;
   }
 
-  /// The place of least error, drawn towards `middle` in directions that the planes do not determine; `middle` itself if that
-  /// place is farther than `reach` from it.
+  /// Returns the place of least error, drawn towards `middle` in directions that the planes do not determine; `middle` itself if
+  /// that place is farther than `reach` from it.
   Eigen::Vector3d best(const Eigen::Vector3d& middle, double reach) const
   {
     const double damping = 1e-5 * (xx + yy + zz);

@@ -33,7 +33,7 @@ Vector3d ShapeBounds::normalAround(std::int32_t u, std::int32_t v) const
   return sum;
 }
 
-/// The worst shapes among the triangles at u and v, or the worst that are allowed anyway.
+/// Returns the worst shapes among the triangles at u and v, or the worst that are always allowed.
 TriangleShape ShapeBounds::worstAround(std::int32_t u, std::int32_t v) const
 {
   TriangleShape worst{ this->LargestEdgeRatio, flattestTriangle };
@@ -58,7 +58,7 @@ bool ShapeBounds::allowCollapse(std::int32_t u, std::int32_t v, const Vector3d& 
     const std::array<std::int32_t, 2> opposite = this->Surface.oppositeEdge(c);
     if (!EditableSurface::outlivesCollapse(opposite, u, v))
     {
-      return false; // goes with the edge
+      return false; // removed with the edge
     }
     const Vector3d& b = this->Surface.at(opposite[0]);
     const Vector3d edge = this->Surface.at(opposite[1]) - b;
@@ -68,7 +68,7 @@ bool ShapeBounds::allowCollapse(std::int32_t u, std::int32_t v, const Vector3d& 
     const Vector3d normalAfter = edge.cross(after);
     const double edgeSquared = edge.squaredNorm();
     const double normalSquared = normalAfter.squaredNorm();
-    // The normal of a very low triangle is mostly noise: that of the surroundings is taken in its place.
+    // The normal of a very low triangle is mostly noise: that of the surroundings is used instead.
     const double longestBefore = std::max({ edgeSquared, before.squaredNorm(), (before - edge).squaredNorm() });
     const bool isNoise = normalBefore.squaredNorm() < this->Noise * this->Noise * longestBefore &&
                          !this->Surface.isCap(this->Surface.cornersOf(std::size_t(c) / 3));

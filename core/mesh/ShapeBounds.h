@@ -7,15 +7,15 @@
 namespace cactus
 {
 
-/// Least height of a triangle that coarsening makes, as a part of its longest edge.
+/// Least height of a triangle that coarsening makes, as a fraction of its longest edge.
 constexpr double flattestTriangle = 0.015;
 
 /// Keeps the triangles of a surface well formed while its edges are collapsed.
 class ShapeBounds
 {
 public:
-  /// No triangle is made whose longest and shortest squared edges have a ratio above `largestEdgeRatio`. The normal of a triangle
-  /// lower than `noise` (µm) is taken to be arbitrary. `surface` has to outlive the object.
+  /// Forbids triangles whose longest and shortest squared edges have a ratio above `largestEdgeRatio`. The normal of a triangle
+  /// lower than `noise` (µm) counts as arbitrary. `surface` has to outlive the object.
   ShapeBounds(const EditableSurface& surface, double largestEdgeRatio, double noise)
     : Surface(surface)
     , LargestEdgeRatio(largestEdgeRatio)
@@ -23,8 +23,8 @@ public:
   {
   }
 
-  /// Whether no triangle around an edge is turned over or made a needle, or a worse one than there is, when the ends of the edge
-  /// move to `place`. With `flatAllowed` triangles may become flatter than flattestTriangle.
+  /// Tells whether no triangle around an edge is turned over or made a needle, or a worse one than exists, when the ends of the
+  /// edge move to `place`. With `flatAllowed` triangles may become flatter than flattestTriangle.
   bool allowCollapse(std::int32_t u, std::int32_t v, const Eigen::Vector3d& place, bool flatAllowed) const;
 
   bool allow(const TriangleShape& shape) const { return shape.edgeRatio <= this->LargestEdgeRatio; }
@@ -34,7 +34,7 @@ public:
     return cactus::shapeOf(this->Surface.at(corners[0]), this->Surface.at(corners[1]), this->Surface.at(corners[2]));
   }
 
-  /// Sum of the area normals of the triangles at u and v, without caps.
+  /// Returns the sum of the area normals of the triangles at u and v, without caps.
   Eigen::Vector3d normalAround(std::int32_t u, std::int32_t v) const;
 
 private:

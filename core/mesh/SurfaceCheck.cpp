@@ -23,7 +23,7 @@ namespace
 /// Twice a triangle's area over its longest edge squared: below this its normal is rounding noise.
 constexpr double degenerateRatio = 1e-12;
 
-/// One side of a triangle, filed under its lower point.
+/// One side of a triangle, stored under its lower point.
 struct HalfEdge
 {
   std::int32_t upper;
@@ -87,8 +87,8 @@ HalfEdges halfEdgesOf(const TriangleMesh& mesh)
   return edges;
 }
 
-/// Joins triangles across edges, which makes `pieces`, and corners of one point across edges, which makes its `fans`. Counts what
-/// is wrong with edges. Sorts the half-edges of each point.
+/// Joins triangles across edges into `pieces`, and corners of one point across edges into its `fans`. Counts defects of edges.
+/// Sorts the half-edges of each point.
 void joinAcrossEdges(const TriangleMesh& mesh, HalfEdges& edges, Sets& pieces, Sets& fans, SurfaceReport& report)
 {
   for (std::size_t lower = 0; lower < mesh.points.size(); ++lower)
@@ -137,7 +137,7 @@ void measureTriangles(const TriangleMesh& mesh, SurfaceReport& report)
     report.largestSquaredEdgeRatio = std::max(report.largestSquaredEdgeRatio, shortest > 0.0 ? longest / shortest : infinite);
     report.smallestAltitude = std::min(report.smallestAltitude, longest > 0.0 ? twiceArea / std::sqrt(longest) : 0.0);
     report.largestAspect = std::max(report.largestAspect, twiceArea > 0.0 ? longest / twiceArea : infinite);
-    // The smallest angle lies across from the shortest edge.
+    // The smallest angle lies opposite the shortest edge.
     report.smallestAngle = std::min(report.smallestAngle, shortest == edges[0]   ? angleAt(c, a, b)
                                                           : shortest == edges[1] ? angleAt(a, b, c)
                                                                                  : angleAt(b, c, a));
@@ -181,7 +181,7 @@ void measurePieces(const TriangleMesh& mesh, Sets& pieces, SurfaceReport& report
   report.components = report.pieces.size();
 }
 
-/// Points, and those whose corners belong to several fans.
+/// Counts points, and those whose corners belong to several fans.
 void countPoints(const TriangleMesh& mesh, Sets& fans, SurfaceReport& report)
 {
   std::vector<char> isUsed(mesh.points.size(), 0);

@@ -10,7 +10,7 @@
 namespace cactus
 {
 
-/// What a simulator has to be able to rely on, measured on one surface. Points that no triangle uses do not count.
+/// The properties of one surface that a simulator relies on. Points that no triangle uses do not count.
 struct SurfaceReport
 {
   std::size_t triangles = 0;
@@ -31,24 +31,25 @@ struct SurfaceReport
   double largestAspect = 0.0;           ///< longest edge over the altitude on it, over all triangles; 2 / √3 at best
   std::vector<std::int32_t> pieces;     ///< one point of each component
 
-  /// Every edge belongs to exactly two triangles, which run through it in opposite senses.
+  /// Tells whether every edge belongs to exactly two triangles, which run through it in opposite senses.
   bool closed() const { return components > 0 && openEdges == 0 && crowdedEdges == 0 && flippedEdges == 0; }
-  /// closed(), without triangles that use a corner twice, and around each point the triangles form a single fan.
+  /// Tells whether the surface is closed(), no triangle uses a corner twice, and around each point the triangles form a single
+  /// fan.
   bool closedManifold() const { return closed() && pinchedPoints == 0 && repeatedCorners == 0; }
-  /// Every component encloses a positive volume. A cavity, rightly wound, counts as inward.
+  /// Tells whether every component encloses a positive volume. A cavity with correct orientation counts as inward.
   bool outward() const { return components > 0 && inwardComponents == 0; }
-  /// What a simulator needs to tell inside from outside.
+  /// Tells whether a simulator can tell inside from outside.
   bool sound() const { return closedManifold() && outward(); }
 };
 
-/// Throws InvalidInput where a triangle names a point that is not there, or one with a coordinate that is not finite or beyond
+/// Throws InvalidInput if a triangle names a point that does not exist, or one with a coordinate that is not finite or beyond
 /// limits::coordinate.
 void requireCorners(const TriangleMesh& mesh);
 
-/// Measures one surface in time linear in its triangles. Volume by the divergence theorem about a point of the surface, so that a
-/// small surface far from the origin loses no digits. An empty surface gives a report of zeros, which is not closed. Throws
-/// InvalidInput where a triangle names a point that is not there or a used coordinate is not finite or beyond limits::coordinate.
-/// `componentOf`, where given, gets the number of each triangle's component, counted as in `pieces`.
+/// Measures one surface in time linear in its triangles. The volume uses the divergence theorem about a point of the surface, so
+/// that a small surface far from the origin loses no digits. An empty surface gives a report of zeros, which is not closed.
+/// Throws InvalidInput as requireCorners() does for used points. `componentOf`, if given, receives the component of each
+/// triangle, numbered as in `pieces`.
 SurfaceReport checkSurface(const TriangleMesh& mesh, std::vector<std::uint32_t>* componentOf = nullptr);
 
 } // namespace cactus

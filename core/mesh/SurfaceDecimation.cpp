@@ -24,25 +24,25 @@ using Eigen::Vector3d;
 
 /// Least cosine between the normals of the two triangles that a flip makes and the mean of those that it replaces.
 constexpr double leastFlipTurn = 0.5;
-/// Quadrics tell a mean of distances to the planes of triangles at an edge: up to so many times the largest error, the field
+/// Quadrics are a mean of distances to the planes of triangles at an edge: up to this multiple of the largest error, the field
 /// decides.
 constexpr double quadricPart = 1.8;
-/// Errors of the sweeps before the last ones, as parts of that of the last ones.
+/// Errors of the earlier sweeps, as fractions of that of the last ones.
 constexpr double sweepErrors[] = { 0.28, 0.56 };
-/// Collapses of less than this part of the largest error are made without a look at the field, where no edge is longer than that
-/// part of the sampling distance.
+/// Collapses below this fraction of the largest error are made without evaluating the field, if no edge is longer than the second
+/// fraction of the sampling distance.
 constexpr double unnoticed = 0.15;
 constexpr double smallPart = 0.5;
-/// An edge is flipped if that reduces the largest distance of the field from its level to this part, unless it is below that part
-/// of the largest error anyway.
+/// An edge is flipped if that reduces the largest distance of the field from its level to this fraction, unless it is already
+/// below the second fraction of the largest error.
 constexpr double flipGain = 0.95;
 constexpr double flipNeed = 0.2;
 constexpr int sweepsPerError = 10;
-/// All sweeps of a stretch of the surface, of so many times the sampling distance or more, come before those of the next one, so
-/// that what they look at, the field above all, is at hand in the processor's cache.
+/// Each stretch of the surface, at least this multiple of the sampling distance, gets all its sweeps before the next one, so that
+/// its data, above all the field, stay in the processor's cache.
 constexpr double stretchLength = 16.0;
-/// An edge is not tried again in the sweeps of an error where its squared error was so many times what is allowed, or the field
-/// would be out of its range by this part of the largest error: what changes around it hardly changes that.
+/// An edge is not tried again in the sweeps of an error if its squared error was this multiple of the limit, or if the field
+/// would be out of its range by the second fraction of the largest error: changes around it hardly matter then.
 constexpr double farError = 1.5;
 constexpr double farExcess = 0.2;
 constexpr int repairRounds = 4;
@@ -97,27 +97,27 @@ private:
   enum class Verdict
   {
     Worse,
-    NoWorse, ///< than before, or not looked at
+    NoWorse, ///< than before, or not evaluated
     Kept     ///< the field is in its range
   };
 
   static constexpr float unknown = -1.0f;
 
-  /// What is known of an edge that was not collapsed.
+  /// The last refusal to collapse an edge.
   struct Refusal
   {
     double limit = 0.0; ///< up to which it was not collapsed
-    int sweep = -1;     ///< when that was
+    int sweep = -1;     ///< the sweep of the refusal
     int farRound = -1;  ///< the round in which it was far from being collapsed
   };
-  /// Up to which limit an edge stays as it is while no triangle at its ends changes, and whether it was far from being collapsed.
+  /// The limit up to which an edge stays while no triangle at its ends changes, and whether it was far from being collapsed.
   struct Outcome
   {
     double limit;
     bool isFar = false;
   };
 
-  /// The triangles by where they are along the axis along which the surface is longest.
+  /// Returns the triangles by position along the surface's longest axis.
   std::vector<std::vector<std::size_t>> stretches() const
   {
     Eigen::AlignedBox3d around;
@@ -165,7 +165,7 @@ private:
       {
         const std::int32_t u = this->Mesh.cornersOf(t)[i];
         const std::int32_t v = this->Mesh.cornersOf(t)[(i + 1) % 3];
-        // Each edge from one of its two sides; and a point moves once in a sweep, so that cheap collapses spread evenly.
+        // Each edge from one of its two sides; a point moves once in a sweep, so that cheap collapses spread evenly.
         const bool isNew = all || std::max(this->Changed[std::size_t(u)], this->Changed[std::size_t(v)]) + 1 >= this->Sweep;
         if (u < v && isNew && this->Locked[std::size_t(u)] != this->Sweep && this->Locked[std::size_t(v)] != this->Sweep)
         {
@@ -183,8 +183,8 @@ private:
     return before - this->Mesh.aliveCount();
   }
 
-  /// Improves triangles that came with a bad shape: of those that are too long for their width the shortest edge is removed, of
-  /// those that are too flat the longest edge is flipped.
+  /// Improves triangles with a bad initial shape: the shortest edge of needles is removed, the longest edge of flat ones is
+  /// flipped.
   void repairShapes()
   {
     for (int round = 0; round < repairRounds; ++round)
@@ -220,7 +220,7 @@ private:
            this->tryFlip(triangle, corners[longest], corners[(longest + 1) % 3], corners[(longest + 2) % 3], Flip::OfFlat);
   }
 
-  /// Removes the edge u v of a triangle, whatever that costs within twice the error. Whether the triangle is gone.
+  /// Removes the edge u v of a triangle at any cost within twice the error. Returns whether the triangle is gone.
   bool removeNeedle(std::size_t triangle, std::int32_t u, std::int32_t v)
   {
     const double part = this->partOf(u, v);
@@ -233,10 +233,10 @@ private:
     return this->Mesh.isDead(triangle);
   }
 
-  /// Of the largest error, what is allowed at an edge.
+  /// Returns the allowed fraction of the largest error at an edge.
   double partOf(std::int32_t u, std::int32_t v) const { return std::min(this->Part[std::size_t(u)], this->Part[std::size_t(v)]); }
 
-  /// Removes points next to both u and v that have only three neighbours: with them, u and v cannot become one.
+  /// Removes points next to both u and v that have only three neighbours: they prevent the merging of u and v.
   void removeBetween(std::int32_t u, std::int32_t v, double limit)
   {
     for (std::int32_t c = this->Mesh.firstCorner(u); c >= 0;)
@@ -250,7 +250,7 @@ private:
           this->tryCollapse(std::min(u, w), std::max(u, w), limit, true);
           if (this->Mesh.isDeadPoint(u) || this->Mesh.isDeadPoint(w))
           {
-            return; // what was to be visited next may be gone
+            return; // the next corner to visit may be gone
           }
         }
       }
@@ -258,7 +258,7 @@ private:
   }
 
   /// Collapses an edge if the surface keeps its topology, the shape of its triangles and its distance from the level of the
-  /// field. `thorough` tries all places that come into question, and allows flat triangles.
+  /// field. `thorough` tries all candidate places, and allows flat triangles.
   Outcome tryCollapse(std::int32_t u, std::int32_t v, double limit, bool thorough = false)
   {
     constexpr double any = std::numeric_limits<double>::infinity();
@@ -291,14 +291,14 @@ private:
       }
       if (isInside && !thorough)
       {
-        break; // the other places are little better
+        break; // the other places are hardly better
       }
       candidates.errors[p] = any;
     }
     return { any, excess > farExcess * this->Options.maximumError };
   }
 
-  /// Whether the triangles at u and v are so small that their planes tell what a collapse does.
+  /// Tells whether the triangles at u and v are so small that their planes determine the effect of a collapse.
   bool isSmallAround(std::int32_t u, std::int32_t v) const
   {
     const double longest = smallPart * this->Options.sampling;
@@ -307,9 +307,9 @@ private:
       { return (this->Mesh.at(this->Mesh.oppositeEdge(c)[0]) - this->Mesh.at(point)).squaredNorm() > longest * longest; });
   }
 
-  /// Whether the new triangles keep the field in its range, or exceed it no more than the old ones do. With `mayMove`, `place` is
-  /// moved outwards or inwards if that brings the field into its range. `excess` (µm) is by how much the field is out of it at
-  /// least, at `place` as it was.
+  /// Tells whether the new triangles keep the field in its range, or exceed it no more than the old ones do. With `mayMove`,
+  /// `place` is moved outwards or inwards if that brings the field into its range. `excess` (µm) is a lower bound of the field's
+  /// excess at the original `place`.
   Verdict keepsField(std::int32_t u, std::int32_t v, Vector3d& place, bool mayMove, double& excess)
   {
     const bool mustFit = this->areKept(u, v);
@@ -340,13 +340,13 @@ private:
     return static_cast<float>(after.excess) <= this->excessAround(u, v) ? Verdict::NoWorse : Verdict::Worse;
   }
 
-  /// Whether all triangles at u and v were made by collapses that keep the field in its range.
+  /// Tells whether all triangles at u and v were made by collapses that keep the field in its range.
   bool areKept(std::int32_t u, std::int32_t v) const
   {
     return !this->Mesh.visitCornersAt(u, v, [&](std::int32_t c, std::int32_t) { return this->IsKept[std::size_t(c) / 3] == 0; });
   }
 
-  /// Whether the field is in its range at the triangles at u and v as they are.
+  /// Tells whether the field is in its range at the present triangles at u and v.
   bool areFine(std::int32_t u, std::int32_t v)
   {
     return !this->Mesh.visitCornersAt(u, v,
@@ -359,7 +359,8 @@ private:
       });
   }
 
-  /// By how much the field is out of its range at u and v and at the middles of edges and the centroids of the triangles at them.
+  /// Returns the excess of the field over its range at u and v and at the middles of edges and the centroids of the triangles at
+  /// them.
   float excessAround(std::int32_t u, std::int32_t v)
   {
     float largest = std::max(this->excessAt(u), this->excessAt(v));
@@ -373,7 +374,7 @@ private:
     return largest;
   }
 
-  // Each place is looked at once.
+  // Each place is evaluated once.
   float excessAt(std::int32_t point)
   {
     float& excess = this->PointExcess[std::size_t(point)];
@@ -415,8 +416,7 @@ private:
     }
   }
 
-  /// Flips edges, away from caps and from places that want less coarsening, so that the surface comes nearer to the field's
-  /// level.
+  /// Flips edges, away from caps and from places with local bounds, so that the surface comes nearer to the field's level.
   void flipEdges(const std::vector<std::size_t>& stretch)
   {
     for (const std::size_t t : stretch)
@@ -435,11 +435,11 @@ private:
 
   enum class Flip
   {
-    ToFit, ///< so that the surface comes nearer to the level
-    OfFlat ///< so that a flat triangle goes, and the surface keeps its distance
+    ToFit, ///< brings the surface nearer to the level
+    OfFlat ///< removes a flat triangle while the surface keeps its distance
   };
 
-  /// Flips the edge a b of triangle `one`, whose third corner is c, if that does what it is for.
+  /// Flips the edge a b of triangle `one`, whose third corner is c, if that serves its purpose.
   bool tryFlip(std::size_t one, std::int32_t a, std::int32_t b, std::int32_t c, Flip kind)
   {
     const std::size_t other = this->Mesh.triangleAlong(b, a);
@@ -483,8 +483,8 @@ private:
     return true;
   }
 
-  /// Whether the triangles a d c and d b c, in place of a b c and b a d, are not turned over, no needles, and no flatter than
-  /// `flattest`.
+  /// Tells whether the triangles a d c and d b c, in place of a b c and b a d, are not turned over, no needles, and no flatter
+  /// than `flattest`.
   bool flipKeepsShape(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d, double flattest) const
   {
     const Vector3d normal = (b - a).cross(c - a) + (a - b).cross(d - b);
@@ -505,12 +505,12 @@ private:
   FieldBounds Fits;
   std::vector<int> Locked;              ///< per point, the sweep in which it was moved
   std::vector<int> Changed;             ///< per point, the sweep in which a triangle at it changed
-  std::vector<float> Part;              ///< per point, of the largest error
-  std::vector<float> PointExcess;       ///< per point, by how much the field is out of its range there, µm, or unknown
+  std::vector<float> Part;              ///< per point, fraction of the largest error
+  std::vector<float> PointExcess;       ///< per point, excess of the field over its range, µm, or unknown
   std::vector<TriangleExcess> Excesses; ///< per triangle
-  std::vector<std::uint8_t> IsKnown;    ///< per triangle, whether that is of the triangle as it is
-  std::vector<std::uint8_t> IsKept;     ///< per triangle, whether a collapse made it that keeps the field in its range
-  std::vector<Refusal> Refusals;        ///< per corner, of the edge from it
+  std::vector<std::uint8_t> IsKnown;    ///< per triangle, whether its excess is that of the present triangle
+  std::vector<std::uint8_t> IsKept;     ///< per triangle, whether it was made by a collapse that keeps the field in its range
+  std::vector<Refusal> Refusals;        ///< per corner, for the edge from it
   int Sweep = 0;
   int Round = 0; ///< of sweeps of one error
 };

@@ -18,15 +18,15 @@ namespace
 
 using Eigen::Vector3d;
 
-/// Three points over a plane.
+/// The heights of three points over a plane.
 struct Heights
 {
   std::array<double, 3> of; ///< distances from the plane, times twice the area of the triangle in it
-  double rounding = 0.0;    ///< more than what they may be wrong by
-  double clearance = 0.0;   ///< no more than the least of them in size, where all are on one side for sure; else 0
+  double rounding = 0.0;    ///< more than their largest error
+  double clearance = 0.0;   ///< no more than the smallest absolute height, if all are certainly on one side; else 0
 };
 
-/// A triangle with what is asked of it again and again.
+/// A triangle with precomputed values.
 struct Facet
 {
   std::array<Vector3d, 3> p;
@@ -47,7 +47,7 @@ struct Facet
     this->normalSquared = this->normal.squaredNorm();
   }
 
-  /// Another triangle's corners above the plane.
+  /// Returns the heights of another triangle's corners above the plane.
   Heights heightsOf(const std::array<Vector3d, 3>& other) const
   {
     Heights heights;
@@ -67,8 +67,8 @@ struct Facet
   }
 };
 
-/// Which corners and edges of a triangle are beside another one's plane, farther from it than asked for: they are farther from
-/// all of the other one, too.
+/// The corners and edges of a triangle that are farther from another one's plane than the limit: they are farther from all of the
+/// other one, too.
 struct FarParts
 {
   std::array<bool, 3> corner;
@@ -95,12 +95,12 @@ std::array<Vector3d, 3> cornersOf(const TriangleTree& tree, std::uint32_t triang
   return { { tree.corner(triangle, 0), tree.corner(triangle, 1), tree.corner(triangle, 2) } };
 }
 
-/// The nearest of what has been seen.
+/// The nearest pair of points found.
 struct Nearest
 {
   double squared;
-  double slack;  ///< µm; heights over planes in trees are not wrong by more
-  double beyond; ///< µm; what is as far away does not matter, for sure
+  double slack;  ///< µm; bound of the error of heights over planes in trees
+  double beyond; ///< µm; heights beyond this certainly do not matter
   Vector3d onA = Vector3d::Zero();
   Vector3d onB = Vector3d::Zero();
   bool found = false;
@@ -112,7 +112,7 @@ struct Nearest
   {
   }
 
-  /// For parts that do not meet: what rounding makes 0 is not.
+  /// Takes a distance of parts that do not meet: 0 by rounding is replaced.
   void take(double distanceSquared, const Vector3d& a, const Vector3d& b)
   {
     distanceSquared = std::max(distanceSquared, 1e-300);
@@ -126,7 +126,7 @@ struct Nearest
     }
   }
 
-  /// Whether all corners lie beyond on one side of a plane.
+  /// Tells whether all corners lie beyond on one side of a plane.
   bool areBeyond(const std::array<Vector3d, 3>& corners, const TrianglePlane& plane) const
   {
     const double a = plane.height(corners[0]);
@@ -136,7 +136,7 @@ struct Nearest
   }
 };
 
-/// Corners of `one` above or below the inside of `face`.
+/// Compares corners of `one` above or below the interior of `face`.
 void cornersToFace(const Facet& one, const Facet& face, const std::array<double, 3>& heights, bool swapped, Nearest& nearest)
 {
   for (std::size_t i = 0; i < 3; ++i)
@@ -156,7 +156,7 @@ void cornersToFace(const Facet& one, const Facet& face, const std::array<double,
   }
 }
 
-/// Corners of `one` against the edges of `other`, ends included.
+/// Compares corners of `one` with the edges of `other`, ends included.
 void cornersToEdges(
   const Facet& one, const FarParts& oneFar, const Facet& other, const FarParts& otherFar, bool swapped, Nearest& nearest)
 {
@@ -177,7 +177,7 @@ void cornersToEdges(
   }
 }
 
-/// Edges whose common perpendicular has both its feet inside them; the rest is corners'.
+/// Compares edges whose common perpendicular has both its feet inside them; corners cover the rest.
 void edgesToEdges(const Facet& a, const FarParts& farA, const Facet& b, const FarParts& farB, Nearest& nearest)
 {
   for (std::size_t i = 0; i < 3; ++i)
@@ -201,7 +201,7 @@ void edgesToEdges(const Facet& a, const FarParts& farA, const Facet& b, const Fa
       {
         continue;
       }
-      // The foot once more from the other side, which makes up for the rounding of s where the edges are nearly parallel.
+      // The foot again from the other side, which corrects the rounding of s for nearly parallel edges.
       const Vector3d onA = a.p[i] + s * a.edge[i];
       const double t = std::clamp(b.edge[j].dot(onA - b.p[j]) / b.edgeSquared[j], 0.0, 1.0);
       const Vector3d onB = b.p[j] + t * b.edge[j];
@@ -210,7 +210,8 @@ void edgesToEdges(const Facet& a, const FarParts& farA, const Facet& b, const Fa
   }
 }
 
-/// Whether a plane square to what joins their middles keeps the two at least the square root of `squared` apart.
+/// Tells whether a plane perpendicular to the line between their middles keeps the two at least the square root of `squared`
+/// apart.
 bool heldApart(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b, double squared)
 {
   const Vector3d across = (b[0] - a[0]) + (b[1] - a[1]) + (b[2] - a[2]);
@@ -220,7 +221,7 @@ bool heldApart(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& 
   return between > 0.0 && between * between > 1.000001 * squared * across.squaredNorm();
 }
 
-/// Lowers `nearest` where the two are nearer to each other.
+/// Lowers `nearest` if the two are nearer to each other.
 void compare(const Facet& a, const Facet& b, Nearest& nearest)
 {
   const Heights aboveA = a.heightsOf(b.p);
@@ -256,7 +257,7 @@ struct NodePair
   float squaredDistance;
 };
 
-/// Calls visit(place in a, corners of the triangle there, place in b, likewise) for pairs that may be nearer than `nearest`,
+/// Calls visit(place in a, corners of the triangle there, place in b, corners there) for pairs that may be nearer than `nearest`,
 /// which visit() may lower, the likely nearest first, until it returns true.
 template <typename Visit>
 void visitNear(const TriangleTree& a, const TriangleTree& b, const Nearest& nearest, Visit&& visit)
@@ -274,7 +275,7 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, const Nearest& near
     {
       continue;
     }
-    // Where the processor would guess wrong half the time, without branches.
+    // Branch-free, since branches would be mispredicted half the time.
     const TriangleTree::Node& p = a.nodes()[pair.a];
     const TriangleTree::Node& q = b.nodes()[pair.b];
     if (!p.isLeaf() || !q.isLeaf())

@@ -13,29 +13,29 @@
 namespace cactus
 {
 
-/// Where two surfaces come nearest to each other.
+/// The closest points of two surfaces.
 struct SurfaceGap
 {
-  double distance = std::numeric_limits<double>::infinity(); ///< µm; 0 where they meet, infinite where nothing was found
+  double distance = std::numeric_limits<double>::infinity(); ///< µm; 0 if they meet, infinite if nothing was found
   std::uint32_t triangleA = 0;
   std::uint32_t triangleB = 0;
-  Eigen::Vector3d pointA = Eigen::Vector3d::Zero(); ///< on triangleA, and next to pointB; where they meet, of no meaning
+  Eigen::Vector3d pointA = Eigen::Vector3d::Zero(); ///< on triangleA, and next to pointB; undefined if they meet
   Eigen::Vector3d pointB = Eigen::Vector3d::Zero();
 
   bool found() const { return this->distance < std::numeric_limits<double>::infinity(); }
 };
 
-/// The shortest distance of two triangles (µm), as far as it is below `below`: between a corner and a face, between two edges, or
-/// 0 exactly where they meet (see trianglesMeet()). Otherwise nothing is found. Right to a few units in the last place of the
+/// Returns the shortest distance of two triangles (µm), if it is below `below`: between a corner and a face, between two edges,
+/// or exactly 0 if they meet (see trianglesMeet()). Otherwise finds nothing. Accurate to a few units in the last place of the
 /// coordinates, and never 0 by rounding.
 SurfaceGap triangleGap(const std::array<Eigen::Vector3d, 3>& a, const std::array<Eigen::Vector3d, 3>& b,
   double below = std::numeric_limits<double>::infinity());
 
-/// The shortest distance of two surfaces (µm) over all pairs of triangles, as far as it is below `below`; else nothing is found.
-/// It is 0 exactly if they meet. One surface inside the other has a distance, too.
+/// Returns the shortest distance of two surfaces (µm) over all pairs of triangles, if it is below `below`; else finds nothing. It
+/// is 0 exactly if they meet. One surface inside the other has a distance, too.
 SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double below = std::numeric_limits<double>::infinity());
 
-/// The triangles of `a` that come nearer than `distance` (µm, positive) to `b`, or meet it, in increasing order.
+/// Returns the triangles of `a` that come nearer than `distance` (µm, positive) to `b`, or meet it, in increasing order.
 std::vector<std::uint32_t> trianglesNear(const TriangleTree& a, const TriangleTree& b, double distance);
 
 } // namespace cactus

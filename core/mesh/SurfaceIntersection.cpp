@@ -17,10 +17,10 @@ namespace
 using Eigen::Vector3d;
 using PointNumbers = std::array<std::int32_t, 3>;
 
-/// Whether a triangle touches the plane of another one only in corners that the two share, and is else on one side, for sure.
+/// Tells whether a triangle certainly touches the plane of another one only in shared corners, and is otherwise on one side.
 bool touchesInShared(const std::array<double, 3>& heights, double slack, const std::array<bool, 3>& isShared)
 {
-  // Without branches, which would be guessed wrong too often.
+  // Branch-free, since branches would often be mispredicted.
   bool isAbove = false;
   bool isBelow = false;
   bool isClear = true;
@@ -35,7 +35,7 @@ bool touchesInShared(const std::array<double, 3>& heights, double slack, const s
   return isClear & (isAbove != isBelow);
 }
 
-/// Whether two triangles of one mesh have nothing in common but corners that they share by index, for sure.
+/// Tells whether two triangles of one mesh certainly have nothing in common but corners that they share by index.
 bool areApart(const TriangleMesh& mesh, const PointNumbers& s, const TrianglePlane& planeS, const PointNumbers& t,
   const TrianglePlane& planeT, double slack)
 {
@@ -83,7 +83,7 @@ bool visitSelfIntersections(const TriangleTree& surface, Found&& found)
     });
 }
 
-/// Whether all corners of a triangle are on one side of a plane, for sure.
+/// Tells whether all corners of a triangle are certainly on one side of a plane.
 bool isBeside(const TriangleCorners& corners, const TrianglePlane& plane, double slack)
 {
   const double a = plane.height(*corners[0]);

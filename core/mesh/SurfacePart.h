@@ -9,15 +9,14 @@
 namespace cactus
 {
 
-/// Some triangles of a surface, as a mesh of its own: in the surface's order, and the points in the order in which these have
-/// them.
+/// Some triangles of a surface as a separate mesh: triangles in the surface's order, points in the order of their first use.
 struct SurfacePart
 {
   TriangleMesh mesh;
-  std::vector<std::int32_t> pointOf; ///< the surface's points that are the mesh's
+  std::vector<std::int32_t> pointOf; ///< per point of the mesh, its index in the surface
 };
 
-/// The triangles of a surface that touch `lower` <= z <= `upper` (µm).
+/// Returns the triangles of a surface that touch `lower` <= z <= `upper` (µm).
 SurfacePart cutOut(const TriangleMesh& surface, double lower, double upper);
 
 } // namespace cactus

@@ -20,15 +20,14 @@ namespace
 
 using Eigen::Vector3d;
 
-/// Leaves the pieces that are to be kept, by the number of each triangle's piece, and of `faces`, where given, what belongs to
-/// their points.
+/// Keeps the selected pieces, given the piece of each triangle, and the entries of their points in `faces`, if given.
 void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std::vector<std::uint32_t>& pieceOf,
   const std::vector<char>& isKept)
 {
   std::vector<std::array<std::int32_t, 3>> kept;
   for (std::size_t t = 0; t < pieceOf.size(); ++t)
   {
-    if (pieceOf[t] < isKept.size() && isKept[pieceOf[t]]) // one that uses a point twice may have no piece
+    if (pieceOf[t] < isKept.size() && isKept[pieceOf[t]]) // a triangle that uses a point twice may have no piece
     {
       kept.push_back(mesh.triangles[t]);
     }
@@ -37,8 +36,8 @@ void keepPieces(TriangleMesh& mesh, std::vector<std::uint8_t>* faces, const std:
   dropUnusedPoints(mesh, faces);
 }
 
-/// Of each point one of the same piece that has no neighbour before it: where one comes to from neighbour to neighbour, each
-/// before the last. Most points of a contour come to the same few, which are then quickly joined.
+/// Returns, per point, one of the same piece without an earlier neighbour: the end of a chain of neighbours, each before the
+/// last. Most points of a contour lead to the same few, which are then joined quickly.
 std::vector<std::int32_t> pointsTowardsFirst(const TriangleMesh& mesh)
 {
   std::vector<std::int32_t> towards(mesh.points.size());
@@ -58,7 +57,7 @@ std::vector<std::int32_t> pointsTowardsFirst(const TriangleMesh& mesh)
   return towards;
 }
 
-/// By the first point of each piece, its signed volume.
+/// Returns the signed volume of each piece, indexed by its first point.
 std::vector<double> volumesOf(const TriangleMesh& mesh, const std::vector<std::int32_t>& pieceOf)
 {
   const auto& points = mesh.points;
@@ -90,7 +89,7 @@ void joinAcrossFaces(const CappedSurface& surface, DisjointSets<std::int32_t>& s
   }
 }
 
-/// By the first point of each piece, whether it belongs to the part of the largest volume and is large enough.
+/// Tells, by the first point of each piece, whether it belongs to the part of the largest volume and is large enough.
 std::vector<char> piecesOfMainPart(const std::vector<double>& volumes, DisjointSets<std::int32_t>& parts, double smallest)
 {
   std::vector<double> volumeOfPart(volumes.size(), 0.0);
@@ -173,7 +172,7 @@ SurfaceReport keepSoundPieces(TriangleMesh& mesh, double& dropped)
   std::vector<double> volumes(checkSurface(mesh, &pieceOf).pieces.size(), 0.0);
   for (std::size_t t = 0; report.closedManifold() && t < pieceOf.size(); ++t)
   {
-    // About a point of the same piece, as checkSurface() does.
+    // About a point of the same piece, as in checkSurface().
     const Vector3d& origin = mesh.points[std::size_t(report.pieces[pieceOf[t]])];
     const auto corner = [&](std::size_t i) -> Vector3d { return mesh.points[std::size_t(mesh.triangles[t][i])] - origin; };
     volumes[pieceOf[t]] += corner(0).dot(corner(1).cross(corner(2))) / 6.0;

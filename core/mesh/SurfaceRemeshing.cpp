@@ -23,21 +23,22 @@ using Eigen::Vector3d;
 
 constexpr int remeshingRounds = 7;
 constexpr int finishingRounds = 12;
-/// Edges are split above, and collapsed below, these parts of the length wanted.
+/// Edges are split above, and collapsed below, these fractions of the target length.
 constexpr double longEdge = 4.0 / 3.0;
 constexpr double shortEdge = 4.0 / 5.0;
-/// Of the largest error, what the middle of an edge of the length wanted takes.
+/// The error in the middle of an edge of the target length, as a fraction of the largest error.
 constexpr double errorOfEdge = 0.6;
-/// How fast lengths may grow along the surface.
+/// Largest growth of target lengths along the surface.
 constexpr double grading = 0.35;
-/// Of the longest edge: the shortest that is wanted, and how far from a point its curvature is looked at.
+/// As fractions of the longest edge: the shortest target length, and the distance from a point at which its curvature is
+/// measured.
 constexpr double shortestPart = 0.12;
 constexpr double curvatureReach = 0.25;
 /// Least cosine between the normals of a triangle before and after a change.
 constexpr double leastKeptTurn = 0.5;
 /// Radians that a change leaves a triangle at least, unless it had less.
 constexpr double leastAngle = 0.2;
-/// Radians above which nothing has to become better.
+/// Radians above which an angle need not improve.
 constexpr double goodAngle = 0.6;
 
 double smallestAngleOf(const Vector3d& a, const Vector3d& b, const Vector3d& c)
@@ -83,13 +84,13 @@ private:
   const Vector3d& at(std::int32_t point) const { return this->Mesh.at(point); }
   double field(const Vector3d& p) const { return this->Options.surface.field(p) - this->Options.surface.level; }
 
-  /// The faces of the box that a triangle lies in: 0 for those of the wall.
+  /// Returns the faces of the box that a triangle lies in: 0 for those of the wall.
   unsigned capOf(const Corners& t) const
   {
     return unsigned(this->Mesh.facesOf(t[0]) & this->Mesh.facesOf(t[1]) & this->Mesh.facesOf(t[2]));
   }
 
-  /// Whether an edge is part of an outline: of a cap, or of the box.
+  /// Tells whether an edge is part of an outline: of a cap, or of the box.
   bool isOutline(std::int32_t a, std::int32_t b) const
   {
     return (this->Mesh.facesOf(a) & this->Mesh.facesOf(b)) != 0 &&
@@ -97,7 +98,7 @@ private:
              this->capOf(this->Mesh.cornersOf(this->Mesh.triangleAlong(b, a)));
   }
 
-  /// The other ends of the outlines' edges at a point.
+  /// Returns the other ends of the outlines' edges at a point.
   std::vector<std::int32_t> outlinesAt(std::int32_t point) const
   {
     std::vector<std::int32_t> ends;
@@ -113,7 +114,7 @@ private:
     return ends;
   }
 
-  /// The field's gradient, without the axes along which a point has to stay.
+  /// Returns the field's gradient, without the axes along which a point has to stay.
   Vector3d gradient(const Vector3d& p, std::uint8_t faces) const
   {
     const double step = 0.1 * this->Options.longestEdge;
@@ -129,7 +130,7 @@ private:
     return sum;
   }
 
-  /// The point on the level next to a place, in the faces in which it is; at most `furthest` away.
+  /// Returns the point on the level next to a place, within the same faces; at most `furthest` away.
   Vector3d onLevel(Vector3d p, std::uint8_t faces, double furthest) const
   {
     for (int step = 0; step < 2; ++step)
@@ -139,7 +140,7 @@ private:
       const double off = this->field(p);
       if (!(square >= 0.05) || !std::isfinite(square) || !std::isfinite(off))
       {
-        return p; // nothing to go by, as in the middle of a fibre or where its field ends
+        return p; // no gradient, as in the middle of a fibre or where its field ends
       }
       Vector3d move = -off / square * slope;
       move *= std::min(1.0, furthest / std::max(move.norm(), 1e-300));
@@ -176,10 +177,10 @@ private:
   const SurfaceRemeshingOptions& Options;
   Eigen::AlignedBox3d Box;
   double Error;
-  std::vector<double> Length; ///< µm, per point, of the edges wanted there
+  std::vector<double> Length; ///< µm, per point, target length of edges there
 };
 
-/// The length of edges whose middles are as far off the level as they may be, by the second differences of the field.
+/// Returns the length of edges whose middles have the largest allowed error, by the second differences of the field.
 double Remeshing::curvedLength(std::int32_t point) const
 {
   const double longest = this->Options.longestEdge;
@@ -217,7 +218,7 @@ void Remeshing::measureLengths()
     const bool isOfWall = !this->Mesh.isDeadPoint(point) && (this->Mesh.facesOf(point) == 0 || !this->outlinesAt(point).empty());
     this->Length[p] = isOfWall ? this->curvedLength(point) : longest;
   }
-  // Lengths grow slowly away from where they are short.
+  // Lengths grow slowly away from short ones.
   for (int sweep = 0; sweep < 6; ++sweep)
   {
     for (std::size_t t = 0; t < this->Mesh.triangleCount(); ++t)
@@ -280,7 +281,7 @@ void Remeshing::collapseShortEdges()
   }
 }
 
-/// Makes two points one, unless an edge would become longer than `longest`, or an angle smaller than `leastNew` and than any.
+/// Merges two points, unless an edge would become longer than `longest`, or an angle smaller than `leastNew` and than any.
 bool Remeshing::collapseEdge(std::int32_t a, std::int32_t b, double longest, double leastNew)
 {
   Vector3d place;
@@ -294,7 +295,7 @@ bool Remeshing::collapseEdge(std::int32_t a, std::int32_t b, double longest, dou
   return true;
 }
 
-/// Where the point goes that two become; false where they have to stay two, so that outlines stay as they are.
+/// Finds the place of the point that replaces two; false if they cannot be merged without changing an outline.
 bool Remeshing::collapsePlace(std::int32_t a, std::int32_t b, Vector3d& place) const
 {
   const std::uint8_t facesA = this->Mesh.facesOf(a);
@@ -313,7 +314,7 @@ bool Remeshing::collapsePlace(std::int32_t a, std::int32_t b, Vector3d& place) c
     place = isInCap ? middle : this->onLevel(middle, facesA, 0.3 * (this->at(a) - this->at(b)).norm());
     return true;
   }
-  // The one that is bound to more stays.
+  // The one with more constraints stays.
   if (both == facesB && outlinesA >= outlinesB && outlinesB <= 2)
   {
     place = this->at(a);
@@ -374,7 +375,7 @@ void Remeshing::flipEdges()
   }
 }
 
-/// Flips an edge of a triangle where that makes the smallest angle of the two triangles at it larger.
+/// Flips an edge of a triangle if that increases the smallest angle of the two triangles at it.
 bool Remeshing::flipEdge(std::size_t triangle, std::size_t place)
 {
   const Corners corners = this->Mesh.cornersOf(triangle);
@@ -473,10 +474,11 @@ Vector3d Remeshing::relaxedPlace(std::int32_t point) const
   return this->onLevel(keptInside(this->Box, here, place, 2.0 * this->Error), 0, reach);
 }
 
-/// Moves a point, unless that turns a triangle over or makes the smallest angle there smaller, and than `enough` (radians).
+/// Moves a point, unless that turns a triangle over, or reduces the smallest angle there below both its old value and `enough`
+/// (radians).
 bool Remeshing::moveIfBetter(std::int32_t point, const Vector3d& wanted, double enough)
 {
-  // What lies on a face stays there, also where nothing is left of its cap.
+  // Points on a face stay there, even if their cap is gone.
   Vector3d place = wanted;
   for (int bit = 0; bit < 6; ++bit)
   {
@@ -514,7 +516,7 @@ double Remeshing::worstAngleAt(std::int32_t point, const Vector3d& place, bool& 
   return worst;
 }
 
-/// Tries to mend each triangle that has too small an angle. Whether there was any.
+/// Tries to repair each triangle with too small an angle. Returns whether there was any.
 bool Remeshing::finishAngles()
 {
   const double wanted = this->Options.smallestAngle * pi / 180.0;

@@ -17,7 +17,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/// A line segment against triangles: how often it crosses, whether its start lies on one, whether a crossing is not clean.
+/// The crossings of a line segment with triangles: their number, whether its start lies on one, whether a crossing is ambiguous.
 struct Crossings
 {
   std::size_t count = 0;
@@ -56,7 +56,7 @@ struct Crossings
   }
 };
 
-/// A point beyond the lower end of x, another one for each attempt.
+/// Returns a point beyond the lower end of x, a different one for each attempt.
 Vector3d farPoint(const Vector3d& point, const Vector3d& lower, double size, int attempt)
 {
   const double turn = 0.6180339887498949 * attempt;
@@ -81,8 +81,8 @@ Side sideOf(const TriangleTree& surface, const Vector3d& point)
     return Side::Outside;
   }
   const double size = (upper - lower).maxCoeff();
-  // Towards other and other points, until the line meets no edge. A few are enough; a point from which every line meets an edge
-  // would lie on the surface.
+  // Tries different points until the line meets no edge. A few are enough; a point from which every line meets an edge would lie
+  // on the surface.
   for (int attempt = 1;; ++attempt)
   {
     const Vector3d far = farPoint(point, lower, size, attempt);

@@ -8,7 +8,7 @@
 namespace cactus
 {
 
-/// Where a point lies with respect to a closed surface.
+/// The position of a point relative to a closed surface.
 enum class Side
 {
   Outside,
@@ -16,7 +16,7 @@ enum class Side
   Inside
 };
 
-/// By how often a line from the point to the outside crosses the surface, by exact predicates. `surface` has to be closed.
+/// Counts how often a line from the point to the outside crosses the surface, by exact predicates. `surface` has to be closed.
 Side sideOf(const TriangleTree& surface, const Eigen::Vector3d& point);
 
 } // namespace cactus

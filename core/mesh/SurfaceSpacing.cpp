@@ -27,22 +27,20 @@ namespace
 
 using Eigen::Vector3d;
 
-/// µm that a pair is moved farther apart than it has to be: rounding, and corners that move askew, take some of it back. More
-/// than lostInFiles.
+/// Extra distance (µm) by which a pair is moved, since rounding and oblique moves of corners undo some of it. More than
+/// lostInFiles.
 constexpr double extraDistance = 0.0002;
-/// Surfaces that meet are moved as if they had to keep this distance (µm), or the gap if that is larger: they have to get out of
-/// each other first.
+/// Surfaces that meet are moved as if they had to keep this distance (µm), or the gap if that is larger: they first have to get
+/// out of each other.
 constexpr double distanceAfterMeeting = 0.005;
-/// Most pairs take one or two; corners whose normals point askew, as on a face that cuts a fibre at a small angle, get apart
-/// slowly.
+/// Most pairs take one or two rounds; corners with oblique normals, as on a face that cuts a fibre at a small angle, part slowly.
 constexpr int rounds = 48;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Surfaces are looked at in slabs along z, of this thickness (µm), so that trees are held over one slab at a time.
+/// Thickness (µm) of the slabs along z, so that trees cover only one slab at a time.
 constexpr double slabThickness = 10.0;
 
-/// The slabs of a box, each with what is as near to it as the gap: where two surfaces are too near, both are in the slab that the
-/// place is in.
+/// The slabs of a box, each extended by the gap: where two surfaces are too near, both are in the slab of that place.
 struct Slabs
 {
   Slabs(const Eigen::AlignedBox3d& box, double gap)
@@ -58,7 +56,7 @@ struct Slabs
     return slab == this->count - 1 ? infinite : this->first + (slab + 1) * slabThickness + this->gap;
   }
   bool isTouched(int slab, double from, double to) const { return to >= this->lower(slab) && from <= this->upper(slab); }
-  /// The slab of a height, which may be beside the box.
+  /// Returns the slab of a height, which may be outside the box.
   int at(double z) const
   {
     return static_cast<int>(std::clamp(std::floor((z - this->first) / slabThickness), 0.0, this->count - 1.0));
@@ -84,31 +82,31 @@ struct Slabs
   int count;
 };
 
-/// What of a surface is in a slab.
+/// The extent of a surface in a slab.
 struct SlabBox
 {
   Eigen::AlignedBox3d box;
-  bool isChanged = false; ///< since it was looked at
+  bool isChanged = false; ///< since it was measured
 };
 
-/// The same in each slab, from the first that the surface is in.
+/// The extents of a surface in consecutive slabs, from its first one.
 struct SlabBoxes
 {
   int first = 0;
   std::vector<SlabBox> boxes;
 
-  /// Of a slab between the first and the last.
+  /// Returns that of a slab between the first and the last.
   SlabBox& in(int slab) { return this->boxes[std::size_t(slab - this->first)]; }
 };
 
-/// What of a surface is in a slab, with its triangles.
+/// The part of a surface in a slab, with its search tree.
 struct TreedPart
 {
   SurfacePart part;
   std::unique_ptr<TriangleTree> tree; ///< over the part's mesh
 };
 
-/// Two surfaces whose parts are near each other, and by which triangles they are too near.
+/// Two surfaces whose parts are near each other, and the triangles that are too near.
 struct Pair
 {
   std::size_t one;
@@ -118,7 +116,7 @@ struct Pair
   std::vector<std::uint32_t> trianglesOfOther;
 };
 
-/// How far (µm) to move each of the points of a surface that have to move, of several distances the largest.
+/// The displacements (µm) of those points of a surface that have to move; of several distances, the largest counts.
 class Moves
 {
 public:
@@ -130,7 +128,7 @@ public:
 
   void add(std::int32_t point, double distance) { this->All.push_back({ point, distance }); }
 
-  /// After some were added.
+  /// Sorts the moves; to be called after additions.
   void sort()
   {
     const auto isBefore = [](const Move& a, const Move& b)
@@ -140,7 +138,7 @@ public:
     this->All.erase(std::unique(this->All.begin(), this->All.end(), isSame), this->All.end());
   }
 
-  /// Precondition for these: sorted.
+  /// Tells whether a point moves. Precondition for these: sorted.
   bool has(std::int32_t point) const
   {
     const auto isBefore = [](const Move& move, std::int32_t wanted) { return move.point < wanted; };
@@ -190,7 +188,7 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
     const auto found = normals.find(point);
     if (found == normals.end())
     {
-      continue; // amid a cap
+      continue; // inside a cap
     }
     Vector3d normal = found->second;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -230,7 +228,7 @@ Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh, const std::array<std::int32_
   return box;
 }
 
-/// Changed in none.
+/// Returns the extents of a surface by slab, all unchanged.
 SlabBoxes boxesBySlab(const TriangleMesh& mesh, const Slabs& slabs)
 {
   SlabBoxes result;
@@ -251,7 +249,7 @@ SlabBoxes boxesBySlab(const TriangleMesh& mesh, const Slabs& slabs)
   return result;
 }
 
-/// Marks the slabs in which triangles have a corner that is to move, or has moved.
+/// Marks the slabs in which triangles have a corner that will move, or has moved.
 void markChanged(const TriangleMesh& mesh, const Moves& moves, const Slabs& slabs, SlabBoxes& boxes)
 {
   for (const auto& t : mesh.triangles)
@@ -276,7 +274,7 @@ void measureGap(Pair& pair, const TriangleTree& one, const TriangleTree& other, 
   }
 }
 
-/// What was changed before has changed.
+/// Keeps the marks of earlier changes.
 void keepMarks(SlabBoxes& before, SlabBoxes& boxes)
 {
   const auto endOf = [](const SlabBoxes& of) { return of.first + static_cast<int>(of.boxes.size()); };
@@ -341,7 +339,7 @@ std::string bytesOf(const std::map<std::size_t, Moves>& moves)
   return put.bytes();
 }
 
-/// What all processes have found, each in the bytes of several maps, one after the other.
+/// Joins the maps of all processes, each given as the bytes of several maps in sequence.
 std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
 {
   std::map<std::size_t, Moves> moves;
@@ -364,11 +362,11 @@ std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
   return moves;
 }
 
-/// Looks slab by slab for what is too near, and moves it.
+/// Finds surfaces that are too near, slab by slab, and moves them.
 class Spacing
 {
 public:
-  /// `given` are the surfaces of which others may be too near.
+  /// `given` are the surfaces that others may be too near to.
   Spacing(SurfaceStore& surfaces, const std::vector<std::size_t>& given, double gap, const Eigen::AlignedBox3d& box,
     const Context& context, const Sharing& sharing)
     : Surfaces(surfaces)
@@ -390,9 +388,9 @@ public:
     }
   }
 
-  /// How far points of surfaces have to move. Only those pairs are looked at, and only in those slabs, where one of the two is
-  /// given and one has changed since the last time; elsewhere the same would be found again, which is nothing. `report(part)`
-  /// gets how much of the work is done. What is `known` of slabs depends on which of the pairs are this process's.
+  /// Returns the displacements of the surfaces' points. It measures only those pairs and slabs where one of the two is given and
+  /// one has changed since the last time; elsewhere the result would again be nothing. `report(part)` receives the completed
+  /// fraction. The cached results in `known` depend on which pairs belong to this process.
   template <typename Report>
   std::map<std::size_t, Moves> measure(const Recollection& known, Report&& report)
   {
@@ -448,7 +446,7 @@ public:
     {
       if (!this->IsGiven[s])
       {
-        this->give(s); // large triangles may come nearer to a third one as they turn
+        this->give(s); // large triangles may come nearer to a third surface as they turn
       }
     }
   }
@@ -473,10 +471,10 @@ private:
   const Sharing& Shared;
   Slabs InSlabs;
   std::vector<SlabBoxes> Boxes;
-  std::vector<char> IsGiven; ///< whether pairs with it are looked at at all
+  std::vector<char> IsGiven; ///< whether pairs with it are measured
 };
 
-/// The surfaces in each slab where one has changed.
+/// Returns the surfaces in each slab where one has changed.
 std::vector<std::vector<std::size_t>> Spacing::surfacesBySlab()
 {
   std::vector<std::vector<std::size_t>> held(std::size_t(this->InSlabs.count));
@@ -504,7 +502,7 @@ std::vector<std::vector<std::size_t>> Spacing::surfacesBySlab()
   return held;
 }
 
-/// Pairs to look at, whose boxes in the slab come nearer than the gap: those to one side along x one after the other.
+/// Returns the pairs to measure, whose boxes in the slab come nearer than the gap: sorted along x, each with those to one side.
 std::vector<Pair> Spacing::neighbours(int slab, const std::vector<std::size_t>& held)
 {
   std::vector<std::size_t> surfaces = held;
@@ -531,7 +529,7 @@ std::vector<Pair> Spacing::neighbours(int slab, const std::vector<std::size_t>& 
         tree, [&](const FloatBox& box) { return double(rough.squaredDistance(box)) < squaredGap; },
         [&](std::size_t j)
         {
-          // Of two that have changed, each comes upon the other.
+          // Of two changed surfaces, each finds the other.
           const bool isOwn = own.isChanged ? i < j : i != j;
           if (isOwn && (this->IsGiven[surfaces[i]] || this->IsGiven[surfaces[j]]) &&
               own.box.squaredExteriorDistance(boxAt(j).box) < squaredGap)
@@ -559,8 +557,8 @@ std::vector<Pair> Spacing::neighbours(int slab, const std::vector<std::size_t>& 
   return pairs;
 }
 
-/// Per surface, how far points have to move for those pairs in a slab that are this process's: a run of them, since pairs that
-/// follow each other have surfaces in common.
+/// Returns the displacements, by surface, for those pairs in a slab that belong to this process: a contiguous range, since
+/// consecutive pairs share surfaces.
 std::map<std::size_t, Moves> Spacing::movesInSlab(int slab, const std::vector<std::size_t>& held)
 {
   std::vector<Pair> pairs = this->neighbours(slab, held);
@@ -619,7 +617,7 @@ SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& 
   }
   Spacing spacing(surfaces, changed, smallest + lostInFiles, box, context, sharing);
   std::set<std::size_t> moved;
-  // Most of the work is the first look at all surfaces.
+  // Most of the work is the first measurement of all surfaces.
   const double half = 0.5 * (from + to);
   for (int round = 0;; ++round)
   {

@@ -12,34 +12,33 @@
 namespace cactus
 {
 
-/// Surfaces by their numbers, from wherever they are. May be used from several threads.
+/// A source of surfaces by number. Thread-safe.
 class SurfaceSource
 {
 public:
   virtual ~SurfaceSource() = default;
 
   virtual std::size_t size() const = 0;
-  /// A surface, which may have no triangles; it stays as it is until it is changed for another one.
+  /// Returns a surface, possibly without triangles; it stays unchanged until it is replaced by another one.
   virtual std::shared_ptr<const TriangleMesh> get(std::size_t index) const = 0;
-  /// What of a surface touches `lower` <= z <= `upper` (µm), for those who need no more of it at a time.
+  /// Returns the part of a surface that touches `lower` <= z <= `upper` (µm), for callers that need no more at a time.
   virtual SurfacePart part(std::size_t index, double lower, double upper) const
   {
     return cutOut(*this->get(index), lower, upper);
   }
 };
 
-/// Surfaces that are kept, each in the place of the one before; none has triangles at first. What is made of them does not depend
-/// on where they are.
+/// A store of surfaces, initially without triangles. Results do not depend on where the surfaces are stored.
 class SurfaceStore : public SurfaceSource
 {
 public:
-  /// Several threads may put different ones.
+  /// Replaces a surface. Thread-safe for different surfaces.
   virtual void put(std::size_t index, TriangleMesh surface) = 0;
-  /// Another process has put a surface, into a store that several have in common.
+  /// Reports that another process has put a surface into a shared store.
   virtual void putElsewhere(std::size_t /*index*/) {}
 };
 
-/// All of them in memory.
+/// Stores all surfaces in memory.
 class SurfacesInMemory : public SurfaceStore
 {
 public:
@@ -51,10 +50,10 @@ public:
   std::size_t size() const override { return this->Surfaces.size(); }
   std::shared_ptr<const TriangleMesh> get(std::size_t index) const override
   {
-    return { std::shared_ptr<const TriangleMesh>(), &this->Surfaces[index] }; // which stays here
+    return { std::shared_ptr<const TriangleMesh>(), &this->Surfaces[index] }; // owned by this store
   }
   void put(std::size_t index, TriangleMesh surface) override { this->Surfaces[index] = std::move(surface); }
-  /// Gives a surface away.
+  /// Moves a surface out of the store.
   TriangleMesh take(std::size_t index) { return std::exchange(this->Surfaces[index], TriangleMesh()); }
 
 private:

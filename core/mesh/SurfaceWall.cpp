@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-/// µm. Triangles as near as this to a plane with all corners lie in it.
+/// µm. Triangles whose corners are all this near to a plane lie in it.
 constexpr double capTolerance = 1e-6;
 
 } // namespace
@@ -70,7 +70,7 @@ Domain betweenCaps(const TriangleMesh& mesh, const Domain& box, double inset)
     const Eigen::Vector3d& a = mesh.points[std::size_t(t[0])];
     const Eigen::Vector3d& b = mesh.points[std::size_t(t[1])];
     const Eigen::Vector3d& c = mesh.points[std::size_t(t[2])];
-    // The axis that it is orthogonal to.
+    // The axis perpendicular to the triangle.
     int axis = 0;
     (a.cwiseMax(b).cwiseMax(c) - a.cwiseMin(b).cwiseMin(c)).minCoeff(&axis);
     const bool isLow = a[axis] - box.lower[axis] < box.upper[axis] - a[axis];

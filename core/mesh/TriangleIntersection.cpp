@@ -16,7 +16,7 @@ namespace
 using Eigen::Vector3d;
 using Corners = TriangleCorners;
 
-/// An axis along which the triangle can be seen without becoming a line; −1 where it is one.
+/// Returns an axis along which the triangle is not projected to a line; −1 if it is a line.
 int viewOf(const Corners& t)
 {
   for (int axis = 2; axis >= 0; --axis)
@@ -29,7 +29,7 @@ int viewOf(const Corners& t)
   return -1;
 }
 
-/// For points on one line: whether p lies between q and r, or on one of them.
+/// Tells, for points on one line, whether p lies between q and r, or on one of them.
 bool between(const Vector3d& p, const Vector3d& q, const Vector3d& r)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -42,7 +42,7 @@ bool between(const Vector3d& p, const Vector3d& q, const Vector3d& r)
   return true;
 }
 
-/// In a plane seen along `view`: whether the closed segments p–q and r–s have a point in common.
+/// Tells, in a plane seen along `view`, whether the closed segments p–q and r–s have a point in common.
 bool segmentsMeet(int view, const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s)
 {
   const int atR = orientationAlong(view, p, q, r);
@@ -57,7 +57,7 @@ bool segmentsMeet(int view, const Vector3d& p, const Vector3d& q, const Vector3d
          (atQ == 0 && between(q, r, s));
 }
 
-/// The same in space.
+/// Tells the same in space.
 bool segmentsMeet(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s)
 {
   if (orientation(p, q, r, s) != 0)
@@ -76,7 +76,7 @@ bool segmentsMeet(const Vector3d& p, const Vector3d& q, const Vector3d& r, const
   return between(p, r, s) || between(q, r, s) || between(r, p, q);
 }
 
-/// For p in the plane of a triangle that is not flat.
+/// Tells whether p, in the plane of a triangle that is not flat, lies in the triangle.
 bool inTriangle(int view, const Vector3d& p, const Corners& t)
 {
   const int s0 = orientationAlong(view, *t[0], *t[1], p);
@@ -85,7 +85,8 @@ bool inTriangle(int view, const Vector3d& p, const Corners& t)
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
 }
 
-/// Whether the closed segment p–q meets a triangle that is not flat, with the signs of p and q against the triangle's plane.
+/// Tells whether the closed segment p–q meets a triangle that is not flat, given the signs of p and q relative to the triangle's
+/// plane.
 bool segmentMeets(const Vector3d& p, int atP, const Vector3d& q, int atQ, const Corners& t)
 {
   if (atP == atQ && atP != 0)
@@ -98,7 +99,8 @@ bool segmentMeets(const Vector3d& p, int atP, const Vector3d& q, int atQ, const 
     return inTriangle(view, p, t) || segmentsMeet(view, p, q, *t[0], *t[1]) || segmentsMeet(view, p, q, *t[1], *t[2]) ||
            segmentsMeet(view, p, q, *t[2], *t[0]);
   }
-  // The line through p and q crosses the plane in one point of the segment, and passes the triangle's edges all on the same side.
+  // The line through p and q crosses the plane in one point of the segment, and passes all edges of the triangle on the same
+  // side.
   const int s0 = orientation(p, q, *t[0], *t[1]);
   const int s1 = orientation(p, q, *t[1], *t[2]);
   if (s0 * s1 < 0)
@@ -124,8 +126,8 @@ bool allOnOneSide(const std::array<int, 3>& sides)
   return sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2];
 }
 
-/// Whether, seen from `origin`, all of `b` lies further in direction `across` than all of `a`, for sure: by far more than
-/// rounding can change. Most of what is asked about is told apart by this, without exact predicates.
+/// Tells whether, seen from `origin`, all of `b` certainly lies further in direction `across` than all of `a`: by far more than
+/// rounding. This decides most cases without exact predicates.
 template <std::size_t corners>
 bool clearlyBehind(const Vector3d& origin, const Vector3d& across, const std::array<const Vector3d*, corners>& a,
   const std::array<const Vector3d*, corners>& b)
@@ -150,7 +152,7 @@ bool clearlyBehind(const Vector3d& origin, const Vector3d& across, const std::ar
   return first - last > rounding;
 }
 
-/// The corners that two triangles of one mesh share by index, by their places in each.
+/// The corners that two triangles of one mesh share by index, as places in each.
 struct SharedCorners
 {
   std::size_t count = 0;
@@ -173,7 +175,7 @@ struct SharedCorners
   }
 };
 
-/// Whether two triangles that share one corner, number i of `a` and j of `b`, meet elsewhere. What else they have in common
+/// Tells whether two triangles that share one corner, number i of `a` and j of `b`, meet elsewhere. Any further intersection
 /// reaches from there to the opposite edge of one of them.
 bool meetBesideCorner(const Corners& a, std::size_t i, const Corners& b, std::size_t j)
 {
@@ -191,7 +193,7 @@ bool meetBesideCorner(const Corners& a, std::size_t i, const Corners& b, std::si
   return meets(edgeA, b) || meets(edgeB, a);
 }
 
-/// Whether two triangles that share two corners lie folded onto each other in one plane.
+/// Tells whether two triangles that share two corners lie folded onto each other in one plane.
 bool meetBesideEdge(const Corners& a, const Corners& b, const SharedCorners& shared)
 {
   const Vector3d& u = *a[shared.inFirst[0]];

@@ -10,10 +10,10 @@
 namespace cactus
 {
 
-/// How well formed a triangle is.
+/// Measures of a triangle's shape.
 struct TriangleShape
 {
-  double edgeRatio; ///< longest over shortest squared edge; infinite where an edge has no length
+  double edgeRatio; ///< longest over shortest squared edge; infinite if an edge has zero length
   double flatness;  ///< twice the area over the longest squared edge: the height on that edge over its length
 };
 

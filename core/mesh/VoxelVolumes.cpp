@@ -14,7 +14,8 @@ namespace cactus
 namespace
 {
 
-/// A triangle cut by six planes has at most nine corners, and rounding may add one where a cut runs along a side.
+/// A convex polygon: a triangle cut by six planes has at most nine corners, and rounding may add one where a cut runs along a
+/// side.
 struct Polygon
 {
   std::array<Eigen::Vector3d, 16> corners;
@@ -23,7 +24,7 @@ struct Polygon
   void add(const Eigen::Vector3d& corner) { this->corners[this->size++] = corner; }
 };
 
-/// The part of a convex polygon on one side of a plane: where sense · (x[axis] - place) >= 0.
+/// Returns the part of a convex polygon on one side of a plane: where sense · (x[axis] - place) >= 0.
 Polygon cut(const Polygon& polygon, int axis, double place, double sense)
 {
   Polygon part;
@@ -47,7 +48,7 @@ Polygon cut(const Polygon& polygon, int axis, double place, double sense)
   return part;
 }
 
-/// The first and the last of `count` layers of voxels that a polygon reaches into along an axis.
+/// Returns the first and the last of `count` layers of voxels that a polygon reaches into along an axis.
 std::array<int, 2> layers(const Polygon& polygon, int axis, int count)
 {
   double low = polygon.corners[0][axis];
@@ -61,13 +62,14 @@ std::array<int, 2> layers(const Polygon& polygon, int axis, int count)
   return { { int(std::clamp(std::floor(low), 0.0, last)), int(std::clamp(std::floor(high), 0.0, last)) } };
 }
 
-/// The part of a polygon from 0 to `count` along an axis.
+/// Returns the part of a polygon from 0 to `count` along an axis.
 Polygon within(const Polygon& polygon, int axis, int count)
 {
   return cut(cut(polygon, axis, 0.0, 1.0), axis, count, -1.0);
 }
 
-/// Calls visit(layer, part) for the part of a polygon in each of `count` layers of voxels along an axis. It lies within them.
+/// Calls visit(layer, part) for the part of a polygon in each of `count` layers of voxels along an axis. The polygon lies within
+/// them.
 template <typename Visit>
 void slice(const Polygon& polygon, int axis, int count, Visit&& visit)
 {
@@ -88,7 +90,8 @@ void slice(const Polygon& polygon, int axis, int count, Visit&& visit)
   }
 }
 
-/// Sums what pieces of triangles add to the rows of voxels along x. Lengths in voxels, counted from the block's corner.
+/// The sums of the contributions of pieces of triangles to the rows of voxels along x. Lengths in voxels, relative to the block's
+/// corner.
 class RowSums
 {
 public:
@@ -111,7 +114,7 @@ public:
       { slice(slab, 1, this->Count[1], [&](int j, const Polygon& beam) { this->addBeam(beam, j, k); }); });
   }
 
-  /// The volume in each voxel, as a fraction of its own.
+  /// Returns the volume in each voxel, as a fraction of the voxel's.
   std::vector<double> volumes() &&
   {
     const auto row = std::size_t(this->Count[0]);
@@ -128,10 +131,10 @@ public:
   }
 
 private:
-  /// A part of a triangle in one row of voxels. What lies before the row is seen from all of it, what lies behind from none.
+  /// Adds a part of a triangle in one row of voxels. The part before the row affects all of its voxels, the part behind none.
   void addBeam(const Polygon& beam, int j, int k)
   {
-    // What lies in the first face itself is inside.
+    // A corner in the first face itself is inside.
     const auto end = beam.corners.begin() + std::ptrdiff_t(beam.size);
     if (std::any_of(beam.corners.begin(), end, [](const Eigen::Vector3d& corner) { return corner[0] < 0.0; }))
     {
@@ -149,14 +152,14 @@ private:
     }
   }
 
-  /// The piece's area as seen along x is positive where the inside begins. Its prism fills what is behind it in its own voxel,
-  /// and all voxels further on.
+  /// Adds a piece. Its area as seen along x is positive where the inside begins. Its prism fills the space behind it in its own
+  /// voxel, and all voxels further on.
   void addPiece(const Polygon& piece, int i, int j, int k)
   {
     const std::size_t voxel =
       (std::size_t(k) * std::size_t(this->Count[1]) + std::size_t(j)) * std::size_t(this->Count[0]) + std::size_t(i);
     const Eigen::Vector3d& a = piece.corners[0];
-    for (std::size_t n = 2; n < piece.size; ++n) // none of what has no area
+    for (std::size_t n = 2; n < piece.size; ++n) // no triangles for a piece without an area
     {
       const Eigen::Vector3d& b = piece.corners[n - 1];
       const Eigen::Vector3d& c = piece.corners[n];
@@ -171,7 +174,7 @@ private:
   std::vector<double> Behind; ///< area of the pieces in a voxel
 };
 
-/// The voxels that a surface reaches into; none where it lies beside all of them.
+/// Returns the voxels that a surface reaches into; none if it lies outside all of them.
 VoxelVolumes blockAround(const TriangleMesh& mesh, const VoxelBoxes& voxels)
 {
   VoxelVolumes block;

@@ -16,11 +16,11 @@ namespace cactus
 namespace
 {
 
-/// Of the grid, at most: a set of its cells takes a bit for each.
+/// Largest number of cells: a set of them needs a bit for each.
 constexpr double mostCells = 8e6;
 
-/// The grid that all processes make of what they tell each other, cells half as large as a box along each axis, so that what lies
-/// between two boxes that have a cell in common is little.
+/// The grid that all processes share, with cells half as large as a box along each axis, so that two boxes with a common cell are
+/// close to each other.
 class CoarseGrid
 {
 public:
@@ -48,7 +48,7 @@ public:
 
   std::size_t size() const { return this->Count[0] * this->Count[1] * this->Count[2]; }
 
-  /// visit(cell) for each that the box reaches, until it returns false.
+  /// Calls visit(cell) for each cell that the box touches, until it returns false.
   template <typename Visit>
   void forEachCell(const RunBox& box, Visit&& visit) const
   {
@@ -104,7 +104,7 @@ private:
     const double coarser = std::cbrt(std::max(1.0, cells / mostCells));
     for (int axis = 0; axis < 3; ++axis)
     {
-      // A long and thin bundle may have more than its share along one axis, never more than all.
+      // A long and thin bundle may have more than its share along one axis, but never more than the limit in all.
       const double count = std::clamp(std::floor(wanted[axis] / coarser), 1.0, std::cbrt(mostCells) * 4.0);
       this->Count[axis] = static_cast<std::size_t>(count);
       this->Lower[axis] = lower[axis];
@@ -112,7 +112,7 @@ private:
     }
   }
 
-  /// Increases with the coordinate.
+  /// Monotonic in the coordinate.
   std::size_t cellOf(float position, int axis) const
   {
     const float cell = (position - this->Lower[axis]) * this->InverseSize[axis];
@@ -124,7 +124,7 @@ private:
   std::size_t Count[3];
 };
 
-/// Some of a grid's cells.
+/// A set of the grid's cells.
 class CellSet
 {
 public:
@@ -174,7 +174,7 @@ std::vector<std::vector<std::size_t>> boxesNearOthers(const std::vector<RunBox>&
   }
   std::vector<std::string> told = sharing.exchange(own.bits());
   const auto self = static_cast<std::size_t>(sharing.place());
-  // Most boxes are near nobody else's.
+  // Most boxes are near no other process's.
   std::string anybody(told[self].size(), '\0');
   for (std::size_t process = 0; process < told.size(); ++process)
   {

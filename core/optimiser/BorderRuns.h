@@ -10,10 +10,10 @@
 namespace cactus
 {
 
-/// For each process, which of this one's boxes may overlap one of its own, in increasing order: all that do, and others not far
-/// from it. None for this process itself. Every process has to come here.
+/// Returns for each process, in increasing order, which of this one's boxes may overlap one of its own: all that do, and some
+/// close to it. Empty for this process itself. Collective.
 ///
-/// Processes tell each other which cells of a coarse grid their boxes reach; boxes that overlap have a cell in common.
+/// Processes exchange which cells of a coarse grid their boxes touch; boxes that overlap have a cell in common.
 std::vector<std::vector<std::size_t>> boxesNearOthers(const std::vector<RunBox>& boxes, const Sharing& sharing);
 
 } // namespace cactus

@@ -14,7 +14,7 @@ namespace cactus
 namespace
 {
 
-/// What a bundle holds, for its density.
+/// The content of a bundle, for its density.
 struct BundleContent
 {
   double volume = 0.0;

@@ -10,23 +10,23 @@
 namespace cactus
 {
 
-/// A bundle's own cuboid: the box, aligned with the bundle's axis, that its fibres fill.
+/// A bundle's cuboid: the box, aligned with the bundle's axis, that its fibres fill.
 struct BundleBox
 {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(); ///< direction of the bundle
   Eigen::Vector3d u = Eigen::Vector3d::UnitX();    ///< first lateral direction
   Eigen::Vector3d v = Eigen::Vector3d::UnitY();    ///< second lateral direction
-  double lowerU = 0.0, upperU = 0.0;               ///< µm, where surfaces of fibres may reach along u
+  double lowerU = 0.0, upperU = 0.0;               ///< µm, limits of the fibres' surfaces along u
   double lowerV = 0.0, upperV = 0.0;
 };
 
-/// The cuboids of all bundles, indexed by fibre: laterally the extent of the fibres as they come in, widened where they would
-/// fill more than `packingLimit` of it. One lateral direction is the domain axis that is most perpendicular to the bundle.
+/// Returns the cuboid of each fibre's bundle: laterally the extent of the input fibres, widened if they would fill more than
+/// `packingLimit` of it. One lateral direction is the domain axis that is most perpendicular to the bundle.
 std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit);
 
-/// Moves the fibres of each bundle that fills more than `packingLimit` of its cuboid apart, each as a whole and across the
-/// bundle's axis, until it fills that much: a descent would get there too, but the wider the bundle the longer pressure takes to
-/// spread.
+/// Moves apart the fibres of each bundle that fills more than `packingLimit` of its cuboid, each as a whole and across the
+/// bundle's axis, until the bundle fills that much. A descent would get there too, but pressure takes longer to spread the wider
+/// the bundle is.
 void spreadBundles(Fibres& fibres, double packingLimit);
 
 } // namespace cactus

@@ -33,7 +33,7 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What a descent takes for a control point, with some fifty neighbours: of the fibres that a process moves, and of all fibres.
+/// Memory of a descent per control point, with some fifty neighbours: for the fibres of a process, and for all fibres.
 constexpr double bytesPerOwnPoint = 900.0;
 constexpr double bytesPerPoint = 100.0;
 
@@ -46,8 +46,8 @@ std::string describe(const ConvergenceRow& row)
   return text.str();
 }
 
-/// Throws InvalidInput for a fibre whose capsules are so much shorter than they are thick that the neighbour search, which passes
-/// by those of the fibre itself, would not come to an end.
+/// Throws InvalidInput for a fibre whose capsules are so much shorter than thick that the neighbour search, which skips capsules
+/// of the same fibre, would not end.
 void requireSegmentsToSearch(const Fibres& fibres)
 {
   constexpr double mostCandidates = 3e8;
@@ -70,27 +70,26 @@ void requireSegmentsToSearch(const Fibres& fibres)
   }
 }
 
-/// What the runs of an optimisation have in common.
+/// The common context of the runs of an optimisation.
 struct Surroundings
 {
   const CapsuleOptimizerOptions& options;
   const Context& context;
   Clock::time_point start;
   OptimisationCheckpoints& checkpoints;
-  /// Called with each state that a run measures: control points and radii of the fibres that came in.
-  /// Empty where nobody looks.
+  /// Called with each state that a run measures: control points and radii of the input fibres. Empty if there is no observer.
   std::function<void(const ConvergenceRow&, const std::vector<Eigen::Vector3d>&, const std::vector<double>&)> observe;
-  double completed = 0.0; ///< what was reported last
+  double completed = 0.0; ///< last reported progress
 };
 
-/// Whether a run with fewer control points is to be followed by one with all of them.
+/// Tells whether a run with fewer control points continues with all of them.
 bool isToBeRefined(const OptimisationRun& run, const std::optional<StopReason>& reason)
 {
   const bool ended = reason && *reason != StopReason::Converged && *reason != StopReason::Stagnated;
   return run.level == OptimisationRun::Coarse && !ended && (reason || run.descent.isLaidOut());
 }
 
-/// Runs the descent to its end, and returns why it ended; nothing where it is to go on with more control points.
+/// Runs the descent to its end, and returns why it ended; nothing if it continues with more control points.
 std::optional<StopReason> descend(
   OptimisationRun& run, Surroundings& around, const std::function<void(const ConvergenceRow&)>& show)
 {
@@ -129,7 +128,7 @@ std::optional<StopReason> descend(
     }
     if (reason)
     {
-      // Before this row is added: a run that goes on from here measures this state again.
+      // Before this row is added: a resumed run measures this state again.
       run.seconds = row.seconds;
       around.checkpoints.write(run);
       run.rows.push_back(row);
@@ -140,7 +139,7 @@ std::optional<StopReason> descend(
   }
 }
 
-/// What a run did, and how it went.
+/// Fills in the result of a run.
 void tell(OptimisationRun& run, StopReason reason, OptimisationResult& result)
 {
   result.reason = reason;
@@ -152,8 +151,8 @@ void tell(OptimisationRun& run, StopReason reason, OptimisationResult& result)
   result.convergence = std::move(run.rows);
 }
 
-/// Which of the fibres with fewer control points each process moves; nothing where these would not be of use: most control points
-/// have to stay, radii change, which belong to single control points, or the method is the published one.
+/// Returns the shares of the fibres with fewer control points; nothing if these would not help: most control points have to stay,
+/// radii (of single control points) change, or the method is the published one.
 std::optional<FibreShares> sharesOfFewer(const Fibres& fibres, const FibreShares& shares, const CapsuleOptimizerOptions& options)
 {
   constexpr double most = 0.75; // of the control points
@@ -169,8 +168,8 @@ std::optional<FibreShares> sharesOfFewer(const Fibres& fibres, const FibreShares
   return FibreShares(fewer.fibres(), shares);
 }
 
-/// The options with which fibres of half as many control points take much the same shape: the costs of a bend or a stretch that
-/// is as long as before grow with a power of the distance between control points, while that of an overlap does not.
+/// Returns the options with which fibres of half as many control points take nearly the same shape: the costs of a bend or a
+/// stretch of the same size grow with a power of the distance between control points, while that of an overlap does not.
 CapsuleOptimizerOptions optionsForFewer(CapsuleOptimizerOptions options)
 {
   options.weights.curvature /= 8.0;
@@ -178,8 +177,8 @@ CapsuleOptimizerOptions optionsForFewer(CapsuleOptimizerOptions options)
   return options;
 }
 
-/// Moves the fibres with fewer control points first, where there are shares of these, and then with all. Leaves the best state in
-/// `state`, and what was done in `result`.
+/// Moves the fibres with fewer control points first, if they have shares, and then with all. Leaves the best state in `state`,
+/// and the run's report in `result`.
 void descendThroughLevels(Fibres& state, const FibreShares& shares, const std::optional<FibreShares>& coarseShares,
   const std::vector<BundleBox>& boxes, Surroundings& around, OptimisationResult& result)
 {
@@ -221,7 +220,7 @@ void descendThroughLevels(Fibres& state, const FibreShares& shares, const std::o
   tell(run, *reason, result);
 }
 
-/// Puts values of all control points, of which each process has its own, where they belong in the fibres that came in.
+/// Gathers values of all control points, of which each process has its own, in the order of the input fibres.
 template <typename Value>
 void bringTogether(
   const std::vector<Value>& own, const FibreShares& shares, const FibreOrder& order, std::vector<Value>& original)
@@ -254,7 +253,7 @@ void requireRoom(const Fibres& fibres, int processes)
     "use fewer fibres, or a larger spacing of their control points");
 }
 
-/// Whether any process has something.
+/// Tells whether `own` is true in any process.
 bool hasAny(bool own, const Sharing& sharing)
 {
   for (const std::string& told : sharing.exchange(own ? "1" : "0"))
@@ -278,7 +277,7 @@ OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOption
   const FibreOrder order(fibres);
   Fibres all = order.ordered(fibres);
   const FibreShares shares(all, sharing);
-  // A state without overlap is left alone.
+  // A state without overlap stays as it is.
   const bool apart = measureOverlap(shares.own(all), shares, options.overlapTolerance, threads).overlappingPairs == 0;
   if (!apart && options.weights.compactness > 0.0)
   {
@@ -306,7 +305,7 @@ OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOption
   }
   descendThroughLevels(state, shares, coarseShares, boxes, around, result);
   result.checkpointFailure = checkpoints.failure();
-  // The lists above reach only as far as the descent needs: what is handed back is measured afresh.
+  // The lists above reach only as far as the descent needs: the returned fibres are measured afresh.
   const OverlapReport report = measureOverlap(state, shares, options.overlapTolerance, threads);
   result.maximumPenetration = std::max(0.0, report.largestPenetration);
   result.overlappingPairs = report.overlappingPairs;

@@ -13,8 +13,8 @@ namespace cactus
 namespace
 {
 
-/// A capsule's bounding box, larger by its reach and by a millionth of its coordinates, so that rounding to single precision
-/// loses no pair.
+/// Returns a capsule's bounding box, larger by its reach and by a millionth of its coordinates, so that rounding to single
+/// precision loses no pair.
 RunBox boxOf(const Capsule& capsule, float reach)
 {
   const double radius = std::max(capsule.r0, capsule.r1) + static_cast<double>(reach);
@@ -29,7 +29,7 @@ RunBox boxOf(const Capsule& capsule, float reach)
   return box;
 }
 
-/// A box that overlaps no other.
+/// Returns a box that overlaps no other.
 RunBox emptyBox()
 {
   constexpr float infinity = std::numeric_limits<float>::infinity();

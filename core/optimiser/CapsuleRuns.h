@@ -14,35 +14,35 @@
 namespace cactus
 {
 
-/// A bounding box in single precision. Four numbers make a vector: the fourth of each corner means nothing.
+/// A bounding box in single precision. Four numbers make a vector: the fourth of each corner is unused.
 struct RunBox
 {
   Eigen::Array4f lower;
   Eigen::Array4f upper;
 };
 
-/// Makes `box` hold `other`, too.
+/// Extends `box` to hold `other`.
 void extend(RunBox& box, const RunBox& other);
 
-/// Runs that one thread takes one after the other.
+/// The number of consecutive runs that one thread processes at a time.
 constexpr std::size_t runsTogether = 1024;
 
-/// Short runs of capsules that follow each other in one fibre, so have most of their neighbours in common, and the boxes that
-/// hold what is within reach of them.
+/// Short runs of consecutive capsules of a fibre, which have most neighbours in common, and the boxes that hold everything within
+/// their reach.
 class CapsuleRuns
 {
 public:
-  /// Capsules in a run, at most.
+  /// The largest number of capsules in a run.
   static constexpr std::size_t longest = 6;
 
-  /// reach: of each capsule, beyond its radius (µm). Boxes of capsules within reach of each other overlap.
+  /// `reach`: per capsule, beyond its radius (µm). Boxes of capsules within reach of each other overlap.
   CapsuleRuns(const Capsules& capsules, const std::vector<float>& reach, int threads);
 
   std::size_t size() const { return this->Boxes.size(); }
-  /// The first capsule of each run, and one past the last capsule of all.
+  /// Returns the first capsule of each run, and one past the last capsule of all.
   const std::vector<std::uint32_t>& first() const { return this->First; }
   const std::vector<RunBox>& boxes() const { return this->Boxes; }
-  /// The boxes of each run's capsules.
+  /// Returns the boxes of each run's capsules.
   const BoxBlock* blocks() const { return this->Blocks.get(); }
 
 private:

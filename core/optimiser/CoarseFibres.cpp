@@ -7,7 +7,7 @@ namespace cactus
 namespace
 {
 
-/// Two segments become one where it is at least this part of their length.
+/// Two segments are joined if their chord is at least this fraction of their length.
 constexpr double nearlyStraight = 0.9;
 
 bool canBeLeftOut(const std::vector<Eigen::Vector3d>& points, std::size_t i)
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector3d> CoarseFibres::interpolate(const std::vector<Eigen::
   {
     const std::size_t first = this->Coarse.offsets[f];
     const std::size_t last = this->Coarse.offsets[f + 1] - 1;
-    // By how much values grow from one fine control point to the next.
+    // The growth of values from one fine control point to the next.
     const auto slope = [&](std::size_t k) -> Eigen::Vector3d
     {
       const std::size_t before = k > first ? k - 1 : k;
@@ -57,7 +57,7 @@ std::vector<Eigen::Vector3d> CoarseFibres::interpolate(const std::vector<Eigen::
       all[this->Kept[k]] = values[k];
       if (k < last && this->Kept[k + 1] == this->Kept[k] + 2)
       {
-        // In the middle between two, of a Hermite cubic whose parameter runs over two control points.
+        // The middle of a Hermite cubic between two, whose parameter covers two control points.
         all[this->Kept[k] + 1] = 0.5 * (values[k] + values[k + 1]) + 0.25 * (slope(k) - slope(k + 1));
       }
     }

@@ -19,19 +19,19 @@ namespace cactus
 namespace
 {
 
-/// Largest step of a control point with momentum, as a multiple of its radius: fibres that push each other away at full speed
-/// land in others, and every neighbour list is worthless at once.
+/// Largest step of a control point with momentum, as a multiple of its radius: with larger ones, fibres that push each other
+/// apart land in others, and neighbour lists are useless at once.
 constexpr double largestStep = 0.065;
 
-/// Once there are fewer overlapping pairs than this part of the capsules, fibres are where they will be, and the costs that shape
-/// them fade in an iteration as else in two and a half.
+/// Once there are fewer overlapping pairs than this fraction of the capsules, fibres are in place, and the costs that shape them
+/// fade 2.5 times as fast.
 constexpr double fewOverlaps = 0.05;
 
-/// Fewer control points do until then, or until the costs that shape fibres have faded to this: with 0.001, some fibres that
-/// cross at 25° stayed overlapping, since there was too little left to lay them out on all their control points.
+/// Fewer control points suffice until then, or until the costs that shape fibres have faded to this. With 0.001, some fibres that
+/// cross at 25° stayed overlapping, since too little of these costs was left to lay out all control points.
 constexpr double laidOutRelaxation = 0.01;
 
-/// Fibres, and control points or capsules, that one thread works on before it takes the next.
+/// Numbers of fibres, and of control points or capsules, that one thread processes at a time.
 constexpr std::size_t fibresTogether = 16;
 constexpr std::size_t pointsTogether = 4096;
 
@@ -85,7 +85,7 @@ ConvergenceRow Descent::evaluate(const std::function<Moment()>& now, Moment& mom
   return this->sumUp(this->Shares.sharing().exchange(this->tell(overlap, perFibre, now())), moment);
 }
 
-/// What the others have to know of this process's part.
+/// Returns the message to the other processes with this one's part.
 std::string Descent::tell(const OverlapParts& overlap, const std::vector<FibreCostTotals>& perFibre, const Moment& moment) const
 {
   ByteWriter put;
@@ -102,7 +102,7 @@ std::string Descent::tell(const OverlapParts& overlap, const std::vector<FibreCo
   return std::move(put.bytes());
 }
 
-/// The sums over all processes, in the order that they have in one.
+/// Returns the sums over all processes, in the order of a single process.
 ConvergenceRow Descent::sumUp(const std::vector<std::string>& told, Moment& moment)
 {
   ConvergenceRow row;
@@ -164,7 +164,7 @@ void Descent::step()
   this->requireFinite();
 }
 
-/// Steps are bounded, but quotients by the length of a segment that is next to nothing are not.
+/// Steps are bounded, but quotients by the length of a vanishing segment are not.
 void Descent::requireFinite() const
 {
   const std::vector<Eigen::Vector3d>& points = this->State.fibres.points;
@@ -178,7 +178,7 @@ void Descent::requireFinite() const
   }
 }
 
-/// The lists reach a little further than contact and hold until something could have come further than foreseen.
+/// Lists reach a little further than contact, and are valid until a control point may have moved further than foreseen.
 void Descent::refreshNeighbours()
 {
   DescentState& state = this->State;
@@ -204,9 +204,9 @@ void Descent::refreshNeighbours()
   state.stepsSinceSearch = 0;
 }
 
-/// Each control point may come as far as it would in so many steps at its present speed and with its present push, and at least
-/// by some share of its radius, since another may hit it suddenly. A search costs about as much as two evaluations, a wide list
-/// costs time in every step: that share follows from letting a list hold for some eleven steps.
+/// Allows each control point the distance of so many steps at its present speed and push, and at least a fraction of its radius,
+/// since another may hit it suddenly. A search costs about as much as two evaluations, and a wide list costs time in every step:
+/// the fraction is adapted so that a list lasts for some eleven steps.
 void Descent::setAllowances()
 {
   DescentState& state = this->State;
@@ -228,7 +228,7 @@ void Descent::setAllowances()
     });
 }
 
-/// Sums what the two capsules at each control point want of it.
+/// Sums the contributions of the two capsules at each control point.
 void Descent::gatherOverlap(std::size_t f)
 {
   const std::size_t begin = this->State.fibres.offsets[f];
@@ -260,7 +260,7 @@ void Descent::gatherOverlap(std::size_t f)
   }
 }
 
-/// Displaces a control point, and says whether it has come further than the neighbour lists allow.
+/// Displaces a control point, and returns whether it has moved further than the neighbour lists allow.
 bool Descent::move(std::size_t i, const Eigen::Vector3d& by, double growth)
 {
   this->State.fibres.points[i] += by;
@@ -312,8 +312,8 @@ double Descent::changeRadiusWithMomentum(std::size_t i)
   return this->changeRadius(i, velocity);
 }
 
-/// Replaces the gradient of a fibre by M⁻¹ · gradient, with M the diagonal stiffness plus a stiff thread along the fibre: the
-/// fibre moves as a whole where its neighbours push it as a whole, instead of kinking control point by control point.
+/// Replaces the gradient of a fibre by M⁻¹ · gradient, with M the diagonal stiffness plus a stiff thread along the fibre: if its
+/// neighbours push the fibre as a whole, it moves as a whole, instead of kinking at single control points.
 void Descent::smoothGradient(std::size_t f)
 {
   const std::size_t begin = this->State.fibres.offsets[f];
@@ -338,13 +338,13 @@ void Descent::smoothGradient(std::size_t f)
   }
 }
 
-/// Never zero, so that a point which no other fibre touches stays where it is.
+/// Never zero, so that a point that no other fibre touches stays in place.
 double Descent::stiffnessOfPoint(std::size_t i) const
 {
   return this->Stiffness[i] + 1e-3 * this->State.fibres.radii[i] * this->State.fibres.radii[i];
 }
 
-/// Between a control point and the next.
+/// Returns the stiffness between a control point and the next.
 double Descent::stiffnessOfThread(std::size_t i) const
 {
   return this->Options.smoothing * (this->State.fibres.points[i + 1] - this->State.fibres.points[i]).squaredNorm();
@@ -375,7 +375,7 @@ double Descent::changeRadiusWithAdagrad(std::size_t i)
   return this->changeRadius(i, -this->Options.stepSize * this->RadiusGradient[i] / (std::sqrt(squares) + 1e-12));
 }
 
-/// Both ends of a fibre stay in their planes across the bundle's axis, so that fibres keep spanning the domain.
+/// Keeps both ends of a fibre in their planes across the bundle's axis, so that fibres keep spanning the domain.
 void Descent::constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector3d& last) const
 {
   const Eigen::Vector3d& axis = this->Costs.boxOf(f).axis;
@@ -383,7 +383,7 @@ void Descent::constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector
   last -= last.dot(axis) * axis;
 }
 
-/// Changes a radius within its tolerance, and returns by how much.
+/// Changes a radius within its tolerance, and returns the change.
 double Descent::changeRadius(std::size_t i, double change)
 {
   const double reference = this->ReferenceRadii[i];
@@ -417,12 +417,12 @@ void Descent::load(SharedCheckpointReader& file)
 
 bool Descent::couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const
 {
-  constexpr double farthest = 10.0 * limits::coordinate.highest; // from where fibres may start, no run gets so far
+  constexpr double farthest = 10.0 * limits::coordinate.highest; // no run gets this far from a valid start
   const double tolerance = this->Options.radiusTolerance * (1.0 + 1e-9);
   bool good = true;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    // Written so that it does not hold for NaN.
+    // Written so that it is false for NaN.
     good = good && points[i].cwiseAbs().maxCoeff() <= farthest && points[i].allFinite() &&
            std::abs(radii[i] - this->ReferenceRadii[i]) <= tolerance * this->ReferenceRadii[i];
   }
@@ -434,7 +434,7 @@ bool Descent::couldReach(const std::vector<Eigen::Vector3d>& points, const std::
   return good;
 }
 
-/// Whether what was loaded is a state that a descent can be in: no number is infinite or NaN.
+/// Tells whether the loaded state is possible: no number is infinite or NaN.
 bool Descent::isSound() const
 {
   const DescentState& state = this->State;

@@ -21,36 +21,36 @@
 namespace cactus
 {
 
-/// Moves fibres down the gradient of all costs, step by step: evaluate(), step(), evaluate() … Same bits on any number of
-/// threads, and of processes, each of which moves its own fibres.
+/// Moves fibres down the gradient of all costs, step by step: evaluate(), step(), evaluate() … It gives the same bits on any
+/// number of threads and of processes, each of which moves its own fibres.
 class Descent
 {
 public:
-  /// From the fibres as they are, at rest; they are moved in place. `boxes`: their bundles' cuboids; see bundleBoxes.
+  /// Starts from the given fibres, at rest, and moves them in place. `boxes`: their bundles' cuboids; see bundleBoxes.
   Descent(
     Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes, const CapsuleOptimizerOptions& options, int threads);
 
-  /// Costs and penetration at the present positions, and the gradient that the next step follows. `now` is asked once in each
-  /// process; what the first says, and whether any of them wants to stop, is in `moment` in all. Iteration and seconds of the
-  /// row are left to the caller.
+  /// Returns costs and penetration at the present positions, and computes the gradient for the next step. `now` is called once in
+  /// each process; `moment` receives, in all, the first one's answer and whether any wants to stop. The caller sets iteration and
+  /// seconds of the row.
   ConvergenceRow evaluate(const std::function<Moment()>& now, Moment& moment);
 
   void step();
 
   const DescentState& state() const { return this->State; }
 
-  /// Whether fibres with fewer control points than asked for, as they were last evaluated, have come as far as these serve: few
-  /// pairs overlap, or the costs that shape fibres have nearly faded.
+  /// Tells whether fibres with reduced control points, as last evaluated, have come as far as these are useful: few pairs
+  /// overlap, or the costs that shape fibres have nearly faded.
   bool isLaidOut() const;
 
-  /// Goes on from where a descent of fewer control points has come, whose points and velocities are given for all.
+  /// Continues from a descent of fewer control points, given the points and velocities of all.
   void takeOver(const DescentState& coarse, std::vector<Eigen::Vector3d> points, std::vector<Eigen::Vector3d> velocity);
 
   void save(SharedCheckpointWriter& file) const { this->State.save(file); }
-  /// Goes on from what was saved. Throws FileError where no descent from the fibres given can be there.
+  /// Continues from a saved state. Throws FileError if no descent from the given fibres can be there.
   void load(SharedCheckpointReader& file);
 
-  /// Whether a descent from the fibres given can have made these positions and radii.
+  /// Tells whether a descent from the given fibres can have reached these positions and radii.
   bool couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const;
 
 private:
@@ -81,11 +81,11 @@ private:
   SharedCapsules Bodies;
   std::vector<double> ReferenceRadii;
   std::vector<CapsuleOverlap> Overlaps;
-  double OverlappingShare = 1.0; ///< pairs, relative to the capsules, when it was last evaluated
+  double OverlappingShare = 1.0; ///< overlapping pairs per capsule at the last evaluation
   std::vector<Eigen::Vector3d> Gradient;
   std::vector<double> RadiusGradient;
   std::vector<double> Stiffness;
-  std::vector<double> Upper; ///< room for the elimination in smoothGradient
+  std::vector<double> Upper; ///< work space for the elimination in smoothGradient
 };
 
 } // namespace cactus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each bend and each segment adds to its control points is worked out first, for as many together as a vector holds. Each
-// control point then adds it up in the order of the bends, or segments, to which it belongs.
+// Kernels of the cost terms that apply to all control points of a fibre.
+//
+// They work in two steps: the contributions of each bend and each segment to its control points are computed first, a vector of
+// them at once. Each control point then adds its contributions in the order of the bends, or segments.
 #include "optimiser/FibreCostKernels.h"
 
 #include "base/Vector.h"
@@ -14,7 +16,7 @@ namespace cactus
 namespace
 {
 
-/// Numbers of a fibre by control point, readable up to a vector before the first and behind the last.
+/// Columns of a fibre's numbers by control point, readable up to a vector before the first and behind the last.
 class Columns
 {
 public:
@@ -73,13 +75,13 @@ CACTUS_KERNEL_INLINE void join(const Vectors& from, std::size_t count, double* t
   }
 }
 
-/// In the order in which Eigen takes it.
+/// Sums in Eigen's order.
 CACTUS_KERNEL_INLINE Doubles dot(const Doubles (&x)[3], const Doubles (&y)[3])
 {
   return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/// The same as store() and load() for arrays that may end before the vector does.
+/// Do the same as store() and load() for arrays that may end before the vector does.
 CACTUS_KERNEL_INLINE void storeSome(double* to, const Doubles& vector, std::size_t count)
 {
   if (count >= width)
@@ -163,7 +165,7 @@ std::size_t addCurvature(
   Columns columns(room, count);
   const Segments segments = segmentsOf(fibre, columns);
   const double* radii = radiiOf(fibre, columns);
-  // Of the bend at each control point.
+  // Per bend, at its control point.
   const Vectors byU = takeVectors(columns);
   const Vectors byW = takeVectors(columns);
   double* byRadius = columns.take();
@@ -206,7 +208,7 @@ std::size_t addCurvature(
     store(stiffnessBefore + i, 4.0 * curvature / squaredU);
     store(stiffness + i, 4.0 * curvature * inverse * 4.0);
     store(stiffnessAfter + i, 4.0 * curvature / squaredW);
-    // Rounded as by FibreCosts::addBendLimit.
+    // Rounded as in FibreCosts::addBendLimit.
     store(limitedCosine + i, product * (1.0 / squareRoot(dot(u, u) * dot(w, w))));
   }
   const auto end = static_cast<std::ptrdiff_t>(count);
@@ -257,7 +259,7 @@ void addLength(const FibreColumns& fibre, double weight, double& total, const Fi
   Columns columns(room, count);
   const Segments segments = segmentsOf(fibre, columns);
   const double* radii = radiiOf(fibre, columns);
-  // Of each segment.
+  // Per segment.
   const Vectors pull = takeVectors(columns);
   double* byFirstRadius = columns.take();
   double* byLastRadius = columns.take();

@@ -12,11 +12,11 @@ namespace cactus
 /// One fibre, and what its costs compare it with (see FibreCosts). All are indexed by control point.
 struct FibreColumns
 {
-  std::size_t count;              ///< of its control points, at least 2
-  const double* points;           ///< x, y and z of one after the other
+  std::size_t count;              ///< number of its control points, at least 2
+  const double* points;           ///< x, y and z of one point after the other
   const double* radii;            ///< at each
-  const double* referenceLengths; ///< of the segment that starts there
-  const float* smallestCosines;   ///< of the bend there, of those that have one
+  const double* referenceLengths; ///< per segment, at its first control point
+  const float* smallestCosines;   ///< limit of the bend at each inner control point
 };
 
 /// Where derivatives by its control points are added, as in FibreGradients.
@@ -27,10 +27,10 @@ struct FibreColumnGradients
   double* stiffness;
 };
 
-/// The terms of FibreCosts that all of a fibre's control points have.
+/// The terms of FibreCosts that apply to all control points of a fibre.
 struct FibreCostKernels
 {
-  /// What the kernels work with, for so many control points.
+  /// Size of the kernels' work space for that many control points.
   static constexpr std::size_t roomFor(std::size_t points) { return 23 * (points + 32); }
 
   /// Adds the cost of curvature. Writes to `sharp` the control points whose bends are sharper than is free to take, and returns

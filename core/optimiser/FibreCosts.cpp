@@ -17,10 +17,10 @@ namespace cactus
 namespace
 {
 
-/// Share of its length before optimisation below which a segment resists compression.
+/// Fraction of its length before optimisation below which a segment resists compression.
 constexpr double shortestSegment = 0.75;
 
-/// Smallest radius of curvature, relative to the fibre's radius, that a bend is free to take.
+/// Smallest radius of curvature, relative to the fibre's radius, that bends without cost.
 constexpr double sharpestBend = 1.2;
 
 } // namespace
@@ -45,8 +45,8 @@ FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, st
     }
     for (std::size_t i = fibres.offsets[f] + 1; i + 1 < fibres.offsets[f + 1]; ++i)
     {
-      // Two segments of length ℓ at the angle θ touch a circle of radius ℓ / (2 sin(θ/2)) in their three points. Never more than
-      // a right angle, and never less than there was.
+      // Two segments of length ℓ at the angle θ touch a circle of radius ℓ / (2 sin(θ/2)) in their three points. The angle is at
+      // most a right one, and at least the initial one.
       const double length = shortestSegment * std::min(this->ReferenceLength[i - 1], this->ReferenceLength[i]);
       const double sine = std::min(length / (2.0 * sharpestBend * fibres.radii[i]), std::sqrt(0.5));
       const Eigen::Vector3d u = (fibres.points[i] - fibres.points[i - 1]).normalized();
@@ -94,7 +94,7 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
   return totals;
 }
 
-/// Adds what the limit of the bend at a control point takes.
+/// Adds the limit of the bend at a control point.
 void FibreCosts::addBendLimit(const Fibres& fibres, std::size_t i, FibreCostTotals& totals, const FibreGradients& gradients) const
 {
   const auto& x = fibres.points;
@@ -118,7 +118,7 @@ void FibreCosts::addBendLimit(const Fibres& fibres, std::size_t i, FibreCostTota
   gradients.byPoint[i - 1] -= byU;
   gradients.byPoint[i] += byU - byW;
   gradients.byPoint[i + 1] += byW;
-  // An end point changes the cosine by at most 1/ℓ per unit of displacement; twice that for what the three do together.
+  // An end point changes the cosine by at most 1/ℓ per unit of displacement; twice that for all three together.
   gradients.stiffness[i - 1] += 4.0 * scale / squaredU;
   gradients.stiffness[i] += 4.0 * scale * (1.0 / squaredU + 1.0 / squaredW + 2.0 * inverse);
   gradients.stiffness[i + 1] += 4.0 * scale / squaredW;

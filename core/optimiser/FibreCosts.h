@@ -30,35 +30,34 @@ struct FibreCostTotals
   double compactness = 0.0;
 };
 
-/// Where the terms add their derivatives, indexed by control point.
+/// The arrays to which the terms add their derivatives, indexed by control point.
 struct FibreGradients
 {
   std::vector<Eigen::Vector3d>& byPoint;
   std::vector<double>& byRadius;
-  std::vector<double>& stiffness; ///< a diagonal that bounds the curvature of the cost
+  std::vector<double>& stiffness; ///< diagonal that bounds the curvature of the cost
 };
 
-/// The terms that involve one fibre alone (the paper names them; its supplement, which defines them, is not published with it):
+/// The terms that involve one fibre alone (the paper names them; the supplement that defines them is not published):
 ///  - curvature, per triple of control points: 3 / (r1 + r2 + r3) · (1 − cos θ)², θ the angle between the two segments;
 ///  - length, per segment: k/2 · max(0, ℓ − L)², k = 20 / (1/r1 + 1/r2), L the segment's length before optimisation;
 ///  - radius, per control point: (r − r_target)²;
-///  - compactness, per control point: ½ ℓ² e², e how far the fibre's surface leaves its bundle's cuboid sideways, ℓ the mean
-///  length of the segments at the point (it replaces an attraction to the axis, which would compress the core of a bundle that is
-///  already dense); and per fibre 50 L1² |c − C|², c its chord from end to end, C that before optimisation, L1 its first
-///  segment's length.
-/// Two limits do not fade, since a fibre that folds up finds no way out: they belong to curvature and length, and share their
+///  - compactness, per control point: ½ ℓ² e², e the distance by which the fibre's surface leaves its bundle's cuboid sideways, ℓ
+///    the mean length of the segments at the point (it replaces an attraction to the axis, which would compress the core of an
+///    already dense bundle); and per fibre 50 L1² |c − C|², c its chord from end to end, C that before optimisation, L1 its first
+///    segment's length.
+/// Two limits do not fade, since a fibre that folds up cannot unfold: they belong to curvature and length, and share their
 /// weights.
 ///  - bends, per triple: ¼ (L1 L2)² · max(0, cos θ_max − cos θ)², θ_max the angle at which the radius of curvature is 1.2 fibre
-///  radii (at most 90°);
+///    radii (at most 90°);
 ///  - compression, per segment: ½ L² · max(0, ¾ L − ℓ)².
-/// Each adds weight × its exact gradient, and what bounds its curvature, to the control points of one fibre; no others are
-/// touched.
+/// Each adds weight × its exact gradient, and a bound on its curvature, to the control points of one fibre only.
 class FibreCosts
 {
 public:
-  /// Takes reference lengths, target radii and cuboids from the fibres as they come in.
+  /// Takes reference lengths, target radii and cuboids from the input fibres.
   FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, double packingLimit);
-  /// The same for some of the fibres, with their cuboids, which depend on all.
+  /// Does the same for some of the fibres, with their cuboids, which depend on all.
   FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, std::vector<BundleBox> boxes);
 
   /// Adds the derivatives of fibre f's costs, and returns the costs. `relaxation` scales curvature, length and compactness, but
@@ -77,10 +76,10 @@ private:
     const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
 
   FibreCostWeights Weights;
-  std::vector<double> ReferenceLength; ///< of the segment that starts at a control point
-  std::vector<float> SmallestCosine;   ///< of the bend at a control point, below which it is too sharp
+  std::vector<double> ReferenceLength; ///< per segment, at its first control point
+  std::vector<float> SmallestCosine;   ///< of the bend at a control point; below it the bend is too sharp
   std::vector<double> ReferenceRadius;
-  std::vector<Eigen::Vector3d> ReferenceChord; ///< from the first control point of a fibre to its last
+  std::vector<Eigen::Vector3d> ReferenceChord; ///< from a fibre's first control point to its last
   std::vector<BundleBox> Boxes;
 };
 

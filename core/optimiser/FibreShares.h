@@ -12,40 +12,40 @@
 namespace cactus
 {
 
-/// Which of the fibres each process moves: consecutive ones, whole, and about as many capsules in each process. Which these are
-/// depends on the fibres and the number of processes alone, so that all processes know it of all.
+/// The assignment of fibres to processes: contiguous ranges of whole fibres, with about as many capsules in each process. It
+/// depends only on the fibres and the number of processes, so all processes know the ranges of all.
 class FibreShares
 {
 public:
-  /// All fibres, which are the same in every process; `sharing` has to outlive the object. Throws InvalidInput where there are
-  /// more control points than 32 bits count.
+  /// Assigns all fibres, which are the same in every process; `sharing` has to outlive the object. Throws InvalidInput if there
+  /// are more control points than 32 bits can count.
   FibreShares(const Fibres& fibres, const Sharing& sharing);
-  /// The same fibres with fewer control points: each process has those that it has in `alike`.
+  /// Assigns the same fibres with fewer control points: each process has those that it has in `alike`.
   FibreShares(const Fibres& coarser, const FibreShares& alike);
 
   const Sharing& sharing() const { return this->Processes; }
   int place() const { return this->Processes.place(); }
   std::size_t processes() const { return this->FibreBegin.size() - 1; }
 
-  /// Of all processes.
+  /// Totals over all processes.
   std::size_t fibreCount() const { return this->FibreBegin.back(); }
   std::size_t pointCount() const { return this->PointBegin.back(); }
   std::size_t capsuleCount() const { return this->capsuleBegin(this->processes()); }
   const std::vector<int>& fibreIds() const { return this->FibreIds; }
 
-  /// The first fibre, control point and capsule of a process; those behind the last of all for processes().
+  /// Return the first fibre, control point and capsule of a process; for processes(), one past the last of all.
   std::size_t fibreBegin(std::size_t process) const { return this->FibreBegin[process]; }
   std::size_t pointBegin(std::size_t process) const { return this->PointBegin[process]; }
   std::size_t capsuleBegin(std::size_t process) const { return this->PointBegin[process] - this->FibreBegin[process]; }
 
-  /// Those of this process.
+  /// Return those of this process.
   std::size_t ownFibre() const { return this->fibreBegin(this->self()); }
   std::size_t ownCapsule() const { return this->capsuleBegin(this->self()); }
 
-  /// This process's fibres, by themselves.
+  /// Returns this process's fibres.
   Fibres own(Fibres all) const;
 
-  /// What each process has of a thing that every fibre has.
+  /// Returns this process's part of an array with one value per fibre.
   template <typename Value>
   std::vector<Value> ownOf(std::vector<Value> perFibre) const
   {

@@ -20,7 +20,7 @@ namespace cactus
 namespace
 {
 
-/// Room for the columns of capsules near a run.
+/// Memory for the columns of capsules near a run.
 class NearCapsules
 {
 public:
@@ -41,8 +41,8 @@ private:
   std::vector<float> Numbers;
 };
 
-/// Counts the pairs that all threads find, and ends the search once they could not be held: where very many fibres lie in one
-/// place, pairs grow with the square of the fibres' number.
+/// Counts the pairs that all threads find, and ends the search once they would not fit into memory: if very many fibres lie in
+/// one place, pairs grow with the square of the number of fibres.
 class PairLimit
 {
 public:
@@ -61,13 +61,13 @@ public:
   }
 
 private:
-  /// As it is found, with room for as much again, and joined.
+  /// Found pairs with their spare capacity, and the joined list.
   static constexpr std::size_t bytesPerPair = 4 * sizeof(std::uint32_t);
   const std::size_t Most;
   std::atomic<std::size_t> Found{ 0 };
 };
 
-/// What a search goes by.
+/// The input of a search.
 struct SearchedRuns
 {
   const Capsules& capsules;
@@ -87,7 +87,7 @@ public:
   {
   }
 
-  /// counts[l] becomes the number of neighbours of the run's l-th capsule.
+  /// Sets counts[l] to the number of neighbours of the run's l-th capsule.
   void find(std::size_t run, std::size_t* counts)
   {
     const std::size_t count = this->collect(run);
@@ -118,7 +118,7 @@ public:
     }
   }
 
-  /// What all runs since the last time have found, one after the other.
+  /// Returns the neighbours of all runs since the last call, one after the other.
   std::vector<std::uint32_t> take()
   {
     const auto begin = this->Room.begin();
@@ -135,7 +135,7 @@ private:
     return columns;
   }
 
-  /// Puts the capsules of other fibres whose boxes overlap the run's in increasing order into Candidates, and returns their
+  /// Puts the capsules of other fibres whose boxes overlap the run's into Candidates, in increasing order, and returns their
   /// number.
   std::size_t collect(std::size_t run)
   {
@@ -172,11 +172,11 @@ private:
     return taken;
   }
 
-  /// Puts the first `count` of Others in increasing order into Sorted.
+  /// Sorts the first `count` of Others into Sorted.
   void sortRuns(std::size_t count)
   {
     this->Sorted.resize(this->Others.size());
-    constexpr std::size_t few = 128; // beyond that the square of the count is what takes longer
+    constexpr std::size_t few = 128; // beyond that, quadratic sorting takes longer
     if (count <= few)
     {
       this->Kernels.sortKeys(this->Others.data(), count, this->Sorted.data());
@@ -187,7 +187,7 @@ private:
     this->Others.swap(this->Sorted);
   }
 
-  /// The runs of the run's fibre.
+  /// Finds the runs of the run's fibre.
   void findFibre(std::size_t run)
   {
     if (this->FibreBegin <= run && run < this->FibreEnd)
@@ -216,7 +216,7 @@ private:
   std::vector<std::uint32_t> Candidates; ///< capsules
   NearCapsules Near;
   NearCapsules Own;
-  std::vector<std::uint32_t> Room; ///< what has been found, and room for more
+  std::vector<std::uint32_t> Room; ///< neighbours found, and spare room
   std::size_t Size = 0;
 };
 
@@ -227,7 +227,7 @@ struct RunRange
   std::size_t end;
 };
 
-/// The runs of some capsules, which are whole fibres.
+/// Returns the runs of some capsules, which are whole fibres.
 RunRange runsOf(const CapsuleRuns& runs, const CapsuleRange& capsules)
 {
   const auto runAt = [&](std::size_t capsule) {
@@ -236,8 +236,8 @@ RunRange runsOf(const CapsuleRuns& runs, const CapsuleRange& capsules)
   return { runAt(capsules.begin), runAt(capsules.end) };
 }
 
-/// Searches for the neighbours of the capsules of some runs. counts[l] becomes their number for the l-th of these capsules;
-/// returned are the neighbours themselves, per block of runs.
+/// Searches for the neighbours of the capsules of some runs. Sets counts[l] to their number for the l-th of these capsules, and
+/// returns the neighbours per block of runs.
 std::vector<std::vector<std::uint32_t>> searchAll(const Capsules& capsules, const std::vector<float>& reach,
   const CapsuleRuns& runs, const RunRange& of, int threads, std::size_t* counts)
 {
@@ -277,7 +277,7 @@ void findNeighbours(
     return;
   }
   std::vector<std::vector<std::uint32_t>> found;
-  std::vector<std::size_t> firstOfBlock; // of the capsules that were asked for
+  std::vector<std::size_t> firstOfBlock; // index among the capsules `of`
   {
     const CapsuleRuns runs(capsules, reach, threads);
     const RunRange range = runsOf(runs, of);
@@ -290,7 +290,7 @@ void findNeighbours(
   std::partial_sum(list.offsets.begin(), list.offsets.end(), list.offsets.begin());
   if (list.indices.capacity() < list.offsets[count])
   {
-    std::vector<std::uint32_t>().swap(list.indices); // nothing in it is worth copying
+    std::vector<std::uint32_t>().swap(list.indices); // the old content need not be copied
   }
   list.indices.resize(list.offsets[count]);
   parallelForInBlocks(found.size(), 1, threads,

@@ -11,7 +11,8 @@ namespace cactus
 namespace
 {
 
-/// What the result depends on: the fibres that come in and all parameters except those that only say when to stop.
+/// Returns a fingerprint of everything that the result depends on: the input fibres and all parameters except those that only say
+/// when to stop.
 std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
 {
   Fingerprint print;
@@ -61,7 +62,7 @@ OptimisationCheckpoints::OptimisationCheckpoints(
     {
       this->Level = OptimisationRun::levelOf(this->Path, this->Print);
     }
-    // Goes away again unless it is committed.
+    // Removed again unless it is committed.
     const CheckpointWriter attempt(this->Path, { this->Print, 0 });
   }
   ByteWriter reached;
@@ -73,7 +74,7 @@ OptimisationCheckpoints::OptimisationCheckpoints(
   this->Level = get.get<std::uint8_t>() == OptimisationRun::Coarse ? OptimisationRun::Coarse : OptimisationRun::Fine;
 }
 
-/// Processes that were given different runs could not go through them together.
+/// Throws unless all processes were given the same run.
 void OptimisationCheckpoints::requireAlike(const CapsuleOptimizerOptions& options) const
 {
   ByteWriter mine;

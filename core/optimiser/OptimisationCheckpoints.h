@@ -11,30 +11,30 @@
 namespace cactus
 {
 
-/// The file in which a run is written down every now and then, and what was in it before. Where processes share the run, the
-/// first has the file, and throws what is said here; all come to each call.
+/// The checkpoint file of a run. If processes share the run, the first has the file and throws its errors; all calls are
+/// collective.
 class OptimisationCheckpoints
 {
 public:
-  /// Throws where the file is there and not a checkpoint of this run, and where it cannot be written.
+  /// Throws if the file exists and is not a checkpoint of this run, or if it cannot be written.
   OptimisationCheckpoints(const Fibres& fibres, const CapsuleOptimizerOptions& options, const Sharing& sharing);
 
-  /// Whether there was a checkpoint of this run.
+  /// Tells whether there was a checkpoint of this run.
   bool found() const { return this->Reached >= 0; }
 
-  /// On which level the run was that is in it.
+  /// Returns the level of the run in the checkpoint.
   OptimisationRun::Level level() const { return this->Level; }
 
-  /// Precondition: the run is on that level.
+  /// Loads the checkpoint. Precondition: the run is on its level.
   void load(OptimisationRun& run) const;
 
   bool due() const; ///< by the clock of the first process
 
-  /// Writes the run down, unless what is there has come further (the same run, from the beginning once more). That a later
-  /// checkpoint cannot be written is no reason to give up a long run: it is noted, see failure().
+  /// Writes the run, unless the existing checkpoint has come further (the same run, once more from the beginning). If a later
+  /// checkpoint cannot be written, a long run continues; see failure().
   void write(const OptimisationRun& run);
 
-  /// Why the last checkpoint could not be written; empty where it could.
+  /// Returns why the last checkpoint could not be written; empty on success.
   const std::string& failure() const { return this->Failure; }
 
 private:
@@ -47,7 +47,7 @@ private:
   double Interval;
   Clock::time_point Latest;
   std::uint64_t Print = 0;
-  std::int64_t Reached = -1; ///< iteration of the checkpoint that was there; −1 for none
+  std::int64_t Reached = -1; ///< iteration of the checkpoint that was found; −1 for none
   OptimisationRun::Level Level = OptimisationRun::Fine;
   bool Written = false;
   std::string Failure;

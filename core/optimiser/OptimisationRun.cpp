@@ -14,7 +14,7 @@ namespace cactus
 namespace
 {
 
-/// One by one: a row as a whole has a gap.
+/// Visits the fields one by one: a row as a whole has padding.
 template <typename Row, typename Visitor>
 void visit(Row& row, Visitor&& visitor)
 {
@@ -115,7 +115,7 @@ void OptimisationRun::load(const std::string& path, std::uint64_t fingerprint)
   file.finish();
 }
 
-/// What is the same in all processes.
+/// Reads the values that are the same in all processes.
 void OptimisationRun::loadNumbers(CheckpointReader& file, ByteWriter& put, Level expected)
 {
   std::uint8_t level = 0;

@@ -17,11 +17,11 @@
 namespace cactus
 {
 
-/// A descent and all that its caller knows of it: what a checkpoint holds. Where processes share it, each has the states of its
-/// own fibres, and all have the rest.
+/// The state of a run that a checkpoint holds: a descent, its convergence table and its best state. Processes that share it each
+/// have the states of their own fibres; the rest is the same in all.
 struct OptimisationRun
 {
-  /// Whether the fibres are those asked for, or have fewer control points.
+  /// Whether the fibres have all their control points, or fewer.
   enum Level : std::uint8_t
   {
     Fine,
@@ -32,16 +32,16 @@ struct OptimisationRun
   OptimisationRun(Level level, Fibres& fibres, const FibreShares& shares, std::vector<BundleBox> boxes,
     const CapsuleOptimizerOptions& options, int threads);
 
-  /// Goes on from where `coarse` has come, with the table that it has made.
+  /// Continues from `coarse`, with its table.
   void takeOver(OptimisationRun& coarse, const CoarseFibres& fewer);
 
-  /// Notes the state that was just measured.
+  /// Records the state that was just measured.
   void note(const ConvergenceRow& row, double tolerance);
 
-  /// The level of the run in a file.
+  /// Returns the level of the run in a file.
   static Level levelOf(const std::string& path, std::uint64_t fingerprint);
 
-  /// Throws FileError, and InvalidInput where another run's checkpoint is at `path`; in the first process, which has the file.
+  /// Throws FileError, and InvalidInput if another run's checkpoint is at `path`; in the first process, which has the file.
   void save(const std::string& path, std::uint64_t fingerprint) const;
   void load(const std::string& path, std::uint64_t fingerprint);
 

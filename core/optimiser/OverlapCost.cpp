@@ -16,14 +16,15 @@ namespace cactus
 namespace
 {
 
-/// Capsules whose costs are summed before they are added to the others.
+/// The number of capsules whose costs are summed before they are added to the others.
 constexpr std::size_t blockSize = 1024;
 
-/// Axes count as meeting where their distance is less than this share of the sum of the radii.
+/// Axes count as meeting if their distance is less than this fraction of the sum of the radii.
 constexpr double meeting = 1e-9;
 
-/// The direction (a unit vector) in which the axis u of one fibre leaves the axis v of another that it meets: across both, and
-/// towards the place that belongs to it. The opposite for the other fibre, and the same wherever the two meet at a like angle.
+/// Returns the direction (a unit vector) in which the axis u of one fibre leaves the axis v of another that it meets: across
+/// both, and towards its own place (see Capsules). The other fibre gets the opposite; the direction is the same wherever the two
+/// meet at a similar angle.
 Eigen::Vector3d partingDirection(
   const Eigen::Vector3d& u, const Eigen::Vector3d& v, const Eigen::Vector3d& place, const Eigen::Vector3d& otherPlace)
 {
@@ -34,7 +35,7 @@ Eigen::Vector3d partingDirection(
   {
     return across.dot(wish) < 0.0 ? Eigen::Vector3d(-across.normalized()) : Eigen::Vector3d(across.normalized());
   }
-  // The same from either side.
+  // Symmetric in the two fibres.
   const bool first = place.x() < otherPlace.x();
   const Eigen::Vector3d along = (first ? u : v).normalized();
   const Eigen::Vector3d sideways = wish - wish.dot(along) * along;
@@ -46,9 +47,9 @@ Eigen::Vector3d partingDirection(
   return first ? any : Eigen::Vector3d(-any);
 }
 
-/// Adds to the gradient of capsule k what it lacks where its axis meets those of others, and the cost, which is largest there,
-/// has no gradient: the push that they would have a little apart, in a direction chosen from the fibres' ids, so that it depends
-/// neither on the order of the fibres nor on threads.
+/// Adds the missing gradient of capsule k where its axis meets those of others: there the cost is largest and has no gradient. It
+/// is the push of fibres a little apart, in a direction chosen from the fibres' ids, so that it depends neither on the order of
+/// the fibres nor on threads.
 void partCoincident(const Capsules& capsules, std::size_t k, const std::uint32_t* neighbours, std::size_t count, double margin,
   CapsuleOverlap& result)
 {
@@ -69,7 +70,7 @@ void partCoincident(const Capsules& capsules, std::size_t k, const std::uint32_t
     const Eigen::Vector3d apart = vector(p.p0) + pair.s * u - vector(q.p0) - pair.t * v;
     const Eigen::Vector3d direction =
       partingDirection(u, v, capsules.places[capsules.fibre[k]], capsules.places[capsules.fibre[neighbours[n]]]);
-    // A little apart in that direction, or its opposite, they part by themselves; apart along themselves they do not.
+    // Axes slightly apart in that direction, or its opposite, have a gradient of their own; axes apart along themselves do not.
     constexpr double noise = 1e-12;
     if (pair.distance > noise && std::abs(apart.dot(direction)) > 0.5 * pair.distance)
     {
@@ -84,7 +85,7 @@ void partCoincident(const Capsules& capsules, std::size_t k, const std::uint32_t
   }
 }
 
-/// Room for what the kernel works with.
+/// Work space of the kernel.
 class KernelRoom
 {
 public:
@@ -121,7 +122,7 @@ OverlapParts evaluateOverlap(const Capsules& capsules, const CapsuleRange& of, s
   const ListedCapsules listed = { capsules.bodies.data(), rough.data(), of.begin, neighbours.offsets.data(),
     neighbours.indices.data(), neighbours.indices.size() };
   result.resize(of.size());
-  // Blocks are those of all capsules, of which the first may be entered in its midst.
+  // Blocks are those of all capsules; the first may be entered in the middle.
   const std::size_t skipped = place % blockSize;
   const std::size_t end = skipped + of.size();
   std::vector<OverlapTotals> partial((end + blockSize - 1) / blockSize);

@@ -12,7 +12,7 @@
 namespace cactus
 {
 
-/// Sums over all capsules, taken in a fixed order.
+/// Sums over all capsules, in a fixed order.
 struct OverlapTotals
 {
   double cost = 0.0;
@@ -20,17 +20,17 @@ struct OverlapTotals
   std::size_t overlappingPairs = 0;
 };
 
-/// Overlap cost (paper, overlapping cost function): Σ over pairs of D²·|p0 − p1|·|q0 − q1|·rp·rq for D > 0, with D = margin −
-/// d/(rp + rq) and rp, rq interpolated at the closest points; margin 1 is the paper's form, a little more lets a descent end
-/// strictly apart. The gradient is exact: it includes how the closest points slide where the radius varies along a capsule. Only
-/// where two axes meet, so that the cost is at its peak, it is instead that of fibres a little apart, in a direction chosen from
-/// their ids, without which they would never part. Each capsule gathers its own part from its neighbours, so the result has the
-/// same bits on any number of threads.
+/// Evaluates the overlap cost (paper, overlapping cost function): Σ over pairs of D²·|p0 − p1|·|q0 − q1|·rp·rq for D > 0, with D
+/// = margin − d/(rp + rq) and rp, rq interpolated at the closest points. Margin 1 is the paper's form; a slightly larger one lets
+/// a descent end strictly apart. The gradient is exact: it includes how the closest points slide if the radius varies along a
+/// capsule. Only where two axes meet, at the peak of the cost, it is replaced by that of fibres a little apart, in a direction
+/// chosen from their ids; without it they would never part. Each capsule gathers its own part from its neighbours, so the result
+/// has the same bits on any number of threads.
 OverlapTotals evaluateOverlap(const Capsules& capsules, const NeighbourList& neighbours, double margin, double tolerance,
   int threads, std::vector<CapsuleOverlap>& result);
 
-/// Sums over some consecutive capsules, from which those over all follow to the last bit, however these are parted: costs are
-/// summed by blocks of capsules, and what has no whole block is kept capsule by capsule.
+/// Sums over consecutive capsules, from which the sums over all follow exactly, however the capsules are divided: costs are
+/// summed by blocks of capsules, and those outside whole blocks are kept per capsule.
 struct OverlapParts
 {
   std::vector<double> before; ///< costs of the capsules before the first whole block
@@ -42,12 +42,12 @@ struct OverlapParts
 
 bool isAnyTapered(const Capsules& capsules, const CapsuleRange& of);
 
-/// The same for the capsules `of` alone, whose lists begin with neighbours.offsets[0] and whose results with result[0]. `place`:
-/// the number of the first of them among the capsules of all processes. `rough` need not hold anything: its memory is used.
+/// Does the same for the capsules `of` only, whose lists begin with neighbours.offsets[0] and whose results with result[0].
+/// `place`: the index of the first of them among the capsules of all processes. `rough` is work space.
 OverlapParts evaluateOverlap(const Capsules& capsules, const CapsuleRange& of, std::size_t place, const NeighbourList& neighbours,
   const OverlapTerms& terms, int threads, std::vector<RoughCapsule>& rough, std::vector<CapsuleOverlap>& result);
 
-/// Adds up the parts, the first capsules first.
+/// Sums the parts; add those of the first capsules first.
 class OverlapSum
 {
 public:
@@ -58,7 +58,7 @@ private:
   void addCapsules(const std::vector<double>& costs);
 
   OverlapTotals Sum;
-  double Block = 0.0; ///< what there is of a block
+  double Block = 0.0; ///< the part of a block that was added
   std::size_t InBlock = 0;
 };
 

@@ -12,11 +12,11 @@ namespace cactus
 namespace
 {
 
-/// Neighbours that touch are summed in this many lanes, in one vector or in several: the n-th in the lane n % lanes.
+/// Touching neighbours are summed in this many lanes, in one vector or in several: the n-th in the lane n % lanes.
 constexpr int lanes = 8;
 constexpr int vectors = lanes / width;
 
-/// What neighbours contribute to a capsule, in the order that CapsuleOverlap has.
+/// The sums over neighbours, in the order of CapsuleOverlap.
 enum Number
 {
   Gradient0,
@@ -26,11 +26,11 @@ enum Number
   Stiffness0,
   Stiffness1,
   Cost,
-  Overlapping, ///< how many
+  Overlapping, ///< number of overlapping neighbours
   Numbers
 };
 
-/// Their sums lane by lane, and the largest penetrations.
+/// The sums lane by lane, and the largest penetrations.
 struct LaneSums
 {
   Doubles of[Numbers][vectors];
@@ -60,7 +60,7 @@ void roughen(const Capsule* bodies, std::size_t count, RoughCapsule* rough)
   }
 }
 
-/// What is needed again and again of the capsules that are taken at once, which others are compared with.
+/// Precomputed values of the capsules that are processed at once.
 struct Subjects
 {
   static constexpr std::size_t most = OverlapKernels::together;
@@ -68,7 +68,7 @@ struct Subjects
   alignas(64) float roughU[3][most];
   alignas(64) float roughSquared[most];
   alignas(64) float roughInverse[most];
-  alignas(64) float reach[most]; ///< radius, margin included, and what rounding takes
+  alignas(64) float reach[most]; ///< radius, with the margin and a bound on rounding
   // In double precision.
   alignas(64) double u[3][most];    ///< along it
   alignas(64) double squared[most]; ///< u·u
@@ -101,8 +101,8 @@ CACTUS_KERNEL_INLINE void prepareRough(const RoughCapsule* bodies, std::size_t c
     }
     store(subjects.roughSquared + k, squared);
     store(subjects.roughInverse + k, 1.0f / squared);
-    // Coordinates are rounded by 2⁻²⁴ of themselves, which brings the axes of both apart by less than this; those of a neighbour
-    // may be larger by no more than what the bound in selectTouching allows for.
+    // Coordinates are rounded by 2⁻²⁴ of themselves, which changes the distance of two axes by less than this; a neighbour's
+    // coordinates are larger by no more than the bound in selectTouching allows.
     const Floats rounding = 3e-7f * farthest;
     store(subjects.reach + k, static_cast<float>(margin) * (tapered ? larger(p[3], p[7]) : p[3]) + rounding);
   }
@@ -134,8 +134,8 @@ CACTUS_KERNEL_INLINE void prepare(const Capsule* bodies, std::size_t count, Subj
   }
 }
 
-/// Writes to `found` those neighbours of the k-th capsule that may touch it, in their order, and returns the end of what it
-/// wrote: all that do, and of the others next to none. `subject`: its place among the subjects.
+/// Writes to `found` those neighbours of the k-th capsule that may touch it, in their order, and returns the end of the output:
+/// all that touch, and hardly any others. `subject`: its index among the subjects.
 template <bool tapered>
 CACTUS_KERNEL_INLINE std::uint32_t* selectTouching(const ListedCapsules& capsules, std::size_t k, const Subjects& subjects,
   std::size_t subject, double margin, std::uint32_t* found)
@@ -154,7 +154,7 @@ CACTUS_KERNEL_INLINE std::uint32_t* selectTouching(const ListedCapsules& capsule
   const std::size_t end = capsules.offsets[k + 1];
   for (std::size_t n = capsules.offsets[k]; n < end; n += floats)
   {
-    // What follows is of the next capsule, and left out in the end.
+    // Entries beyond the list belong to the next capsule, and are dropped in the end.
     constexpr std::size_t ahead = 64;
     const std::uint32_t* indices = capsules.neighbours + n;
     std::uint32_t last[floats];
@@ -166,7 +166,7 @@ CACTUS_KERNEL_INLINE std::uint32_t* selectTouching(const ListedCapsules& capsule
       }
       indices = last;
     }
-    const std::uint32_t* next = capsules.neighbours + n + ahead; // on their way from memory
+    const std::uint32_t* next = capsules.neighbours + n + ahead; // prefetched from memory
     if (next + floats < capsules.neighbours + capsules.neighbourCount)
     {
       for (int l = 0; l < floats; ++l)
@@ -201,14 +201,14 @@ CACTUS_KERNEL_INLINE std::uint32_t* selectTouching(const ListedCapsules& capsule
       squared += w * w;
     }
     const Floats limit = reach + narrowMargin * (tapered ? larger(q[3], q[7]) : q[3]);
-    // Twice what squared may be too large by. Written so that it holds for NaN.
+    // The slack is twice the largest error of `squared`. Written so that it holds for NaN.
     const FloatMask near = ~(squared >= limit * limit + 2e-5f * (limit * limit + a + e));
     found = append(near, static_cast<int>(end - n < floats ? end - n : floats), indices, found);
   }
   return found;
 }
 
-/// A capsule that others are compared with.
+/// The capsule that neighbours are compared with.
 struct Subject
 {
   double p0[3];
@@ -218,7 +218,7 @@ struct Subject
   double length;
   double inverseLength;
   double r0;
-  double taper; ///< by how much the radius grows along it
+  double taper; ///< growth of the radius along it
 };
 
 CACTUS_KERNEL_INLINE Subject subjectOf(const Capsule& body, const Subjects& subjects, std::size_t k)
@@ -238,7 +238,7 @@ CACTUS_KERNEL_INLINE Subject subjectOf(const Capsule& body, const Subjects& subj
   return subject;
 }
 
-/// As many neighbours q of p as a vector holds, and where they come closest.
+/// A vector of neighbours q of p, and their closest points.
 struct ClosestPoints
 {
   Doubles v[3];    ///< along q
@@ -248,9 +248,9 @@ struct ClosestPoints
   Doubles s;       ///< p's closest point, from 0 to 1 along u
   Doubles t;       ///< q's, along v
   Doubles squared; ///< w·w
-  Doubles rp;      ///< radii there
+  Doubles rp;      ///< radii at the closest points
   Doubles rq;
-  Doubles taperQ; ///< by how much q's radius grows along v
+  Doubles taperQ; ///< growth of q's radius along v
 };
 
 template <bool tapered>
@@ -291,7 +291,7 @@ CACTUS_KERNEL_INLINE ClosestPoints closestPointsOf(const Subject& p, const Doubl
   return pair;
 }
 
-/// Calls visit for each number of the pairs that is needed after it is known that they touch.
+/// Calls visit for each number of the pairs that is needed after the touch test.
 template <bool tapered, typename Pair, typename Visit>
 CACTUS_KERNEL_INLINE void forEachNumber(Pair& pair, Visit&& visit)
 {
@@ -344,8 +344,9 @@ CACTUS_KERNEL_INLINE const double* read(const double* from, const Subject& p, Cl
   return from;
 }
 
-/// How the cost changes as the closest points slide, given how it changes with the radii there along p and q. The points satisfy
-/// a·s − b·t + c = 0 and −b·s + e·t − f = 0 (whichever is not clamped); the adjoint of that system gives the slide's share.
+/// Computes the change of the cost as the closest points slide, given its change with the radii there along p and q. The points
+/// satisfy a·s − b·t + c = 0 and −b·s + e·t − f = 0 (whichever is not clamped); the adjoint of that system gives the slide's
+/// share.
 CACTUS_KERNEL_INLINE void slide(
   const Subject& p, const ClosestPoints& pair, const Doubles& alongP, const Doubles& alongQ, Doubles& adjointS, Doubles& adjointT)
 {
@@ -361,7 +362,7 @@ CACTUS_KERNEL_INLINE void slide(
   adjointT = (pair.b * alongP + a * alongQ) * inverseDeterminant + select(tFree & ~sFree, alongQ / pair.e, zero);
 }
 
-/// Adds what as many touching pairs as a vector holds contribute to the v-th vector of the sums of p.
+/// Adds the contributions of a vector of touching pairs to the v-th vector of the sums of p.
 template <bool tapered>
 CACTUS_KERNEL_INLINE void addLanes(const Subject& p, const ClosestPoints& pair, const OverlapTerms& terms, int v, LaneSums& sums)
 {
@@ -378,7 +379,7 @@ CACTUS_KERNEL_INLINE void addLanes(const Subject& p, const ClosestPoints& pair, 
   const Doubles lengths = p.length * lengthQ;
   const Doubles scale = lengths * rp * rq;
   const Doubles byLength = D * D * lengthQ * rp * rq * p.inverseLength; // ∂F/∂|p0−p1| / |p0−p1|
-  // Where the axes meet there is no direction to part in: no push from here, see partCoincident().
+  // Where the axes meet there is no direction to part in: the push is zero here, see partCoincident().
   const Doubles push = -2.0 * D * scale * inverseSum / select(distance > 1e-12, distance, one);
   const Doubles byRp = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rq;
   const Doubles byRq = 2.0 * D * ratio * inverseSum * scale + D * D * lengths * rp;
@@ -411,7 +412,7 @@ CACTUS_KERNEL_INLINE void addLanes(const Subject& p, const ClosestPoints& pair, 
   sums.of[Overlapping][v] += select(deepest > terms.tolerance, one, zero);
 }
 
-/// The numbers of capsules that follow each other in a list.
+/// Loads the numbers of consecutive capsules of a list.
 CACTUS_KERNEL_INLINE void gather(const Capsule* bodies, const std::uint32_t* indices, Doubles (&q)[8])
 {
   const double* rows[width];
@@ -434,9 +435,9 @@ CACTUS_KERNEL_INLINE std::size_t remove(unsigned bits, std::uint32_t* numbers, s
   return left;
 }
 
-/// Writes down what is to be summed of the neighbours that touch, as many as a vector holds together, and behind them as many of
-/// others as fill it. Those `count` that may touch are given, and behind them are any numbers; the few that do not are removed,
-/// since sums must not depend on what else is in a list. Returns the end of what it wrote.
+/// Writes the numbers that are summed over touching neighbours, a vector of neighbours at a time, the last one padded with
+/// others. `touching` holds `count` neighbours that may touch, followed by any valid indices; the few that do not touch are
+/// removed, since sums must not depend on the rest of a list. Returns the end of the output.
 template <bool tapered>
 CACTUS_KERNEL_INLINE double* writeTouching(
   const Capsule* bodies, const Subject& p, std::uint32_t* touching, std::size_t count, const OverlapTerms& terms, double* to)
@@ -461,7 +462,7 @@ CACTUS_KERNEL_INLINE double* writeTouching(
       count = n + remove(apart, touching + n, count - n);
       continue;
     }
-    // What is too far away contributes nothing.
+    // A distant neighbour contributes nothing.
     pair.squared = select(isThere, pair.squared, zero + 1e12);
     to = write<tapered>(pair, to);
     n += width;
@@ -496,7 +497,7 @@ CACTUS_KERNEL_INLINE void sumTouching(
   result.overlapping = static_cast<std::size_t>(totals[Overlapping]);
 }
 
-/// In three steps, each for all capsules, so that no capsule has to wait for another one's numbers.
+/// Works in three steps, each for all capsules, so that no capsule waits for another one's numbers.
 template <bool tapered>
 CACTUS_KERNEL_INLINE void evaluateAll(const ListedCapsules& capsules, std::size_t begin, std::size_t end,
   const OverlapTerms& terms, const OverlapKernels::Room& room, CapsuleOverlap* results)
@@ -524,8 +525,8 @@ CACTUS_KERNEL_INLINE void evaluateAll(const ListedCapsules& capsules, std::size_
   }
 }
 
-/// Lists reach further than contact: most of what they hold contributes nothing. What may contribute is found in single
-/// precision, and only that is evaluated.
+/// Lists reach further than contact: most of their entries contribute nothing. The entries that may contribute are found in
+/// single precision, and only those are evaluated.
 void evaluateCapsules(const ListedCapsules& capsules, std::size_t begin, std::size_t end, const OverlapTerms& terms,
   const OverlapKernels::Room& room, CapsuleOverlap* results)
 {

@@ -11,7 +11,7 @@
 namespace cactus
 {
 
-/// A capsule in single precision, of which two fit into a cache line: enough to tell which ones are too far apart to touch.
+/// A capsule in single precision, two of which fit into a cache line: enough to tell which ones are too far apart to touch.
 struct alignas(32) RoughCapsule
 {
   float p0[3];
@@ -20,16 +20,15 @@ struct alignas(32) RoughCapsule
   float r1;
 };
 
-/// Capsules with lists of neighbours: bodies[first + k] has those from neighbours[offsets[k]] to before neighbours[offsets[k +
-/// 1]].
+/// Capsules with lists of neighbours: those of bodies[first + k] are neighbours[offsets[k]] … neighbours[offsets[k + 1] − 1].
 struct ListedCapsules
 {
   const Capsule* bodies;
-  const RoughCapsule* rough; ///< the same ones
+  const RoughCapsule* rough; ///< the same capsules
   std::size_t first;
   const std::size_t* offsets;
   const std::uint32_t* neighbours;
-  std::size_t neighbourCount; ///< of all lists
+  std::size_t neighbourCount; ///< total of all lists
 };
 
 /// How pairs are evaluated, see evaluateOverlap.
@@ -37,12 +36,11 @@ struct OverlapTerms
 {
   double margin = 1.0;
   double tolerance = 0.0;
-  /// Whether the radius of any capsule varies along it; where none does, either value gives the same result, and false gives it
-  /// sooner.
+  /// Whether the radius of any capsule varies along it; if none does, both values give the same result, and false is faster.
   bool tapered = true;
 };
 
-/// Aligned as vectors like it best.
+/// A 64-byte aligned vector of doubles.
 struct alignas(64) EightDoubles
 {
   double numbers[8];
@@ -51,13 +49,13 @@ struct alignas(64) EightDoubles
 /// The loop over pairs of capsules in which a descent spends most of its time.
 struct OverlapKernels
 {
-  /// Capsules that evaluateCapsules takes at once, at most: little enough for what it keeps of them to stay in the nearest cache.
+  /// Largest number of capsules that evaluateCapsules processes at once, so that its data on them stay in the first-level cache.
   static constexpr std::size_t together = 32;
 
-  /// What evaluateCapsules works with, for lists that hold so many neighbours.
+  /// Work space of evaluateCapsules, for lists with that many neighbours in total.
   struct Room
   {
-    /// All that is in it is the number of some body.
+    /// Every entry is a valid index of bodies.
     std::uint32_t* touching;
     EightDoubles* lanes;
     static constexpr std::size_t touchingFor(std::size_t neighbours) { return neighbours + 16; }
@@ -66,8 +64,8 @@ struct OverlapKernels
 
   void (*roughen)(const Capsule* bodies, std::size_t count, RoughCapsule* rough);
 
-  /// Half the cost and the whole gradient of the capsules with the lists begin … end − 1, see evaluateOverlap; the same bits
-  /// with and without neighbours that do not touch.
+  /// Computes half the cost and the whole gradient of the capsules with the lists begin … end − 1, see evaluateOverlap;
+  /// neighbours that do not touch change no bit.
   void (*evaluateCapsules)(const ListedCapsules& capsules, std::size_t begin, std::size_t end, const OverlapTerms& terms,
     const Room& room, CapsuleOverlap* results);
 };

@@ -10,19 +10,19 @@
 namespace cactus
 {
 
-/// How far the capsules of different fibres penetrate each other.
+/// How deep the capsules of different fibres penetrate each other.
 struct OverlapReport
 {
-  double largestPenetration = 0.0; ///< largest D = 1 − d/(rp + rq) (paper, overlapping cost function); 0 where nothing overlaps
-  std::size_t overlappingPairs = 0; ///< pairs with D above the tolerance asked for
-  std::vector<double> perPoint;     ///< largest D of the capsules at each control point; 0 where it touches nothing
+  double largestPenetration = 0.0;  ///< largest D = 1 − d/(rp + rq) (paper, overlapping cost function); 0 without overlap
+  std::size_t overlappingPairs = 0; ///< pairs with D above the tolerance
+  std::vector<double> perPoint;     ///< largest D of the capsules at each control point; 0 if it touches nothing
 };
 
 /// Measures every pair of capsules of different fibres with exact closest points. Tolerance: the D above which a pair counts.
 OverlapReport measureOverlap(const Fibres& fibres, double tolerance = 0.0, int threads = 0);
 
-/// The same, shared by processes, which all come here: `fibres` and the values per control point are this process's own, the
-/// numbers those of all.
+/// Does the same for processes that share the fibres. Collective: `fibres` and the values per control point are this process's
+/// own, the other results those of all.
 OverlapReport measureOverlap(const Fibres& fibres, const FibreShares& shares, double tolerance, int threads);
 
 } // namespace cactus

@@ -69,7 +69,7 @@ RunGridEntries::RunGridEntries(const std::vector<RunBox>& runs, const RunGrid& g
   this->fillBoxes(runs, grid, threads);
 }
 
-/// Leaves in Start the end of each cell.
+/// Sets Start to the end of each cell.
 void RunGridEntries::count(const std::vector<RunBox>& runs, const RunGrid& grid, int threads)
 {
   parallelForInBlocks(runs.size(), runsTogether, threads,
@@ -103,7 +103,7 @@ void RunGridEntries::allocate(std::size_t entries)
   std::fill_n(this->Cells.get() + entries, SearchKernels::padding, -1);
 }
 
-/// Fills each cell from its end towards its start, which is where Start then points.
+/// Fills each cell from its end towards its start; Start then holds the starts.
 void RunGridEntries::fillKeys(const std::vector<RunBox>& runs, const RunGrid& grid, int threads)
 {
   parallelForInBlocks(runs.size(), runsTogether, threads,

@@ -18,15 +18,15 @@ namespace cactus
 class RunGrid
 {
 public:
-  /// Cells half as large again as the mean box along each axis, and fewer of them than runs.
+  /// Makes cells 1.5 times as large as the mean box along each axis, and fewer of them than runs.
   explicit RunGrid(const std::vector<RunBox>& runs);
 
   std::size_t size() const { return this->index(this->Last.cast<int>()) + 1; }
 
-  /// Cells along x.
+  /// Returns the number of cells along x.
   std::size_t rowLength() const { return std::size_t(this->Last[0]) + 1; }
 
-  /// Increases with each coordinate, so that the cell of the larger of two coordinates is the larger of their cells.
+  /// Returns the cell of a position; it is monotonic in each coordinate.
   Eigen::Array4i cellOf(const Eigen::Array4f& position) const
   {
     const Eigen::Array4f cell = (position - this->Lower) * this->InverseSize;
@@ -39,10 +39,10 @@ public:
            (std::size_t(this->Last[0]) + 1) * (std::size_t(y) + (std::size_t(this->Last[1]) + 1) * std::size_t(z));
   }
 
-  /// What to look for in the rows of cells that the box reaches; the row itself is left to be filled in.
+  /// Returns the query for the rows of cells that the box touches; the caller fills in the row.
   BoxQuery queryOf(const RunBox& box) const;
 
-  /// visit(index) for every cell that the box reaches.
+  /// Calls visit(index) for every cell that the box touches.
   template <typename Visit>
   void forEachCell(const RunBox& box, Visit&& visit) const
   {
@@ -69,14 +69,15 @@ private:
   Eigen::Array4f Last = Eigen::Array4f::Zero(); ///< largest index along each axis
 };
 
-/// Which runs reach each cell of a grid, one column per number.
+/// The runs that touch each cell of a grid, one column per number.
 class RunGridEntries
 {
 public:
-  /// A counting sort. The order within a cell depends on the threads: sort what is taken from it. Throws OutOfMemory.
+  /// Fills the cells by a counting sort. The order within a cell depends on the threads: sort the runs taken from it. Throws
+  /// OutOfMemory.
   RunGridEntries(const std::vector<RunBox>& runs, const RunGrid& grid, int threads);
 
-  /// The entries of cell c are those from start(c) to before start(c + 1).
+  /// Returns the first entry of a cell: those of cell c are start(c) … start(c + 1) − 1.
   std::size_t start(std::size_t cell) const { return this->Start[cell]; }
 
   BoxColumns columns() const;
@@ -89,8 +90,8 @@ private:
 
   std::vector<std::size_t> Start;
   std::unique_ptr<float[]> Numbers[6];   ///< lower and upper corners of the boxes
-  std::unique_ptr<std::int32_t[]> Cells; ///< along x
-  std::unique_ptr<std::uint32_t[]> Keys; ///< numbers of the runs
+  std::unique_ptr<std::int32_t[]> Cells; ///< index along x
+  std::unique_ptr<std::uint32_t[]> Keys; ///< indices of the runs
 };
 
 } // namespace cactus

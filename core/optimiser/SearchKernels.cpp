@@ -10,8 +10,8 @@ namespace cactus
 namespace
 {
 
-/// Appends those capsules n … n + floats − 1 of the columns whose lane is set to what has been kept, up to the reach, and returns
-/// the new size; may write up to a vector beyond that.
+/// Appends those capsules n … n + floats − 1 of the columns whose lane is set to the kept ones, up to the reach, and returns the
+/// new size; may write up to a vector beyond it.
 template <std::size_t room>
 CACTUS_KERNEL_INLINE std::size_t keep(const FloatMask& mask, const NearColumns& near, const std::uint32_t* indices, std::size_t n,
   float (&kept)[7][room], std::uint32_t (&keptIndices)[room], std::size_t size)
@@ -100,7 +100,7 @@ void gatherNear(const Capsule* bodies, const float* reach, const std::uint32_t* 
   }
 }
 
-/// Which of the capsules n … n + floats − 1 of the columns have bounding balls that meet that of p: most candidates do not.
+/// Tells which of the capsules n … n + floats − 1 of the columns have bounding balls that meet that of p: most candidates do not.
 CACTUS_KERNEL_INLINE FloatMask ballsMeet(const NearColumns& near, std::size_t n, const float (&p)[NearColumns::count])
 {
   Floats q[4];
@@ -114,12 +114,12 @@ CACTUS_KERNEL_INLINE FloatMask ballsMeet(const NearColumns& near, std::size_t n,
     const Floats w = p[7 + axis] - q[axis];
     squared += w * w;
   }
-  // Ten times as generous as the exact test.
+  // The slack is ten times that of the exact test.
   const Floats limit = p[10] + q[3];
   return squared < 1.0001f * (limit * limit);
 }
 
-/// Which of the capsules q (their numbers up to the reach) are within reach of p.
+/// Tells which of the capsules q (their numbers up to the reach) are within reach of p.
 CACTUS_KERNEL_INLINE FloatMask areClose(const Floats (&q)[7], const float (&p)[NearColumns::count])
 {
   const Floats zero = {};
@@ -145,14 +145,14 @@ CACTUS_KERNEL_INLINE FloatMask areClose(const Floats (&q)[7], const float (&p)[N
     squared += w * w;
   }
   const Floats limit = p[6] + q[6];
-  // Twice what squared may be too large by.
+  // The slack is twice the largest error of `squared`.
   return squared < limit * limit + 2e-5f * (limit * limit + a + e);
 }
 
 std::uint32_t* selectNeighbours(const NearColumns& near, const std::uint32_t* indices, std::size_t count,
   const float (&p)[NearColumns::count], std::uint32_t* found)
 {
-  // Those whose balls meet move together, so that all lanes of the exact test have something to do.
+  // Candidates whose balls meet are compacted, so that the exact test has full vectors.
   constexpr std::size_t most = 256;
   float kept[7][most + floats];
   std::uint32_t keptIndices[most + floats];
@@ -194,7 +194,7 @@ std::uint32_t* selectBoxes(
       const Floats upper = load(columns.upper[axis] + n);
       const Floats from = zero + box.lower[axis];
       const Floats last = zero + box.last[axis];
-      // As RunGrid::cellOf.
+      // As in RunGrid::cellOf.
       const Floats common = lower > from ? lower : from;
       Floats cell = (common - box.origin[axis]) * box.inverseSize[axis];
       cell = cell > zero ? cell : zero;
@@ -210,7 +210,7 @@ std::uint32_t* selectBoxes(
 
 void sortKeys(const std::uint32_t* keys, std::size_t count, std::uint32_t* sorted)
 {
-  // A key goes to as many places behind the first as there are smaller ones.
+  // A key's rank is the number of smaller keys.
   for (std::size_t n = 0; n < count; n += floats)
   {
     FloatMask mine;

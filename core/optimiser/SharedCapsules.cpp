@@ -101,7 +101,7 @@ void SharedCapsules::findNeighbours(const Fibres& fibres, const std::vector<floa
   cactus::findNeighbours(this->All, this->Own, allReaches, threads, list);
 }
 
-/// Leaves the process's own capsules alone.
+/// Keeps only the process's own capsules.
 void SharedCapsules::dropOthers()
 {
   keep(this->All.bodies, this->Own);
@@ -115,7 +115,7 @@ void SharedCapsules::dropOthers()
   this->PointsBefore = 0;
 }
 
-/// What the others need for a search. Precondition: no capsules but the own ones are here.
+/// Returns the capsules that the other processes need for a search. Precondition: only the own capsules are here.
 std::vector<std::vector<SharedCapsules::Stretch>> SharedCapsules::stretchesNearOthers(
   const std::vector<float>& reach, int threads) const
 {
@@ -144,7 +144,7 @@ std::vector<std::vector<SharedCapsules::Stretch>> SharedCapsules::stretchesNearO
   return stretches;
 }
 
-/// The control points of stretches, and where asked for their radii.
+/// Writes the control points of stretches and, if asked, their radii.
 void SharedCapsules::putPoints(const Fibres& fibres, const std::vector<Stretch>& stretches, bool withRadii, ByteWriter& put) const
 {
   for (const Stretch& stretch : stretches)
@@ -183,8 +183,8 @@ void SharedCapsules::getPoints(const std::vector<Stretch>& stretches, bool withR
   }
 }
 
-/// Gives each process the stretches that are for it, and takes those of the others in. Returns the reaches of all().
-/// Precondition: no capsules but the own ones are here.
+/// Sends each process its stretches and receives those of the others. Returns the reaches of all(). Precondition: only the own
+/// capsules are here.
 std::vector<float> SharedCapsules::giveAway(
   const Fibres& fibres, std::vector<std::vector<Stretch>> stretches, const std::vector<float>& reach)
 {
@@ -210,7 +210,7 @@ std::vector<float> SharedCapsules::giveAway(
   return this->takeIn(this->Shares.sharing().deal(std::move(toEach)), fibres.points.size(), reach);
 }
 
-/// Takes in what each process has given.
+/// Inserts the received capsules.
 std::vector<float> SharedCapsules::takeIn(
   const std::vector<std::string>& found, std::size_t ownPoints, const std::vector<float>& reach)
 {
@@ -228,7 +228,7 @@ std::vector<float> SharedCapsules::takeIn(
     first += static_cast<std::uint32_t>(this->PointsBefore);
   }
   const std::size_t count = before.first.size() + this->Own.size() + behind.first.size();
-  this->All.bodies.reserve(count); // no more: they are most of what a process has of a capsule beside its neighbours
+  this->All.bodies.reserve(count); // no more: capsules are most of a process's memory apart from neighbours
   this->All.bodies.insert(this->All.bodies.begin(), before.first.size(), Capsule{});
   this->All.bodies.resize(count);
   surround(before.first, this->All.first, behind.first);
@@ -247,7 +247,7 @@ std::vector<float> SharedCapsules::takeIn(
   return reaches;
 }
 
-/// Reads all but the control points of what some processes have given, where the first capsule of these will be the `place`-th
+/// Reads the received capsules of some processes without their control points. The first of these capsules will be the `place`-th
 /// of all(), and its first control point the `point`-th.
 void SharedCapsules::readStretches(
   const CapsuleRange& processes, std::vector<ByteReader>& given, Others& others, std::size_t place, std::uint32_t point)

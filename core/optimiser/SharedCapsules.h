@@ -16,54 +16,53 @@
 namespace cactus
 {
 
-/// The capsules of this process's fibres, and beside them those of other processes' fibres that may touch them, as far as the
-/// last search for neighbours reached. All are in the order that they have in one process, so that lists of neighbours and the
-/// sums over them are the same there. One process has all, and tells nobody.
+/// The capsules of this process's fibres, and those of other processes' fibres that may touch them, as found in the last search
+/// for neighbours. All are in the order of a single process, so that lists of neighbours and their sums are the same. A single
+/// process has all and sends nothing.
 class SharedCapsules
 {
 public:
-  /// fibres: this process's own; `shares` has to outlive the object.
+  /// Makes the capsules of `fibres`, this process's own; `shares` has to outlive the object.
   SharedCapsules(const Fibres& fibres, const FibreShares& shares);
 
   const Capsules& all() const { return this->All; }
-  /// Where this process's own ones are in all().
+  /// Returns the range of this process's own capsules in all().
   const CapsuleRange& own() const { return this->Own; }
-  /// The first control point, among those of the process's own fibres, of the k-th of its own capsules.
+  /// Returns the first control point, among those of the process's own fibres, of the k-th of its own capsules.
   std::size_t pointOf(std::size_t k) const { return this->All.first[this->Own.begin + k] - this->PointsBefore; }
 
-  /// Takes over where a fibre's control points are now, and their radii.
+  /// Updates the positions and radii of a fibre's control points.
   void take(const Fibres& fibres, std::size_t f);
-  /// The same for all of them, after which what is known of other processes has to be found, or asked for, anew.
+  /// Does the same for all fibres; the capsules of other processes must then be found or updated anew.
   void takeAll(const Fibres& fibres);
 
-  // Every process has to come to the rest.
+  // The functions below are collective.
 
-  /// Finds the neighbours of the own capsules, and the capsules of other processes among them. reach: of each own capsule (see
-  /// findNeighbours).
+  /// Finds the neighbours of the own capsules, including those of other processes. reach: per own capsule (see findNeighbours).
   void findNeighbours(const Fibres& fibres, const std::vector<float>& reach, int threads, NeighbourList& list);
 
-  /// Takes over where the capsules of other processes are now. Returns whether the flag is set in any process.
+  /// Updates the positions of the capsules of other processes. Returns whether the flag is set in any process.
   bool update(const Fibres& fibres, bool withRadii, bool flag);
 
-  /// Sums over the capsules of all processes are the caller's to make of those over the own ones.
+  /// Evaluates the own capsules. The caller combines the parts of all processes.
   OverlapParts evaluate(
     const NeighbourList& neighbours, double margin, double tolerance, int threads, std::vector<CapsuleOverlap>& result);
 
 private:
-  /// Capsules that follow each other in a fibre.
+  /// Consecutive capsules of a fibre.
   struct Stretch
   {
-    std::size_t begin; ///< of those given away, among the process's own; of others, in all()
+    std::size_t begin; ///< of sent ones, among the process's own; of received ones, in all()
     std::size_t count;
   };
 
-  /// What other processes have given, but for its control points.
+  /// The capsules received from other processes, without their control points.
   struct Others
   {
-    std::vector<std::uint32_t> first; ///< of each capsule, as in Capsules
+    std::vector<std::uint32_t> first; ///< per capsule, as in Capsules
     std::vector<std::uint32_t> fibre;
     std::vector<float> reaches;
-    std::size_t points = 0; ///< their number
+    std::size_t points = 0; ///< number of control points
     bool isTapered = false;
   };
 
@@ -79,11 +78,11 @@ private:
 
   const FibreShares& Shares;
   Capsules All;
-  std::vector<RoughCapsule> Rough; ///< room for evaluate()
+  std::vector<RoughCapsule> Rough; ///< work space of evaluate()
   CapsuleRange Own;
-  std::size_t PointsBefore = 0; ///< control points of others in front of the process's own
-  /// Whether any capsule of all processes is tapered: where none is here, gradients are the same in value without, but zeros may
-  /// have another sign.
+  std::size_t PointsBefore = 0; ///< control points received from lower ranks
+  /// Whether any capsule of all processes is tapered: if none is here, the gradients without it have the same value, but zeros
+  /// may have another sign.
   bool IsTapered = false;
   std::vector<std::vector<Stretch>> Given; ///< to each process
   std::vector<std::vector<Stretch>> Taken; ///< from each process

@@ -10,7 +10,7 @@ namespace cactus
 namespace
 {
 
-/// What counts as progress, and for how many iterations a descent may go on without any.
+/// The least progress that counts, and the iterations that a descent may go on without it.
 constexpr double progressShare = 0.01;
 constexpr int stagnationIterations = 200;
 

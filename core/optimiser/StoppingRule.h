@@ -20,28 +20,29 @@ enum class StopReason
   Stopped
 };
 
-/// When a descent last made progress: a cost, or a largest penetration, smaller by a hundredth than any before.
+/// The last progress of a descent: a cost, or a largest penetration, smaller by a hundredth than any before.
 struct DescentProgress
 {
-  double lowestCost = std::numeric_limits<double>::infinity(); ///< at the last step forward
+  double lowestCost = std::numeric_limits<double>::infinity(); ///< at the last progress
   double lowestPenetration = std::numeric_limits<double>::infinity();
-  int lastIteration = 0; ///< that made any
+  int lastIteration = 0; ///< of the last progress
 
   void note(const ConvergenceRow& row);
 };
 
-/// What a process has to say of its run while it goes on.
+/// A process's report during its run.
 struct Moment
 {
   double seconds = 0.0; ///< on the clock of its run
   bool wantsStop = false;
 };
 
-/// Why the state that was just measured is the last one; nothing where it is not.
+/// Returns why the state that was just measured is the last one; nothing if the descent continues.
 std::optional<StopReason> reasonToStop(
   const ConvergenceRow& row, const DescentProgress& progress, const CapsuleOptimizerOptions& options, const Moment& moment);
 
-/// How far a run has come, from 0 to 0.99: by its iterations or by the logarithm of the largest penetration, whichever is more.
+/// Returns the progress of a run, from 0 to 0.99: by its iterations or by the logarithm of the largest penetration, whichever is
+/// more.
 double completedFraction(const ConvergenceRow& row, double firstPenetration, const CapsuleOptimizerOptions& options);
 
 } // namespace cactus

@@ -14,10 +14,10 @@ namespace cactus
 namespace
 {
 
-/// The numbers by which VTK calls the types of its arrays.
+/// VTK's numbers for the types of its arrays.
 enum class ArrayType : std::uint64_t
 {
-  None = 0, ///< there is no such array
+  None = 0, ///< no such array
   Int = 6,
   Float = 10,
   Double = 11
@@ -40,7 +40,7 @@ void addArray(FastChecksum& checksum, ArrayType type, const std::vector<Value>& 
   addArray(checksum, type, values.data(), values.size() * sizeof(Value));
 }
 
-/// The values of this name, or none.
+/// Adds the values of this name, or none.
 void addNamed(FastChecksum& checksum, const std::vector<TractogramValues>& all, const char* name)
 {
   const TractogramValues* found = valuesNamed(all, name);
@@ -52,7 +52,7 @@ void addNamed(FastChecksum& checksum, const std::vector<TractogramValues>& all, 
   addArray(checksum, ArrayType::Double, found->values);
 }
 
-/// One number for each triangle of each surface.
+/// Adds one number for each triangle of each surface.
 template <typename NumberOf>
 void addForTriangles(FastChecksum& checksum, const std::vector<FibreSurfacePair>& fibres,
   const std::vector<std::size_t>& triangles, NumberOf&& numberOf)

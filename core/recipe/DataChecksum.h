@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the records of stages know data by: the checksums that the filters take of the same data in VTK's arrays, so that a recipe
-// run without ParaView leaves the same records.
+// Checksums of data in the records of stages.
+//
+// They equal those that the filters compute from VTK's arrays, so that a recipe run without ParaView leaves the same records.
 #pragma once
 
 #include "fibres/Fibres.h"
@@ -17,13 +18,13 @@ namespace cactus
 
 std::string dataChecksum(const Fibres& fibres);
 
-/// Of streamlines as TractogramReader gives them, with their lengths in the unit that it was told.
+/// Returns that of TractogramReader's streamlines, with their lengths in its unit.
 std::string dataChecksum(const Tractogram& tractogram);
 
-/// Of a whole image.
+/// Returns that of a whole image.
 std::string dataChecksum(const LabelImage& image);
 
-/// Of surfaces of one kind (0 outer, 1 inner), by the places of their fibres.
+/// Returns that of surfaces of one kind (0 outer, 1 inner), by the indices of their fibres.
 std::string dataChecksum(const std::vector<FibreSurfacePair>& fibres, const SurfaceSource& surfaces, int kind);
 
 } // namespace cactus

@@ -38,7 +38,7 @@ std::int64_t choiceFrom(const PropertyFacts& facts, const Json& value)
 
 std::int64_t wholeFrom(const PropertyFacts& facts, const Json& value)
 {
-  constexpr double exact = 9007199254740992.0; // up to where a double has every whole number
+  constexpr double exact = 9007199254740992.0; // up to this, a double has every whole number
   const double number = value.is_number() ? value.get<double>() : std::nan("");
   if (!(std::abs(number) <= exact) || number != std::floor(number))
   {
@@ -47,7 +47,7 @@ std::int64_t wholeFrom(const PropertyFacts& facts, const Json& value)
   return static_cast<std::int64_t>(number);
 }
 
-/// A text or, of a table of radii, its numbers as one.
+/// Returns a text or, for a table of radii, its numbers as text.
 std::string textFrom(const PropertyFacts& facts, const Json& value)
 {
   if (value.is_string())
@@ -76,7 +76,7 @@ std::string inLowerCase(std::string text)
   return text;
 }
 
-/// How many letters have to be changed, added or left out to make one text of the other.
+/// Returns the edit distance of two texts: letters to be changed, added or left out.
 std::size_t differenceOf(const std::string& a, const std::string& b)
 {
   std::vector<std::size_t> before(b.size() + 1);
@@ -102,7 +102,7 @@ bool isOffered(const PropertyFacts& facts, bool onlyResult)
   return facts.use == PropertyUse::Result || (facts.use == PropertyUse::Run && !onlyResult);
 }
 
-/// What a wrong name may have meant, as the end of a message.
+/// Returns a suggestion for a wrong name, as the end of a message.
 template <typename Stage>
 std::string likelyName(const std::string& wrong, bool onlyResult)
 {
@@ -159,7 +159,7 @@ PropertyValue propertyValue(const PropertyFacts& facts, const PropertyValue& lik
   {
     failValue(facts, value, "a number");
   }
-  // Before it becomes a member, which may be too small for it.
+  // Checked before it is assigned to a member, which may be too small for it.
   if (facts.range)
   {
     requireWithin(facts.name.c_str(), value.get<double>(), *facts.range, facts.advice.c_str());

@@ -37,7 +37,7 @@ bool givesFibres(const RecipeStage& stage)
          isA<CapsuleOptimizerStage>(stage);
 }
 
-/// Looks at what comes in at each input of a stage.
+/// Checks the sources of each input of a stage.
 class InputCheck
 {
 public:
@@ -47,7 +47,7 @@ public:
   {
   }
 
-  /// Only these names, each with so many connections.
+  /// Accepts only these names, each with one or several connections.
   void names(const std::vector<std::pair<std::string, bool>>& wanted) const
   {
     for (const auto& input : this->Stage.inputs)
@@ -84,7 +84,7 @@ public:
     }
   }
 
-  /// An output of one stage of this kind.
+  /// Requires an output of a stage of this kind.
   template <typename Wanted>
   void outputAt(const std::string& name, int port) const
   {
@@ -237,7 +237,7 @@ void checkOptions(const SubstrateProductionStage& stage)
   validate(productionOrder(stage, {}));
 }
 
-/// Says whose option it is.
+/// Adds the stage's name to the errors of `work`.
 template <typename Work>
 void of(const RecipeStage& stage, const Work& work)
 {
@@ -258,7 +258,7 @@ void checkValues(const Stage& options)
   checkOptions(options);
 }
 
-/// What two stages say together.
+/// Checks the options of two stages together.
 void checkTogether(const Recipe& recipe, const RecipeStage& stage)
 {
   if (const auto* myelin = std::get_if<MyelinSurfaceStage>(&stage.options))

@@ -13,46 +13,46 @@
 namespace cactus
 {
 
-/// Where data come from: an output of an earlier stage, or those of several in one.
+/// The source of data: an output of an earlier stage, or those of several in one.
 struct RecipeSource
 {
-  std::size_t stage = 0; ///< its place among the recipe's stages
+  std::size_t stage = 0; ///< its index among the recipe's stages
   int port = 0;
-  std::vector<RecipeSource> blocks; ///< instead of these two
+  std::vector<RecipeSource> blocks; ///< used instead of these two
 };
 
-/// What is told to a stage that can be run without ParaView.
+/// The options of a stage that can be run without ParaView.
 using RecipeOptions = std::variant<BundleInitializerStage, StrandReaderStage, TractogramReaderStage, TractFibresStage,
   CapsuleOptimizerStage, FibreRadialGrowthStage, MyelinSurfaceStage, SubstrateWriterStage, SubstrateProductionStage>;
 
 struct RecipeStage
 {
-  std::string name; ///< that of its filter
+  std::string name; ///< name of its filter
   RecipeOptions options;
   std::vector<std::pair<std::string, std::vector<RecipeSource>>> inputs; ///< by name, a source for each connection
 
-  /// Of the input with this name; empty where there is none.
+  /// Returns the input with this name; empty if there is none.
   const std::vector<RecipeSource>& input(const std::string& wanted) const;
 };
 
-/// How a substrate is made, from its bundles to its folder.
+/// The instructions for making a substrate, from its bundles to its folder.
 struct Recipe
 {
-  std::string version;             ///< of the CACTUS that wrote it down; empty for one that was written by hand
-  std::vector<RecipeStage> stages; ///< each after those that it takes from; the last one writes the folder
+  std::string version;             ///< of the CACTUS that wrote it; empty if written by hand
+  std::vector<RecipeStage> stages; ///< each after its sources; the last one writes the folder
 
-  /// FolderName of the last stage, which may be empty.
+  /// Returns FolderName of the last stage, possibly empty.
   const std::string& folderName() const;
 };
 
-/// A stage with its properties at their defaults; nothing for a name that no stage of a recipe has.
+/// Returns a stage with its properties at their defaults; nothing for an unknown name.
 std::optional<RecipeOptions> recipeOptions(const std::string& name);
 
-/// The names of all stages that a recipe may have, in the order of the chain, for messages.
+/// Returns the names of all possible stages, in the order of the chain, for messages.
 std::string recipeStageNames();
 
 /// Throws InvalidInput, naming stage and property, for stages that cannot follow each other and for values that no run would
-/// take; FileError where a stage's file cannot be read.
+/// accept; FileError if a stage's file cannot be read.
 void check(const Recipe& recipe);
 
 } // namespace cactus

@@ -21,8 +21,7 @@ namespace cactus
 namespace
 {
 
-/// Refuses, while a text is parsed, names that stand twice in one object, the first of which would be lost, and what is nested
-/// more deeply than any recipe.
+/// Rejects, while a text is parsed, duplicate names in one object, the first of which would be lost, and too deep nesting.
 class ParseWatch
 {
 public:
@@ -49,7 +48,7 @@ public:
   }
 
 private:
-  std::vector<std::set<std::string>> Names; ///< of each object that is open
+  std::vector<std::set<std::string>> Names; ///< one set for each open object
 };
 
 Json parsedRecipe(const std::string& text)
@@ -69,7 +68,7 @@ Json parsedRecipe(const std::string& text)
   }
 }
 
-/// The stages of a recipe that was written by hand, put together in the order of the chain.
+/// Builds the stages of a hand-written recipe, in the order of the chain.
 class NamedStages
 {
 public:
@@ -166,7 +165,7 @@ private:
     return this->Made.stages.size() - 1;
   }
 
-  /// The value of a property that names a file or folder, from where the recipe is.
+  /// Resolves the value of a property that names a file or folder relative to the recipe.
   Json located(const std::string& property, const Json& value) const
   {
     static const std::set<std::string> paths = { "FileName", "RadiusTableFile", "CheckpointFile", "FolderName" };
@@ -177,7 +176,7 @@ private:
     return (std::filesystem::path(this->Folder) / value.get<std::string>()).string();
   }
 
-  /// A stage for each of a list, or one alone; none where the recipe does not name it.
+  /// Adds a stage for each element of a list, or a single one; none if the recipe does not name it.
   std::vector<RecipeSource> addAll(const std::string& name, const Inputs& inputs)
   {
     const Json values = this->has(name.c_str()) ? this->Text[name] : Json::array();
@@ -211,7 +210,7 @@ private:
     }
   }
 
-  /// Streamlines, and fibres that follow them.
+  /// Adds streamlines, and fibres that follow them.
   void addTracts()
   {
     if (this->has("TractogramReader") != this->has("TractFibres"))
@@ -242,9 +241,9 @@ private:
   static constexpr const char* presetName = "Preset";
   const Json& Text;
   const std::string& Folder;
-  const Preset* Start = nullptr; ///< the preset whose values stages have where the recipe says nothing
+  const Preset* Start = nullptr; ///< the preset whose values stages have if the recipe sets none
   Recipe Made;
-  std::vector<RecipeSource> Fibres; ///< where those come from that the next stage takes
+  std::vector<RecipeSource> Fibres; ///< sources of the next stage
 };
 
 } // namespace

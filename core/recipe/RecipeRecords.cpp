@@ -23,7 +23,7 @@ namespace
 
 const Json nothing;
 
-/// A member of an object, or null.
+/// Returns a member of an object, or null.
 const Json& memberOf(const Json& object, const char* name)
 {
   const auto found = object.is_object() ? object.find(name) : object.end();
@@ -36,7 +36,7 @@ std::string textOf(const Json& object, const char* name)
   return member.is_string() ? member.get<std::string>() : "";
 }
 
-/// What a property of this value has named, of which a file was read: that file, or a folder that holds it.
+/// Returns the path that a property of this value named when `file` was read: that file, or a folder that contains it.
 std::string namedBy(const std::string& value, const std::string& file)
 {
   const std::filesystem::path name = (std::filesystem::path(value) / "").parent_path().filename();
@@ -53,7 +53,7 @@ std::string namedBy(const std::string& value, const std::string& file)
   throw InvalidInput("the provenance is damaged: " + where);
 }
 
-/// Reads the records of a provenance from the last one back.
+/// Reads the records of a provenance from the last one backwards.
 class RecordReader
 {
 public:
@@ -75,7 +75,7 @@ public:
   {
     this->want(this->Records.size() - 1);
     Recipe recipe;
-    for (const std::size_t place : this->Wanted) // which are in their order
+    for (const std::size_t place : this->Wanted) // in their order
     {
       this->StageOf[place] = recipe.stages.size();
       recipe.stages.push_back(this->stage(place));
@@ -86,7 +86,7 @@ public:
 private:
   std::string filterOf(std::size_t place) const { return textOf(this->Records[place], "filter"); }
 
-  /// The record and all that it comes from.
+  /// Marks the record and all its sources.
   void want(std::size_t place)
   {
     if (!this->Wanted.insert(place).second)
@@ -222,9 +222,9 @@ private:
   }
 
   const Json& Records;
-  std::map<std::string, std::size_t> PlaceOf; ///< of a record, by its id
+  std::map<std::string, std::size_t> PlaceOf; ///< index of a record, by its id
   std::set<std::size_t> Wanted;
-  std::map<std::size_t, std::size_t> StageOf; ///< place in the recipe, by that of the record
+  std::map<std::size_t, std::size_t> StageOf; ///< index in the recipe, by that of the record
 };
 
 } // namespace

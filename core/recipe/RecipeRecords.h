@@ -7,8 +7,8 @@
 namespace cactus
 {
 
-/// The recipe that the records in a manifest's `provenance` are (see base/Provenance.h): those stages that the last one comes
-/// from. Throws InvalidInput, saying which stage and why, where the substrate cannot be made again from them.
+/// Returns the recipe described by the records in a manifest's `provenance` (see base/Provenance.h): the stages that lead to the
+/// last one. Throws InvalidInput, saying which stage and why, if the substrate cannot be made again from them.
 Recipe recipeOfManifest(const Json& manifest);
 
 } // namespace cactus

@@ -30,20 +30,20 @@ namespace cactus
 namespace
 {
 
-/// Fibres that a stage has given.
+/// The fibres of a stage.
 struct MadeFibres
 {
   Fibres fibres;
-  bool isParted = false; ///< by one optimiser
+  bool isParted = false; ///< whether one optimiser has parted them
 };
 
-/// The label image, and what surfaces are to be told of it.
+/// The label image, and its facts for the surfaces.
 struct GrownImage
 {
   LabelImage image;
   LabelImageFacts facts;
   double gap = 0.0;
-  Fibres fibres; ///< that it was grown from
+  Fibres fibres; ///< those from which it was grown
 };
 
 struct MadeSurfaces
@@ -61,7 +61,7 @@ struct MadeSurfaces
   Fibres grownFrom;
 };
 
-/// The work, stage by stage.
+/// Runs the stages one by one.
 class RecipeRun
 {
 public:
@@ -107,7 +107,7 @@ private:
     return context;
   }
 
-  // What comes in.
+  // Inputs.
 
   Fibres fibresFrom(const RecipeSource& source) const
   {
@@ -176,7 +176,7 @@ private:
     return provenanceOf(record);
   }
 
-  // What goes out.
+  // Outputs.
 
   void giveFibres(Fibres fibres, const Provenance& records, bool isParted)
   {
@@ -184,7 +184,7 @@ private:
     this->FibresOf[this->Now] = { std::move(fibres), isParted };
   }
 
-  // The stages.
+  // Stages.
 
   void work(const BundleInitializerStage& stage)
   {
@@ -221,7 +221,7 @@ private:
     const auto next = this->All.stages.begin() + static_cast<std::ptrdiff_t>(this->Now) + 1;
     if (std::none_of(next, this->All.stages.end(), followsTract))
     {
-      this->TractsOf.clear(); // which may be gigabytes
+      this->TractsOf.clear(); // may be gigabytes
     }
   }
 
@@ -236,7 +236,7 @@ private:
     {
       const std::string remark = remarkOnCheckpoint(result);
       this->say(remark.empty() ? "" : "CapsuleOptimizer: " + remark);
-      throw Cancelled(); // it keeps its best state, which is no result here
+      throw Cancelled(); // its best state is kept, but is no result here
     }
     std::vector<std::size_t> kept;
     fibres = trimmedFibres(stage, std::move(fibres), kept);
@@ -249,7 +249,7 @@ private:
       std::move(fibres), this->record(stage, optimiserReached(iterations, result.maximumPenetration, result.reason, true)), true);
   }
 
-  /// What is to grow, and what is to be said of it.
+  /// Returns the fibres to grow, and reports remarks on them.
   Fibres growingFibres(const FibreRadialGrowthOptions& options, const Context& context) const
   {
     const RecipeSource& source = this->stage().input("Input").front();
@@ -341,7 +341,7 @@ private:
   const std::string& Folder;
   const Context& Caller;
   const std::function<void(const std::string&)>& Remark;
-  std::size_t Now = 0; ///< the stage at work
+  std::size_t Now = 0; ///< the running stage
   std::map<std::size_t, Tractogram> TractsOf;
   std::map<std::size_t, MadeFibres> FibresOf;
   std::map<std::pair<std::size_t, int>, Provenance> RecordsOf; ///< of each stage's output
@@ -356,7 +356,7 @@ WrittenSubstrate runRecipe(
   const Recipe& recipe, const std::string& folder, const Context& context, const std::function<void(const std::string&)>& remark)
 {
   {
-    const FolderReplacement refuses(folder, context); // says now, rather than at the end, that it cannot be written
+    const FolderReplacement refuses(folder, context); // fails now, rather than at the end, if it cannot be written
   }
   return RecipeRun(recipe, folder, context, remark).run();
 }

@@ -22,17 +22,18 @@ constexpr char growth[] = "FibreRadialGrowth";
 constexpr char myelin[] = "MyelinSurface";
 
 const std::string paper = "Villarreal-Haro et al. 2023, ";
-/// Γ(2.64, 0.184) µm, taken for inner radii of the genu; divided by the g-ratio of 0.7 they are outer ones (docs/presets.md).
+/// Γ(2.64, 0.184) µm, interpreted as inner radii of the genu; divided by the g-ratio of 0.7 they are outer ones
+/// (docs/presets.md).
 constexpr double genuShape = 2.64;
 constexpr double genuScale = 0.263;
 const std::string genuSource = "radii: Γ(2.64, 0.184) µm over g, with the mean of the diameters in the human genu of Aboitiz et "
                                "al. 1992 (Brain Res 598:143); ";
 
-/// What the densest substrates are grown to, and the tolerance that leaves room for it (docs/surfaces.md).
+/// The fraction to which the densest substrates are grown, and the tolerance that leaves room for it (docs/surfaces.md).
 constexpr double densest = 0.955;
 constexpr double densestTolerance = 0.0065;
 
-/// With all values of one bundle: where any of them is another one, it is no longer a preset's.
+/// Returns a preset with all values of one bundle: if the user changes any of them, the preset no longer holds.
 Preset tutorial()
 {
   return { "Tutorial bundle", "One bundle of 10°, grown to 90 %, with a g-ratio of 0.7",
@@ -69,8 +70,8 @@ Preset crossing(double angle, const std::string& reached)
       { growth, "SurfaceTolerance", densestTolerance } } };
 }
 
-/// A row of the paper's table of histological targets, by the volume fractions of axons and of fibres in it; `packed` is what the
-/// fibres fill before they grow.
+/// Returns a row of the paper's table of histological targets, by its volume fractions of axons and of fibres; `packed` is the
+/// fibres' fraction before growth.
 Preset histology(const std::string& row, double axons, double fibres, double packed)
 {
   return { "Histological target " + row,
@@ -81,11 +82,11 @@ Preset histology(const std::string& row, double axons, double fibres, double pac
       { myelin, "TargetAxonVolumeFraction", axons } } };
 }
 
-/// One bundle of a tissue's axons, as thick as they were published to be, with the myelin that outer radii are made with.
+/// Returns one bundle of a tissue's axons with published radii, and with the myelin from which outer radii are computed.
 Preset publishedRadii(PublishedRadii which)
 {
   const RadiusHistogram& histogram = radiusHistogram(which);
-  const bool isRelation = which == PublishedRadii::MouseGenu; // that of these very axons
+  const bool isRelation = which == PublishedRadii::MouseGenu; // the relation of these very axons
   const double gRatio = isRelation ? 0.0 : 0.7;
   const double widest = 2.0 * histogram.largestRadius();
   const double largest = 0.5 * (isRelation ? logLinearOuterDiameter(widest) : widest / gRatio);
@@ -109,7 +110,7 @@ std::vector<Preset> withPublishedRadii(std::vector<Preset> presets)
   return presets;
 }
 
-/// The stages of the chain that a stage stands for.
+/// Returns the stages of the chain that a stage stands for.
 std::vector<std::string> partsOf(const std::string& stage)
 {
   return stage == "SubstrateProduction" ? std::vector<std::string>{ growth, myelin } : std::vector<std::string>{ stage };

@@ -21,10 +21,10 @@ namespace cactus
 namespace
 {
 
-/// Well above what the optimiser leaves (OverlapTolerance, 0.001), and above the digits of a file.
+/// Well above the overlaps that the optimiser leaves (OverlapTolerance, 0.001), and above the digits of a file.
 constexpr double harmlessPenetration = 0.01;
 
-/// For the record.
+/// Returns the name for the record.
 const char* reasonName(StopReason reason)
 {
   switch (reason)
@@ -59,10 +59,10 @@ const char* reasonText(StopReason reason)
   }
 }
 
-/// A longer first step of Adagrad (µm) leaps over its contacts.
+/// A longer first step of Adagrad (µm) jumps over its contacts.
 constexpr double longAdagradStep = 0.2;
 
-/// What to do about overlaps that a run has left; nothing where it was the user who ended it.
+/// Returns advice on the overlaps that a run has left; nothing if the user ended it.
 std::string adviceOn(StopReason reason, const CapsuleOptimizerOptions& options)
 {
   if (reason == StopReason::Stagnated && options.method == DescentMethod::Adagrad && options.stepSize > longAdagradStep)
@@ -82,7 +82,7 @@ std::string adviceOn(StopReason reason, const CapsuleOptimizerOptions& options)
   }
 }
 
-/// Notes the table of radii that was drawn from: the numbers, or of a file its name and checksum.
+/// Records the table of radii: the numbers, or for a file its name and checksum.
 void keepRadiusTable(const RadiusDistributionOptions& radius, const std::string& path, StageRecord& record)
 {
   for (PropertyState& state : record.properties)
@@ -98,7 +98,7 @@ void keepRadiusTable(const RadiusDistributionOptions& radius, const std::string&
   }
 }
 
-/// A number for each streamline, of the values that the file calls so or of the groups; none where it has neither.
+/// Returns a bundle for each streamline, from the file's values of that name or from its groups; none if it has neither.
 std::vector<int> bundlesOf(const Tractogram& tractogram)
 {
   constexpr char name[] = "BundleId";
@@ -123,7 +123,7 @@ std::vector<int> bundlesOf(const Tractogram& tractogram)
   return bundles;
 }
 
-/// The distribution with the table that a stage was given.
+/// Returns the distribution with the stage's table.
 template <typename Stage>
 RadiusDistributionOptions withTableOf(const Stage& stage)
 {

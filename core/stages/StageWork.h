@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a stage does around its method, the same in ParaView and without it: properties become options, what is kept of a run in
-// its record, and what its user is told.
+// The work of a stage around its method, shared by ParaView and cactus-grow.
+//
+// Properties become options, and a run gets its record and remarks.
 #pragma once
 
 #include "base/Context.h"
@@ -24,55 +25,57 @@
 namespace cactus
 {
 
-/// The options, with the radii of a table that is given as text or as a file. Throws InvalidInput for both at once, FileError,
+/// Returns the options, with the radii of a table given as text or as a file. Throws InvalidInput if both are given, FileError,
 /// and as the readers of such tables do.
 BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage);
 
-/// What was asked of a bundle and reached. A table of radii is kept as numbers, a file of them by its name and checksum.
+/// Returns the record of a bundle's request and result. A table of radii is kept as numbers, a file of them by its name and
+/// checksum.
 StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitializerOptions& options, std::size_t fibres,
   const BundleInitializerReport& report);
 
-/// The same two for fibres along a tract.
+/// Do the same two for fibres along a tract.
 TractFibresOptions tractOptions(const TractFibresStage& stage);
 StageRecord tractRecord(
   const TractFibresStage& stage, const TractFibresOptions& options, std::size_t fibres, const TractFibresReport& report);
 
-/// The tractogram of the file, with its lengths in the unit that is asked for. Throws InvalidInput where none is named, and as
+/// Reads the tractogram of the file, with its lengths in the requested unit. Throws InvalidInput if no file is named, and as
 /// readTractogram() does.
 Tractogram tractogramOf(const TractogramReaderStage& stage, const Context& context = {});
-/// Of a .trx that is a folder all files in it are noted.
+/// Returns the record; if a .trx is a folder, it lists all files in it.
 StageRecord tractogramRecord(const TractogramReaderStage& stage);
-/// The streamlines of several tractograms one after the other, validated, with bundles where all of them have any.
+/// Joins the streamlines of several tractograms, validated, with bundles if all of them have any.
 Streamlines streamlinesOf(const std::vector<const Tractogram*>& tractograms);
 
-/// What of the streamlines the fibres do not follow; empty where they follow all.
+/// Returns a remark on the streamlines that the fibres do not follow; empty if they follow all.
 std::string remarksOnTract(const TractFibresReport& report);
 
-/// The fibres of the file. Throws InvalidInput where none is named, and as readStrandFile() does.
+/// Reads the fibres of the file. Throws InvalidInput if no file is named, and as readStrandFile() does.
 Fibres strandsOf(const StrandReaderStage& stage);
 StageRecord strandRecord(const StrandReaderStage& stage);
 
-/// What is kept of an optimisation, or of a state on its way.
+/// Returns the record of an optimisation, or of an intermediate state.
 std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
   int iterations, double penetration, StopReason reason, bool isResult);
 
-/// The fibres, trimmed to their domain if the stage says so; `kept` as of trimToDomain(). Throws InvalidInput where none is left.
+/// Returns the fibres, trimmed to their domain if the stage says so; `kept` as in trimToDomain(). Throws InvalidInput if none is
+/// left.
 Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vector<std::size_t>& kept);
 
-/// Empty where what is to be gone on from could be written down, or was not asked for.
+/// Returns a remark on a checkpoint that could not be written; empty if it was written, or not requested.
 std::string remarkOnCheckpoint(const OptimisationResult& result);
 
-/// How the optimiser's run fell short, in sentences; empty where it did not.
+/// Returns how the optimiser's run fell short, in sentences; empty if it did not.
 std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, const CapsuleOptimizerOptions& options);
 
-/// That fibres which no optimiser has parted overlap, where capsules of different ones have more than a hundredth of their radii
-/// in common; empty else.
+/// Returns a remark if fibres without an optimiser's result overlap: capsules of different ones have more than a hundredth of
+/// their radii in common; else empty.
 std::string remarkOnOverlaps(const Fibres& fibres, int threads);
 
-/// Puts what the writer was told into what is to be written.
+/// Copies the writer's properties into the folder's contents.
 void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents& contents);
 
-/// What a production was told.
+/// Returns the stage's properties as a ProductionOrder.
 ProductionOrder productionOrder(
   const SubstrateProductionStage& stage, std::function<Provenance(double spacing, double growth)> provenance);
 

@@ -14,7 +14,7 @@ namespace
 
 constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0: all";
 
-// Of what is written.
+// Properties of writers.
 const std::vector<std::string> formats(std::begin(formatNames), std::end(formatNames));
 constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
@@ -27,7 +27,7 @@ constexpr Range partOfHits{ 0.0, 1.0 };
 constexpr Range startCount{ 0.0, 1e7 };
 constexpr Range shownInterval{ 0.0, 1e7 };
 
-/// The options of a stage that draws radii, with their table as text or as a file.
+/// Returns the options of a stage that draws radii, with their table as text or as a file.
 template <typename Stage, typename Options>
 PropertyList<Stage> withRadiusTable()
 {
@@ -51,7 +51,7 @@ PropertyList<Stage> withRadiusTable()
 template <typename Stage>
 StageDescription description(const char* name)
 {
-  // States refer to the facts of the list, which stays.
+  // States refer to the facts of the list, which is static.
   StageDescription stage = { name, {} };
   for (const PropertyState& state : Stage::properties().states(Stage()))
   {
@@ -249,7 +249,7 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
   static const auto list =
     PropertyList<Stage>()
       .include(&Stage::growth, FibreRadialGrowthOptions::properties())
-      .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // whose Seed takes the place of the other one
+      .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // its Seed replaces the other one
       .at("Seed")
       .means(
         "Seed of the calibre that SurfaceRoughness gives the fibres, of their g-ratios where GRatioModel is Distributed, and of "

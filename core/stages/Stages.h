@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stages of the chain as their users see them: the options of the method, and what a filter asks for besides.
+// The stages of the chain as users see them: the options of the method, and the filter's further properties.
 #pragma once
 
 #include "base/LengthUnit.h"
@@ -27,10 +27,10 @@ namespace cactus
 struct BundleInitializerStage
 {
   BundleInitializerOptions options;
-  std::string radiusTable;        ///< radii (µm) as text, see parseRadiusTable(); they become those of `options`
+  std::string radiusTable;        ///< radii (µm) as text, see parseRadiusTable(); they replace those of `options`
   std::string radiusTableFile;    ///< the same as a file
-  std::string radiusTableColumn;  ///< of a file that is a table with a name for each column; empty for a mere list
-  double radiusTableFactor = 1.0; ///< what the file's numbers are multiplied by
+  std::string radiusTableColumn;  ///< for a file with a named column; empty for a plain list
+  double radiusTableFactor = 1.0; ///< factor on the file's numbers
 
   static const PropertyList<BundleInitializerStage>& properties();
 };
@@ -38,9 +38,9 @@ struct BundleInitializerStage
 struct TractFibresStage
 {
   TractFibresOptions options;
-  std::string radiusTable;        ///< as BundleInitializerStage has it
+  std::string radiusTable;        ///< as in BundleInitializerStage
   std::string radiusTableFile;    ///< the same as a file
-  std::string radiusTableColumn;  ///< as BundleInitializerStage has it
+  std::string radiusTableColumn;  ///< as in BundleInitializerStage
   double radiusTableFactor = 1.0; ///< the same
 
   static const PropertyList<TractFibresStage>& properties();
@@ -53,7 +53,7 @@ struct CapsuleOptimizerStage
   int threads = 0;
   bool keepHistory = false;
   int historyInterval = 10;
-  int showEvery = 0; ///< iterations; 0: the result alone
+  int showEvery = 0; ///< iterations; 0: only the result
 
   static const PropertyList<CapsuleOptimizerStage>& properties();
 };
@@ -66,11 +66,11 @@ struct FibreRadialGrowthStage
   static const PropertyList<FibreRadialGrowthStage>& properties();
 };
 
-/// What makes surfaces.
+/// The code that makes surfaces.
 enum class Meshing
 {
   Cactus = 0, ///< core's own contouring, coarsening and spacing, with its guarantees
-  Vtk = 1     ///< VTK's filters, which promise nothing
+  Vtk = 1     ///< VTK's filters, without guarantees
 };
 
 struct MyelinSurfaceStage
@@ -84,7 +84,7 @@ struct MyelinSurfaceStage
   static const PropertyList<MyelinSurfaceStage>& properties();
 };
 
-/// Whose fields FibreField gives.
+/// The fibres whose fields FibreField gives.
 enum class FibreSelection
 {
   OneFibre = 0,
@@ -140,8 +140,8 @@ struct HistologyMaskStage
 struct HistologyRadiiStage
 {
   double pixelSize = 0.1;      ///< µm
-  double smallestRadius = 0.0; ///< µm, of axons that count
-  bool leaveOutBorder = true;  ///< of fibres that are cut off there
+  double smallestRadius = 0.0; ///< µm, of the smallest axons that count
+  bool leaveOutBorder = true;  ///< leave out fibres that are cut off there
 
   static const PropertyList<HistologyRadiiStage>& properties();
 };
@@ -164,7 +164,7 @@ struct SubstrateWriterStage
 
 struct SubstrateProductionStage
 {
-  FibreRadialGrowthOptions growth; ///< the seed apart, which is that of the surfaces
+  FibreRadialGrowthOptions growth; ///< except its seed, which is that of the surfaces
   MyelinSurfaceOptions surfaces;
   std::string folderName;
   SubstrateFormat format = SubstrateFormat::Mcdc;
@@ -193,8 +193,8 @@ struct StrandWriterStage
 struct TractogramReaderStage
 {
   std::string fileName;
-  LengthUnit lengthUnit = LengthUnit::Micrometre; ///< of what comes out
-  double radius = 0.0;                            ///< µm, of every point where the file has none; 0 for none
+  LengthUnit lengthUnit = LengthUnit::Micrometre; ///< of the output
+  double radius = 0.0;                            ///< µm, of every point if the file has none; 0 for none
 
   static const PropertyList<TractogramReaderStage>& properties();
 };
@@ -221,14 +221,14 @@ struct NiftiWriterStage
   static const PropertyList<NiftiWriterStage>& properties();
 };
 
-/// A stage with its properties at their defaults, those of PropertyUse::Code left out.
+/// A stage with its properties at their defaults, without those of PropertyUse::Code.
 struct StageDescription
 {
   std::string name;
   std::vector<PropertyState> properties;
 };
 
-/// All stages, in the order of the chain.
+/// Returns all stages, in the order of the chain.
 std::vector<StageDescription> describeStages();
 
 } // namespace cactus

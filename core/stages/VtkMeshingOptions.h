@@ -6,12 +6,12 @@
 namespace cactus
 {
 
-/// Parameters of the filters of VTK that MyelinSurface can make surfaces with.
+/// Parameters of the VTK filters that MyelinSurface can make surfaces with.
 struct VtkMeshingOptions
 {
-  int sincIterations = 20;      ///< of vtkWindowedSincPolyDataFilter; 0 leaves the contour as it is
+  int sincIterations = 20;      ///< of vtkWindowedSincPolyDataFilter; 0 keeps the contour
   double sincPassBand = 0.1;    ///< in (0, 2]: the lower, the smoother
-  double targetReduction = 0.9; ///< part of the triangles that vtkQuadricDecimation removes, in [0, 1); 0 leaves them all
+  double targetReduction = 0.9; ///< fraction of the triangles that vtkQuadricDecimation removes, in [0, 1); 0 keeps them all
 
   static const PropertyList<VtkMeshingOptions>& properties();
 };

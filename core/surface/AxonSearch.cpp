@@ -10,12 +10,12 @@ namespace cactus
 namespace
 {
 
-/// Volume of pieces beside the axon's main one that may be left out, as a part of it.
+/// Largest volume of an axon's minor pieces that may be left out, relative to its main one.
 constexpr double negligiblePart = 1e-3;
 constexpr int mostSteps = 40;
-/// Levels nearer to each other than this part of a voxel are not told apart.
+/// Levels closer than this fraction of a voxel count as equal.
 constexpr double levelTolerance = 1e-3;
-/// Distance from where an inner surface has the right volume that is good enough before coarsening, as a part of a voxel.
+/// Largest distance of an inner surface from the right volume before coarsening, as a fraction of a voxel.
 constexpr double nearEnough = 0.02;
 
 } // namespace
@@ -46,13 +46,13 @@ AxonContour AxonSearch::at(double level, const TriangleTree* within) const
 
 MyelinState AxonSearch::find(const TriangleTree* within, AxonContour& found) const
 {
-  double lower = this->Levels.lowest;  // here the axon is too large, or as large as may be
+  double lower = this->Levels.lowest;  // here the axon is too large, or as large as allowed
   double upper = this->Levels.highest; // here it is too small, or in pieces
   double level = std::clamp(this->Levels.guess, lower, upper);
   bool isBroken = false;
   bool isFound = false;
   MyelinState state = MyelinState::AsAsked;
-  // Newton's method: the volume falls by the area of the surface as the level rises; else bisection.
+  // Newton's method, since the volume falls by the area of the surface as the level rises; else bisection.
   for (int step = 0; step < mostSteps; ++step)
   {
     const AxonContour axon = this->at(level, within);
@@ -64,7 +64,7 @@ MyelinState AxonSearch::find(const TriangleTree* within, AxonContour& found) con
     }
     else
     {
-      // The thickest myelin with an axon in one piece, unless a better one is found.
+      // The thickest myelin with an axon in one piece so far.
       (error > 0.0 ? lower : upper) = level;
       found = axon;
       isFound = true;
@@ -79,7 +79,7 @@ MyelinState AxonSearch::find(const TriangleTree* within, AxonContour& found) con
     }
     if (upper - lower < levelTolerance * this->Spacing)
     {
-      // Squeezed in between a level that is too thin and one at which the axon breaks.
+      // Bracketed between a level with too thin myelin and one at which the axon breaks.
       if (!isFound && lower <= this->Levels.lowest)
       {
         found = this->at(lower, within);

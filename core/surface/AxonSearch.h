@@ -18,20 +18,20 @@ struct AxonContour
   bool onePiece = false;
 };
 
-/// Levels of the field, in µm, between which an axon is looked for.
+/// Levels of the field, in µm, that bound the search for an axon.
 struct AxonLevels
 {
-  double lowest = 0.0; ///< that the thinnest myelin allows
+  double lowest = 0.0; ///< level of the thinnest allowed myelin
   double highest = 0.0;
   double guess = 0.0;
 };
 
-/// Looks for the level at which the contour of a fibre's field has the volume of the axon.
+/// Finds the level at which the contour of a fibre's field has the volume of the axon.
 class AxonSearch
 {
 public:
-  /// `volume` is in µm³, `spacing` that of the voxels. What is coarsened afterwards (`isCoarsened`) is moved to its volume then,
-  /// and may be off by a little more. What is given by reference has to outlive the object.
+  /// `volume` is in µm³, `spacing` that of the voxels. A contour that will be coarsened (`isCoarsened`) is moved to its volume
+  /// then, so a slightly larger error is allowed now. All arguments passed by reference have to outlive the object.
   AxonSearch(const FibreContours& contours, const SmoothedField& field, double volume, const AxonLevels& levels, double spacing,
     bool isCoarsened);
 
@@ -39,11 +39,10 @@ public:
   const AxonLevels& levels() const { return this->Levels; }
   const SmoothedField& field() const { return this->Field; }
 
-  /// The axon at a level, or what of it begins inside `within`, where given.
+  /// Returns the axon at a level, or its pieces that begin inside `within`, if given.
   AxonContour at(double level, const TriangleTree* within) const;
 
-  /// The axon of the volume, or what comes nearest to it in one piece; says which of these `found` is, or that there is none
-  /// (NoAxon).
+  /// Finds the axon of the volume, or the nearest one in one piece; returns which of these `found` is, or NoAxon.
   MyelinState find(const TriangleTree* within, AxonContour& found) const;
 
 private:
@@ -52,10 +51,10 @@ private:
   double Volume;
   AxonLevels Levels;
   double Spacing;
-  double Slack; ///< µm that a contour may lie beside the one of the right volume
+  double Slack; ///< µm; largest distance of a contour from the one of the right volume
 };
 
-/// Relative error of an inner volume that is good enough.
+/// Largest relative error of an inner volume.
 constexpr double axonVolumeTolerance = 1e-3;
 
 } // namespace cactus

@@ -10,24 +10,24 @@
 namespace cactus
 {
 
-/// Contours the field of one fibre after the other in the box of a label image, and keeps the main part of what comes out (see
-/// keepMainPart()), without pieces below a voxel. May be used from several threads.
+/// Contours the fields of fibres in the box of a label image, and keeps the main part of each contour (see keepMainPart()),
+/// without pieces below a voxel. Thread-safe.
 class FibreContours
 {
 public:
-  /// Inner contours end `inset` (µm) inside the faces of the box: in one plane, their caps would meet the outer ones. Contours
-  /// keep `nudge` (µm) away from the samples. With `filters` these contour the field. What is given by reference has to outlive
-  /// the object.
+  /// Inner contours end `inset` (µm) inside the faces of the box, since their caps would otherwise meet the outer ones. Contours
+  /// keep `nudge` (µm) away from the samples. With `filters` these contour the field. All arguments passed by reference have to
+  /// outlive the object.
   FibreContours(const FibreField& field, double inset, double nudge, const SurfaceFilters* filters);
 
-  /// Where the field is `level`; `dropped` becomes the volume (µm³) of the pieces that were left out.
+  /// Returns the contour at `level`; sets `dropped` to the volume (µm³) of the pieces that were left out.
   CappedSurface outerAt(const SmoothedField& field, double level, double& dropped) const;
-  /// The same for an inner surface, of which all pieces that do not begin inside `within`, where given, are left out first. Their
+  /// Does the same for an inner surface. If `within` is given, pieces that do not begin inside it are left out first, and their
   /// volume does not count.
   CappedSurface innerAt(const SmoothedField& field, double level, const TriangleTree* within, double& dropped) const;
-  /// The outer surface at level 0 of the field before it was smoothed, always by contour().
+  /// Returns the outer surface at level 0 of the unsmoothed field, always by contour().
   CappedSurface unsmoothed(const SmoothedField& field) const;
-  /// What inner surfaces at levels from `lowest` (µm) on hold.
+  /// Returns the volumes of inner surfaces at levels from `lowest` (µm) on.
   SampledVolume innerVolumes(const SmoothedField& field, double lowest) const;
 
 private:

@@ -20,7 +20,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/// The outermost nodes lie on the faces of the box, the others at samples of the image.
+/// Tells whether a node is a sample of the image: the outermost nodes lie on the faces of the box.
 bool isSample(const NodeLattice& lattice, const std::array<int, 3>& node)
 {
   return node[0] > 0 && node[1] > 0 && node[2] > 0 && node[0] < lattice.cells(0) && node[1] < lattice.cells(1) &&
@@ -50,7 +50,7 @@ void forEachSample(const SmoothedField& field, Visit&& visit)
         for (int i = 0; found != 0 && i < range.count[0]; ++i)
         {
           const std::array<int, 3> at{ { range.first[0] + i, range.first[1] + j, range.first[2] + k } };
-          // Blocks share their nodes: each counts for one of them.
+          // Blocks share their nodes: each counts for one block only.
           constexpr int size = NodeLattice::blockCells;
           const bool isOwn = i > 0 && j > 0 && k > 0 && i <= size && j <= size && k <= size;
           if (isOwn && row[i] > 0.0f && isSample(field.lattice(), at))
@@ -63,13 +63,13 @@ void forEachSample(const SmoothedField& field, Visit&& visit)
   }
 }
 
-/// Where the samples of a fibre lie, in nodes.
+/// The moments of a fibre's samples, in nodes.
 struct SampleMoments
 {
   double count = 0.0;
   Vector3d mean = Vector3d::Zero();
-  Vector3d axis = Vector3d::UnitZ(); ///< of the largest variance
-  double middleVariance = 0.0;       ///< the second largest
+  Vector3d axis = Vector3d::UnitZ(); ///< direction of the largest variance
+  double middleVariance = 0.0;       ///< second largest variance
 };
 
 SampleMoments momentsOf(const SmoothedField& field)
@@ -103,7 +103,7 @@ double lengthOf(const SmoothedField& field, double spacing)
   {
     return spacing;
   }
-  // Slices as thick as the fibre is wide, so that centroids follow the fibre and not the voxels.
+  // Slices are as thick as the fibre is wide, so that centroids follow the fibre and not the voxels.
   const double thickness = std::max(4.0, 4.0 * std::sqrt(moments.middleVariance));
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
@@ -117,14 +117,14 @@ double lengthOf(const SmoothedField& field, double spacing)
       lowest = std::min(lowest, along);
       highest = std::max(highest, along);
       const int number = static_cast<int>(std::floor(along / thickness));
-      if (now == slices.end() || now->first != number) // samples next to each other mostly share theirs
+      if (now == slices.end() || now->first != number) // neighbouring samples usually share a slice
       {
         now = slices.emplace(number, std::make_pair(0.0, Vector3d::Zero())).first;
       }
       now->second.first += 1.0;
       now->second.second += p;
     });
-  // The ends beyond the first and the last centroid go on along the axis.
+  // The ends beyond the first and the last centroid continue along the axis.
   double length = 1.0 + highest - lowest;
   Vector3d before = slices.begin()->second.second / slices.begin()->second.first;
   for (auto slice = std::next(slices.begin()); slice != slices.end(); ++slice)

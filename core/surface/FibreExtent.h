@@ -6,8 +6,8 @@
 namespace cactus
 {
 
-/// Length (µm) of the line through the centroids of the fibre's slices across its principal axis; `spacing` is that of the
-/// samples, and the length of a fibre without any.
+/// Returns the length (µm) of the line through the centroids of the fibre's slices across its principal axis. `spacing` is that
+/// of the samples, and the result for a fibre without any.
 double lengthOf(const SmoothedField& field, double spacing);
 
 } // namespace cactus

@@ -17,12 +17,12 @@ namespace cactus
 namespace
 {
 
-/// A sample nearer to a face than this part of a voxel is left out: the cells between them would be too flat.
+/// A sample nearer to a face than this fraction of a voxel is left out: the cells between them would be too flat.
 constexpr double thinnestCell = 0.3;
-/// Voxels between an image's face and the domain's that are one.
+/// Distance, in voxels, below which the image's face and the domain's count as one.
 constexpr double sameFace = 1e-3;
 
-/// How far from a sample its field is looked for, see FibreField::nearest().
+/// Largest distance from a sample at which its field is extrapolated, see FibreField::nearest().
 constexpr int farthestNeighbour = 2;
 constexpr char noImage[] = "the label image is empty or has no valid spacing";
 
@@ -32,17 +32,17 @@ std::shared_ptr<const LabelSource> inMemory(const LabelImageView& image)
   return std::make_shared<LabelImageInMemory>(image);
 }
 
-/// From a sample to one of the 26 around it.
+/// The step from a sample to one of the 26 around it.
 struct Direction
 {
   int i;
   int j;
   int k;
-  int distance; ///< along how many axes
+  int distance; ///< number of axes along which it differs
   float length; ///< in voxels
 };
 
-/// The nearest ones first.
+/// Returns them with the nearest ones first.
 std::array<Direction, 26> neighbourDirections()
 {
   std::array<Direction, 26> directions;
@@ -102,7 +102,7 @@ FibreField::FibreField(std::shared_ptr<const LabelSource> image, const Domain& d
     const double imageUpper = imageLower + h * grid.count[axis];
     Box.lower[a] = clipToDomain ? std::max(domain.lower[a], imageLower) : imageLower;
     Box.upper[a] = clipToDomain ? std::min(domain.upper[a], imageUpper) : imageUpper;
-    // Where image and domain end together, they may differ by rounding, also that of a file with six digits.
+    // If image and domain end together, they may differ by rounding, also that of a file with six digits.
     if (clipToDomain && std::abs(imageLower - domain.lower[a]) < sameFace * h)
     {
       Box.lower[a] = domain.lower[a];
@@ -165,13 +165,13 @@ inline bool FibreField::holds(int i, int j, int k) const
 
 std::int32_t FibreField::nearest(const LabelImageView& held, int i, int j, int k) const
 {
-  // A neighbour y in direction d and the sample beyond it continue to 2 f(y) - f(y + d) here, exactly where the fibre's surface
-  // is flat. The fibre that is here has about the depth of this sample, any other at least a gap less. Straight neighbours tell
-  // best, and only where there are none the others are asked.
+  // A neighbour y in direction d and the sample beyond it extrapolate to 2 f(y) - f(y + d) here, exactly if the fibre's surface
+  // is flat. The nearest fibre has about the depth of this sample, any other at least a gap less. Straight neighbours are most
+  // accurate; the others are used only if there are none.
   const VoxelGrid& grid = held.grid;
   std::int32_t best = 0;
   float bestEstimate = -std::numeric_limits<float>::infinity();
-  // Amid the image there is no need to ask what it holds.
+  // Inside the image, bounds need not be checked.
   const bool isAmid = this->holds(i - 2, j - 2, k - 2) && this->holds(i + 2, j + 2, k + 2);
   const auto here = std::ptrdiff_t(grid.index(i, j, k));
   const std::ptrdiff_t rows = grid.count[0];
@@ -214,12 +214,12 @@ std::int32_t FibreField::nearest(const LabelImageView& held, int i, int j, int k
   return best;
 }
 
-/// Whether nearest() is that fibre.
+/// Tells whether nearest() is that fibre.
 bool FibreField::isNearest(const LabelImageView& held, std::int32_t fibre, int i, int j, int k) const
 {
   if (this->holds(i - 1, j - 1, k - 1) && this->holds(i + 1, j + 1, k + 1))
   {
-    // Where straight neighbours are all of one kind, these tell.
+    // If straight neighbours are all of one kind, they decide.
     const std::int32_t* here = held.fibreId + held.grid.index(i, j, k);
     const std::ptrdiff_t rows = held.grid.count[0];
     const std::ptrdiff_t slices = rows * held.grid.count[1];
@@ -302,7 +302,7 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
       const std::int32_t* ids = held.fibreId + first;
       const float* depths = held.depth + first;
       float* values = out + row.before;
-      // Most samples are plainly in a fibre or outside all.
+      // Most samples are clearly in a fibre or outside all.
       const bool isDoubtful = kernels.field(ids, depths, row.count, fibre, gap, outside, values);
       for (int i = 0; isDoubtful && i < row.count; ++i)
       {

@@ -14,15 +14,15 @@
 namespace cactus
 {
 
-/// The samples that a row of nodes along x takes its values from: each has one node, the first and the last one some more.
+/// The samples that give a row of nodes along x its values: each sample has one node, the first and the last one have more.
 struct SampleRow
 {
   int first = 0;  ///< index in the image
-  int count = 0;  ///< of samples, at least one
-  int before = 0; ///< nodes that have the value of the first sample's node, which follows them
-  int behind = 0; ///< nodes that have that of the last one's, and follow it
+  int count = 0;  ///< number of samples, at least one
+  int before = 0; ///< number of nodes before the first sample's node, with the same value
+  int behind = 0; ///< number of nodes behind the last sample's node, with the same value
 
-  /// Copies values where the rim of a row has them; those of the samples are in their places.
+  /// Copies values to the rim of a row; those of the samples are in place.
   template <typename Value>
   void fillRim(Value* nodes) const
   {
@@ -33,59 +33,59 @@ struct SampleRow
   int nodes() const { return this->before + this->count + this->behind; }
 };
 
-/// The samples of a label image that lie in a box, and which of them the nodes of a lattice take their values from: node 1 from
-/// the first one and so on, and those beyond the first and the last one from these.
+/// The samples of a label image in a box, and their assignment to the nodes of a lattice: node 1 has the first sample and so on;
+/// nodes beyond the first and the last sample have the values of these.
 struct SampleBox
 {
   std::array<int, 3> first{ { 0, 0, 0 } }; ///< index in the image, per axis
   std::array<int, 3> count{ { 0, 0, 0 } };
 
   int sampleOf(std::size_t axis, int node) const { return this->first[axis] + std::clamp(node - 1, 0, this->count[axis] - 1); }
-  /// Of the rows of nodes of a range.
+  /// Returns the row of samples for the rows of nodes of a range.
   SampleRow rowOf(const NodeRange& range) const;
 };
 
 /// The fields of all fibres of a label image, in a box whose faces cut them off.
 ///
-/// At the samples a field is what LabelImage says, and the sum of two fields is at most -gap. The lattice's inner planes run
+/// At the samples, a field is defined as in LabelImage, and the sum of two fields is at most -gap. The lattice's inner planes run
 /// through the samples, and its outermost ones are the faces of the box, where a field has the value of the sample beside it.
 class FibreField
 {
 public:
-  /// The box is `domain` or, with `clipToDomain` off, what the image's voxels fill. A domain that reaches beyond the image is cut
-  /// off where the image ends. Throws InvalidInput where nothing is left, or the image is not a proper one.
+  /// The box is `domain` or, with `clipToDomain` off, the extent of the image's voxels. A domain that reaches beyond the image is
+  /// cut off where the image ends. Throws InvalidInput if nothing is left, or if the image is invalid.
   FibreField(std::shared_ptr<const LabelSource> image, const Domain& domain, bool clipToDomain);
-  /// Of an image in memory.
+  /// Uses an image in memory.
   FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain);
 
-  /// The samples of the whole image.
+  /// Returns the samples of the whole image.
   const VoxelGrid& grid() const { return this->Image->grid(); }
-  /// Null where only samples tell of fibres.
+  /// Returns null if fibres are known only from the samples.
   const KnownFibres* knownFibres() const { return this->Image->knownFibres(); }
-  /// What the lattice fills.
+  /// Returns the box that the lattice fills.
   const Domain& box() const { return this->Box; }
   const SampleBox& samples() const { return this->Samples; }
-  /// Planes through the samples; the outermost ones are moved into the box by `inset` (µm, less than a quarter of a voxel), to
-  /// where single precision has a number.
+  /// Returns the lattice with planes through the samples; the outermost ones are moved into the box by `inset` (µm, less than a
+  /// quarter of a voxel), to a number in single precision.
   NodeLattice lattice(double inset = 0.0) const;
 
-  /// The image at the samples that a range of nodes takes its values from, and at those up to `more` beyond.
+  /// Returns the image at the samples that give a range of nodes its values, and at up to `more` samples beyond.
   LabelImageView samplesAt(const NodeRange& range, int more, LabelBuffer& buffer) const;
-  /// The same for a range of samples.
+  /// Does the same for a range of samples.
   LabelImageView samplesAround(const SampleRange& range, int more, LabelBuffer& buffer) const;
 
-  /// The field of a fibre at a sample of the image.
+  /// Returns the field of a fibre at a sample of the image.
   double atSample(std::int32_t fibre, int i, int j, int k) const;
-  /// The image as far around a range of nodes as atNodes() looks.
+  /// Returns the image around a range of nodes, as far as atNodes() reads it.
   LabelImageView samplesFor(const NodeRange& range, LabelBuffer& buffer) const;
-  /// The field of a fibre at nodes of the lattice, where those beyond its faces are as the nearest one inside. held: samplesFor()
-  /// the range.
+  /// Computes the field of a fibre at nodes of the lattice; nodes beyond its faces have the value of the nearest one inside.
+  /// held: the result of samplesFor() for the range.
   void atNodes(std::int32_t fibre, const NodeRange& range, const LabelImageView& held, float* out) const;
-  /// Where node 0 would be if it were as far from the first sample as that from the next, µm.
+  /// Returns the position (µm) of node 0 as if it were one spacing before the first sample.
   Eigen::Vector3d firstNode() const;
 
 private:
-  /// Of a sample outside all fibres that is nearer than gap/2 to one: to which, as its neighbours tell.
+  /// Returns the fibre nearest to a sample that is outside all fibres but nearer than gap/2 to one, judged by its neighbours.
   std::int32_t nearest(const LabelImageView& held, int i, int j, int k) const;
   bool isNearest(const LabelImageView& held, std::int32_t fibre, int i, int j, int k) const;
   bool holds(int i, int j, int k) const;

@@ -15,12 +15,12 @@ namespace cactus
 namespace
 {
 
-/// Contours keep off the samples beyond a face by this part of a voxel, since what is at the level counts as inside.
+/// Contours keep off the samples beyond a face by this fraction of a voxel, since a value at the level counts as inside.
 constexpr double leastAcross = 1e-4;
-/// Bytes per sample: in the image, and where a contour is made of it.
+/// Bytes per sample: in the image, and while it is contoured.
 constexpr double bytesPerSample = 12.0;
 
-/// The number nearest to `value` that is below `level`.
+/// Returns the number nearest to `value` that is below `level`.
 float below(double value, double level)
 {
   auto result = static_cast<float>(value);
@@ -31,7 +31,7 @@ float below(double value, double level)
   return result;
 }
 
-/// Nodes of the lattice that the blocks hold, with one more on every side.
+/// Returns the nodes of the lattice in the blocks, with one more on every side.
 NodeRange rangeOf(const NodeLattice& lattice, const std::vector<std::uint32_t>& blocks)
 {
   std::array<int, 3> first{ { 0, 0, 0 } };
@@ -55,15 +55,15 @@ NodeRange rangeOf(const NodeLattice& lattice, const std::vector<std::uint32_t>& 
   return all;
 }
 
-/// Layers beyond one face of the box.
+/// The layers beyond one face of the box.
 struct Face
 {
-  int layers = 0;      ///< added there
-  double distance = 0; ///< from the outermost sample to where the cap lies, in voxels
+  int layers = 0;      ///< number of layers added there
+  double distance = 0; ///< from the outermost sample to the cap, in voxels
 };
 
-/// What lies beyond the outermost sample, by how far out the cap is: a linear contour through the two values around it crosses
-/// `level` at the cap, or a little before.
+/// Returns the value beyond the outermost sample, by the distance of the cap: a linear contour through the two values around it
+/// crosses `level` at the cap, or slightly before.
 float beyond(float inside, const Face& face, int layer, double level, double spacing)
 {
   if (double(inside) <= level)
@@ -81,7 +81,7 @@ float beyond(float inside, const Face& face, int layer, double level, double spa
 
 using Faces = std::array<std::array<Face, 2>, 3>;
 
-/// The samples among the nodes of a range; nodes on faces of the box are none.
+/// Returns the samples among the nodes of a range; nodes on faces of the box are none.
 NodeRange samplesOf(const NodeLattice& lattice, const NodeRange& range, double spacing, Faces& faces)
 {
   NodeRange samples = range;
@@ -108,7 +108,7 @@ NodeRange samplesOf(const NodeLattice& lattice, const NodeRange& range, double s
   return samples;
 }
 
-/// The value at a place of the image, by the nearest sample, whose value is `inside`.
+/// Returns the value at a place of the image, by the nearest sample, whose value is `inside`.
 float valueAt(
   const std::array<int, 3>& at, float inside, const NodeRange& samples, const Faces& faces, double level, double spacing)
 {
@@ -129,7 +129,7 @@ float valueAt(
   return value;
 }
 
-/// Fills the image, and closes the fibre where no face cuts it off: it ends before, but its field may be just `level` there.
+/// Fills the image, and closes the fibre where no face cuts it off: it ends before, but its field may equal `level` there.
 void fill(const std::vector<float>& held, const NodeRange& samples, const Faces& faces, double level, FibreImage& image)
 {
   const auto& count = image.grid.count;

@@ -16,40 +16,40 @@ namespace cactus
 namespace
 {
 
-/// Relative error of the axons that another library's filters coarsen, and how often that is tried.
+/// Relative volume error of the axons that another library's filters coarsen, and the number of attempts.
 constexpr double filteredVolumeTolerance = 5e-3;
 constexpr int filterRounds = 4;
-/// How far an outer surface mostly moves out to make up for what smoothing takes off it, and what may be left of that before
-/// coarsening, as parts of the tolerance.
+/// The usual outward move of an outer surface that compensates smoothing, and the rest allowed before coarsening, as fractions of
+/// the tolerance.
 constexpr double usualPart = 0.5;
 constexpr double restPart = 0.02;
 /// Least distance between the planes of an inner and an outer surface's caps, in voxels.
 constexpr double smallestInset = 0.05;
-/// µm that growth has to have left between two fibres, so that contours, which are not quite the zeros of the fields, keep off
-/// each other.
+/// Room (µm) that growth has to leave between two fibres, so that contours, which differ slightly from the zeros of the fields,
+/// stay apart.
 constexpr double leastRoom = 0.01;
-/// Part of its volume by which an outer surface may change where it is kept apart from others, for the inner one to stay.
+/// Relative change of an outer surface's volume, when it is kept apart from others, below which the inner one stays.
 constexpr double negligibleChange = 2e-4;
 
-/// Least distance of the field from its level at a sample, µm.
+/// Returns the least distance of the field from its level at a sample, µm.
 double nudgeFor(double spacing, double tolerance)
 {
   return std::min(0.02 * spacing, 0.2 * std::max(tolerance, 1e-3 * spacing));
 }
 
-/// Whether an outer surface has the volume that it was made with, or next to that.
+/// Tells whether an outer surface has nearly the volume with which it was made.
 bool hasVolumeAsMade(const FibreSurfacePair& pair)
 {
   return std::abs(pair.outerReport.volume - pair.volumeAsMade) <= negligibleChange * pair.outerReport.volume;
 }
 
-/// Whether there is an inner surface that lies where it would within a somewhat larger outer one, too.
+/// Tells whether there is an inner surface that would lie in the same place within a slightly larger outer one.
 bool hasFreeInner(const FibreSurfacePair& pair)
 {
   return pair.state != MyelinState::NoFibre && pair.state != MyelinState::NoAxon && !pair.innerChange.isHemmedIn;
 }
 
-/// Gives back the room that a mesh had to grow in: all fibres' meshes are held at the same time.
+/// Frees the spare capacity of a mesh: all fibres' meshes are in memory at the same time.
 TriangleMesh packed(TriangleMesh&& mesh)
 {
   mesh.points.shrink_to_fit();
@@ -101,11 +101,11 @@ SmoothedField FibreMesher::smoothed(std::int32_t fibreId) const
 void FibreMesher::makeOuter(
   const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds, double deeper) const
 {
-  // Smoothing takes more off the ridges than it fills in; the surface moves out until it holds what the fibre held before.
+  // Smoothing removes more from ridges than it fills in; the surface moves out until it has the fibre's original volume.
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
   const double highest = this->Withdrawal + deeper;
   double level = highest - usualPart * furthest;
-  pair.outer = TriangleMesh(); // of an attempt before
+  pair.outer = TriangleMesh(); // of an earlier attempt
   pair.outerReport = SurfaceReport();
   pair.outerChange = SurfaceChange();
   pair.state = MyelinState::NoFibre;
@@ -117,11 +117,11 @@ void FibreMesher::makeOuter(
   SurfaceMeasure now = measure(surface);
   double volume = now.volume;
   double right = level;
-  if (furthest > 0.0 && now.freeArea > 0.0) // else all of it are caps
+  if (furthest > 0.0 && now.freeArea > 0.0) // otherwise it consists of caps only
   {
     volume = measure(this->Contours.unsmoothed(field)).volume - deeper * now.freeArea;
     right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
-    // The rest is left to the move after coarsening.
+    // The move after coarsening does the rest.
     const double rest = restPart * furthest;
     if (!this->movesContours())
     {
@@ -166,7 +166,8 @@ double FibreMesher::equivalentDiameter(const SmoothedField& field, double outerV
   return 2.0 * std::sqrt(std::max(0.0, outerVolume) / (pi * lengthOf(field, this->Spacing)));
 }
 
-/// From the thinnest myelin to the middle of the fibre; the latter is no more than the former if there is no room for an axon.
+/// Returns the levels from the thinnest myelin to the middle of the fibre; the latter is no more than the former if there is no
+/// room for an axon.
 AxonLevels FibreMesher::axonLevels(const SmoothedField& field, double volume) const
 {
   AxonLevels levels;
@@ -217,14 +218,14 @@ bool FibreMesher::keepsInner(FibreSurfacePair& pair) const
   return true;
 }
 
-/// The inner surface for an outer one as if that had a volume (µm³).
+/// Makes the inner surface for an outer one as if that had `outerVolume` (µm³).
 void FibreMesher::makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair) const
 {
   forgetInner(pair);
   const double wanted = pair.targetGRatio * pair.targetGRatio * outerVolume;
   if (!(wanted > 0.0))
   {
-    return; // an outer surface, not made here, that encloses no volume
+    return; // an outer surface, made elsewhere, that encloses no volume
   }
   const AxonLevels levels = this->axonLevels(field, wanted);
   if (levels.highest <= levels.lowest)
@@ -266,7 +267,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
     }
     if (isSound && !isInside)
     {
-      // The largest part of the axon lies in a part of the fibre that is not the largest, and was left out.
+      // The largest part of the axon lies in a minor part of the fibre, which was left out.
       within = &outer;
       state = search.find(within, axon);
       continue;
@@ -277,7 +278,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
       break;
     }
     isHemmedIn = true;
-    // The outer surface lies further in than the field tells, where voxels do not resolve a crease or a neighbour has pushed it.
+    // The outer surface lies further in than its field, where voxels do not resolve a crease or a neighbour has pushed it.
     state = MyelinState::Thicker;
     const double step = isSound ? std::max(this->PromisedMyelin - gap.distance, leastStep) : this->ThinnestMyelin;
     leastStep = isSound ? 2.0 * leastStep : leastStep;
@@ -299,8 +300,8 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
   pair.gRatio = std::sqrt(pair.innerReport.volume / pair.outerReport.volume);
 }
 
-/// Coarsens an inner surface by another library's filters. These change its volume, so it is made again at other levels until it
-/// is the one wanted.
+/// Coarsens an inner surface by another library's filters. These change its volume, so it is made again at other levels until the
+/// volume is right.
 void FibreMesher::finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const
 {
   const double wanted = state == MyelinState::AsAsked ? search.volume() : axon.volume;
@@ -336,7 +337,7 @@ void FibreMesher::finishByFilters(const AxonSearch& search, MyelinState state, A
   pair.state = pair.inner.triangles.empty() ? MyelinState::NoAxon : state;
 }
 
-/// The triangles of an outer surface that are no caps on the faces of the box.
+/// Returns the triangles of an outer surface that are no caps on the faces of the box.
 std::vector<std::uint32_t> FibreMesher::wallOf(const TriangleMesh& outer) const
 {
   const std::vector<std::uint8_t> faces = facesOf(outer, this->box());

@@ -21,12 +21,12 @@
 namespace cactus
 {
 
-/// Makes the surfaces of one fibre after the other (see myelinSurfaces() for what they are). May be used from several threads.
+/// Makes the surfaces of single fibres (see myelinSurfaces()). Thread-safe.
 class FibreMesher
 {
 public:
-  /// What is given has to outlive the mesher, except the context, the sharing and what is `known` of thin fibres. With `filters`
-  /// these contour the fields and coarsen what comes out. Throws InvalidInput where the image is not a proper one, and Cancelled.
+  /// All arguments have to outlive the mesher, except the context, the sharing and the cache `known` of thin fibres. With
+  /// `filters` these contour the fields and coarsen the contours. Throws InvalidInput if the image is invalid, and Cancelled.
   FibreMesher(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
     const SurfaceFilters* filters = nullptr, const Context& context = {}, const Sharing& sharing = Sharing(),
     const Recollection& known = {});
@@ -39,33 +39,33 @@ public:
 
   SmoothedField smoothed(std::int32_t fibreId) const;
 
-  /// Makes the outer surface, coarsened within `bounds`, and `deeper` (µm) than it might be; leaves the pair's state at NoFibre
-  /// if there is none, else at NoAxon.
+  /// Makes the outer surface, coarsened within `bounds`, and moved `deeper` (µm) than necessary. Sets the pair's state to NoFibre
+  /// if there is none, else to NoAxon.
   void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds = {},
     double deeper = 0.0) const;
 
-  /// Measures the outer surface again after it has been moved, and says where it now meets itself. Needles that moving has left
-  /// are split, and pieces that have been turned inside out go; where nothing is left, the pair's state is NoFibre.
+  /// Measures the outer surface again after it has been moved, and returns where it now meets itself. Needles left by moving are
+  /// split, and pieces turned inside out are removed; if nothing is left, the pair's state is NoFibre.
   std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
 
-  /// Diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
+  /// Returns the diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, double outerVolume) const;
 
-  /// As if no inner surface had been made.
+  /// Resets the pair to a state without an inner surface.
   static void forgetInner(FibreSurfacePair& pair);
 
-  /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would leave that or
-  /// come nearer to its wall than promised, and without an axon if no thickness prevents that. Where the outer one was moved and
-  /// has next to the volume (volumeAsMade) that it had before, the inner one is that of before, unless it is in the way.
+  /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would otherwise leave
+  /// the outer one or come nearer to its wall than promised, and without an axon if no thickness prevents that. If the outer one
+  /// was moved and nearly kept its volume (volumeAsMade), the old inner one is kept, unless it is in the way.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
-  /// Whether the inner surface of a pair is the one that makeInner() would make now that the outer one was moved. Sets the
+  /// Tells whether the pair's inner surface is the same that makeInner() would make now that the outer one was moved. Sets the
   /// g-ratio if so.
   bool keepsInner(FibreSurfacePair& pair) const;
 
 private:
   Eigen::AlignedBox3d box() const;
-  /// Whether contours that lie a little beside where they are to be are moved there, rather than made again.
+  /// Tells whether contours slightly beside their target are moved there, rather than made again.
   bool movesContours() const;
   void makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair) const;
   AxonLevels axonLevels(const SmoothedField& field, double volume) const;
@@ -82,9 +82,9 @@ private:
   double Spacing;
   FibreContours Contours;
   SurfaceFinishing Finishing;
-  double Withdrawal;     ///< µm; outer surfaces lie so deep where growth has left next to no room between fibres
-  double ThinnestMyelin; ///< µm; inner and outer surfaces keep apart even where both move
-  double PromisedMyelin; ///< µm, least distance of inner surfaces to the walls of outer ones
+  double Withdrawal;     ///< µm; depth of outer surfaces where growth has left almost no room between fibres
+  double ThinnestMyelin; ///< µm; keeps inner and outer surfaces apart even if both move
+  double PromisedMyelin; ///< µm, least distance of inner surfaces from the walls of outer ones
 };
 
 } // namespace cactus

@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-/// From this part of all fibres on, next to no sample need not be looked at to find them.
+/// Fraction of all fibres from which on nearly all samples have to be read to find them.
 constexpr double mostOfAll = 0.5;
 
 } // namespace
@@ -85,7 +85,7 @@ FoundFibre FibrePlaces::find(std::int32_t fibreId) const
   return found != this->Found.end() ? found->second : FoundFibre();
 }
 
-/// All that may hold samples of some fibres that the source knows.
+/// Returns all pieces that may hold samples of some fibres that the source knows.
 std::vector<std::uint32_t> FibrePlaces::piecesOf(const std::set<std::int32_t>& fibres, const Context& context) const
 {
   const std::vector<std::int32_t> ids(fibres.begin(), fibres.end());

@@ -19,29 +19,30 @@
 namespace cactus
 {
 
-/// Where the fibres of a field are. An image whose source knows its fibres is looked at where they may be, one by one when they
-/// are asked for; of any other all samples are looked at once. Of both the same is told.
+/// Where the fibres of a field are. If the source knows its fibres, each is searched for only where it may be, on demand;
+/// otherwise all samples are read once. The results are the same.
 class FibrePlaces
 {
 public:
-  /// `field` has to outlive the object. Throws as findFibres() does.
+  /// Finds the places; `field` has to outlive the object. Throws as findFibres() does.
   FibrePlaces(
     const FibreField& field, const LabelImageFacts& facts, const Context& context = {}, const Sharing& sharing = Sharing());
 
-  /// About where a fibre is, and how large it is beside others.
+  /// A fibre's approximate position and relative size.
   struct Place
   {
-    std::array<int, 3> middle{ { 0, 0, 0 } }; ///< in pieces (see ImagePieces) from where the field begins
+    std::array<int, 3> middle{ { 0, 0, 0 } }; ///< in pieces (see ImagePieces) from the beginning of the field
     double size = 0.0;
-    double targetRadius = 0.0; ///< µm; 0 where that is not known
+    double targetRadius = 0.0; ///< µm; 0 if unknown
   };
-  /// All that have samples and, where the source knows its fibres, maybe others. By FibreId.
+  /// Returns all fibres with samples and, if the source knows its fibres, possibly others. By FibreId.
   const std::map<std::int32_t, Place>& all() const { return this->Places; }
 
-  /// Without samples where there is no such fibre. May be used from several threads.
+  /// Returns no samples for an unknown fibre. Thread-safe.
   FoundFibre find(std::int32_t fibreId) const;
 
-  /// Those with a target radius below that (µm), or with none that is known. What `known` has of them is not looked for again.
+  /// Returns the fibres with a target radius below `radius` (µm), or an unknown one. Results in the cache `known` are not
+  /// computed again.
   FoundFibres thinnerThan(
     double radius, const Context& context = {}, const Sharing& sharing = Sharing(), const Recollection& known = {}) const;
 
@@ -52,7 +53,7 @@ private:
 
   const FibreField& Field;
   const ImagePieces Pieces;
-  FoundFibres Found; ///< all, where the source does not know its fibres
+  FoundFibres Found; ///< all, if the source does not know its fibres
   std::map<std::int32_t, Place> Places;
 };
 

@@ -10,22 +10,22 @@
 namespace cactus
 {
 
-/// How a fibre's myelin came out.
+/// The result for a fibre's myelin.
 enum class MyelinState
 {
   AsAsked = 0,
-  Thinner = 1, ///< than asked: else the axon would break within the box
-  Thicker = 2, ///< than asked: myelin is at least MinimumGap (and leastSeparation) thick, and the axon does not leave it
+  Thinner = 1, ///< thinner: otherwise the axon would break within the box
+  Thicker = 2, ///< thicker: myelin is at least MinimumGap (and leastSeparation) thick, and the axon does not leave it
   NoAxon = 3,  ///< the fibre is too thin to hold an unbroken axon inside myelin of that thickness: no inner surface
-  NoFibre = 4  ///< the fibre has no voxel of the image, or too few for a closed surface: neither surface
+  NoFibre = 4  ///< the fibre has no voxel of the image, or too few for a closed surface: no surface
 };
 
-/// What became of a surface after it was contoured.
+/// Changes of a surface after it was contoured.
 struct SurfaceChange
 {
-  double largestMove = 0.0;   ///< µm, the largest |field - level| found on the final surface away from caps
-  double droppedVolume = 0.0; ///< µm³, of pieces apart from the main one, and of closed-in cavities, that were left out
-  /// Of an inner surface: it would lie elsewhere, did the outer one not stand in its way.
+  double largestMove = 0.0;   ///< µm, largest |field - level| found on the final surface away from caps
+  double droppedVolume = 0.0; ///< µm³, of removed pieces apart from the main one, and of closed-in cavities
+  /// For an inner surface: its place is limited by the outer one.
   bool isHemmedIn = false;
 };
 
@@ -42,20 +42,20 @@ struct FibreSurfacePair
   SurfaceChange outerChange;
   SurfaceChange innerChange;
   MyelinState state = MyelinState::NoFibre;
-  /// µm³, of the outer surface before it was kept apart from others; NaN where there was none.
+  /// Volume (µm³) of the outer surface before it was kept apart from others; NaN if there was none.
   double volumeAsMade = std::numeric_limits<double>::quiet_NaN();
-  double outerLevel = 0.0; ///< µm, the field's value on the outer surface, 0 or a little less
+  double outerLevel = 0.0; ///< µm, the field's value on the outer surface, 0 or slightly below
   double thickness = 0.0;  ///< µm, depth of the inner surface below the outer one: the difference of the field
   double targetGRatio = 0.0;
-  double gRatio = 0.0;  ///< reached: sqrt(inner volume / outer volume); 0 without an axon
-  bool isWanted = true; ///< false only where the centre line is known to pass by outside the domain
-  /// A surface has a fault that could not be repaired: it meets itself or the other one, or is nearer than MinimumGap (and
-  /// leastSeparation) to another fibre.
+  double gRatio = 0.0;  ///< the one reached: sqrt(inner volume / outer volume); 0 without an axon
+  bool isWanted = true; ///< false only if the centre line is known to pass outside the domain
+  /// Whether a surface has a fault that could not be repaired: it meets itself or the other one, or is nearer than MinimumGap
+  /// (and leastSeparation) to another fibre.
   bool isFlawed = false;
-  /// The inner surface was made with the outer one, which has not been moved since.
+  /// Whether the inner surface was made with the outer one, which has not been moved since.
   bool isInnerMade = false;
 
-  /// Of both surfaces.
+  /// Combine the values of both surfaces.
   double largestMove() const { return std::max(this->outerChange.largestMove, this->innerChange.largestMove); }
   double droppedVolume() const { return this->outerChange.droppedVolume + this->innerChange.droppedVolume; }
 };

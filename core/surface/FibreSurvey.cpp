@@ -18,15 +18,15 @@ namespace
 
 constexpr std::size_t piecesAtOnce = std::size_t(1) << 16;
 
-/// What a piece holds of a fibre.
+/// The samples of a fibre in one piece.
 struct PartOfFibre
 {
   double depths = 0.0;
   double samples = 0.0;
-  std::array<std::uint8_t, 3> first{ { ImagePieces::edge, ImagePieces::edge, ImagePieces::edge } }; ///< sample in the piece
+  std::array<std::uint8_t, 3> first{ { ImagePieces::edge, ImagePieces::edge, ImagePieces::edge } }; ///< first sample in the piece
   std::array<std::uint8_t, 3> last{ { 0, 0, 0 } };
 
-  /// Adds samples in a row along x. at: of the first one in the piece.
+  /// Adds samples in a row along x. at: place of the first one in the piece.
   void addRun(const std::array<int, 3>& at, int count, double sum)
   {
     this->depths += sum;
@@ -42,7 +42,7 @@ struct PartOfFibre
 
 using PartsOfPiece = std::map<std::int32_t, PartOfFibre>;
 
-/// Sees to it that a row is of a label image.
+/// Throws unless a row belongs to a label image.
 void checkRow(const std::int32_t* ids, const float* depths, int count)
 {
   constexpr auto deepest = float(limits::coordinate.highest); // more than any fibre's radius
@@ -51,7 +51,7 @@ void checkRow(const std::int32_t* ids, const float* depths, int count)
   std::int32_t least = 0;
   for (int i = 0; i < count; ++i)
   {
-    isWithin &= int(std::abs(depths[i]) <= deepest); // which NaN is not
+    isWithin &= int(std::abs(depths[i]) <= deepest); // false for NaN
     fits &= int((depths[i] > 0.0f) == (ids[i] > 0));
     least = std::min(least, ids[i]);
   }
@@ -63,7 +63,7 @@ void checkRow(const std::int32_t* ids, const float* depths, int count)
   require(fits != 0, "the label image has a Depth that does not fit its FibreId: Depth must be positive just where FibreId is");
 }
 
-/// visit(ids, depths, count, at) for each row of a piece's samples, `at` being the place in the piece of the first one.
+/// Calls visit(ids, depths, count, at) for each row of a piece's samples; `at` is the place of the first one in the piece.
 template <typename Visit>
 void forEachRow(const FibreField& field, const ImagePieces& pieces, std::size_t piece, Visit&& visit)
 {
@@ -82,7 +82,7 @@ void forEachRow(const FibreField& field, const ImagePieces& pieces, std::size_t 
   }
 }
 
-/// part(id) gives what a row's samples in a fibre are added to, or null.
+/// Adds a row's samples; part(id) returns the sum for a fibre, or null.
 template <typename Part>
 void addRow(const std::int32_t* ids, const float* depths, int count, const std::array<int, 3>& at, Part&& part)
 {
@@ -114,14 +114,14 @@ PartsOfPiece partsOf(const FibreField& field, const ImagePieces& pieces, std::si
   return parts;
 }
 
-/// Without samples where the piece has none.
+/// Returns a part without samples if the piece has none.
 PartOfFibre partOf(const FibreField& field, const ImagePieces& pieces, std::size_t piece, std::int32_t fibre)
 {
   PartOfFibre part;
   forEachRow(field, pieces, piece,
     [&](const std::int32_t* ids, const float* depths, int count, const std::array<int, 3>& at)
     {
-      int isHere = 0; // in most rows it is not
+      int isHere = 0; // false for most rows
       for (int i = 0; i < count; ++i)
       {
         isHere |= int(ids[i] == fibre);
@@ -174,7 +174,7 @@ PartsOfPiece partsFrom(const std::string& bytes)
   return parts;
 }
 
-/// The node of the sample at which a piece begins: node 1 is the field's first sample.
+/// Returns the node of the first sample of a piece: node 1 is the field's first sample.
 std::array<int, 3> firstNodeOf(const FibreField& field, std::size_t piece)
 {
   std::array<int, 3> node = ImagePieces(field.samples()).begin(piece);
@@ -185,7 +185,7 @@ std::array<int, 3> firstNodeOf(const FibreField& field, std::size_t piece)
   return node;
 }
 
-/// In the pieces pieceAt(0), pieceAt(1) …, increasing; isWanted(id) says of which fibres.
+/// Finds fibres in the pieces pieceAt(0), pieceAt(1) …, increasing; isWanted(id) selects the fibres.
 template <typename PieceAt, typename IsWanted>
 FoundFibres findThem(const FibreField& field, std::size_t count, const PieceAt& pieceAt, const IsWanted& isWanted,
   const Context& context, const Sharing& sharing)

@@ -21,48 +21,48 @@ namespace cactus
 struct FoundBox
 {
   std::uint32_t piece = 0;                ///< see ImagePieces
-  std::array<std::uint8_t, 3> ends{ {} }; ///< along each axis: the first sample in the piece, and 16 times the last one
+  std::array<std::uint8_t, 3> ends{ {} }; ///< per axis: the first sample in the piece, plus 16 times the last one
 };
 
-/// What one look at a label image tells of a fibre.
+/// The samples of a fibre found in one pass over a label image.
 struct FoundFibre
 {
   double depths = 0.0;         ///< µm, sum over its samples
-  double samples = 0.0;        ///< how many they are
+  double samples = 0.0;        ///< number of samples
   std::vector<FoundBox> boxes; ///< by piece, increasing
 };
 
-/// Of the progress of making surfaces, what looking for fibres takes.
+/// Share of the total progress spent in the survey.
 constexpr double shareOfLooking = 0.01;
 
-/// By FibreId.
+/// Fibres found, keyed by FibreId.
 using FoundFibres = std::map<std::int32_t, FoundFibre>;
 
-/// The fibres of a field. Each sample is looked at once, in pieces that a source of samples makes at once; what they hold is put
-/// together in their order, so that the result does not depend on threads or processes, which share the work and get all of it.
-/// Throws InvalidInput for a negative FibreId, a Depth that is not finite, beyond limits::coordinate or does not fit its FibreId,
-/// and Cancelled.
+/// Finds the fibres of a field. Each sample is read once, in pieces that a source computes at once; their results are merged in
+/// their order, so that the result does not depend on threads or processes, which share the work and all get the whole result.
+/// Throws InvalidInput for a negative FibreId, a Depth that is not finite, is beyond limits::coordinate or does not fit its
+/// FibreId, and Cancelled.
 FoundFibres findFibres(const FibreField& field, const Context& context = {}, const Sharing& sharing = Sharing());
 
-/// The same of some fibres.
+/// Does the same for some fibres.
 FoundFibres findFibres(
   const FibreField& field, const std::set<std::int32_t>& fibres, const Context& context, const Sharing& sharing);
 
-/// The same of some fibres, in pieces, increasing, among which are all that hold samples of them.
+/// Does the same for some fibres in given pieces, increasing, which include all that hold samples of them.
 FoundFibres findFibres(const FibreField& field, const std::set<std::int32_t>& fibres, const std::vector<std::uint32_t>& pieces,
   const Context& context = {}, const Sharing& sharing = Sharing());
 
-/// Of one fibre, and for an image that is known to be a proper one.
+/// Does the same for one fibre, in an image that is known to be valid.
 FoundFibre findFibre(const FibreField& field, std::int32_t fibre, const std::vector<std::uint32_t>& pieces);
 
-/// Fibres found as bytes, and back.
+/// Convert fibres found to bytes, and back.
 std::string bytesOf(const FoundFibres& fibres);
 FoundFibres foundFrom(const std::string& bytes);
 
-/// The nodes of a box.
+/// Returns the nodes of a box.
 NodeRange nodesOf(const FibreField& field, const FoundBox& box);
 
-/// The numbers of the pieces with the samples that some nodes take their values from.
+/// Returns the numbers of the pieces with the samples that give some nodes their values.
 std::vector<std::uint32_t> piecesAt(const FibreField& field, const NodeRange& nodes);
 
 } // namespace cactus

@@ -6,28 +6,28 @@
 namespace cactus
 {
 
-/// How thick a fibre's myelin is to be. Values are those of the filter's property.
+/// The model of a fibre's myelin thickness. Values are those of the filter's property.
 enum class GRatioModel
 {
   Constant = 0,                ///< the same g-ratio for all fibres
   LogLinear = 1,               ///< by the fibre's diameter, see logLinearGRatio()
   Distributed = 2,             ///< per fibre from a normal distribution
-  TargetAxonVolumeFraction = 3 ///< the same for all fibres, such that the axons fill a given fraction of the domain
+  TargetAxonVolumeFraction = 3 ///< the same for all fibres, so that the axons fill a given fraction of the domain
 };
 
-/// g-ratios that a model may give; what lies outside is cut off (LogLinear) or drawn anew (Distributed).
+/// Limits of a model's g-ratios: values outside are clamped (LogLinear) or drawn again (Distributed).
 constexpr double smallestGRatio = 0.3;
 constexpr double largestGRatio = 0.95;
 
-/// The g-ratio of a fibre of outer diameter `outerDiameter` (µm) whose myelin is as thick as its axon asks for, see
+/// Returns the g-ratio of a fibre of outer diameter `outerDiameter` (µm) by the myelin thickness for its axon, see
 /// base/MyelinThickness.h, which is inverted here.
 ///
-/// The relation leaves no axon worth the name in thin fibres (at 1 µm g is 0.35), for which it was not measured: the result is at
-/// least smallestGRatio. It is at most largestGRatio, which is passed at 30 µm. Throws InvalidInput unless the diameter is
-/// positive and finite.
+/// The relation leaves almost no axon in thin fibres (at 1 µm g is 0.35), for which it was not measured: the result is at least
+/// smallestGRatio. It is at most largestGRatio, which is exceeded from 30 µm. Throws InvalidInput unless the diameter is positive
+/// and finite.
 double logLinearGRatio(double outerDiameter);
 
-/// The g-ratio of one fibre from a normal distribution of this mean and standard deviation, cut off to [smallestGRatio,
+/// Returns the g-ratio of one fibre from a normal distribution of this mean and standard deviation, truncated to [smallestGRatio,
 /// largestGRatio]: the same for the same seed and fibre, whatever the other fibres are. Throws InvalidInput for a mean outside
 /// that range or a deviation that is negative or above 0.3.
 double distributedGRatio(double mean, double deviation, std::uint64_t seed, std::int32_t fibreId);

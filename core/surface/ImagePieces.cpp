@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// Of a sample along an axis, which may be negative.
+/// Returns the piece of a sample along an axis; the sample may be negative.
 int pieceOf(int sample)
 {
   constexpr int edge = ImagePieces::edge;

@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// Of triangles; 0 stands for any. Equilateral ones have 60°, and some have little above 25° wherever lengths change.
+/// Angles of triangles; 0 means any. Equilateral ones have 60°, and some have little above 25° wherever edge lengths change.
 constexpr Range smallestAngles{ 5.0, 25.0, "°", 0.0 };
 
 } // namespace

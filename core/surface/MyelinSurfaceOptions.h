@@ -14,8 +14,8 @@ namespace cactus
 struct Fibres;
 struct FibreRadialGrowthOptions;
 
-/// µm that surfaces of two fibres keep from each other, and inner surfaces from outer ones, however little is asked for: a
-/// simulator's walls have that thickness (MC/DC: 1 nm).
+/// Least distance (µm) between surfaces of two fibres, and between inner and outer surfaces, whatever the options: a simulator's
+/// walls have that thickness (MC/DC: 1 nm).
 constexpr double leastSeparation = 0.001;
 
 /// Parameters of the surfaces; lengths in µm.
@@ -28,15 +28,14 @@ struct MyelinSurfaceOptions
   double gRatioDeviation = 0.04;
   /// Fraction of the box that the axons are to fill (TargetAxonVolumeFraction), 0.0001 to 0.999.
   double targetAxonVolumeFraction = 0.0;
-  /// Passes of smoothing of the fields before they are contoured (see SmoothedField), 0 to 20 (see Limits.h); 0: none.
+  /// Smoothing passes of the fields before they are contoured (see SmoothedField), 0 to 20 (see Limits.h); 0: none.
   int smoothingIterations = 2;
   /// Distance by which coarsening may move a surface, at most the tolerance that growth kept, as an aim and no strict bound (see
   /// myelinSurfaces()); 0: surfaces stay as contoured.
   double decimationError = 0.005;
-  /// Degrees that the angles of triangles are to have at least, for finite elements, 5 to 25 (see remesh()); 0: as coarsening
-  /// leaves them.
+  /// Smallest angle of triangles, in degrees, for finite elements, 5 to 25 (see remesh()); 0: no remeshing.
   double minimumAngle = 0.0;
-  /// Cut fibres off at the faces of the domain, else where the image ends.
+  /// Cut fibres off at the faces of the domain; otherwise where the image ends.
   bool clipToDomain = true;
   std::uint64_t seed = 1;
 
@@ -46,24 +45,24 @@ struct MyelinSurfaceOptions
 /// Throws InvalidInput, naming the parameter, for a value out of range.
 void validate(const MyelinSurfaceOptions& options);
 
-/// Throws InvalidInput where coarsening would move surfaces further than growth has left room for, its SurfaceTolerance (µm).
+/// Throws InvalidInput if coarsening would move surfaces further than growth has left room for, its SurfaceTolerance (µm).
 void requireDecimationRoom(const MyelinSurfaceOptions& options, double surfaceTolerance);
 
-/// What comes with a label image; lengths in µm.
+/// The data that accompany a label image; lengths in µm.
 struct LabelImageFacts
 {
   Domain domain;
   double minimumGap = 0.02;        ///< least distance between the surfaces of two fibres
   double surfaceTolerance = 0.005; ///< room beside the gap, on either side, for moving surfaces
-  std::vector<int> fibreIds;       ///< all fibres whose surfaces are to be made, unique, in any order
+  std::vector<int> fibreIds;       ///< all fibres whose surfaces are made, unique, in any order
   std::vector<int> bundleIds;      ///< one per fibre
   std::vector<double> targetRadii; ///< one per fibre
-  /// µm of each fibre's centre line inside the domain: one of 0 only passes by outside. Empty where that is not known.
+  /// Length (µm) of each fibre's centre line inside the domain: 0 for one that only passes outside. Empty if unknown.
   std::vector<double> lengths;
-  bool isSample = false; ///< the image has other fibres, too, of which no surfaces are made
+  bool isSample = false; ///< the image also has other fibres, of which no surfaces are made
 };
 
-/// Of the image that these options grow from the fibres. Lengths are left open.
+/// Returns the facts of the image that these options grow from the fibres. Lengths are left empty.
 LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOptions& growth);
 
 } // namespace cactus

@@ -32,7 +32,7 @@ NearBlocks blocksNear(const FibreField& field, const FoundFibre& fibre, int reac
     std::array<int, 3> last{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      // Of `size` cells, a block has a node more than that.
+      // A block of `size` cells has one node more.
       first[axis] = std::max(0, (nodes.first[axis] - farthest - 1) / size);
       last[axis] = std::min(lattice.blocks(int(axis)) - 1, (nodes.first[axis] + nodes.count[axis] - 1 + farthest) / size);
     }

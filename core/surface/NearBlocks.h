@@ -11,18 +11,18 @@
 namespace cactus
 {
 
-/// Blocks of a field's lattice, and where in them and around them a fibre is.
+/// Blocks of a field's lattice, and the extent of a fibre in and around each.
 struct NearBlocks
 {
-  /// So far around a block's nodes is looked for the fibre.
+  /// Search radius around a block's nodes, in nodes.
   static constexpr int around = 4;
 
   std::vector<std::uint32_t> numbers; ///< increasing
-  std::vector<NodeRange> inside; ///< per block: a box that holds the fibre's samples there; without nodes where there is none
+  std::vector<NodeRange> inside;      ///< per block: a box that holds the fibre's samples there; without nodes if there are none
 };
 
-/// All blocks that have a node in a fibre's boxes, or at most `reach` away from them. Throws InvalidInput where the lattice has
-/// more than their numbers count.
+/// Returns all blocks that have a node in a fibre's boxes, or at most `reach` away from them. Throws InvalidInput if the lattice
+/// has more blocks than 32-bit numbers.
 NearBlocks blocksNear(const FibreField& field, const FoundFibre& fibre, int reach);
 
 } // namespace cactus

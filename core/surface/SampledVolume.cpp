@@ -16,14 +16,15 @@ namespace
 {
 
 constexpr int mostNewtonSteps = 40;
-/// µm, far below what coarsening moves surfaces by.
+/// µm, far below the moves of coarsening.
 constexpr double sampledTolerance = 1e-4;
-/// Sums in single precision are over so few samples that they are good to a millionth.
+/// Sums in single precision are over so few samples that they are accurate to a millionth.
 constexpr std::size_t samplesAtOnce = 1024;
 
 static_assert(samplesAtOnce % SampledSums::lanes == 0);
 
-/// How long the boxes of an axis's samples are, by node, µm: those beside the faces reach up to them, whose own nodes have none.
+/// Returns the lengths (µm) of the boxes of an axis's samples, by node: those beside the faces reach up to them, whose own nodes
+/// have none.
 std::vector<float> lengthsAlong(const std::vector<double>& planes)
 {
   std::vector<float> lengths(planes.size(), 0.0f);
@@ -37,7 +38,7 @@ std::vector<float> lengthsAlong(const std::vector<double>& planes)
   return lengths;
 }
 
-/// Between samples; of an axis with one sample alone, between the faces.
+/// Returns the distance between samples; if all axes have one sample only, between the faces.
 double spacingOf(const NodeLattice& lattice)
 {
   double spacing = lattice.planes[0].back() - lattice.planes[0].front();
@@ -96,10 +97,10 @@ SampledVolume::SampledVolume(const SmoothedField& field, const NodeLattice& latt
   this->Volumes.resize(whole, 0.0f);
 }
 
-/// A box counts in part where its sample is nearer to the level than a voxel: by a polynomial that begins and ends flat, so that
-/// it hardly matters how the surface lies between the samples. Two things make the sum larger than what a contour holds: around a
-/// convex surface more lies outside than inside, by its curvature times the variance of that ramp, a seventh of a square voxel;
-/// and a contour cuts the curve short in each cell.
+/// A box counts in part if its sample is nearer to the level than a voxel: by a polynomial with zero slope at both ends, so that
+/// the position of the surface between the samples hardly matters. Two effects make the sum larger than the volume of a contour:
+/// around a convex surface more volume lies outside than inside, by its curvature times the variance of that ramp, a seventh of a
+/// square voxel; and a contour cuts the curve short in each cell.
 SampledVolume::Measure SampledVolume::measureAt(double level) const
 {
   const double perWidth = 1.0 / this->Spacing;
@@ -120,7 +121,7 @@ SampledVolume::Measure SampledVolume::measureAt(double level) const
     }
   }
   result.area = 15.0 / 16.0 * perWidth * slope;
-  const double curvature = 15.0 / 4.0 * perWidth * perWidth * bend; // over the surface, µm
+  const double curvature = 15.0 / 4.0 * perWidth * perWidth * bend; // integral over the surface, µm
   result.volume -= (1.0 / 14.0 + 1.0 / 12.0) * this->Spacing * this->Spacing * curvature;
   return result;
 }

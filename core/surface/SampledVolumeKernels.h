@@ -8,7 +8,7 @@
 namespace cactus
 {
 
-/// Sums over samples, each in lanes: the samples whose place leaves the same rest by `lanes`.
+/// Sums over samples in lanes: by the index modulo `lanes`.
 struct SampledSums
 {
   static constexpr int lanes = 16;
@@ -18,10 +18,10 @@ struct SampledSums
   float bend[lanes];
 };
 
-/// The loop in which SampledVolume looks for a level.
+/// The loop in which SampledVolume searches for a level.
 struct SampledVolumeKernels
 {
-  /// What the boxes of samples hold above a level, and how that changes with it; see SampledVolume::measureAt(). `count` is a
+  /// Sums the volume of the samples' boxes above a level, and its derivatives; see SampledVolume::measureAt(). `count` is a
   /// multiple of the lanes.
   void (*sum)(const float* depths, const float* volumes, std::size_t count, float level, float perWidth, SampledSums& sums);
 };

@@ -21,19 +21,18 @@ namespace cactus
 namespace
 {
 
-/// Blocks are smoothed together in boxes of so many along each edge, since they share the nodes around them, but of fewer along
-/// the fibre, so that the box around what is the fibre's is narrow, unless many passes need many nodes.
+/// Edge, in blocks, of the boxes that are smoothed together, since blocks share the nodes around them. It is shorter along the
+/// fibre, so that the box around the fibre is narrow, unless many passes need many nodes.
 constexpr int blocksTogether = 4;
 constexpr int blocksAlongFibre = 2;
 constexpr int fewPasses = 8;
-/// Nodes beyond those inside a fibre at which the field counts: contours and value() look at what is two nodes away from the
-/// surface.
+/// Nodes beyond those inside a fibre at which the field counts: contours and value() read up to two nodes away from the surface.
 constexpr int nodesBeside = 3;
 static_assert(nodesBeside + 1 <= NearBlocks::around, "a block is held with a node beyond");
-/// The field elsewhere, µm: far below what any other one can make up for.
+/// The field elsewhere, µm: so low that no other field can compensate it.
 constexpr float farOutside = -1e6f;
 
-/// Four floats as they lie in memory.
+/// Loads four floats from memory.
 inline FourFloats fourAt(const float* from)
 {
   FourFloats four;
@@ -41,10 +40,10 @@ inline FourFloats fourAt(const float* from)
   return four;
 }
 
-/// Two floats from each of two places.
+/// Loads two floats from each of two places.
 inline FourFloats twoAndTwo(const float* first, const float* second)
 {
-  // As doubles, of which compilers make two loads and nothing else.
+  // As doubles, which compilers turn into just two loads.
   typedef double Pair __attribute__((vector_size(16)));
   double pairs[2];
   std::memcpy(&pairs[0], first, sizeof(double));
@@ -52,7 +51,7 @@ inline FourFloats twoAndTwo(const float* first, const float* second)
   return reinterpret_cast<FourFloats>(Pair{ pairs[0], pairs[1] });
 }
 
-/// By place along an axis whose nodes are `step` apart: two and two nodes next to each other, `other` apart.
+/// Loads, for four places along an axis whose nodes are `step` apart, two pairs of neighbouring nodes, `other` apart.
 inline std::array<FourFloats, 4> rowsAt(const float* corner, std::ptrdiff_t step, std::ptrdiff_t other)
 {
   const auto row = [&](std::ptrdiff_t at) { return twoAndTwo(corner + at * step, corner + at * step + other); };
@@ -72,7 +71,7 @@ inline std::array<FourFloats, 4> transposed(const std::array<FourFloats, 4>& row
 inline FourFloats lesser(const FourFloats& x, const FourFloats& y)
 {
 #ifdef __SSE__
-  return _mm_min_ps(x, y); // which compilers do not make of the line below
+  return _mm_min_ps(x, y); // compilers do not generate this from the line below
 #else
   return x < y ? x : y;
 #endif
@@ -87,7 +86,7 @@ inline FourFloats larger(const FourFloats& x, const FourFloats& y)
 #endif
 }
 
-/// A block by its place along each axis.
+/// Returns a block's place along each axis.
 std::array<int, 3> indexOf(const NodeLattice& lattice, std::size_t block)
 {
   const NodeRange range = nodesOfBlock(lattice, block);
@@ -95,7 +94,7 @@ std::array<int, 3> indexOf(const NodeLattice& lattice, std::size_t block)
   return { { range.first[0] / size, range.first[1] / size, range.first[2] / size } };
 }
 
-/// The box of the nodes at which the values of a range are above 0, in a part of it.
+/// Returns the box of the nodes at which the values of a range are above 0, in a part of it.
 NodeRange insideOf(const std::vector<float>& values, const NodeRange& range, const NodeRange& part)
 {
   NodeRange inside;
@@ -123,7 +122,7 @@ NodeRange insideOf(const std::vector<float>& values, const NodeRange& range, con
   return inside;
 }
 
-/// agreedBend() (see mesh/ContourPoints.h) of four pairs of second differences.
+/// Returns agreedBend() (see mesh/ContourPoints.h) of four pairs of second differences.
 inline FourFloats agreedBends(const FourFloats& first, const FourFloats& second)
 {
   const FourFloats zero{};
@@ -189,7 +188,7 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(const std::
 
 void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin)
 {
-  // One node more, since how much of a pass the outermost ones get is not known right (see ThinFibres::smoothingAt()).
+  // One node more, since the fraction of a pass at the outermost ones is inaccurate (see ThinFibres::smoothingAt()).
   const int reach = passes > 0 ? passes + 1 : 0;
   NodeRange whole;
   NodeRange inside;
@@ -198,7 +197,7 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
     whole = whole.joined(piece.range);
     inside = inside.joined(piece.inside);
   }
-  // Only what is beside the fibre is smoothed.
+  // Smooths only beside the fibre.
   const auto besideIn = [](const NodeRange& within, const NodeRange& fibre)
   { return fibre.size() > 0 ? fibre.widened(nodesBeside).within(within) : fibre; };
   const NodeRange atMost = besideIn(whole, inside);
@@ -223,7 +222,7 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   {
     whole = whole.joined(piece.range);
   }
-  // A box around all that is inside may be wider than what is known to be right.
+  // A box around all nodes inside may be wider than the correct values.
   const NodeRange beside = besideIn(whole, insideOf(buffer, range, whole.widened(reach).within(range))).within(atMost);
   copyPieces(buffer, range, beside, near, &BlockPlace::unsmoothed);
   const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
@@ -241,7 +240,7 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   copyPieces(buffer, range, beside, near, &BlockPlace::values);
 }
 
-/// Gives those a place that have nodes inside the fibre, or at most `reach` away from one.
+/// Allocates those that have nodes inside the fibre, or at most `reach` away from one.
 std::vector<SmoothedField::Piece> SmoothedField::place(
   const std::vector<Piece>& pieces, int reach, const std::vector<float>& values, const NodeRange& range)
 {
@@ -256,7 +255,7 @@ std::vector<SmoothedField::Piece> SmoothedField::place(
       near.push_back(piece);
     }
   }
-  // Not filled: copyPieces() does that.
+  // Not initialised: copyPieces() fills it.
   float* room = this->Values.emplace_back(new float[2 * nodes]).get();
   for (const Piece& piece : near)
   {
@@ -373,15 +372,15 @@ double SmoothedField::value(const Eigen::Vector3d& at) const
   const FourFloats t = place.t;
   const FourFloats u = 1.0f - t;
   const FourFloats half = 0.5f * u * t;
-  // The weights of both ends of the cell along each axis, by turns or twice, and with them those of its edges.
+  // The weights of both ends of the cell along each axis, alternating or doubled, and from them those of its edges.
   const FourFloats endsXY = __builtin_shufflevector(u, t, 0, 4, 1, 5);
   const FourFloats endsZ = __builtin_shufflevector(u, t, 2, 2, 6, 6);
   const FourFloats endsX = __builtin_shufflevector(endsXY, endsXY, 0, 1, 0, 1);
   const FourFloats weightX = __builtin_shufflevector(endsXY, endsXY, 2, 3, 2, 3) * endsZ;
   const FourFloats weightY = endsX * endsZ;
   const FourFloats weightZ = endsX * __builtin_shufflevector(endsXY, endsXY, 2, 2, 3, 3);
-  // Of the cell's four edges along an axis, the nodes before them, at their ends, and behind them. Memory holds what is beyond
-  // the samples, too.
+  // For the cell's four edges along an axis, the nodes before them, at their ends, and behind them. Memory extends beyond the
+  // samples.
   std::array<FourFloats, 4> along =
     transposed({ { fourAt(corner - 1), fourAt(corner - 1 + y), fourAt(corner - 1 + z), fourAt(corner - 1 + y + z) } });
   FourFloats sum = weightX * (u[0] * along[1] + t[0] * along[2] - half[0] * this->bends(along, place.cell[0], 0));
@@ -392,7 +391,7 @@ double SmoothedField::value(const Eigen::Vector3d& at) const
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/// The bends along the edges of a cell, of which one side alone tells where samples end, and 0 where they end on both.
+/// Returns the bends along the edges of a cell: from one side only where samples end, and 0 where they end on both.
 inline FourFloats SmoothedField::bends(const std::array<FourFloats, 4>& along, int cell, std::size_t axis) const
 {
   const FourFloats before = along[0] - 2.0f * along[1] + along[2];

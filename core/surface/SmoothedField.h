@@ -19,76 +19,76 @@ namespace cactus
 
 typedef float FourFloats __attribute__((vector_size(16)));
 
-/// The field of one fibre, smoothed, held for all blocks near the fibre.
+/// The smoothed field of one fibre, stored for all blocks near the fibre.
 ///
-/// Smoothing averages each node with its neighbours, (1 2 1)/4 along each axis in turn, or does so in part (see ThinFibres). That
-/// is a linear operation with weights that are positive, sum to 1 and are the same for all fibres, so what holds for all fields
-/// goes on to hold: two of them sum to at most -gap, and none changes by more than the distance between two samples. So surfaces
-/// of smoothed fields keep their gap, whatever the shape of the fibres; on average over a convex part of radius r they move
-/// inwards by passes · spacing² / (4 r).
+/// Smoothing averages each node with its neighbours, (1 2 1)/4 along each axis in turn, or does so in part (see ThinFibres). This
+/// is a linear operation with positive weights that sum to 1 and are the same for all fibres, so properties of all fields are
+/// preserved: two of them sum to at most -gap, and none changes by more than the distance between two samples. So surfaces of
+/// smoothed fields keep their gap, whatever the shape of the fibres; on average over a convex part of radius r they move inwards
+/// by passes · spacing² / (4 r).
 class SmoothedField
 {
 public:
-  /// In `passes` passes, which spare `thin` fibres, if that is given. blocks: those near the fibre, with a reach of as many
-  /// nodes; where a box is near but none of its samples, a block is left out.
+  /// Smooths in `passes` passes, which spare `thin` fibres, if given. blocks: those near the fibre, with a reach of `passes`
+  /// nodes; a block is dropped if a box is near it but none of the box's samples.
   SmoothedField(const FibreField& field, std::int32_t fibre, NearBlocks blocks, int passes, const ThinFibres* thin = nullptr);
 
   std::int32_t fibre() const { return this->Fibre; }
   const NodeLattice& lattice() const { return this->Lattice; }
   const std::vector<std::uint32_t>& blocks() const { return this->Blocks; }
 
-  /// The field less `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0 than
-  /// `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles. Away from the fibre, by three
-  /// nodes or more, they may be far lower than the field.
+  /// Writes the field minus `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0
+  /// than `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles. Three nodes or more away from
+  /// the fibre, they may be far lower than the field.
   void values(double level, double smallest, const NodeRange& around, float* out) const;
-  /// The same of the field before it was smoothed, at level 0.
+  /// Does the same for the unsmoothed field, at level 0.
   void unsmoothedValues(double smallest, const NodeRange& around, float* out) const;
 
-  /// The field at a point of the blocks: trilinear, and along each axis corrected for the curvature that the samples on either
-  /// side agree on, as contour() does. A point beyond the outermost samples has the value of the nearest point among them; far
-  /// from the fibre it is very low, or minus infinity.
+  /// Returns the field at a point of the blocks: trilinear, and along each axis corrected for the curvature that the samples on
+  /// either side agree on, as in contour(). A point beyond the outermost samples has the value of the nearest point among them;
+  /// far from the fibre it is very low, or minus infinity.
   double value(const Eigen::Vector3d& at) const;
 
 private:
   using Index = std::array<int, 3>; ///< a block by its place along each axis, or a cell
 
-  /// Where the values of a block and one node beyond on every side are.
+  /// Where the values of a block and one node beyond on every side are stored.
   struct BlockPlace
   {
-    float* values = nullptr;              ///< null: not held
+    float* values = nullptr;              ///< null: not stored
     float* unsmoothed = nullptr;          ///< the same before smoothing
     std::array<std::int32_t, 2> stride{}; ///< from a node to the next along y and z
   };
-  /// The nodes of a block and those around it, which are held.
+  /// The nodes of a block and those around it that are stored.
   struct Piece
   {
     NodeRange range;
-    NodeRange inside; ///< a box that holds the fibre's samples in them and around them
+    NodeRange inside; ///< box that holds the fibre's samples in them and around them
     BlockPlace* place;
   };
-  /// Puts those blocks together that are smoothed together.
+  /// Groups the blocks that are smoothed together.
   std::vector<std::vector<Piece>> layOut(const std::vector<NodeRange>& inside, bool inCubes);
-  /// Makes the values of those of some blocks that are near the fibre.
+  /// Computes the values of those of some blocks that are near the fibre.
   void smooth(const FibreField& field, const std::vector<Piece>& pieces, int passes, const ThinFibres* thin);
   std::vector<Piece> place(const std::vector<Piece>& pieces, int reach, const std::vector<float>& values, const NodeRange& range);
-  /// Fills some blocks with the values of a range where they are `known`; elsewhere they are far outside.
+  /// Fills some blocks with the values of a range where they are `known`; elsewhere with a value far outside.
   static void copyPieces(const std::vector<float>& from, const NodeRange& range, const NodeRange& known,
     const std::vector<Piece>& pieces, float* BlockPlace::*to);
 
-  /// A point by the cell between samples that holds it, or the nearest one.
+  /// A point by the cell between samples that contains it, or the nearest one.
   struct CellPlace
   {
     Index cell;
-    FourFloats t;        ///< how far into the cell along each axis, from 0 to 1
+    FourFloats t;        ///< position in the cell along each axis, from 0 to 1
     const float* corner; ///< value at the cell's lower corner; null far from the fibre
     std::array<std::int32_t, 2> stride;
   };
   CellPlace placeAt(const Eigen::Vector3d& at) const;
   FourFloats bends(const std::array<FourFloats, 4>& along, int cell, std::size_t axis) const;
 
-  /// The place of a block; null where it lies outside the box of the blocks held.
+  /// Returns the place of a block; null if it lies outside the box of stored blocks.
   const BlockPlace* placeOf(const Index& block) const;
-  /// Copies what is held of a block, less `level` and kept off 0.
+  /// Copies the stored values of a block, minus `level` and kept off 0.
   void copyBlock(float* BlockPlace::*held, double level, double smallest, const NodeRange& around, float* out) const;
 
   std::int32_t Fibre;
@@ -97,11 +97,11 @@ private:
   Eigen::Vector3d FirstNode;                    ///< µm
   double NodesPerLength;                        ///< per µm
   std::vector<std::unique_ptr<float[]>> Values; ///< of blocks that were smoothed together
-  Index First{ { 0, 0, 0 } };                   ///< the box of the blocks held: first one
-  Index Count{ { 0, 0, 0 } };                   ///< and how many
+  Index First{ { 0, 0, 0 } };                   ///< first one of the box of stored blocks
+  Index Count{ { 0, 0, 0 } };                   ///< and their number
   Index Cells{ { 0, 0, 0 } };                   ///< of the lattice
-  std::array<double, 3> LastSample{};           ///< the last node that is a sample
-  Index LastCell{ { 1, 1, 1 } };                ///< the last cell that begins at a sample, and ends at another if there are two
+  std::array<double, 3> LastSample{};           ///< last node that is a sample
+  Index LastCell{ { 1, 1, 1 } };                ///< last cell that begins at a sample, and ends at another if there are two
   std::vector<BlockPlace> Places;               ///< per block of the box
 };
 

@@ -30,8 +30,8 @@ CACTUS_KERNEL_INLINE bool isAnySet(const FloatMask& mask)
 #endif
 }
 
-/// visit(n) for the places of vectors that cover `count` numbers, the last of which may cover some for the second time. There are
-/// as many numbers as a vector holds, at least.
+/// Calls visit(n) for the places of vectors that cover `count` numbers; the last vector may cover some for the second time.
+/// `count` is at least a vector's width.
 template <typename Visit>
 CACTUS_KERNEL_INLINE void forEachVector(int count, Visit&& visit)
 {
@@ -72,7 +72,7 @@ bool field(const std::int32_t* ids, const float* depths, int count, std::int32_t
   return isAnySet(doubtful);
 }
 
-/// Of a vector, or of a number, the nodes beside which are given.
+/// Smooths a vector, or a number, given its neighbours.
 template <typename Number>
 CACTUS_KERNEL_INLINE Number smoothed(const Number& below, const Number& here, const Number& above)
 {

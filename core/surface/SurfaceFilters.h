@@ -9,13 +9,13 @@
 namespace cactus
 {
 
-/// The means of another library to make surfaces with, in place of contour() and decimate(). Both may be called from several
-/// threads at once. What comes out is not checked while it is made: markFaults() tells what is wrong with it.
+/// Another library's functions for making surfaces, in place of contour() and decimate(). Both have to be thread-safe. Their
+/// results are not checked while they are made: markFaults() finds their faults.
 struct SurfaceFilters
 {
-  /// The closed surface, outward, on which the image's field is `level` (µm), with its caps on the faces of `box` (µm).
+  /// Returns the closed, outward surface on which the image's field is `level` (µm), with its caps on the faces of `box` (µm).
   std::function<CappedSurface(const FibreImage& image, double level, const Eigen::AlignedBox3d& box)> contour;
-  /// Smooths and coarsens it, and leaves its caps where they are. Need not promise what comes out.
+  /// Smooths and coarsens it, and keeps its caps in place. The result needs no guarantees.
   std::function<void(CappedSurface& surface)> finish;
 };
 

@@ -18,13 +18,13 @@ namespace cactus
 namespace
 {
 
-/// Distance of the points at which coarsening looks at the field on large triangles, in voxels.
+/// Distance of the points at which coarsening evaluates the field on large triangles, in voxels.
 constexpr double samplingDistance = 6.0;
-/// Of even triangles, in voxels.
+/// Longest edge of remeshed triangles, in voxels.
 constexpr double longestEdge = 6.0;
-/// MC/DC warns of triangles above 1000.
+/// MC/DC warns about triangles above 1000.
 constexpr double largestSquaredEdgeRatio = 800.0;
-/// How often a surface is made again with less coarsening where something was wrong with it.
+/// Number of attempts with less coarsening around faults.
 constexpr int repairs = 4;
 
 Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
@@ -42,7 +42,7 @@ void addPlacesThatMeet(const TriangleMesh& mesh, const TriangleTree& tree, std::
   }
 }
 
-/// In memory or in a file: faces of the box need not be where single precision has a number.
+/// Returns places that meet in memory or in a file: faces of the box need not be numbers in single precision.
 std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const TriangleTree& tree)
 {
   std::vector<Eigen::Vector3d> places;
@@ -55,7 +55,7 @@ std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const Tria
   return places;
 }
 
-/// The same, and where it cuts or touches the container of its target, which is written down.
+/// Returns the same, and where it cuts or touches the container of its target, which is recorded.
 std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const SurfaceTarget& target, SurfaceChange& change)
 {
   const TriangleTree tree(mesh);
@@ -71,19 +71,20 @@ std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const Surf
   return places;
 }
 
-/// Whether a point is nearer to a face of the box than `distance` (µm): a regular grid bevels the edges of caps, and of the box.
+/// Tells whether a point is nearer to a face of the box than `distance` (µm): a regular grid bevels the edges of caps, and of the
+/// box.
 bool isBeside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p, double distance)
 {
   return (p - box.min()).minCoeff() < distance || (box.max() - p).minCoeff() < distance;
 }
 
-/// Moves a contour to where it is to lie. Only of large triangles: the small ones of a fresh contour might come to meet.
+/// Moves a contour to its target level. For large triangles only: the small ones of a fresh contour might come to meet.
 void toLevel(CappedSurface& surface, const SurfaceTarget& target)
 {
   const double way = std::abs(target.level - target.contoured);
   if (way > 0.0)
   {
-    moveToVolume(surface, target.volume, 2.0 * way); // more than it will have to move
+    moveToVolume(surface, target.volume, 2.0 * way); // more than necessary
   }
 }
 
@@ -135,7 +136,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
   }
   roundPoints(surface.mesh, surface.box);
   report = keepSoundPieces(surface.mesh, change.droppedVolume);
-  surface.faces.clear(); // they count the points of before
+  surface.faces.clear(); // they belong to the former points
   return placesThatMeet(surface.mesh, target, change).empty();
 }
 
@@ -148,7 +149,7 @@ void SurfaceFinishing::finishMoved(CappedSurface& surface) const
   roundPoints(surface.mesh, surface.box);
 }
 
-/// Leaves the surface as it is, and returns false, if it cannot be coarsened.
+/// Leaves the surface unchanged, and returns false, if it cannot be coarsened.
 bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface,
   SurfaceReport& report, SurfaceChange& change) const
 {
@@ -182,7 +183,7 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
     }
     if (places.empty() && !isBanded)
     {
-      break; // what is wrong is nowhere in particular
+      break; // the fault has no particular place
     }
     const std::vector<LocalErrorBound> more = boundsAround(places, this->Spacing, attempt);
     decimation.localBounds.insert(decimation.localBounds.end(), more.begin(), more.end());
@@ -190,7 +191,7 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
   return false;
 }
 
-/// Makes the triangles of a contour those that are wanted: as few as may be, or as even.
+/// Coarsens or remeshes the triangles of a contour, as the options say.
 void SurfaceFinishing::reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const
 {
   if (this->MinimumAngle > 0.0)
@@ -201,7 +202,7 @@ void SurfaceFinishing::reshape(CappedSurface& surface, const SurfaceDecimationOp
   decimate(surface, decimation);
 }
 
-/// The largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps
+/// Returns the largest difference between the field and `level` at points spread over the surface, at most a voxel apart; on caps
 /// only where the field is smaller.
 double SurfaceFinishing::largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const
 {

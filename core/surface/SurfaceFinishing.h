@@ -12,40 +12,38 @@
 namespace cactus
 {
 
-/// Where a coarsened surface must not stay as it is, since it cuts or touches itself, or would in a file, in single precision.
+/// Returns where a coarsened surface has to be changed, since it cuts or touches itself, or would in a file, in single precision.
 std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh);
 
-/// Bounds for coarsening a surface once more of which something was wrong at some places, for the first time (attempt 0) or
-/// again.
+/// Returns bounds for coarsening a surface again after faults at some places, for the first time (attempt 0) or later.
 std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& places, double spacing, int attempt);
 
-/// What a contour is to become.
+/// The targets of a finished contour.
 struct SurfaceTarget
 {
-  double contoured = 0.0;                  ///< level of the field that the contour lies at, µm
-  double level = 0.0;                      ///< and that it is to lie at, a little beside that
+  double contoured = 0.0;                  ///< level of the field at which the contour lies, µm
+  double level = 0.0;                      ///< level at which it should lie, slightly different, µm
   double volume = 0.0;                     ///< µm³
   const TriangleTree* container = nullptr; ///< a surface that it must not meet
   std::vector<LocalErrorBound> bounds;     ///< where it is coarsened less
 };
 
-/// Makes surfaces to be kept out of contours of fields, with points in single precision, as files hold them. May be used from
-/// several threads.
+/// Turns contours of fields into final surfaces, with points in single precision, as in files. Thread-safe.
 class SurfaceFinishing
 {
 public:
   /// `decimationError` and `minimumAngle` as in MyelinSurfaceOptions; `spacing` is that of the voxels. With `filters` these
-  /// coarsen. What is given by reference has to outlive the object.
+  /// coarsen. All arguments passed by reference have to outlive the object.
   SurfaceFinishing(double decimationError, double minimumAngle, double spacing, const SurfaceFilters* filters);
 
-  /// Coarsens a contour, gives it its volume, and checks what comes out. If something is wrong with it, it is made again with
-  /// less coarsening around there; what cannot be repaired like that stays as contoured, without pieces that enclose no volume,
-  /// which may leave an empty mesh. Measures it in `report`, and says in `change` what has become of it, and adds to what was
-  /// dropped. Returns whether the surface is as it has to be.
+  /// Coarsens a contour, moves it to its volume, and checks the result. A faulty surface is made again with less coarsening
+  /// around its faults; if that does not help it stays as contoured, without pieces that enclose no volume, which may leave an
+  /// empty mesh. Measures it in `report`, records its changes in `change`, and adds to the dropped volume. Returns whether the
+  /// surface is free of faults.
   bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
     SurfaceChange& change) const;
 
-  /// Sees to it that moving has left no needles in a coarsened surface, and points in single precision.
+  /// Removes needles that moving has left in a coarsened surface, and rounds its points to single precision.
   void finishMoved(CappedSurface& surface) const;
 
 private:

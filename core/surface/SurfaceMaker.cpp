@@ -22,13 +22,13 @@ namespace cactus
 namespace
 {
 
-/// Relative error of the axons' common volume that is good enough.
+/// Largest relative error of the axons' common volume.
 constexpr double volumeTolerance = 2e-3;
-/// µm by which those lie deeper each time that are not coarsened, or were coarsened less there in vain.
+/// Extra depth (µm) of each attempt for surfaces that are not coarsened, or for which less coarsening did not help.
 constexpr double deeperEachTime = 0.005;
-/// How often outer surfaces that went wrong when they were moved are made again.
+/// Number of attempts to make outer surfaces again that failed when they were moved.
 constexpr int remakes = 3;
-/// How often a g-ratio is tried that gives all axons together the wanted volume.
+/// Number of attempts to find a g-ratio that gives all axons together the target volume.
 constexpr int commonRounds = 6;
 
 std::int32_t idOf(std::int32_t id)
@@ -75,7 +75,7 @@ std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const Fibre
   return pairs;
 }
 
-/// A number that is near for places that are near each other: their bits by turns.
+/// Returns a number that is similar for nearby places: their interleaved bits (Morton).
 std::uint64_t placeNumber(const std::array<int, 3>& place)
 {
   std::uint64_t number = 0;
@@ -89,7 +89,7 @@ std::uint64_t placeNumber(const std::array<int, 3>& place)
   return number;
 }
 
-/// The fibres in such an order by their middles, so that samples that neighbours share are at hand.
+/// Returns the fibres in such an order by their middles, so that samples shared by neighbours are cached.
 std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs, const FibrePlaces& fibres)
 {
   std::vector<std::pair<std::uint64_t, std::size_t>> places;
@@ -108,7 +108,7 @@ std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs
   return order;
 }
 
-/// A pair, and points on its surface.
+/// Returns a pair, and points on its surface, as bytes.
 std::string bytesOfBoth(const FibreSurfacePair& pair, const std::vector<Eigen::Vector3d>& points)
 {
   ByteWriter put;
@@ -138,7 +138,7 @@ FibreSurfacePair bothFrom(const std::string& bytes, std::vector<Eigen::Vector3d>
   return pair;
 }
 
-/// What myelinSurfaces() throws for options that do not suit the image.
+/// Throws what myelinSurfaces() throws for options that do not suit the image.
 const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
 {
   validate(options);
@@ -166,8 +166,8 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   keepFreedMemory();
 }
 
-/// In parallel, in each process those that are near each other, which share samples. `isMade(i)` says whether there is nothing
-/// left to do of a fibre, and completes its pair then; `body(i)` asks it, too. What becomes of a fibre has to be in its pair,
+/// Works on all fibres in parallel; each process gets those near each other, which share samples. `isMade(i)` tells whether a
+/// fibre is finished, and then completes its pair; `body(i)` calls it, too. The results of a fibre have to be in its pair,
 /// without meshes.
 template <typename IsMade, typename Body>
 void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to)
@@ -177,7 +177,7 @@ void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* messag
   {
     made.push_back(isMade(i) ? 1 : 0);
   }
-  this->Shared.addUp(made); // a process may know of some that others do not
+  this->Shared.addUp(made); // one process may know results that others do not
   std::vector<std::size_t> left;
   std::vector<double> weights;
   for (std::size_t place = 0; place < made.size(); ++place)
@@ -234,12 +234,12 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
   case GRatioModel::Constant:
     return this->Options.gRatio;
   case GRatioModel::LogLinear:
-    // Another library's filters may leave a surface that holds nothing.
+    // Another library's filters may leave a surface without a volume.
     return pair.volumeAsMade > 0.0 ? logLinearGRatio(this->Mesher.equivalentDiameter(field, pair.volumeAsMade)) : smallestGRatio;
   case GRatioModel::Distributed:
     return distributedGRatio(this->Options.gRatio, this->Options.gRatioDeviation, this->Options.seed, pair.fibreId);
   default:
-    return 0.0; // of a common volume: known once all outer volumes are
+    return 0.0; // common volume: known once all outer volumes are
   }
 }
 
@@ -284,8 +284,8 @@ void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
     this->isCommon() ? "making outer surfaces" : "making surfaces", shareOfLooking, this->Shares.contoured);
 }
 
-/// Keeps outer surfaces apart. One that comes to meet itself when it is moved, as a thin cap may that folds, is made again,
-/// coarsened less there and, if surfaces are not coarsened or that does not help, deeper: then there is less to move.
+/// Keeps outer surfaces apart. One that meets itself after a move, as a folding thin cap may, is made again with less coarsening
+/// there. If surfaces are not coarsened, or if that does not help, it is made deeper, so that it has to move less.
 void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
 {
   const double gap = std::max(this->Facts.minimumGap, leastSeparation);
@@ -293,12 +293,12 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   const Domain& box = this->Mesher.field().box();
   std::vector<std::size_t> made(this->Pairs.size());
   std::iota(made.begin(), made.end(), std::size_t(0));
-  std::vector<std::size_t> tooNear; // as far as is known, increasing
-  bool isOneGone = false;           // of these
+  std::vector<std::size_t> tooNear; // known so far, increasing
+  bool isOneGone = false;           // one of these
   BoundsOfFibres bounds;
   for (int attempt = 0; !made.empty() || isOneGone; ++attempt)
   {
-    // What was too near is looked at again, since the other one of the pair may be new, or gone.
+    // Surfaces that were too near are checked again, since the other one of the pair may be new, or gone.
     std::vector<std::size_t> changed;
     std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
     const SpacingReport spacing = keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller,
@@ -316,13 +316,13 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   {
     this->Pairs[i].isFlawed = true;
   }
-  if (!this->isCommon()) // else there is none yet
+  if (!this->isCommon()) // otherwise there is none yet
   {
     this->keepInner(outer, inner);
   }
 }
 
-/// Looks at surfaces that were moved, and returns which of them have to be made again, with bounds where they went wrong.
+/// Checks moved surfaces, and returns those that have to be made again, with bounds at their faults.
 std::vector<std::size_t> SurfaceMaker::checkMoved(
   const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds)
 {
@@ -362,7 +362,7 @@ void SurfaceMaker::makeAgain(
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[which[i]];
-      pair.isFlawed = false; // of the surface that goes
+      pair.isFlawed = false; // of the old surface
       FibreMesher::forgetInner(pair);
       pair.outer = *outer.get(which[i]);
       this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair, bounds.at(which[i]), deeper);
@@ -372,7 +372,7 @@ void SurfaceMaker::makeAgain(
     [&](std::size_t i, const std::string& bytes) { this->Pairs[which[i]] = pairFrom(bytes); });
 }
 
-/// Looks at the inner surfaces whose outer ones were moved, and forgets those that have to be made again.
+/// Checks the inner surfaces whose outer ones were moved, and resets those that have to be made again.
 void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& inner)
 {
   std::vector<std::size_t> looked;
@@ -396,7 +396,7 @@ void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& in
       {
         FibreMesher::forgetInner(pair);
       }
-      pair.outer = TriangleMesh(); // not what a copy of nothing would leave, its memory
+      pair.outer = TriangleMesh(); // frees its memory, unlike an empty copy
       pair.inner = TriangleMesh();
     },
     [&](std::size_t i) { return bytesOf(this->Pairs[looked[i]]); },
@@ -429,15 +429,15 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
       }
       else
       {
-        inner.put(i, TriangleMesh()); // instead of one made before the outer one was found to be nothing
+        inner.put(i, TriangleMesh()); // replaces one made before the outer one was found to be empty
       }
       this->Journal.noteInner(i, pair);
     },
     "making inner surfaces", this->Shares.spaced, 1.0);
 }
 
-/// With one g-ratio for all, so that all axons together have the wanted volume; if a fibre cannot have it, the others make up for
-/// that.
+/// Makes inner surfaces with one g-ratio for all, so that all axons together have the target volume; if a fibre cannot have that
+/// g-ratio, the others compensate.
 void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceStore& inner)
 {
   const double boxVolume = this->Mesher.field().box().volume();
@@ -451,7 +451,7 @@ void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceSt
   }
   const double fibreFraction = open / boxVolume;
   double before = 0.0;
-  double correction = 1.0; // for what the fibres' own tolerances sum up to
+  double correction = 1.0; // for the sum of the fibres' own tolerances
   for (int round = 0; round < commonRounds; ++round)
   {
     double square = open > 0.0 ? correction * (wanted - given) / open : 2.0; // of the g-ratio

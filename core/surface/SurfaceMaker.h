@@ -18,34 +18,34 @@
 namespace cactus
 {
 
-/// Makes the surfaces of all fibres (see myelinSurfaces() for what they are) in two steps. What the first makes of outer surfaces
-/// does not depend on g-ratios, so that it can be kept and used again. Meshes are put into stores, by the places of their
-/// fibres in fibres(), and held in memory only while they are worked on.
+/// Makes the surfaces of all fibres (see myelinSurfaces()) in two steps. The first one's outer surfaces do not depend on
+/// g-ratios, so that they can be kept and used again. Meshes are put into stores, by the indices of their fibres in fibres(), and
+/// kept in memory only while they are worked on.
 class SurfaceMaker
 {
 public:
-  /// What is given by reference has to outlive the object. With a journal, what it recalls is not made again. Processes that
-  /// share the work have stores and journal in common, and fibres() is the same in all. Throws as myelinSurfaces() does.
+  /// All arguments passed by reference have to outlive the object. With a journal, recorded surfaces are not made again.
+  /// Processes that share the work share stores and journal, and fibres() is the same in all. Throws as myelinSurfaces() does.
   SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
     const Context& context, const SurfaceFilters* filters = nullptr, SurfaceJournal* journal = nullptr,
     const Sharing& sharing = Sharing());
 
-  /// All fibres, by increasing id, and what is known of them; their meshes are in the stores.
+  /// Returns the records of all fibres, by increasing id; their meshes are in the stores.
   const std::vector<FibreSurfacePair>& fibres() const { return this->Pairs; }
-  /// In which surfaces are: the domain as far as the image reaches, or all of the image where surfaces are not clipped.
+  /// Returns the box of the surfaces: the domain within the image, or the whole image if surfaces are not clipped.
   const Domain& box() const { return this->Mesher.field().box(); }
 
-  /// Makes the outer surfaces and keeps them apart; and with each, from the same field, the inner one, if g-ratios do not depend
-  /// on all fibres.
+  /// Makes the outer surfaces and keeps them apart. If g-ratios do not depend on all fibres, it also makes each inner surface
+  /// from the same field.
   void makeOuter(SurfaceStore& outer, SurfaceStore& inner);
-  /// Instead: what fibres() was after makeOuter() of another maker, whose image, facts and options were the same but for what is
-  /// asked of g-ratios. No inner surface is made yet.
+  /// Replaces makeOuter(): takes the fibres() after makeOuter() of another maker with the same image, facts and options except
+  /// those of g-ratios. No inner surface is made yet.
   void takeOuter(std::vector<FibreSurfacePair> fibres);
-  /// Makes the inner surfaces that are still to be made, or again since the outer one was moved; outer ones are in their places.
+  /// Makes the inner surfaces that are missing, or outdated since the outer one was moved; outer ones are in place.
   void makeInner(const SurfaceSource& outer, SurfaceStore& inner);
 
 private:
-  /// How much is done when outer surfaces are made, and when they are kept apart.
+  /// The progress when outer surfaces are made, and when they are kept apart.
   struct Progress
   {
     double contoured;
@@ -77,7 +77,7 @@ private:
   FibreMesher Mesher;
   std::vector<FibreSurfacePair> Pairs;
   Progress Shares{ 0.0, 0.0 };
-  std::vector<std::size_t> Order; ///< in which to work on them: one after the other what is near each other
+  std::vector<std::size_t> Order; ///< order of work: neighbours one after the other
 };
 
 } // namespace cactus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of a fibre's surfaces as bytes, for the kind of machine that wrote them.
+// The record of a fibre's surfaces as bytes, in the byte order of the machine that wrote them.
 #pragma once
 
 #include "surface/FibreSurfacePair.h"
@@ -9,10 +9,10 @@
 namespace cactus
 {
 
-/// All numbers of a pair, without its meshes.
+/// Returns all numbers of a pair, without its meshes.
 std::string bytesOf(const FibreSurfacePair& pair);
 
-/// The reverse. Throws FileError for bytes that are something else.
+/// Reads them back. Throws FileError for other bytes.
 FibreSurfacePair pairFrom(const std::string& bytes);
 
 } // namespace cactus

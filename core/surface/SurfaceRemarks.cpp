@@ -13,7 +13,7 @@ namespace cactus
 namespace
 {
 
-/// Size of a voxel, in radii of the thinnest fibre, above which it is the first thing to change.
+/// Voxel size, in radii of the thinnest fibre, above which the remark advises smaller voxels first.
 constexpr double coarsestVoxel = 0.5;
 
 constexpr char adviceOnFilters[] = "the filters of VTK promise nothing of this: choose Meshing CACTUS, fewer SincIterations or a "
@@ -26,7 +26,7 @@ std::string adviceFor(const std::vector<FibreSurfacePair>& pairs, double voxelSi
   double thickest = 0.0;
   for (const FibreSurfacePair& pair : pairs)
   {
-    thinnest = pair.targetRadius > 0.0 ? std::min(thinnest, pair.targetRadius) : thinnest; // else not known
+    thinnest = pair.targetRadius > 0.0 ? std::min(thinnest, pair.targetRadius) : thinnest; // otherwise unknown
     thickest = std::max(thickest, pair.targetRadius);
   }
   std::string advice;

@@ -11,8 +11,8 @@
 namespace cactus
 {
 
-/// How many fibres did not come out as asked, in what way, and what to do about it, in one sentence; empty where all did.
-/// `voxelSize` is in µm. Fibres that pass by outside the domain are not missed.
+/// Returns one sentence on how many fibres deviate from the request, in what way, and what to do about it; empty if none does.
+/// `voxelSize` is in µm. Fibres that pass outside the domain are not missing.
 std::string notAsAsked(
   const std::vector<FibreSurfacePair>& pairs, double voxelSize, const LabelImageFacts& facts, bool byFilters = false);
 

@@ -12,7 +12,7 @@ namespace cactus
 namespace
 {
 
-/// Radii, in voxels, up to which smoothing spares a fibre altogether and from which on it does not.
+/// Radii, in voxels, up to which smoothing spares a fibre entirely and from which on it does not.
 constexpr double sparedRadius = 2.0;
 constexpr double smoothedRadius = 4.0;
 constexpr float outsideFibres = 2.0f;
@@ -42,7 +42,7 @@ bool ThinFibres::smoothingInside(const NodeRange& range, const LabelImageView& h
 {
   const SampleBox& samples = this->Field.samples();
   const SampleRow row = samples.rowOf(range);
-  // What was looked up last, by the last bits of ids: there are few fibres in a range.
+  // A cache of recent look-ups, by the last bits of ids: there are few fibres in a range.
   struct Known
   {
     std::int32_t id = 0;
@@ -98,7 +98,7 @@ bool ThinFibres::smoothingAt(const NodeRange& range, const LabelImageView& held,
     inside.begin(), inside.begin() + std::ptrdiff_t(range.size()), out, [](float own) { return std::min(own, 1.0f); });
   for (std::size_t n = slices; n + slices < range.size(); ++n)
   {
-    // Beside a fibre as in it.
+    // Nodes beside a fibre are treated like those in it.
     const float* at = inside.data() + n;
     const float alongX = std::min(at[-1], at[1]);
     const float alongY = std::min(at[-std::ptrdiff_t(rows)], at[rows]);

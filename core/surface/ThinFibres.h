@@ -12,25 +12,27 @@ namespace cactus
 {
 
 /// The fibres of a label image that smoothing spares, since it would shrink and break them: those of a radius below two voxels
-/// altogether, and less and less of the others up to four voxels. The radius is three times the mean depth of a fibre's samples,
-/// as in a round one. A fibre that is to have six voxels or more (TargetRadius) is not among them, whatever became of it.
+/// entirely, the others gradually less up to four voxels. The radius is three times the mean depth of a fibre's samples, as in a
+/// round one. A fibre with a TargetRadius of six voxels or more is not among them, whatever its radius in the image.
 class ThinFibres
 {
 public:
-  /// Voxels; target radius from which on a fibre is not looked at.
+  /// Target radius, in voxels, from which on a fibre is not measured.
   static constexpr double thickTarget = 6.0;
 
-  /// `field` has to outlive the object; `fibres` are those that may be thin.
+  /// Measures `fibres`, those that may be thin; `field` has to outlive the object.
   ThinFibres(const FibreField& field, const FoundFibres& fibres);
 
-  /// How much of each pass of smoothing the nodes get that have a node before and behind in the range, from 0 to 1, which is the
-  /// same for the fields of all fibres. False if that is 1 everywhere; then `out` is not written. held: the image there.
+  /// Writes the fraction of each smoothing pass, from 0 to 1, for the nodes that have a node before and behind in the range; it
+  /// is the same for the fields of all fibres. Returns false if it is 1 everywhere; then `out` is not written. held: the image
+  /// there.
   bool smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const;
 
 private:
-  /// Whether thin fibres may have samples in a range.
+  /// Tells whether thin fibres may have samples in a range.
   bool areNear(const NodeRange& range) const;
-  /// Of each node by itself, whatever is beside it; 2 outside all fibres. False if there is no thin fibre.
+  /// Writes the fraction of each node by itself, without its neighbours; 2 outside all fibres. Returns false if there is no thin
+  /// fibre.
   bool smoothingInside(const NodeRange& range, const LabelImageView& held, float* out) const;
 
   const FibreField& Field;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee 5: where memory runs out, at whichever allocation and in whichever thread, a stage ends with an exception in the
-// thread that called it, and the next run gives the right bits. Replaces operator new for the whole test program.
+// Guarantee 5: if memory runs out, at any allocation and in any thread, a stage ends with an exception in the calling thread, and
+// the next run gives the right bits. Replaces operator new for the whole test program.
 #include "Sanitized.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
@@ -34,7 +34,7 @@ constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
 std::atomic<std::int64_t> allocations{ 0 };
 std::atomic<std::int64_t> failing{ never }; ///< number of the first allocation that fails
-std::atomic<bool> fromThereOn{ false };     ///< or of all from there on
+std::atomic<bool> fromThereOn{ false };     ///< whether all later allocations fail, too
 
 void* allocate(std::size_t size, std::size_t alignment)
 {
@@ -64,7 +64,7 @@ void* operator new(std::size_t size, std::align_val_t alignment)
   return allocate(size, static_cast<std::size_t>(alignment));
 }
 
-// Sanitizers have this one of their own, too, whose memory they want back by their own.
+// Sanitizers have their own version of this one, too, whose memory only they can free.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept
 {
   try
@@ -102,7 +102,7 @@ namespace
 
 using namespace cactus;
 
-/// Numbers that stand for a result.
+/// The numbers of a result.
 using Result = std::vector<double>;
 
 Context twoThreads()
@@ -144,12 +144,12 @@ std::vector<FibreSurfacePair> surfacesOf(const Fibres& fibres, const LabelImage&
 }
 
 #ifdef CACTUS_SANITIZED
-constexpr std::int64_t tries = 12; // which take as long
+constexpr std::int64_t tries = 12; // each takes about as long as one run
 #else
 constexpr std::int64_t tries = 48;
 #endif
 
-/// Fails so many allocations of `work`, one at a time or with all that follow, and compares what it gives where it gets by.
+/// Makes some allocations of `work` fail, one at a time or with all that follow, and compares its result where it succeeds.
 void expectCleanEnds(const std::function<Result()>& work)
 {
   const Result expected = work();
@@ -159,7 +159,7 @@ void expectCleanEnds(const std::function<Result()>& work)
   std::int64_t thrown = 0;
   for (std::int64_t n = 0; n < tries; ++n)
   {
-    // All of the first ones, then evenly spread.
+    // The first ones, then evenly spread.
     const std::int64_t at = n < tries / 4 ? n : n * count / tries;
     fromThereOn = n % 2 == 1;
     failing = allocations + at;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work done in a process of its own: as another user, on a disk that is full, or killed at any of its system calls.
+// Runs work in a child process: as another user, on a full disk, or killed at any of its system calls.
 #pragma once
 
 #include <cerrno>
@@ -24,7 +24,7 @@
 namespace cactus_testing
 {
 
-/// What `work` returned in a child process; its death is told, too.
+/// Returns the result of `work` in a child process, or how the child died.
 inline std::string inChild(const std::function<std::string()>& work)
 {
   int ends[2];
@@ -52,14 +52,14 @@ inline std::string inChild(const std::function<std::string()>& work)
   return status == 0 ? text : text + " (the child ended with status " + std::to_string(status) + ")";
 }
 
-/// For a child: goes on as a user to whom permissions mean something. Root may write everywhere.
+/// For a child: continues as a user with limited permissions. Root may write everywhere.
 inline bool becomeOrdinaryUser()
 {
   constexpr uid_t nobody = 65534;
   return ::geteuid() != 0 || (::setgid(nobody) == 0 && ::setuid(nobody) == 0);
 }
 
-/// For a child: puts a file system of so many bytes on a folder, which nobody else sees and which goes away with the child.
+/// For a child: mounts a file system of so many bytes on a folder; only the child sees it, and it disappears with it.
 inline bool mountSmallDisk(const std::filesystem::path& folder, std::size_t bytes)
 {
   const uid_t user = ::geteuid();
@@ -75,7 +75,7 @@ inline bool mountSmallDisk(const std::filesystem::path& folder, std::size_t byte
          ::mount("tmpfs", folder.c_str(), "tmpfs", 0, ("size=" + std::to_string(bytes)).c_str()) == 0;
 }
 
-/// For a child: from now on renameat2 says that it does not know how, as on NFS.
+/// For a child: makes renameat2 report that it is not supported, as on NFS.
 inline bool forbidExchange()
 {
   sock_filter program[] = { BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
@@ -89,10 +89,10 @@ enum class Fate
 {
   killed,
   finished,
-  untraceable ///< this machine does not let processes watch each other
+  untraceable ///< this machine does not permit tracing of processes
 };
 
-/// Runs `work` in a child that is killed (SIGKILL) when it is about to make its `call`-th system call that changes files.
+/// Runs `work` in a child that is killed (SIGKILL) just before its `call`-th system call that changes files.
 inline Fate killedAtCall(int call, const std::function<void()>& work)
 {
   static const std::set<unsigned long long> changes{

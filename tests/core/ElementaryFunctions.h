@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-/// An elementary function of the C library over arguments as the method has them, and the first digits of the SHA-256 of
-/// 50,000 values with glibc 2.36 and 2.41, on processors with fused multiply-add and on those without.
+/// An elementary function of the C library over arguments as the method uses them, and the first digits of the SHA-256 of 50,000
+/// values with glibc 2.36 and 2.41, on processors with fused multiply-add and without it.
 struct ElementaryFunction
 {
   const char* name;
@@ -41,7 +41,7 @@ inline constexpr ElementaryFunction elementaryFunctions[] = {
   { "hypot", 0.0, 30.0, [](double x) { return std::hypot(x, 1.7); }, "f9114111057cd426", "f9114111057cd426" },
 };
 
-/// Names of those that have other last digits here than where known answers were stored; empty where all are the same.
+/// Returns the names of those whose last digits differ from where known answers were stored; empty if none does.
 inline std::string unknownElementaryFunctions()
 {
   std::string names;

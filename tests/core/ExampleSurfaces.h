@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces to try things on.
+// Surfaces for tests.
 #pragma once
 
 #include "base/Constants.h"
@@ -24,7 +24,7 @@ inline cactus::TriangleMesh tetrahedron(const Eigen::Vector3d& origin, double si
   return mesh;
 }
 
-/// Outward, whatever the order of its corners.
+/// Makes it point outward, whatever the order of its corners.
 inline cactus::TriangleMesh tetrahedronOf(
   const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector3d& d)
 {
@@ -82,7 +82,7 @@ inline cactus::TriangleMesh tube(double x, double y, double radius, double lower
   return mesh;
 }
 
-/// Both surfaces as one.
+/// Returns both surfaces as one.
 inline cactus::TriangleMesh both(cactus::TriangleMesh a, const cactus::TriangleMesh& b)
 {
   const auto shift = static_cast<std::int32_t>(a.points.size());
@@ -94,7 +94,7 @@ inline cactus::TriangleMesh both(cactus::TriangleMesh a, const cactus::TriangleM
   return a;
 }
 
-/// Surfaces of fibres with these ids, increasing, in one bundle.
+/// Returns surfaces of fibres with these ids, increasing, in one bundle.
 inline cactus::FibreSurfaces surfacesOf(const std::vector<int>& ids, const std::vector<cactus::TriangleMesh>& meshes)
 {
   cactus::FibreSurfaces surfaces;

@@ -32,7 +32,7 @@ public:
     this->kept[name] = bytes;
   }
 
-  /// Another run begins, which finds those of all that were kept of which `stays(name)`.
+  /// Begins another run, which finds the kept findings for which `stays(name)` holds.
   void beginAgain(const std::function<bool(const std::string& name)>& stays = [](const std::string&) { return true; })
   {
     this->Before.clear();

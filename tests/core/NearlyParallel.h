@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of capsules that are next to parallel, whose distance single precision knows least well.
+// Pairs of nearly parallel capsules, whose distance is least accurate in single precision.
 #pragma once
 
 #include "fibres/Fibres.h"
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-/// Fibres of one capsule each, 2n and 2n + 1 of which are at angles of 10⁻² to 10⁻⁷, side by side or one behind the other, as far
-/// apart as `relativeDistance` times the sum of their radii, and far from all others.
+/// Makes fibres of one capsule each. Fibres 2n and 2n + 1 are at angles of 10⁻² to 10⁻⁷, side by side or one behind the other,
+/// `relativeDistance` times the sum of their radii apart, and far from all others.
 inline cactus::Fibres nearlyParallelPairs(unsigned seed, int pairs, double relativeDistance)
 {
   using Eigen::Vector3d;

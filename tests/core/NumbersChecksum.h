@@ -11,7 +11,7 @@
 class NumbersChecksum
 {
 public:
-  /// Numbers by value: −0 counts as 0, for which of the two comes out may depend on the vector unit.
+  /// Adds numbers by value: −0 counts as 0, since the sign may depend on the vector unit.
   template <typename Number>
   void add(Number value)
   {

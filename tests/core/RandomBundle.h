@@ -12,7 +12,7 @@ inline cactus::Fibres randomBundle(unsigned seed, int fibres, int points, double
 {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
-  // One after the other: in what order arguments are evaluated is the compiler's choice.
+  // One after the other: the compiler chooses the order in which arguments are evaluated.
   const auto draw = [&](int numbers)
   {
     Eigen::Vector3d drawn = Eigen::Vector3d::Zero();

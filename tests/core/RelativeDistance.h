@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-/// Distance of two capsules over the limit up to which they are neighbours: their radii and their reaches together.
+/// Returns the distance of two capsules over the limit up to which they are neighbours: the sum of their radii and reaches.
 inline double relativeDistance(const cactus::Capsule& p, const cactus::Capsule& q, double reach)
 {
   using Eigen::Vector3d;
@@ -15,7 +15,7 @@ inline double relativeDistance(const cactus::Capsule& p, const cactus::Capsule& 
   return pair.distance / (std::max(p.r0, p.r1) + std::max(q.r0, q.r1) + reach);
 }
 
-/// The largest such distance of a pair that findNeighbours() may list.
+/// Returns the largest such distance of a pair that findNeighbours() may list.
 inline double largestListed(const cactus::Capsule& p, const cactus::Capsule& q, double reach)
 {
   using Eigen::Vector3d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CACTUS_SANITIZED where the tests are compiled for the address or the thread sanitizer, by clang or g++.
+// Defines CACTUS_SANITIZED if the tests are compiled for the address or the thread sanitizer, by clang or g++.
 #pragma once
 
 #if defined(__has_feature)
@@ -13,7 +13,7 @@
 namespace cactus
 {
 
-/// How many random samples to look at: a tenth under a sanitizer, which is after faults of memory, not after statistics.
+/// Returns how many random samples to test: a tenth under a sanitizer, which looks for memory faults, not for statistics.
 constexpr int fewerWhereSanitized(int samples)
 {
 #ifdef CACTUS_SANITIZED

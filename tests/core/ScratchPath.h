@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of tests: where they are, and what is in them.
+// Paths and contents of test files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace cactus_testing
 {
 
-/// A path for this process alone: the same test may run in several builds at once.
+/// Returns a path for this process alone: the same test may run in several builds at once.
 inline std::string scratchPath(const std::string& name)
 {
   return ::testing::TempDir() + "cactus-" + std::to_string(::getpid()) + '-' + name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: a seed has the same bits in every version that does not say otherwise in its CHANGELOG, with any compiler, vector
-// unit and number of threads. What may differ from one C library to the next are the elementary functions (std::log, std::sin,
-// …); where they have other last digits than those below, what depends on them is not compared.
+// Guarantee: a seed has the same bits in every version unless its CHANGELOG says otherwise, with any compiler, vector unit and
+// number of threads. Only the elementary functions (std::log, std::sin, …) may differ between C libraries; if their last digits
+// differ from those below, results that depend on them are not compared.
 #include "ElementaryFunctions.h"
 #include "NumbersChecksum.h"
 #include "bundle/BundleInitializer.h"

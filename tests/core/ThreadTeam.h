@@ -14,7 +14,7 @@
 namespace cactus_testing
 {
 
-/// Where the members of a team meet.
+/// The place where the members of a team meet.
 class MeetingPoint
 {
 public:
@@ -24,7 +24,7 @@ public:
   }
 
   std::size_t size() const { return this->Given.size(); }
-  /// What all give to the one at this place.
+  /// Returns the messages of all to the member at this place.
   std::vector<std::string> deal(std::size_t place, const std::vector<std::string>& toEach)
   {
     std::unique_lock<std::mutex> lock(this->Mutex);
@@ -33,7 +33,7 @@ public:
     if (++this->Arrived == this->size())
     {
       this->Arrived = 0;
-      this->Result = this->Given; // which stays until all are here again
+      this->Result = this->Given; // stays until all are here again
       ++this->Round;
       this->Changed.notify_all();
     }
@@ -80,7 +80,7 @@ private:
   int Place;
 };
 
-/// Runs work in each member of a team, and gives what it returned, or the message of what it threw, by places.
+/// Runs work in each member of a team, and returns its results, or the messages of its exceptions, by rank.
 inline std::vector<std::string> inTeam(int size, const std::function<std::string(cactus::Team&)>& work)
 {
   MeetingPoint point(size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: an array that uses a vector's memory is an array like any other, for as long as somebody holds it.
+// Guarantee: an array that uses a vector's memory behaves like any other, for as long as it is held.
 #include "Columns.h"
 
 #include <gtest/gtest.h>

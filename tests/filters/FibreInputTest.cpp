@@ -81,7 +81,7 @@ struct BadInput
 {
   const char* name;
   std::function<void(vtkPolyData*)> spoil;
-  std::string message; ///< what the error has to say
+  std::string message; ///< the required text of the error
 };
 
 std::vector<BadInput> badInputs()
@@ -178,7 +178,7 @@ std::vector<BadInput> badInputs()
   };
 }
 
-/// Runs an algorithm on fibres; the errors it reports.
+/// Runs an algorithm on fibres; returns the errors that it reports.
 std::vector<std::string> errorsOf(vtkAlgorithm* algorithm, vtkPolyData* input)
 {
   std::vector<std::string> errors;

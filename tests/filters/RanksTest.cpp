@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: the memory of a machine is shared out among the processes of a run that are on it.
+// Guarantee: the memory of a machine is divided among the processes of a run on it.
 #include "Ranks.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST_F(Ranks, AreAsManyAsTheLauncherSays)
     SCOPED_TRACE(variable);
     setenv(variable, "4", 1);
     EXPECT_EQ(cactus::processesOnThisMachine(12), 4);
-    EXPECT_EQ(cactus::processesOnThisMachine(2), 2); // a run of its own inside another's
+    EXPECT_EQ(cactus::processesOnThisMachine(2), 2); // a separate run inside another's
     unsetenv(variable);
   }
   setenv("SLURM_STEP_TASKS_PER_NODE", "3(x2),1", 1);

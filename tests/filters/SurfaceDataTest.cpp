@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: surfaces of any size fit into one vtkPolyData, and come out of it as they went in.
+// Guarantee: surfaces of any size fit into one vtkPolyData, and are read back unchanged.
 #include "SurfaceData.h"
 
 #include <gtest/gtest.h>

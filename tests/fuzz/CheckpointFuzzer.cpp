@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as a checkpoint: as they are, where only what the program itself wrote is accepted; and with title, fingerprint and
-// checksum put right, where the run that goes on from it ends with finite fibres, or with one error of ours.
+// Any bytes as a checkpoint: unchanged, only the program's own output is accepted; with corrected title, fingerprint and
+// checksum, a run that continues from it ends with finite fibres, or with one error of ours.
 #include "Fuzzing.h"
 #include "base/Checkpoint.h"
 #include "base/Error.h"
@@ -35,14 +35,14 @@ Fibres crossing()
   return fibres;
 }
 
-/// Both methods, each with the checkpoint that it writes.
+/// Both methods, each with a checkpoint of its own.
 struct Method
 {
   CapsuleOptimizerOptions options;
   std::string whole;
 };
 
-/// In a folder of its own: a file is written after a look at what its folder holds, and others may hold thousands.
+/// Returns a separate folder: writing a file lists its folder, and others may hold thousands of files.
 std::string folder()
 {
   static const std::string name = []
@@ -75,7 +75,7 @@ void run(const CapsuleOptimizerOptions& options, Fibres& fibres)
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
-  folder(); // made before, so that it is still there at the exit
+  folder(); // made before, so that it still exists at the exit
   std::atexit([] { std::filesystem::remove_all(folder()); });
   std::vector<std::string> seeds;
   for (int m = 0; m < 2; ++m)

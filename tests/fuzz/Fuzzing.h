@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every fuzzer needs: seeds, and a way to say that a promise was broken.
+// Support for all fuzzers: seeds, and reporting broken promises.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-/// What libFuzzer calls: once at the start, and for each input.
+/// The functions that libFuzzer calls: once at the start, and for each input.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-/// Ends the program, so that the input is kept, where what has to hold does not.
+/// Ends the program, so that the input is kept, unless the promise holds.
 inline void promise(bool kept, const char* what)
 {
   if (!kept)
@@ -23,7 +23,7 @@ inline void promise(bool kept, const char* what)
   }
 }
 
-/// Writes seeds into the first folder on the command line, which is where a fuzzer keeps what it finds.
+/// Writes seeds into the first folder on the command line, in which a fuzzer keeps its findings.
 inline void writeSeeds(int argc, char** argv, const std::vector<std::string>& seeds)
 {
   for (int i = 1; i < argc; ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as the manifest of a folder: no fault, and only what the program itself wrote counts as written so; with the
-// manifest's own checksum put right, too.
+// Any bytes as the manifest of a folder: no fault, and only the program's own output counts as written; also with a corrected
+// checksum of the manifest itself.
 #include "io/SubstrateManifest.h"
 
 #include "Fuzzing.h"
@@ -13,7 +13,7 @@ const std::string blank(64, '0');
 
 std::string own;
 
-/// Where a manifest has its own checksum; behind its end where it has none.
+/// Returns the place of a manifest's own checksum; its end if it has none.
 std::size_t placeOfChecksum(const std::string& text)
 {
   const std::string before = "manifest_sha256\": \"";
@@ -21,8 +21,8 @@ std::size_t placeOfChecksum(const std::string& text)
   return place == std::string::npos ? text.size() : place + before.size();
 }
 
-/// Whether a string of the text is the checksum of all else, which libFuzzer gets right, too: it reads along where the two are
-/// compared. Of any string that is as long, since blanks may stand around it, and its name be written in other ways.
+/// Tells whether a string of the text is the checksum of the rest, which libFuzzer finds, too, by watching the comparison. It
+/// accepts any string of that length, since blanks may stand around it, and its name may be escaped.
 bool isSealed(const std::string& text)
 {
   for (std::size_t quote = text.find('"'); quote != std::string::npos; quote = text.find('"', quote + 1))

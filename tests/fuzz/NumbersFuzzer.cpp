@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as a number: takeNumber() agrees with strtod in the C locale, and what is written reads back as the same bits. Of
-// hexadecimal numbers that are subnormal strtod may be off by one (glibc 2.36).
+// Any bytes as a number: takeNumber() agrees with strtod in the C locale, and a written number reads back as the same bits. For
+// subnormal hexadecimal numbers strtod may be off by one (glibc 2.36).
 #include "base/Numbers.h"
 
 #include "Fuzzing.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any text as a record in the field data of what comes in: no fault, one record more for the stage that takes it, on one line,
-// and the same again in the next one's.
+// Any text as a record in the field data of an input: no fault, one more record for the stage that takes it, on one line, and the
+// same again in the next stage's.
 #include "base/Provenance.h"
 
 #include "Fuzzing.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as a table of radii, typed in and in a file: the same numbers from both, or one error of ours from each.
+// Any bytes as a table of radii, as text and as a file: the same numbers from both, or one error of ours from each.
 #include "bundle/RadiusDistribution.h"
 
 #include "Fuzzing.h"

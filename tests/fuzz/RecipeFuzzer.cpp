@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as a recipe: no fault, and what is read is one that could run: its stages lead to a writer, each from earlier ones.
+// Any bytes as a recipe: no fault, and an accepted one could run: its stages lead to a writer, each from earlier ones.
 #include "recipe/RecipeReader.h"
 
 #include "Fuzzing.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as a .tck tractogram: streamlines of finite points that fit together, or one error of ours.
+// Any bytes as a .tck tractogram: consistent streamlines of finite points, or one error of ours.
 #include "io/TckFile.h"
 
 #include "Fuzzing.h"

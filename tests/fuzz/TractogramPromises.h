@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every reader of tractograms promises.
+// The promises of every reader of tractograms.
 #pragma once
 
 #include "Fuzzing.h"
@@ -34,7 +34,7 @@ inline void fitsTogether(const cactus::Tractogram& tracks, std::size_t bytes)
   }
 }
 
-/// Reads, and drops short streamlines; whatever comes out fits together, and what is thrown is ours and names the file.
+/// Reads, and drops short streamlines; the result is consistent, and exceptions are ours and name the file.
 template <typename Read>
 void keepsPromises(const std::string& name, std::size_t bytes, Read&& read)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as a .trk tractogram: streamlines of finite points that fit together, or one error of ours.
+// Any bytes as a .trk tractogram: consistent streamlines of finite points, or one error of ours.
 #include "io/TrkFile.h"
 
 #include "Fuzzing.h"

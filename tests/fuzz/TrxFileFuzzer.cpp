@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any bytes as a .trx tractogram: as they are; and as the files of one, so that most mutations get past the archive. Streamlines
-// of finite points that fit together come out, or one error of ours.
+// Any bytes as a .trx tractogram: unchanged; and as the files of one, so that most mutations get past the archive. The result is
+// consistent streamlines of finite points, or one error of ours.
 #include "io/TrxFile.h"
 
 #include "Fuzzing.h"
@@ -21,7 +21,7 @@ const Files& seed()
   return files;
 }
 
-/// Lines that give a length and a name, each followed by so many bytes.
+/// Lines with a length and a name, each followed by so many bytes.
 class Parts : public cactus::FileCollection
 {
 public:
@@ -84,7 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const bool isArchive = text.compare(0, 2, "PK") == 0;
-  // What is packed may be a thousand times as long.
+  // Uncompressed content may be a thousand times as long.
   keepsPromises("fuzz.trx", isArchive ? 2000 * size : size,
     [&]
     {

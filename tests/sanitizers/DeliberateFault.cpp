@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commits the fault named on the command line. The sanitizer that looks for it has to find it: else it is not at work.
+// Commits the fault named on the command line. The matching sanitizer has to find it: otherwise it is not active.
 #include <cstdio>
 #include <cstring>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sanitizers are told; part of every instrumented test program, so that it is the same by hand and from CTest. The
-// environment variables ASAN_OPTIONS, LSAN_OPTIONS, TSAN_OPTIONS and UBSAN_OPTIONS come on top.
+// The sanitizers' options; part of every instrumented test program, so that they are the same by hand and from CTest. The
+// environment variables ASAN_OPTIONS, LSAN_OPTIONS, TSAN_OPTIONS and UBSAN_OPTIONS are added.
 #ifdef CACTUS_SYMBOLIZER
 #define SYMBOLIZER ":external_symbolizer_path=" CACTUS_SYMBOLIZER
 #else

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// cactus_mesh_oracle [--gap DISTANCE] FOLDER: what is true of the surfaces in a folder, by CGAL with exact predicates.
+// cactus_mesh_oracle [--gap DISTANCE] FOLDER: judges the surfaces in a folder, by CGAL with exact predicates.
 //
-// Shares no code with the product, so that the product's surfaces can be judged by it. Reads every .ply and .off below FOLDER and
-// prints one JSON object:
+// Shares no code with the product, so that it can judge the product's surfaces independently. Reads every .ply and .off below
+// FOLDER and prints one JSON object:
 //   summary: counts over all meshes and pairs
 //   meshes:  per file its numbers, and whether it is closed, manifold, outward and free of self-intersections
 //   pairs:   those that intersect ("intersect"), that lie inside one another ("a_in_b", "b_in_a"; "a_partly_in_b",
-//   "b_partly_in_a"
-//            where only some connected pieces do) or, with --gap, that come closer than DISTANCE ("near"), with their distance
-// Touching counts as intersecting. The result is 0 whatever is found, 1 where a file cannot be read, 2 for wrong arguments.
+//            "b_partly_in_a" if only some connected pieces do) or, with --gap, that come closer than DISTANCE ("near"), with
+//            their distance
+// Touching counts as intersecting. The result is 0 whatever is found, 1 if a file cannot be read, 2 for wrong arguments.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
@@ -52,9 +52,9 @@ struct Surface
   std::vector<Point> points;
   std::vector<Triangle> triangles;
   CGAL::Bbox_3 bounds;
-  Mesh mesh;                   ///< empty where the triangles do not make a manifold
+  Mesh mesh;                   ///< empty if the triangles do not make a manifold
   std::vector<Point> onPieces; ///< one point of each connected piece
-  std::unique_ptr<Side> side;  ///< null where the surface is not closed
+  std::unique_ptr<Side> side;  ///< null if the surface is not closed
   bool manifold = false;       ///< at most two triangles to an edge, in opposite senses, and one fan of triangles to a point
   bool closed = false;
   bool outward = false; ///< each connected piece is closed and has its normals outside
@@ -68,8 +68,8 @@ struct Pair
 {
   std::size_t a = 0;
   std::size_t b = 0;
-  const char* relation = nullptr;                            ///< null where the two have nothing to do with each other
-  double distance = std::numeric_limits<double>::infinity(); ///< known where it is less than the gap asked for
+  const char* relation = nullptr;                            ///< null if the two do not interact
+  double distance = std::numeric_limits<double>::infinity(); ///< known if it is less than the requested gap
 };
 
 Surface read(const std::filesystem::path& path, const std::filesystem::path& folder)
@@ -163,7 +163,7 @@ double squaredDistance(const Triangle& s, const Triangle& t)
   return smallest;
 }
 
-/// Boxes, grown by `gap`, of those triangles that come near `where`.
+/// Returns the boxes, grown by `gap`, of those triangles that come near `where`.
 std::vector<Box> boxesNear(const Surface& surface, const CGAL::Bbox_3& where, double gap)
 {
   std::vector<Box> boxes;
@@ -178,7 +178,7 @@ std::vector<Box> boxesNear(const Surface& surface, const CGAL::Bbox_3& where, do
   return boxes;
 }
 
-/// How many connected pieces of `inner` lie inside `outer`, for two surfaces that do not intersect.
+/// Returns how many connected pieces of `inner` lie inside `outer`, for two surfaces that do not intersect.
 std::size_t piecesInside(const Surface& inner, const Surface& outer)
 {
   if (outer.side == nullptr)
@@ -303,7 +303,7 @@ void print(const std::vector<Surface>& surfaces, const std::vector<Pair>& pairs)
   std::cout << "]\n}\n";
 }
 
-/// Calls work(i) for 0 ≤ i < count in parallel, and throws what one of the calls threw.
+/// Calls work(i) for 0 ≤ i < count in parallel, and rethrows an exception of one of the calls.
 template <typename Work>
 void inParallel(std::size_t count, Work work)
 {

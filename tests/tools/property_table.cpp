@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints what the stages' descriptions say of their properties: docs/properties.md or, with --json, the same for programs.
+// Prints the stages' descriptions of their properties: docs/properties.md or, with --json, the same for programs.
 #include "base/Numbers.h"
 #include "bundle/RadiusHistogram.h"
 #include "stages/Presets.h"
@@ -53,7 +53,7 @@ void printJson()
   std::cout << all.dump(1) << '\n';
 }
 
-/// A number as it is read best: a hundred thousand is no 1e+05.
+/// Returns a number in its most readable form: a hundred thousand is not 1e+05.
 std::string shortText(double value)
 {
   return value == static_cast<double>(static_cast<long long>(value)) ? std::to_string(static_cast<long long>(value))
@@ -141,7 +141,7 @@ void printPresets()
   }
 }
 
-/// To two digits after the point.
+/// Rounds to two digits after the point.
 std::string roundedText(double value)
 {
   return cactus::exactText(std::round(100.0 * value) / 100.0);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// cactus_random_walk [--walkers N] [--steps N] [--step LENGTH] [--seed N] FOLDER: whether walkers leak.
+// cactus_random_walk [--walkers N] [--steps N] [--step LENGTH] [--seed N] FOLDER: tests whether walkers leak.
 //
 // Shares no code with the product. Reads every PLY file below FOLDER/outer and FOLDER/inner (µm, ASCII or binary), starts walkers
 // at random inside the inner surfaces, in the myelin (inside an outer surface and no inner one) and outside, and moves them by
-// steps of a fixed length in random directions, which every triangle reflects, and so does the box around all surfaces. Every
-// thousand steps, and at the end, the surfaces that a walker is inside of are found anew, by which of them a line to the outside
-// crosses how often, and must be those that it started in. Prints one JSON object: for each compartment its walkers, those that
+// steps of a fixed length in random directions, which every triangle and the box around all surfaces reflect. Every thousand
+// steps, and at the end, it determines anew which surfaces a walker is inside of, by the number of their crossings with a line to
+// the outside; these must be those that it started in. Prints one JSON object: for each compartment its walkers, those that
 // leaked, how often one was reflected, and mean squared displacements along x, y and z.
 //
-// The result is 0 whatever is found, 1 where a file cannot be read or there is no room to start, 2 for wrong arguments.
+// The result is 0 whatever is found, 1 if a file cannot be read or there is no room to start, 2 for wrong arguments.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -79,10 +79,10 @@ struct Surface
 
 /// A barrier keeps a walker this far off (µm), so that rounding cannot put it on the other side.
 constexpr double skin = 1e-7;
-/// µm. The box's walls stand a little inside of it, so that they do not coincide with caps.
+/// µm. The box's walls stand a little inside it, so that they do not coincide with caps.
 constexpr double boxInset = 1e-3;
 
-/// Four bytes, the lowest first.
+/// Reads four bytes, little-endian.
 std::uint32_t fourBytes(std::istream& file)
 {
   std::uint32_t bits = 0;
@@ -156,8 +156,8 @@ public:
   const Vector& lower() const { return this->Lower; }
   const Vector& upper() const { return this->Upper; }
 
-  /// The first wall, a triangle or a face of the box, that the segment from `from` along `by` comes to: at which fraction of it,
-  /// and its normal. False if there is none.
+  /// Finds the first wall, a triangle or a face of the box, on the segment from `from` along `by`: at which fraction of it, and
+  /// its normal. False if there is none.
   bool firstHit(const Vector& from, const Vector& by, double& fraction, Vector& normal) const
   {
     bool hit = false;
@@ -187,8 +187,8 @@ public:
     return hit;
   }
 
-  /// The surfaces that a point is inside of, by the parity of crossings on lines to beyond the box. The first answer that two
-  /// lines give counts; nothing is returned where none does, as near a hole.
+  /// Returns the surfaces that a point is inside of, by the parity of crossings on lines to beyond the box. The first answer that
+  /// two lines give counts; returns nothing if there is none, as near a hole.
   std::optional<std::vector<int>> around(const Vector& point, std::mt19937_64& random) const
   {
     std::map<std::vector<int>, int> votes;
@@ -265,7 +265,7 @@ private:
     }
   }
 
-  /// Files triangles in cubes, of which each has a list.
+  /// Sorts triangles into cubic cells, each with a list.
   void sort()
   {
     const Vector size = this->Upper - this->Lower;
@@ -351,7 +351,8 @@ private:
     }
   }
 
-  /// Möller–Trumbore, with edges widened by a hair: a crossing through an edge is rather seen twice than not at all.
+  /// Tests a crossing (Möller–Trumbore), with slightly widened edges: a crossing through an edge may be seen twice, but never
+  /// missed.
   bool crosses(int index, const Vector& from, const Vector& by, double& where) const
   {
     constexpr double hair = 1e-9;
@@ -362,7 +363,7 @@ private:
     const double behind = before + dot(by, t.normal);
     if ((before > tiny && behind > tiny) || (before < -tiny && behind < -tiny))
     {
-      return false; // on one side, as most are
+      return false; // on one side, the usual case
     }
     const Vector h = cross(by, t.ac);
     const double determinant = dot(t.ab, h);
@@ -449,7 +450,7 @@ Compartment compartmentOf(const Walls& walls, const std::vector<int>& inside)
 struct Walker
 {
   Vector start;
-  std::vector<int> inside; ///< of which surfaces it started
+  std::vector<int> inside; ///< the surfaces that it started inside of
   Vector position;
   bool leaked = false;
   std::size_t reflections = 0;
@@ -473,7 +474,7 @@ Vector randomDirection(std::mt19937_64& random)
   return { across * std::cos(angle), across * std::sin(angle), z };
 }
 
-/// Moves a walker by one step, which walls reflect.
+/// Moves a walker by one step, reflected at walls.
 void move(const Walls& walls, Walker& walker, Vector by)
 {
   for (int reflection = 0; reflection < 1000; ++reflection)
@@ -496,7 +497,7 @@ void move(const Walls& walls, Walker& walker, Vector by)
   }
 }
 
-/// As many walkers as wanted in each compartment (inner: where there are inner surfaces); throws where one has no room.
+/// Returns the requested number of walkers in each compartment (inner: if there are inner surfaces); throws if one has no room.
 std::vector<std::vector<Walker>> start(const Walls& walls, const Options& options)
 {
   std::mt19937_64 random(options.seed);

@@ -37,7 +37,7 @@ mode_t modeOf(const fs::path& path)
   return ::stat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
 }
 
-/// Writes and gives the error's message.
+/// Writes, and returns the error message.
 std::string write(const fs::path& path, const std::string& text)
 {
   try
@@ -201,7 +201,7 @@ TEST_F(AtomicFile, LosesNothingWhereTheDiskIsFull)
   EXPECT_NE(full.find("No space left"), std::string::npos) << full;
 }
 
-// Whenever a process is killed, the file is the former or the new one, and the next write clears away what was left.
+// Whenever a process is killed, the file is the former or the new one, and the next write removes the leftovers.
 TEST_F(AtomicFile, OutlivesAKillAtAnyCall)
 {
   int kills = 0;

@@ -32,7 +32,7 @@ void replaceContent(const std::string& path, const std::string& content)
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
 }
 
-/// The same with the checksum that belongs to it.
+/// Returns the content with its checksum.
 std::string sealed(std::string content)
 {
   content.resize(content.size() - 8);
@@ -40,7 +40,7 @@ std::string sealed(std::string content)
   return content.append(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
 }
 
-/// A small run, cut short, with its checkpoint in a file of its own.
+/// A small interrupted run with its checkpoint file.
 class CheckpointFiles : public testing::TestWithParam<DescentMethod>
 {
 protected:
@@ -65,8 +65,8 @@ protected:
 
   void TearDown() override { std::filesystem::remove_all(this->folder); }
 
-  /// What a run says that goes on from the present file (or does not, by `options`); empty where it is content. Its fibres are
-  /// then in `result`.
+  /// Returns the error of a run that continues from the present file (or does not, by `options`); empty on success. Its fibres
+  /// are then in `result`.
   std::string message()
   {
     Fibres fibres = this->start;
@@ -85,7 +85,7 @@ protected:
     return "";
   }
 
-  /// Expects the file, with this content, to be refused by name and left alone, whether a run is to go on from it or not.
+  /// Expects the file, with this content, to be refused by name and left alone, whether a run is to continue from it or not.
   void expectRefused(const std::string& content, const std::string& how)
   {
     replaceContent(this->path, content);
@@ -105,7 +105,7 @@ protected:
   CapsuleOptimizerOptions options;
   Fibres start;
   Fibres result;
-  Fibres reached; ///< where the run was cut short
+  Fibres reached; ///< state at the interruption
   std::string whole;
 };
 
@@ -131,7 +131,7 @@ TEST(Checkpoint, ChecksumIsCrc64Xz)
   EXPECT_EQ(crc64(text.data(), text.size()), bytewise);
 }
 
-// Guarantee: a file with any damage is refused by name, and no run goes on from it: one to three flipped bits anywhere...
+// Guarantee: a file with any damage is refused by name, and no run continues from it: one to three flipped bits anywhere...
 TEST_P(CheckpointFiles, RefuseFlippedBits)
 {
   std::mt19937 engine(7);
@@ -151,7 +151,7 @@ TEST_P(CheckpointFiles, RefuseFlippedBits)
   }
 }
 
-// ... an end that comes early, or late; parts exchanged, left out, written twice; another byte order; something else.
+// ... a file that is too short or too long; parts exchanged, left out, written twice; another byte order; other content.
 TEST_P(CheckpointFiles, RefuseWhatIsCutExchangedOrSomethingElse)
 {
   for (std::size_t length = 0; length < this->whole.size(); length += 1 + length / 40)
@@ -195,7 +195,7 @@ TEST_P(CheckpointFiles, RefuseWhatIsCutExchangedOrSomethingElse)
   this->expectRefused("", "an empty file");
 }
 
-// Guarantee: also with a checksum that is right, nothing in a checkpoint leads out of an array, to no number, or to no end.
+// Guarantee: even with a correct checksum, no content of a checkpoint leads out of an array, to NaN, or to an endless loop.
 TEST_P(CheckpointFiles, ChecksumsAreNotTheOnlyCheck)
 {
   std::mt19937 engine(9);
@@ -225,8 +225,8 @@ TEST_P(CheckpointFiles, ChecksumsAreNotTheOnlyCheck)
   EXPECT_GT(refused, samples / 6);
 }
 
-// Guarantee: where the points of a checkpoint are no two the same, and yet so near each other that no run comes from them to
-// numbers, the run ends with an error that names the file, which is kept.
+// Guarantee: if no two points of a checkpoint are the same, but some are so near each other that a run from them gives NaN, the
+// run ends with an error that names the file, which is kept.
 TEST_P(CheckpointFiles, LeadToNumbersOrAnError)
 {
   const Eigen::Vector3d places[2] = { Eigen::Vector3d::Zero(), Eigen::Vector3d(1e-155, 0.0, 0.0) };
@@ -295,7 +295,7 @@ TEST(Checkpoint, OfARunIsNotLostToAnother)
   options.resume = true;
   EXPECT_EQ(message(options, 14), "");
   EXPECT_EQ(iterations, 3);
-  // Another run's file that appears meanwhile is not replaced either, and the run says so.
+  // Another run's file that appears meanwhile is not replaced either, and the run reports it.
   options.resume = false;
   std::remove(path.c_str());
   Fibres fibres = start;
@@ -317,7 +317,7 @@ TEST(Checkpoint, OfARunIsNotLostToAnother)
   std::remove(path.c_str());
 }
 
-// Guarantee: what is no file, such as a folder or a device, is refused at once, and nothing is left beside it.
+// Guarantee: a folder or a device is refused at once, and nothing is left beside it.
 TEST(Checkpoint, IsAFile)
 {
   const std::string folder = cactus_testing::scratchPath("checkpoint-folder");

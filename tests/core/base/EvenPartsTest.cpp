@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: parts follow one another, hold each thing once, and differ in weight by less than the heaviest thing.
+// Guarantee: parts are contiguous, hold each element once, and differ in weight by less than the heaviest element.
 #include "base/EvenParts.h"
 
 #include <gtest/gtest.h>

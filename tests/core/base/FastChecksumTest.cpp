@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: data that differ in any byte, or in their number, have different checksums.
+// Guarantee: data that differ in any byte, or in length, have different checksums.
 #include "base/FastChecksum.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: JSON on a line reads back as it was, and VTK's reader of legacy image files finds none of its keywords in it.
+// Guarantee: JSON on a line reads back unchanged, and VTK's reader of legacy image files finds none of its keywords in it.
 #include "base/JsonText.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace
 
 using cactus::Json;
 
-/// Whether that reader takes some word of the text for a keyword: it reads up to white space, but at most 255 characters.
+/// Tells whether that reader takes a word of the text for a keyword: it reads up to white space, but at most 255 characters.
 bool hasKeyword(const std::string& text)
 {
   std::size_t i = 0;

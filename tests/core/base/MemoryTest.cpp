@@ -22,7 +22,7 @@ namespace
 
 constexpr std::uint64_t gigabyte = 1000000000;
 
-/// A machine's files, as far as they say how much memory is left.
+/// A machine's files that say how much memory is left.
 class Machine
 {
 public:
@@ -111,7 +111,7 @@ void limitAddressSpace(rlim_t bytes)
   setrlimit(RLIMIT_AS, &lowered);
 }
 
-/// Whether what needs more than is left is refused.
+/// Tells whether a request for more than is left is refused.
 int refusesWhatDoesNotFit()
 {
   limitAddressSpace(3 * gigabyte);
@@ -148,7 +148,7 @@ int sharesLoopsWithin(rlim_t bytes)
   return 0;
 }
 
-/// Limits are for a process of its own, which has not started any threads yet.
+/// Limits need their own process, which has not started any threads yet.
 class LimitedProcess : public ::testing::Test
 {
 protected:

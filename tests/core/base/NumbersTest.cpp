@@ -34,7 +34,7 @@ using cactus_testing::contentOf;
 
 using namespace cactus;
 
-/// What is read from a text as one number; NaN where it is none.
+/// Returns a number read from a text; NaN if there is none.
 double taken(const std::string& text, const std::string& left = "")
 {
   std::string_view rest = text;
@@ -49,7 +49,7 @@ double taken(const std::string& text, const std::string& left = "")
   return value;
 }
 
-/// How numbers are written in Germany: 1.234,5.
+/// The German format of numbers: 1.234,5.
 struct German : std::numpunct<char>
 {
   char do_decimal_point() const override { return ','; }
@@ -57,8 +57,8 @@ struct German : std::numpunct<char>
   std::string do_grouping() const override { return "\3"; }
 };
 
-/// Makes both the C++ library's and the C library's locale a German one, and takes that back at the end. The C library's is made
-/// by localedef, where there is one.
+/// Sets both the C++ library's and the C library's locale to a German one, and restores them at the end. The C library's is made
+/// by localedef, if installed.
 class GermanLocale
 {
 public:
@@ -101,7 +101,7 @@ std::string messageOf(const std::function<void()>& work)
   return "no error";
 }
 
-/// Everything that core writes as text, from numbers with decimals and thousands, in one.
+/// Returns every kind of text that core writes, from numbers with decimals and thousands, as one text.
 std::string everyText()
 {
   Fibres fibres;
@@ -163,7 +163,8 @@ std::string everyText()
 
 } // namespace
 
-// Guarantee: what strtod reads in the C locale is read, to the nearest double; what is no finite number is refused.
+// Guarantee: every text that strtod accepts in the C locale is read, to the nearest double; others and non-finite numbers are
+// refused.
 TEST(Numbers, AreReadAsInTheCLocale)
 {
   EXPECT_EQ(taken("1.5"), 1.5);
@@ -232,14 +233,14 @@ TEST(Numbers, ExcerptsAreShortAndPrintable)
   EXPECT_EQ(excerpt(std::string("a\0b\tc", 5)), "a b c");
   EXPECT_EQ(excerpt(std::string(1000, 'x')).size(), 63u);
   EXPECT_EQ(excerpt("0.5 \xc2\xb5m \xe6\xbc\xa2 \xf0\x9f\xa7\xa0"), "0.5 \xc2\xb5m \xe6\xbc\xa2 \xf0\x9f\xa7\xa0");
-  // What is no UTF-8 could not be passed on to Python or the window.
+  // Invalid UTF-8 could not be passed on to Python or the window.
   EXPECT_EQ(excerpt("\xff\xfe"
                     "6"),
     "??6");
   EXPECT_EQ(excerpt("\xc0\x80 \xed\xa0\x80 \xf5\x80 \xc2"), "?? ??? ?? ?");
 }
 
-// Guarantee: nothing that core reads or writes depends on the locale, neither on C++'s nor on C's.
+// Guarantee: reading and writing in core does not depend on the locale, neither C++'s nor C's.
 TEST(Numbers, DoNotDependOnTheLocale)
 {
   const std::string plain = everyText();

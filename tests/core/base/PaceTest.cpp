@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: the pace is that of the last minutes, whatever had been done before and however long it stood still, and is told
-// once it is known, in numbers of two digits; a line of progress is one line.
+// Guarantee: the reported speed is that of the last minutes, whatever was done before and however long it stood still. It is
+// reported once it is known, in numbers of two digits; a line of progress is one line.
 #include "base/Pace.h"
 
 #include <gtest/gtest.h>

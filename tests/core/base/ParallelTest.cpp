@@ -47,7 +47,7 @@ TEST(Parallel, DoesNothingForACallerThatHasAlreadyStopped)
 
 TEST(Parallel, HearsOfAStopThatComesWhileOtherThreadsDoTheWork)
 {
-  // Only the caller's thread asks. Here the other one may well do everything before that thread has its first turn.
+  // Only the caller's thread asks. Here the other one may do everything before that thread has its first turn.
   const std::thread::id caller = std::this_thread::get_id();
   for (int repeat = 0; repeat < 200; ++repeat)
   {
@@ -87,7 +87,7 @@ TEST(Parallel, GivesEachThreadAWorkerOfItsOwn)
       [&](Worker& worker, std::size_t)
       {
         ++runs;
-        // What a worker counted before is still there.
+        // The worker's earlier counts are still there.
         EXPECT_EQ(worker.runs++, last[static_cast<std::size_t>(worker.thread)]++);
       });
     EXPECT_EQ(runs, 500u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: what a list of properties says is what is checked, and every property reaches the member that it names.
+// Guarantee: a list of properties is checked as it says, and every property reaches the member that it names.
 #include "base/Properties.h"
 
 #include "base/Error.h"
@@ -134,7 +134,7 @@ TEST(Properties, WithoutEffectAreNotLookedAt)
   thick.count = 3;
   EXPECT_NE(messageFor("Thickness", 2.0, thick), "");
   EXPECT_EQ(messageFor("Thickness", 2.0), "");
-  // What it depends on has no effect itself.
+  // The property that it depends on has no effect itself.
   thick.shape = Shape::Flat;
   EXPECT_EQ(messageFor("Thickness", 2.0, thick), "");
 }

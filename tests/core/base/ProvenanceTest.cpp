@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: a provenance holds every stage once, with its values as values, whatever way the data have taken.
+// Guarantee: a provenance holds every stage once, with its values as values, on any path through the pipeline.
 #include "base/Provenance.h"
 
 #include "base/Error.h"
@@ -118,7 +118,7 @@ TEST(Provenance, JoinsInputsWithEachStageOnce)
   EXPECT_EQ(inputs[1]["checksum"], "bb");
   EXPECT_EQ(inputs[1]["port"], 0);
 
-  // Two ways from one stage meet again.
+  // Two paths from one stage meet again.
   auto split = stage("Split");
   split.inputs = { { "Input", { from(provenanceOfOutput(joined, 0, "cc")) } } };
   const Provenance parts = provenanceOf(split);

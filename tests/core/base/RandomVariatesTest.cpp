@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: a seed gives the same random numbers wherever the elementary functions have the same bits. The answers are what GNU
-// libstdc++ 12 drew with the same engine, with which the first substrates were made.
+// Guarantee: a seed gives the same random numbers wherever the elementary functions have the same bits. The answers are those of
+// GNU libstdc++ 12 with the same engine, which made the first substrates.
 #include "base/RandomVariates.h"
 
 #include "ElementaryFunctions.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: what was used last is kept, and no more than was asked for.
+// Guarantee: the most recently used entries are kept, and no more than the limit.
 #include "base/RecentThings.h"
 
 #include <gtest/gtest.h>

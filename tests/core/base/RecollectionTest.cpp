@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: what is known, of a loop or of one thing, is not worked out again, in whichever process it was done, and all of them
-// have all of it.
+// Guarantee: known results, of a loop or of a single task, are not computed again, whichever process computed them, and all
+// processes get all of them.
 #include "base/Recollection.h"
 
 #include "../FindingsInMemory.h"
@@ -20,7 +20,7 @@ namespace
 using namespace cactus;
 using cactus_testing::FindingsInMemory;
 
-/// The cubes of the first eight numbers, and which of them were worked out.
+/// Returns the cubes of the first eight numbers; `done` receives those that were computed.
 std::string cubes(const Recollection& known, std::multiset<std::size_t>& done, Team* team = nullptr)
 {
   std::vector<std::string> values(8);
@@ -67,7 +67,7 @@ TEST(Recollection, DoesWhatIsNotKnown)
   EXPECT_EQ(cubes(known, done), wanted);
   EXPECT_EQ(done, (std::multiset<std::size_t>{ 3, 6 }));
   EXPECT_EQ(findings.kept.size(), 2u);
-  // What is another part's is not taken for it.
+  // Results of another part are not confused with its own.
   findings.beginAgain();
   done.clear();
   EXPECT_EQ(cubes(Recollection(findings).part("others"), done), wanted);
@@ -95,7 +95,7 @@ TEST(Recollection, WorksOutOnce)
   std::mutex mutex;
   for (const bool isKnown : { false, true })
   {
-    // What the first process has kept is for all, whether or not they were given it.
+    // Results kept by the first process are for all, whether or not they received them before.
     const auto found = cactus_testing::inTeam(3,
       [&](Team& team)
       {
@@ -122,7 +122,7 @@ TEST(Recollection, OfAnyProcessIsForAll)
   {
     for (const int after : { 1, 2, 4 })
     {
-      // Each process keeps what it has done, and is given all that was kept.
+      // Each process keeps its own results, and receives all that were kept.
       std::map<std::string, std::string> kept;
       std::mutex mutex;
       const auto run = [&](Team& team)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: what processes share is done once, and all of them have all of it, whatever their number; an error in one ends the
-// work in all of them, soon, and the first one says it.
+// Guarantees: shared work is done once, and all processes get all of it, whatever their number; an error in one ends the work in
+// all of them, soon, and the first one reports it.
 #include "base/Sharing.h"
 
 #include "../ThreadTeam.h"
@@ -40,7 +40,7 @@ TEST(Bytes, ComeBackAsTheyWere)
   get(numbers);
   EXPECT_EQ(numbers, (std::vector<float>{ 1.5F, -0.0F }));
   EXPECT_TRUE(get.isAtEnd());
-  // What is cut off is known, wherever: also a count that is more than memory holds.
+  // A truncated message is detected anywhere: also a count beyond the memory.
   for (std::size_t size = 0; size < bytes.size(); ++size)
   {
     const std::string cut = bytes.substr(0, size);
@@ -100,7 +100,7 @@ TEST(Sharing, DoesEachThingOnceOnAnyNumberOfProcessesAndThreads)
   }
 }
 
-// Guarantee: each thing is done once, each process has some that follow one another, and about as much to do as the others.
+// Guarantee: each element is processed once, each process has a contiguous range, and about as much to do as the others.
 TEST(Sharing, SharesOutAlongAnOrder)
 {
   std::vector<double> weights;
@@ -176,7 +176,7 @@ TEST(Sharing, DealsWhatEachHasForEach)
         std::string wanted;
         for (int other = 0; other < size; ++other)
         {
-          // Nothing at all for the one behind it.
+          // An empty message for the next process.
           toEach[std::size_t(other)] =
             other == team.place() + 1 ? "" : std::to_string(team.place()) + std::string(3, char('a' + other));
           wanted += other == team.place() - 1 ? "" : std::to_string(other) + std::string(3, char('a' + team.place()));
@@ -196,7 +196,7 @@ TEST(Sharing, DealsWhatEachHasForEach)
   }
 }
 
-/// What each of three members says where work(place) is done between two exchanges.
+/// Returns the message of each of three members after work(place) between two exchanges.
 std::vector<std::string> endOf(const std::function<void(int)>& work)
 {
   return inTeam(3,
@@ -205,7 +205,7 @@ std::vector<std::string> endOf(const std::function<void(int)>& work)
       const Sharing sharing(&team);
       try
       {
-        // In two layers, as it is where a folder is written within a production.
+        // In two layers, as when a folder is written within a production.
         sharing.together(
           [&]
           {
@@ -252,13 +252,13 @@ TEST(Sharing, EndsAllAlikeAndTheFirstSaysWhy)
   };
   EXPECT_EQ(endOf(fullDisk), (Texts{ "file error on rank 2: no space", other, other }));
   EXPECT_EQ(endOf([](int) { throw InvalidInput("bad"); }), (Texts{ "invalid input bad", other, other }));
-  // A reason says more than that somebody was stopped.
+  // A reason is reported in preference to a stop.
   const auto stoppedToo = [](int place) { place == 1 ? throw FileError("no space") : throw Cancelled("stopped"); };
   EXPECT_EQ(endOf(stoppedToo), (Texts{ "file error on rank 1: no space", other, other }));
   EXPECT_EQ(endOf([](int) { throw Cancelled("by the user"); }), (Texts{ "stopped by the user", other, other }));
 }
 
-// Also where the one that failed cannot know that the others have come to a deal, which brings nothing from one to another.
+// Ends all, even if the failed one cannot know that the others are in a deal with empty messages.
 TEST(Sharing, EndsADealToo)
 {
   const auto told = inTeam(3,
@@ -287,7 +287,7 @@ TEST(Sharing, EndsADealToo)
   EXPECT_EQ(told, (std::vector<std::string>{ "on rank 1: no space", "reported elsewhere", "reported elsewhere" }));
 }
 
-// Such as data that only one of them cannot read, before the work on it begins.
+// For example, data that only one process cannot read, before the work on them begins.
 TEST(Sharing, EndsAllWhereOneFailsBeforeAnInnerLayer)
 {
   const auto told = inTeam(3,

@@ -22,7 +22,7 @@
 namespace
 {
 
-/// Sums of what a thousand short loops after each other wrote, each by the threads of the calling one.
+/// Tells whether the sums of a thousand short loops in sequence are right, each with the threads of the calling one.
 bool loopsAreRight(int threads, int loops)
 {
   std::vector<int> numbers(37, 0);
@@ -34,7 +34,7 @@ bool loopsAreRight(int threads, int loops)
   return std::accumulate(numbers.begin(), numbers.end(), 0) == loops * static_cast<int>(last * (last + 1) / 2);
 }
 
-/// Whether all threads of this process but the calling one are asleep (proc(5): state S).
+/// Tells whether all threads of this process but the calling one are asleep (proc(5): state S).
 bool othersSleep()
 {
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task"))
@@ -53,7 +53,7 @@ bool othersSleep()
   return true;
 }
 
-/// Sets OMP_NUM_THREADS until it goes.
+/// Sets OMP_NUM_THREADS during its life.
 class ThreadsVariable
 {
 public:
@@ -73,7 +73,7 @@ private:
 
 } // namespace
 
-// Guarantee 5, and 4: a result never depends on the number of threads, so fewer are taken than asked for where they cannot be.
+// Guarantees 5 and 4: a result never depends on the number of threads, so fewer are used if the requested ones cannot be started.
 TEST(Threads, AreNeverMoreThanAreOfUse)
 {
   cactus::Context context;
@@ -145,7 +145,7 @@ TEST(Threads, AtSharedWorkShareNoMore)
   EXPECT_EQ(strangers, 0);
 }
 
-// A thread that waits must not take from another program what it does not use.
+// A waiting thread must not use processor time.
 TEST(Threads, SleepWhenThereIsNothingToDo)
 {
   EXPECT_TRUE(loopsAreRight(cactus::processorCount(), 100));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: what is given as a number is one, whole and in its range, or named in an error.
+// Guarantee: a given number is a whole one in its range, or is named in an error.
 #include "base/WholeNumber.h"
 
 #include "base/Error.h"

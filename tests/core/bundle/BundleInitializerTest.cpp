@@ -23,13 +23,13 @@ Eigen::Vector3d endPoint(const Fibres& fibres, std::size_t f, int end)
   return fibres.points[end == 0 ? fibres.offsets[f] : fibres.offsets[f + 1] - 1];
 }
 
-/// Of fibres that start with the radii drawn, so that these say where their circles touch.
+/// Options of fibres that start with the drawn radii, so that circles touch at these radii.
 struct DrawnRadii : BundleInitializerOptions
 {
   DrawnRadii() { this->grownFibreVolumeFraction = 0.0; }
 };
 
-/// Mean angle (degrees) of a bundle's fibres to a given axis, computed from the end points alone.
+/// Returns the mean angle (degrees) of a bundle's fibres to a given axis, computed from the end points alone.
 double meanAngleTo(const Fibres& fibres, const Eigen::Vector3d& axis, int bundle)
 {
   double sum = 0.0;
@@ -45,7 +45,7 @@ double meanAngleTo(const Fibres& fibres, const Eigen::Vector3d& axis, int bundle
   return sum / count / degree;
 }
 
-/// Every pair of one bundle's circles on the face at one end, by brute force, with lengths along the face.
+/// Checks every pair of one bundle's circles on the face at one end, by brute force, with lengths along the face.
 void expectNoOverlap(const Fibres& fibres, int end)
 {
   for (std::size_t i = 0; i < fibres.size(); ++i)
@@ -104,7 +104,7 @@ TEST(BundleInitializer, MakesFibresThinnerThatAreToGrow)
       EXPECT_GE(fibres.targetRadii[f], options.radius.minimum * (1.0 - 1e-12));
       EXPECT_LE(fibres.targetRadii[f], options.radius.maximum * (1.0 + 1e-12));
     }
-    // Thinner fibres fill as much only if they are more.
+    // Thinner fibres fill as much only if there are more.
     options.grownFibreVolumeFraction = 0.0;
     const Fibres plain = initialiseBundles(options);
     EXPECT_GT(fibres.size(), plain.size());
@@ -217,8 +217,8 @@ TEST(BundleInitializer, WithoutDispersionEndsLieOppositeEachOther)
   }
 }
 
-/// Standard deviation over squares of 10 µm of how much of them the circles fill which fibres leave at places of theirs, by
-/// brute force.
+/// Returns the standard deviation of the circles' area fraction over squares of 10 µm, at places given for the fibres, by brute
+/// force.
 double unevenness(const Fibres& fibres, double face, const std::function<Eigen::Vector2d(std::size_t)>& placeOf)
 {
   constexpr double pixel = 0.1;
@@ -400,7 +400,7 @@ TEST(BundleInitializer, BadParametersAreNamed)
         o.crossingStyle = CrossingStyle::Sheets;
         change(o);
       });
-    // Of one bundle they are not asked for.
+    // With one bundle the property has no effect.
     EXPECT_EQ(errorOf(change).find(property), std::string::npos);
   };
   for (const double bad : { 0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY) })
@@ -433,7 +433,7 @@ TEST(BundleInitializer, BadParametersAreNamed)
         o.radius.model = RadiusModel::Histogram;
         change(o.radius);
       });
-    // Of other distributions they are not asked for.
+    // With other distributions the property has no effect.
     EXPECT_EQ(errorOf([&](auto& o) { change(o.radius); }).find(property), std::string::npos);
   };
   histogram("RadiusHistogram has no choice 10", [](auto& r) { r.histogram = static_cast<PublishedRadii>(10); });
@@ -534,7 +534,7 @@ TEST(BundleInitializer, CrossingBundlesKeepToTheirLayers)
       options.meanDispersion = 10.0;
       options.seed = seed;
       const Fibres fibres = initialiseBundles(options);
-      // A straight fibre covers the interval of y between its end circles. Those of different bundles must not share any of it.
+      // A straight fibre covers the interval of y between its end circles. Fibres of different bundles must not share any of it.
       std::size_t changes = 0;
       const auto interval = [&](std::size_t f)
       {
@@ -633,7 +633,7 @@ TEST(BundleInitializer, SheetsTooThinForAFibreAreRefused)
                 o.numberOfBundles = 2;
                 o.crossingStyle = CrossingStyle::Sheets;
               }),
-    "no error"); // the default thickness takes any fibre
+    "no error"); // the default thickness holds any fibre
   const std::string message = errorOf(
     [](auto& o)
     {

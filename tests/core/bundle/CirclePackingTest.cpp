@@ -136,7 +136,7 @@ TEST(CirclePacking, PlacementTakesTheFirstFreeProposal)
     circles, [&](std::size_t, int trial) { return proposals[trial]; }, 4);
   EXPECT_EQ(circles.centres[1], proposals[0]);
   EXPECT_EQ(circles.centres[0], proposals[2]);
-  // Where none is free, the one that overlaps least.
+  // If no place is free, the one that overlaps least.
   placeCircles(
     circles, [&](std::size_t, int trial) { return proposals[trial]; }, 2);
   EXPECT_EQ(circles.centres[0], proposals[1]);

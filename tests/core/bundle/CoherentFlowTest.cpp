@@ -74,7 +74,7 @@ TEST(CoherentFlow, KeepsAreas)
 {
   const Rectangle frame = frameOf(30.0, 30.0);
   const double h = 1e-4;
-  // Around each place four more, whose distances before and after give the map's derivative.
+  // Around each place four more points, whose distances before and after give the map's derivative.
   std::vector<Eigen::Vector2d> points;
   for (const Eigen::Vector2d& place : pointsIn(frameOf(28.0, 28.0), 200))
   {
@@ -172,7 +172,7 @@ TEST(CoherentFlow, WaysLeadWhereTheFlowDoes)
     }
   }
   EXPECT_GT(largest, 0.2);
-  // Between its places: with every other of them left out, the ways lead past those still.
+  // Between its places: if every other one is left out, the paths still pass through them.
   FlowPaths coarse = paths;
   coarse.places.clear();
   ASSERT_EQ((paths.places.size() - 1) % 2, 0u);

@@ -53,7 +53,7 @@ TEST(DirectionDistribution, WatsonAnglesFollowTheirDensity)
   {
     const DirectionDistribution watson(DispersionModel::Watson, asked);
     const auto angles = sample(watson, 10000);
-    // Numerically integrated density exp(κ cos²θ) sin θ, walked along with the sorted sample.
+    // Numerically integrated density exp(κ cos²θ) sin θ, compared with the sorted sample.
     constexpr int steps = 90000;
     std::vector<double> cumulative(steps + 1, 0.0);
     for (int i = 0; i < steps; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: published histograms have the means that others report of the same papers, and radii are drawn as they say.
+// Guarantee: published histograms have the means that other papers report for them, and radii are drawn from them.
 #include "bundle/RadiusHistogram.h"
 
 #include "base/MyelinThickness.h"
@@ -25,7 +25,7 @@ constexpr std::array<PublishedRadii, 5> callosum = { { PublishedRadii::HumanGenu
 constexpr std::array<PublishedRadii, 4> areas = { { PublishedRadii::HumanPrefrontal, PublishedRadii::HumanMotor,
   PublishedRadii::HumanParietal, PublishedRadii::HumanVisual } };
 
-/// Part of the axons whose diameter is below `diameter`.
+/// Returns the fraction of the axons whose diameter is below `diameter`.
 double shareBelow(const RadiusHistogram& histogram, double diameter)
 {
   double sum = 0.0;
@@ -54,7 +54,7 @@ double medianDiameter(const RadiusHistogram& histogram)
   return 0.5 * (lower + upper);
 }
 
-/// A distribution that its limits do not cut.
+/// Returns a distribution that its limits do not truncate.
 RadiusDistributionOptions uncut(PublishedRadii which, double gRatio)
 {
   RadiusDistributionOptions options;
@@ -111,8 +111,8 @@ TEST(RadiusHistogram, EveryOneIsWhole)
   EXPECT_EQ(std::accumulate(mouse.begin(), mouse.end(), 0.0), 227.0); // Lee et al. 2020 count as many axons
 }
 
-/// Veraart et al. 2020 (eLife 9:e49855, Figure 7 and what is said of it) compare histograms of human callosa, those of Aboitiz et
-/// al. among them: their mean radius is 0.54 to 0.69 µm in all, the effective one 0.91 to 2.9 µm.
+/// Veraart et al. 2020 (eLife 9:e49855, Figure 7 and its text) compare histograms of human callosa, those of Aboitiz et al. among
+/// them: their mean radius is 0.54 to 0.69 µm in all, the effective one 0.91 to 2.9 µm.
 TEST(RadiusHistogram, MidBodyHasThePublishedMeanAndEffectiveRadius)
 {
   const RadiusHistogram& midBody = radiusHistogram(PublishedRadii::HumanMidBody);
@@ -121,8 +121,8 @@ TEST(RadiusHistogram, MidBodyHasThePublishedMeanAndEffectiveRadius)
   EXPECT_NEAR(midBody.effectiveRadius(), 2.9, 0.05) << "that with the thickest axons";
 }
 
-/// Gamma distributions of the inner radius that go by Aboitiz et al. 1992: mean and standard deviation (µm) of Γ(2.64, 0.184),
-/// Γ(1.34, 0.391), Γ(0.99, 0.723), Γ(1.96, 0.368) and Γ(2.57, 0.232). They rest on one of the three readings of the figure.
+/// Gamma distributions of the inner radius after Aboitiz et al. 1992: mean and standard deviation (µm) of Γ(2.64, 0.184), Γ(1.34,
+/// 0.391), Γ(0.99, 0.723), Γ(1.96, 0.368) and Γ(2.57, 0.232). They rest on one of the three readings of the figure.
 TEST(RadiusHistogram, FiveRegionsHaveTheMomentsOfTheirGammaDistributions)
 {
   const std::array<std::array<double, 2>, 5> gamma = { { { { 2.64, 0.184 } }, { { 1.34, 0.391 } }, { { 0.99, 0.723 } },
@@ -153,8 +153,8 @@ TEST(RadiusHistogram, ThinAndThickAxonsAreWhereThePaperHasThem)
   }
 }
 
-/// Of Caminiti et al. 2009: axons of prefrontal and parietal areas are thinner than those of motor and visual ones (abstract);
-/// one in a hundred is thicker than 3 µm (as Veraart et al. 2020 quote it).
+/// Caminiti et al. 2009: axons of prefrontal and parietal areas are thinner than those of motor and visual ones (abstract); one
+/// in a hundred is thicker than 3 µm (as Veraart et al. 2020 quote it).
 TEST(RadiusHistogram, CallosalAxonsOfCorticalAreasAreAsPublished)
 {
   double thick = 0.0;
@@ -216,7 +216,7 @@ TEST(RadiusHistogram, IsEnlargedAndCutAsAsked)
   }
 }
 
-/// With 0 in place of a g-ratio, fibres have the outer diameters that the relation gives to axons of these.
+/// With 0 in place of a g-ratio, fibres have the outer diameters that the relation gives for their axons.
 TEST(RadiusHistogram, GetsItsMyelinByTheRelationWhereAsked)
 {
   RadiusDistributionOptions relation = uncut(PublishedRadii::MouseGenu, 0.0);

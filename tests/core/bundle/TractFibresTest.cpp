@@ -26,7 +26,7 @@ void addStreamline(Streamlines& streamlines, const std::vector<Eigen::Vector3d>&
   streamlines.offsets.push_back(streamlines.points.size());
 }
 
-/// One streamline whose points a function gives for 0 to 1.
+/// Returns one streamline whose points a function gives for 0 to 1.
 Streamlines streamlineAlong(const std::function<Eigen::Vector3d(double)>& at, int points)
 {
   std::vector<Eigen::Vector3d> line;
@@ -63,11 +63,11 @@ TractFibresOptions optionsOf(double side)
 {
   TractFibresOptions options;
   options.side = side;
-  options.grownFibreVolumeFraction = 0.0; // fibres start with the radii drawn, which say where they touch
+  options.grownFibreVolumeFraction = 0.0; // fibres start with the drawn radii, at which they touch
   return options;
 }
 
-/// By how much any two fibres overlap at most, over the sum of their radii; every pair of segments.
+/// Returns the largest overlap of any two fibres over the sum of their radii, by all pairs of segments.
 double largestOverlap(const Fibres& fibres)
 {
   double largest = -1.0;
@@ -162,7 +162,7 @@ TEST(TractFibres, FibresOfAnArcKeepTheirDistanceFromIt)
     }
     ASSERT_LT((highest - lowest).maxCoeff(), 0.02) << "fibre " << f;
   }
-  EXPECT_LE(largestOverlap(fibres), 0.03); // chords of what bends
+  EXPECT_LE(largestOverlap(fibres), 0.03); // chords of bent fibres
   EXPECT_NEAR(report.fibreVolumeFraction, 0.7, 0.03);
 }
 
@@ -250,9 +250,9 @@ TEST(TractFibres, SeveralStreamlinesFillTheDomainTogether)
   options.pointX = 101.0;
   TractFibresReport report;
   Fibres fibres = layTractFibres(streamlines, options, {}, &report);
-  EXPECT_EQ(report.streamlines, 5U); // not the one that passes by
+  EXPECT_EQ(report.streamlines, 5U); // without the one that passes by
   EXPECT_NEAR(report.bundleDiameter, 2.0 * std::sqrt(30.0 * 30.0 / (5.0 * pi)), 1e-6);
-  EXPECT_NEAR(areaOfCircles(fibres), 0.7 * 900.0, 0.5 * pi * 4.0); // what one bundle is short of goes to the next
+  EXPECT_NEAR(areaOfCircles(fibres), 0.7 * 900.0, 0.5 * pi * 4.0); // the missing area of one bundle goes to the next
   std::sort(fibres.bundleIds.begin(), fibres.bundleIds.end());
   EXPECT_EQ(fibres.bundleIds.front(), 7);
   EXPECT_EQ(fibres.bundleIds.back(), 9);
@@ -268,7 +268,8 @@ TEST(TractFibres, TakesTheStreamlinesSelected)
   streamlines.bundleIds = { 1, 1, 2, 2 };
   TractFibresOptions options;
   const auto middleX = [&] { return chooseStreamlines(streamlines, options, 30.0).middle.x(); };
-  EXPECT_EQ(chooseStreamlines(streamlines, options, 30.0).middle, Eigen::Vector3d(100, 0, 10)); // the earlier one of two as near
+  EXPECT_EQ(chooseStreamlines(streamlines, options, 30.0).middle, Eigen::Vector3d(100, 0, 10)); // the earlier one of two at the
+                                                                                                // same distance
   options.select = StreamlineSelection::Bundle;
   options.bundleId = 2;
   EXPECT_EQ(middleX(), 200.0);
@@ -296,7 +297,7 @@ TEST(TractFibres, MillimetresOnASmallScaleAreMicrometres)
   options.scaleFactor = 0.001;
   const Fibres scaled = layTractFibres(halfCircle(60.0, 200), options);
   EXPECT_EQ(fibres.points, scaled.points);
-  options.scaleFactor = 1.0; // true size: as good as straight
+  options.scaleFactor = 1.0; // true size: nearly straight
   const Fibres straight = layTractFibres(halfCircle(60.0, 200), options);
   EXPECT_LT(meanTangentDispersion(straight), 0.1);
 }
@@ -364,7 +365,7 @@ TEST(TractFibres, RefusesWhatIsNoTract)
 
 TEST(TractFibres, FollowsAWildStreamlineOrSaysWhyNot)
 {
-  // There and back again on the same way.
+  // There and back on the same path.
   Streamlines hairpin;
   addStreamline(hairpin, { { 0, 0, -80 }, { 0, 0, 10 }, { 0, 0, -80 } });
   EXPECT_THROW(layTractFibres(hairpin, optionsOf(20.0)), Infeasible);

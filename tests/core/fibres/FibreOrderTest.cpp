@@ -48,7 +48,7 @@ Fibres shuffled(const Fibres& fibres, unsigned seed)
 
 } // namespace
 
-// Guarantee: every fibre is there once, unchanged, and values per control point find back to where they belong.
+// Guarantee: every fibre is there once, unchanged, and values per control point return to their original places.
 TEST(FibreOrder, KeepsEveryFibreAndFindsBack)
 {
   Fibres fibres = randomBundle(5, 60, 7, 20.0, 0.2);
@@ -80,7 +80,8 @@ TEST(FibreOrder, KeepsEveryFibreAndFindsBack)
   EXPECT_EQ(radii, fibres.radii);
 }
 
-// Guarantee: what follows lies near. Of 2,500 parallel fibres in a square a fiftieth of its side is the least that is possible.
+// Guarantee: consecutive fibres are near each other. For 2,500 parallel fibres in a square, a fiftieth of its side is the least
+// possible.
 TEST(FibreOrder, PutsNeighboursTogether)
 {
   Fibres fibres;
@@ -98,7 +99,7 @@ TEST(FibreOrder, PutsNeighboursTogether)
   EXPECT_LT(meanStride(cactus::FibreOrder(fibres).ordered(fibres)), 0.04);
 }
 
-// Guarantee: fibres in another order are optimised to the same bits, and are handed back in the order they came in.
+// Guarantee: fibres in another order are optimised to the same bits, and are returned in their input order.
 TEST(FibreOrder, ResultDoesNotDependOnTheOrderOfTheFibres)
 {
   cactus::CapsuleOptimizerOptions options;

@@ -47,8 +47,8 @@ TEST(FibreShape, KnowsStraightFibresFoldsAndCrossings)
   EXPECT_LT(cactus::measureShape(fibres).smallestBendRadius, 1e13);
 }
 
-// The distance of two sets of radii: none from itself, however its fibres are ordered; all where they do not meet; and a quarter
-// where one fibre of four has changed its place in the order.
+// The distance of two sets of radii: none from itself, however its fibres are ordered; 1 if they do not overlap; and a quarter if
+// one fibre of four has changed its place in the order.
 TEST(FibreShape, ComparesRadii)
 {
   const auto bundle = [](const std::vector<double>& radii)

@@ -52,7 +52,7 @@ void expectNamed(const std::string& message, const char* part)
 
 } // namespace
 
-// Guarantee 5: what is no substrate is refused by the name of the fibre and the control point.
+// Guarantee 5: an invalid substrate is refused with the name of the fibre and the control point.
 TEST(Fibres, NumbersBeyondThePhysicalLimitsAreRefusedByName)
 {
   const double inf = std::numeric_limits<double>::infinity();

@@ -11,7 +11,7 @@ namespace
 
 using Eigen::Vector3d;
 
-/// Distance of a point to a segment, for the brute force below.
+/// Returns the distance of a point to a segment, for the brute force below.
 double pointDistance(const Vector3d& p, const Vector3d& q0, const Vector3d& q1)
 {
   const Vector3d d = q1 - q0;

@@ -11,13 +11,13 @@
 
 using cactus::Calibre;
 
-/// At this place alone: nothing is remembered from another one.
+/// Returns the fraction at this place alone, without cached values.
 double fractionAt(const Calibre& calibre, int fibreId, double length)
 {
   return cactus::FibreCalibre(calibre, fibreId).fraction(length);
 }
 
-// Guarantee: the fraction stays between the smallest one and 1, and reaches near both along a fibre.
+// Guarantee: the fraction stays between the smallest one and 1, and comes near both along a fibre.
 TEST(Calibre, FillsTheRangeAskedFor)
 {
   const Calibre calibre({ 0.4, 1 });
@@ -45,8 +45,8 @@ TEST(Calibre, DependsOnSeedAndFibre)
   EXPECT_NE(fractionAt(calibre, 3, 7.7), fractionAt(calibre, 4, 7.7));
 }
 
-// Guarantee: what is remembered from one length to the next changes no bit: in steps along a fibre, onto and across knots, to the
-// same length again, back, and far away.
+// Guarantee: values cached between lengths change no bit: in steps along a fibre, onto and across knots, to the same length
+// again, back, and far away.
 TEST(Calibre, IsTheSameAlongAFibreAsAtOnePlace)
 {
   const Calibre calibre({ 0.4, 1 });
@@ -60,7 +60,7 @@ TEST(Calibre, IsTheSameAlongAFibreAsAtOnePlace)
   }
 }
 
-// Guarantee: between the places where the radius is taken, it hardly differs from a straight line.
+// Guarantee: between the places where the radius is evaluated, it hardly differs from a straight line.
 TEST(Calibre, IsNearlyLinearAlongAPiece)
 {
   const Calibre calibre({ 0.4, 1 });

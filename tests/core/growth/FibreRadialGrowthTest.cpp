@@ -82,7 +82,7 @@ Fibres tangle(double side, int count, std::uint64_t seed)
   return fibres;
 }
 
-/// s of a fibre's capsules by plain search over the balls along each segment.
+/// Returns s of a fibre's capsules by plain search over the balls along each segment.
 double searchedValue(const Fibres& fibres, std::size_t f, const Eigen::Vector3d& x)
 {
   double best = -std::numeric_limits<double>::infinity();
@@ -132,7 +132,7 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-/// The message of the Expected that `work` throws.
+/// Returns the message of the Expected that `work` throws.
 template <typename Expected>
 std::string messageOf(const std::function<void()>& work)
 {
@@ -153,7 +153,7 @@ std::string messageOf(const std::function<void()>& work)
   return "";
 }
 
-/// Every sample against f of every fibre, from the definition. Returns how many samples lie inside a fibre.
+/// Compares every sample with f of every fibre, from the definition. Returns how many samples lie inside a fibre.
 std::size_t expectMatchesDefinition(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const LabelImage& image)
 {
@@ -292,7 +292,7 @@ TEST(CapsuleField, RoughnessVariesTheCalibreSmoothly)
     EXPECT_LE(step, 0.4 * roughness * 0.05 + 1e-9); // at most 0.4 of the roughness per µm
     if (roughness > 0.0)
     {
-      // A matter of seed, fibre and length alone.
+      // Depends only on seed, fibre and length.
       EXPECT_NE(radii, calibre(1, roughness, 2, 2));
       EXPECT_NE(radii, calibre(2, roughness, 1, 2));
       const std::vector<double> cutDifferently = calibre(1, roughness, 1, 31);
@@ -322,7 +322,7 @@ TEST(CapsuleField, IsOneLipschitz)
   }
 }
 
-// However far samples are apart, beside the fibres' radii: what is looked for together is of another size.
+// Works for any distance of samples relative to the fibres' radii, which changes the size of shared searches.
 TEST(CapsuleField, SweepsFindTheTwoLargestFields)
 {
   const Fibres fibres = tangle(16.0, 60, 11);
@@ -411,7 +411,7 @@ TEST(FibreRadialGrowth, MatchesTheDefinitionAtEverySample)
 
 TEST(FibreRadialGrowth, DepthIsTheDistanceToALoneCylinder)
 {
-  for (int axis = 0; axis < 3; ++axis) // along x too, of which others crashed
+  for (int axis = 0; axis < 3; ++axis) // along x too, which crashed an earlier version
   {
     Fibres fibres = emptyFibres(6.0);
     Eigen::Vector3d from = Eigen::Vector3d::Zero();
@@ -527,7 +527,7 @@ TEST(FibreRadialGrowth, KeepsTheSymmetryOfAHexagonalBundle)
       }
     }
   }
-  // The cell of the middle fibre is a hexagon, the gap taken off.
+  // The cell of the middle fibre is a hexagon, minus the gap.
   const std::size_t centre = image.grid.index(30, 30, 30);
   EXPECT_EQ(image.fibreId[centre], 1);
   EXPECT_NEAR(image.depth[centre], 0.95 - 0.015, 0.08);
@@ -641,7 +641,8 @@ TEST(FibreRadialGrowth, MeetsATargetFraction)
       const Fibres fibres = hexagon(5.0, 0.7, 1.6);
       FibreRadialGrowthOptions options;
       options.voxelSize = voxel;
-      options.surfaceRoughness = 0.2; // else voxels and fibres line up, and counting voxels is off by more than the growth
+      options.surfaceRoughness = 0.2; // otherwise voxels and fibres line up, and counting voxels has a larger error than the
+                                      // growth
       options.targetFibreVolumeFraction = target;
       const double growth = growthFor(fibres, options);
       options.voxelSize = 0.05;
@@ -649,7 +650,7 @@ TEST(FibreRadialGrowth, MeetsATargetFraction)
       EXPECT_NEAR(filledFraction(image), target, 0.003);
     }
   }
-  // Shrinking where there is too much already, of a cylinder of which the answer is known.
+  // Shrinks if there is too much already, for a cylinder with a known answer.
   Fibres one = emptyFibres(4.0);
   addStraight(one, { 0, 0, -4 }, { 0, 0, 4 }, 1.2);
   FibreRadialGrowthOptions options;
@@ -674,7 +675,7 @@ TEST(FibreRadialGrowth, SaysHowFarATargetCanBeReached)
   const double reachable = std::stod(message.substr(at + 8));
   options.targetFibreVolumeFraction = reachable - 0.005;
   EXPECT_NO_THROW(growthFor(fibres, options));
-  // And a target that cuts the thinnest fibre in two is no answer.
+  // A target that cuts the thinnest fibre in two is refused.
   Fibres uneven = emptyFibres(4.0);
   addStraight(uneven, { -1, 0, -4 }, { -1, 0, 4 }, 1.0);
   addStraight(uneven, { 1, 0, -4 }, { 1, 0, 4 }, 0.2);
@@ -708,7 +709,7 @@ TEST(FibreRadialGrowth, GridFillsTheDomain)
   EXPECT_EQ(growthGrid(box, options).count, (std::array<int, 3>{ { 100, 100, 300 } }));
   options.voxelSize = 0.11; // 10/0.11 = 90.9, and 30/0.11 = 272.7: 91 and 273 fit
   EXPECT_EQ(growthGrid(box, options).count, (std::array<int, 3>{ { 91, 91, 273 } }));
-  // Of many voxels, too, none is left that ends beside the face.
+  // With many voxels, too, none ends beside the face.
   const FibreRadialGrowthOptions fine;
   Domain large = Domain::cube(100.0);
   large.upper.x() = large.lower.x() + 1000.0;
@@ -815,7 +816,7 @@ TEST(FibreRadialGrowth, FibresFarAwayOrLongerThanTheDomainAreNoTrouble)
   const LabelImage image = grown(fibres, options);
   expectMatchesDefinition(fibres, options, 0.2, image);
   EXPECT_EQ(std::count(image.fibreId.begin(), image.fibreId.end(), 2), 0);
-  // What of it is in the domain, and counts for a target, is what a short one has there.
+  // The part in the domain, which counts for a target, is the same as for a short one.
   for (const double reach : { 1.5, 500.0, 20000.0 })
   {
     Fibres one = emptyFibres(4.0);

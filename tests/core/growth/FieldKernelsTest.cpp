@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 constexpr double spacing = 0.1;
 constexpr int conesPerFibre = 6;
 
-/// Fibres anywhere in and around a cell about the origin, some of whose cones are balls, and some everywhere as thick.
+/// Makes fibres in and around a cell about the origin; some of their cones are balls, and some have constant radius.
 std::vector<cactus::Cone> randomCones(int fibres, unsigned seed)
 {
   std::mt19937 engine(seed);
@@ -40,7 +40,7 @@ std::vector<cactus::Cone> randomCones(int fibres, unsigned seed)
   return cones;
 }
 
-/// Chains of short cones side by side, as fibres are that run along z and have a rough surface.
+/// Makes chains of short cones side by side, like fibres along z with a rough surface.
 std::vector<cactus::Cone> chains(int fibres, unsigned seed)
 {
   std::mt19937 engine(seed);
@@ -83,7 +83,7 @@ Vector3d position(int n)
   return spacing * (Vector3d(n % edge, n / edge % edge, n / (edge * edge)) - Vector3d::Constant(0.5 * (edge - 1)));
 }
 
-/// A cube about a place, with some room.
+/// Returns a cube about a place, with some room.
 cactus::SamplePlace cubeAround(const Vector3d& centre, double half)
 {
   return { { float(centre.x()), float(centre.y()), float(centre.z()) }, float(half * 1.001),
@@ -92,7 +92,7 @@ cactus::SamplePlace cubeAround(const Vector3d& centre, double half)
 
 constexpr double cellHalf = 0.5 * spacing * (FieldCell::edge - 1);
 
-/// isNarrowed: by way of the cones that matter in a larger cube, of which the cell is a corner.
+/// isNarrowed: with the cones that matter in a larger cube, of which the cell is a corner.
 CellSamples evaluate(const cactus::FieldKernels& kernels, const std::vector<cactus::Cone>& cones, bool isNarrowed)
 {
   constexpr float infinity = 1e20f;
@@ -119,7 +119,7 @@ CellSamples evaluate(const cactus::FieldKernels& kernels, const std::vector<cact
   return samples;
 }
 
-/// visit(cones) with bundles of all kinds.
+/// Calls visit(cones) with bundles of all kinds.
 void forEachBundle(const std::function<void(const std::vector<cactus::Cone>&)>& visit)
 {
   for (unsigned seed = 1; seed <= 20; ++seed)
@@ -135,7 +135,7 @@ void forEachBundle(const std::function<void(const std::vector<cactus::Cone>&)>& 
 
 } // namespace
 
-// Guarantee: growth has the same bits on every vector unit, also where cones do not fill a vector.
+// Guarantee: growth has the same bits on every vector unit, even if cones do not fill a vector.
 TEST(FieldKernels, SameBitsOnEveryVectorUnit)
 {
   forEachBundle(
@@ -158,8 +158,7 @@ TEST(FieldKernels, SameBitsOnEveryVectorUnit)
     });
 }
 
-// Guarantee: what leaves out cones that make no difference in a cell finds the two largest fields at each of its samples all the
-// same.
+// Guarantee: leaving out cones that do not matter in a cell still finds the two largest fields at each of its samples.
 TEST(FieldKernels, FindsTheTwoLargestFields)
 {
   forEachBundle(
@@ -189,7 +188,7 @@ TEST(FieldKernels, FindsTheTwoLargestFields)
     });
 }
 
-// Guarantee: which cones are left out beforehand, for a larger cube, makes no difference to the last bit.
+// Guarantee: leaving out cones beforehand, for a larger cube, changes no bit.
 TEST(FieldKernels, NarrowingChangesNothing)
 {
   std::size_t kept = 0;
@@ -214,5 +213,5 @@ TEST(FieldKernels, NarrowingChangesNothing)
       kept += near.cones.count;
       all += cones.size();
     });
-  EXPECT_LT(2 * kept, all); // and it does leave out some
+  EXPECT_LT(2 * kept, all); // it does leave out some
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests of growth begin and end with.
+// Common set-up and results of growth tests.
 #pragma once
 
 #include "growth/FibreRadialGrowth.h"

@@ -40,7 +40,7 @@ void addStraight(Fibres& fibres, double x, double y, double side, double radius,
   }
 }
 
-/// Volume (µm³) of each fibre by counting voxels, in the order of the fibres.
+/// Returns the volume (µm³) of each fibre by counting voxels, in the order of the fibres.
 std::vector<double> countedVolumes(const Fibres& fibres, const LabelImage& image)
 {
   std::map<int, double> voxels;
@@ -56,7 +56,7 @@ std::vector<double> countedVolumes(const Fibres& fibres, const LabelImage& image
   return volumes;
 }
 
-/// Target radii, and the radii of the cylinders as long as the centre line that hold as much as the grown fibre, of the fibres
+/// Target radii, and the radii of cylinders with the length of the centre line and the volume of the grown fibre, for the fibres
 /// that run through the domain without touching one of its sides.
 struct Radii
 {
@@ -71,13 +71,13 @@ struct Radii
     const Eigen::ArrayXd b = y - y.mean();
     return (a * b).sum() / std::sqrt(a.square().sum() * b.square().sum());
   }
-  /// Mean of grown less target radius.
+  /// Returns the mean of grown minus target radius.
   double meanDifference() const
   {
     return (std::accumulate(grown.begin(), grown.end(), 0.0) - std::accumulate(target.begin(), target.end(), 0.0)) /
            static_cast<double>(target.size());
   }
-  /// Between grown radii and target radii plus `shift`, by counting at each of either.
+  /// Returns the distance between grown radii and target radii plus `shift`, by counting at each of either.
   double kolmogorovSmirnov(double shift) const
   {
     std::vector<double> wanted = target;
@@ -97,7 +97,7 @@ struct Radii
     }
     return largest;
   }
-  /// Smallest and largest of grown less target radius.
+  /// Returns the smallest and largest of grown minus target radius.
   std::pair<double, double> differences() const
   {
     std::vector<double> all;
@@ -129,7 +129,7 @@ Radii measure(const Fibres& fibres, const LabelImage& image)
   return radii;
 }
 
-/// A bundle as the stages before growth make it.
+/// Makes a bundle with the stages before growth.
 Fibres bundle(double grownFraction)
 {
   BundleInitializerOptions options;
@@ -155,10 +155,10 @@ TEST(GrowthTarget, RadiiOfAPackedBundleEndOnTarget)
   const Radii plain = measure(fibres, grown(fibres, options));
   ASSERT_GT(aimed.target.size(), 80u);
   EXPECT_GE(aimed.correlation(), 0.998);
-  // So few fibres fill not quite the fraction that they were drawn for.
+  // So few fibres do not quite fill the fraction for which they were drawn.
   EXPECT_NEAR(aimed.meanDifference(), 0.0, 0.02);
   EXPECT_LE(aimed.kolmogorovSmirnov(aimed.meanDifference()), 0.05);
-  // Which the same growth for all does not give.
+  // The same growth for all does not achieve that.
   EXPECT_GT(plain.kolmogorovSmirnov(plain.meanDifference()), 0.1);
 }
 
@@ -210,7 +210,7 @@ TEST(GrowthTarget, SaysWhereItPartsFromWhatTheFibresWereMadeFor)
   options.targetFibreVolumeFraction = 0.0;
   EXPECT_NE(remarkOnTarget(fibres, options).find("GrowthIterations (4 voxels)"), std::string::npos);
 
-  // Twice as many as one of them was made for, as where another filter has joined them.
+  // Twice as many as one of them was made for, as when another filter has joined them.
   options.targetFibreVolumeFraction = -1.0;
   addStraight(fibres, 1.0, 1.0, 4.0, 0.9, 1.0);
   EXPECT_NE(remarkOnTarget(fibres, options).find("thinner, by about 29 %"), std::string::npos);
@@ -220,7 +220,7 @@ TEST(GrowthTarget, SaysWhereItPartsFromWhatTheFibresWereMadeFor)
 
 TEST(GrowthTarget, LoneFibresEndAtTheirTargetRadii)
 {
-  // Apart from each other, so that each area tells a radius; together they fill what their target radii fill. One lies half
+  // Apart from each other, so that each area gives a radius; together they fill the volume of their target radii. One lies half
   // outside the domain.
   const double targets[] = { 0.9, 0.5, 0.3, 0.6 };
   const double places[] = { -1.0, 0.0, 1.0, 2.0 };
@@ -305,7 +305,7 @@ TEST(GrowthTarget, SeversNoThinFibreBesideAThickOne)
     return others;
   };
   EXPECT_EQ(samplesOfOthers(aimAtTargetRadii(fibres, options)), 0);
-  // Radii in proportion, without a bound, would do so.
+  // Proportional radii, without a bound, would do so.
   Fibres scaled = fibres;
   for (double& radius : scaled.radii)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: seeds and the bins that they are found by are the same on any number of threads, in the same order, and a search in
-// the bins misses no piece.
+// Guarantees: seeds and their bins are the same on any number of threads, in the same order, and a search in the bins misses no
+// piece.
 #include "growth/SeedBins.h"
 
 #include "GrowthExamples.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: no more tiles are kept than was asked for, those that were used last before others, and their room is used again.
+// Guarantees: no more tiles are kept than the limit, the most recently used before others, and their memory is used again.
 #include "growth/TileStore.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(TileStore, UsesRoomAgainThatNobodyNeeds)
     EXPECT_LE(store.rooms(), 256u);
     EXPECT_EQ(store.find(0), nullptr);
   }
-  EXPECT_EQ(first->fibreId[0], 0); // what somebody has stays, whatever becomes of the store
+  EXPECT_EQ(first->fibreId[0], 0); // a held tile stays, whatever happens to the store
 }
 
 } // namespace

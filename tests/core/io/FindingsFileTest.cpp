@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: findings are there for the next run, of whichever processes it has, once each, and for no other work.
+// Guarantee: the next run, with any number of processes, gets findings once each, and other work gets none.
 #include "io/FindingsFile.h"
 
 #include "../ScratchPath.h"

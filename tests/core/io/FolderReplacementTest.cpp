@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user has in a folder outlives writing it again, and a kill at any moment.
+// Guarantee: a user's files in a folder survive writing it again, and a kill at any moment.
 #include "io/FolderReplacement.h"
 
 #include "ChildProcess.h"
@@ -30,7 +30,7 @@ void put(const fs::path& path, const std::string& text)
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// Every file with what is in it, every folder and link.
+/// Returns every file with its content, every folder and link.
 std::map<std::string, std::string> snapshot(const fs::path& folder)
 {
   std::map<std::string, std::string> found;
@@ -44,7 +44,7 @@ std::map<std::string, std::string> snapshot(const fs::path& folder)
   return found;
 }
 
-/// The message of the error, or nothing.
+/// Returns the error message, or nothing.
 std::string write(const fs::path& folder, double size = 1.0, int threads = 1)
 {
   cactus::TriangleMesh mesh;
@@ -81,7 +81,7 @@ class FolderReplacement : public ::testing::Test
 protected:
   void SetUp() override
   {
-    // In memory where that can be, since some tests write hundreds of folders.
+    // In memory if possible, since some tests write hundreds of folders.
     const fs::path memory = "/dev/shm";
     std::error_code error;
     this->Scratch =
@@ -103,7 +103,7 @@ protected:
     std::sort(names.begin(), names.end());
     return names;
   }
-  /// Writing again is refused with these words, and leaves everything as it is.
+  /// Expects that writing again is refused with these words, and leaves everything unchanged.
   void expectRefused(const std::vector<std::string>& words)
   {
     const auto before = snapshot(this->Scratch);
@@ -199,7 +199,7 @@ TEST_F(FolderReplacement, KeepsWhatItDoesNotKnow)
   this->expectRefused({ "not a folder" });
 }
 
-// A change that comes while the new folder is being written.
+// The user changes something while the new folder is being written.
 TEST_F(FolderReplacement, KeepsWhatTheUserChangesMeanwhile)
 {
   ASSERT_EQ(write(this->Folder), "");
@@ -301,7 +301,8 @@ TEST_F(FolderReplacement, FindsItsPlace)
   EXPECT_EQ(this->entries(), (Names{ "a", "dangling", "file", "link", "round", longest }));
 }
 
-// "." in an empty folder, and then "rel": the folder in which the program runs was replaced, and the next write ended it.
+// "." in an empty folder, and then "rel": without the check, the folder in which the program runs was replaced, and the next
+// write removed it.
 TEST_F(FolderReplacement, LeavesTheFolderItRunsIn)
 {
   const fs::path here = this->Scratch / "here";
@@ -413,7 +414,7 @@ TEST_F(FolderReplacement, LosesNothingWhereTheDiskIsFull)
   EXPECT_TRUE(contains(limited, "File too large")) << limited;
   EXPECT_EQ(snapshot(this->Scratch), before);
 
-  // A tmpfs gives room by pages: every number of them, up to where there is enough.
+  // A tmpfs has room in pages: every number of them, until it is enough.
   fs::create_directory(this->Scratch / "disk");
   int refused = 0;
   for (std::size_t pages = 18;; ++pages)
@@ -466,7 +467,7 @@ class KilledReplacement : public FolderReplacement, public ::testing::WithParamI
 {
 };
 
-// At every system call that changes files the writer is killed. The name holds the former or the new folder, whole; where the
+// The writer is killed at every system call that changes files. The name refers to the former or the new folder, whole; if the
 // file system cannot exchange two folders, there may be none, and the next write first puts the former one back.
 TEST_P(KilledReplacement, LeavesAWholeFolder)
 {
@@ -558,7 +559,7 @@ TEST_F(FolderReplacement, LeavesAloneWhatMayBeAnothers)
   EXPECT_EQ(snapshot(this->Scratch), before);
 }
 
-// A process was killed after the exchange, and then its user worked in what it had not yet removed.
+// A process was killed after the exchange, and then its user worked in the folder that it had not yet removed.
 TEST_F(FolderReplacement, NamesWhatItKeeps)
 {
   ASSERT_EQ(write(this->Folder), "");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: what was added to a log is in it when it is opened again, up to where it was cut off or damaged, and for nobody
-// else.
+// Guarantee: records added to a log are in it when it is opened again, up to a cut or damage, and only for their own work.
 #include "io/RecordLog.h"
 
 #include "base/Error.h"
@@ -29,7 +28,7 @@ TEST(RecordLog, HoldsAllThatWasAddedBeforeAnyCut)
   {
     RecordLog log(path, "mine");
     EXPECT_TRUE(log.takeRecords().empty());
-    EXPECT_THROW(RecordLog(path, "mine"), cactus::FileError); // which is at work with it
+    EXPECT_THROW(RecordLog(path, "mine"), cactus::FileError); // it is in use
     ends.push_back(fs::file_size(path));
     for (const std::string& record : wanted)
     {

@@ -37,7 +37,7 @@ std::string messageOf(const std::string& text)
 
 } // namespace
 
-// Guarantee: what is written is read back to nine significant digits.
+// Guarantee: fibres are read back to nine significant digits.
 TEST(StrandFile, RoundTrip)
 {
   cactus::Fibres fibres;
@@ -59,7 +59,7 @@ TEST(StrandFile, RoundTrip)
   EXPECT_DOUBLE_EQ(back.domain.upper[2], 6.25);
 }
 
-// Guarantee: what is no file is told of, and never waited for.
+// Guarantee: a folder or a pipe is refused, and never waited for.
 TEST(StrandFile, ReadsNoFolderAndNoPipe)
 {
   const std::string pipe = scratch("pipe.strands");
@@ -95,7 +95,7 @@ TEST(StrandFile, NamesWhatIsWrongAndWhere)
   EXPECT_THROW(cactus::readStrandFile(scratch("missing.strands")), cactus::FileError);
 }
 
-// Guarantee: what a file has too much, too little or in the wrong place is an error that names the line, never fewer fibres.
+// Guarantee: missing, surplus and misplaced content of a file is an error that names the line, never fewer fibres.
 TEST(StrandFile, TakesAllOfAFileOrRefusesIt)
 {
   const auto strands = [](const std::string& header, int count)
@@ -111,7 +111,7 @@ TEST(StrandFile, TakesAllOfAFileOrRefusesIt)
   const auto expectAt = [](const std::string& line, const std::string& text)
   { EXPECT_NE(messageOf(text).find("line " + line + ":"), std::string::npos) << messageOf(text); };
   EXPECT_EQ(messageOf(strands("30\n23\n", 23)), "");
-  // Counts that say less, or more, than there is.
+  // Counts below, or above, the real number.
   expectAt("23", strands("30\n5\n", 23));
   EXPECT_NE(messageOf(strands("30\n24\n", 23)).find("after line 94"), std::string::npos);
   // The first two lines exchanged, with sides below and above the number.
@@ -122,7 +122,7 @@ TEST(StrandFile, TakesAllOfAFileOrRefusesIt)
   expectAt("95", strands("30\n23\n", 23) + "and so on\n");
   expectAt("97", strands("30\n23\n", 23) + "\n \t\r\n3\n");
   EXPECT_EQ(messageOf(strands("30\n23\n", 23) + "\n \t\r\n\n"), "");
-  // Counts that are no whole numbers, or beyond reason: none is believed.
+  // Counts that are no whole numbers, or unreasonable: all are refused.
   for (const std::string count : { "2.5", "-1", "0", "nan", "inf", "1e300", "99999999999", "two", "2 2", "2x" })
   {
     expectAt("2", "30\n" + count + "\n2\n0 0 0 1\n0 0 1 1\n");
@@ -163,7 +163,7 @@ TEST(StrandFile, ReadsWhatEditorsMakeOfIt)
   std::filesystem::remove(path);
 }
 
-// Guarantee: what is no text file at all ends soon, with an error.
+// Guarantee: a file that is no text ends soon, with an error.
 TEST(StrandFile, RefusesWhatIsNoTextFile)
 {
   const auto message = [](const std::string& path)

@@ -40,7 +40,7 @@ cactus::TriangleMesh tetrahedron(double size)
   return mesh;
 }
 
-/// From the domain's lower to its upper face, in one line.
+/// Makes fibres from the domain's lower to its upper face, straight.
 cactus::Fibres fibresAcross(const cactus::Domain& domain, const std::vector<int>& ids)
 {
   cactus::Fibres fibres;
@@ -72,7 +72,7 @@ protected:
     fs::remove_all(this->Scratch);
   }
 
-  /// Fibre 2 alone, with both surfaces.
+  /// Replaces the substrate by fibre 2 alone, with both surfaces.
   void takeFibre(const cactus::Fibres& fibres)
   {
     this->Contents.fibres = &fibres;
@@ -92,7 +92,7 @@ protected:
     }
     return "";
   }
-  /// What lies in the scratch folder, sorted.
+  /// Returns the entries of the scratch folder, sorted.
   std::vector<std::string> entries() const
   {
     std::vector<std::string> names;
@@ -133,7 +133,7 @@ TEST(PlyFile, Text)
   EXPECT_THROW(cactus::plyText(mesh, "two\nlines"), cactus::InvalidInput);
 }
 
-// Read again byte by byte: single precision and triangles, the lowest byte first, and nothing else.
+// Reads it byte by byte: single precision and triangles, little-endian, and nothing else.
 TEST(PlyFile, Bytes)
 {
   auto mesh = tetrahedron(1.0);
@@ -165,7 +165,7 @@ TEST(PlyFile, Bytes)
   EXPECT_THROW(cactus::plyText(mesh, "a face of it", cactus::PlyEncoding::Binary), cactus::InvalidInput);
 }
 
-// Simulators that read PLY files know text only, and are not given bytes.
+// Simulators that read PLY files know text only, and do not get binary ones.
 TEST_F(SubstrateFolder, HasBytesWhereNoSimulatorReadsThem)
 {
   using Format = cactus::SubstrateFormat;
@@ -203,7 +203,7 @@ TEST(CombinedSurfaces, SaysWhereAFileCannotNumberItsPoints)
   EXPECT_THROW(head(), cactus::InvalidInput);
 }
 
-// A file has the fibres of its bundle one after the other, and no others; corners are numbered on.
+// A file has the fibres of its bundle one after the other, and no others; corners are numbered consecutively.
 TEST_F(SubstrateFolder, HasAFileForEachBundle)
 {
   this->Contents.outer = surfacesOf({ 2, 5, 9 }, { tetrahedron(1.0), tetrahedron(2.0), tetrahedron(3.0) });
@@ -218,7 +218,7 @@ TEST_F(SubstrateFolder, HasAFileForEachBundle)
   EXPECT_NE(first.find("outer surfaces of bundle 1, micrometres\nelement vertex 8\n"), std::string::npos);
   EXPECT_NE(first.find("element face 8\n"), std::string::npos);
   EXPECT_EQ(first.substr(first.find("end_header")), body);
-  // Alone in its file, a surface has the bytes of a file of its own but for the comment.
+  // A surface alone in its file has the bytes of a separate file except for the comment.
   const auto after = [](const std::string& text) { return text.substr(text.find("element")); };
   EXPECT_EQ(after(contentOf(place / "bundle_00004.ply")), after(cactus::plyText(tetrahedron(2.0), "")));
   EXPECT_EQ(std::distance(fs::directory_iterator(place), fs::directory_iterator()), 2);
@@ -232,8 +232,8 @@ TEST_F(SubstrateFolder, HasAFileForEachBundle)
     after(contentOf(place / "bundle_00004.ply")), after(cactus::plyText(tetrahedron(2.0), "", cactus::PlyEncoding::Binary)));
 }
 
-// Of more than a thousand fibres each folder holds a thousand files at most; the lists of MC/DC follow, and the folder is known
-// as ours: it is replaced, and what is left of one whose writing was ended is removed.
+// With more than a thousand fibres each folder holds at most a thousand files. MC/DC's lists have the new paths, and the folder
+// is recognised as ours: it is replaced, and the leftovers of an interrupted writing are removed.
 TEST_F(SubstrateFolder, HasFoldersForEachThousandOfMany)
 {
   std::vector<int> ids(1001);
@@ -285,7 +285,7 @@ TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
   EXPECT_FALSE(fs::exists(this->Scratch / "s/fibres.strands"));
 }
 
-// The folder says of itself how good it is, of the surfaces as its files hold them.
+// The folder's certificate judges the surfaces as stored in its files.
 TEST_F(SubstrateFolder, HoldsItsCertificate)
 {
   auto inside = tetrahedron(0.5);
@@ -311,7 +311,7 @@ TEST_F(SubstrateFolder, HoldsItsCertificate)
   EXPECT_EQ(row.substr(0, 6), "2,1,1,");
   EXPECT_EQ(std::count(names.begin(), names.end(), ','), std::count(row.begin(), row.end(), ','));
 
-  // Apart by less than nine digits can say: in the files they touch.
+  // Apart by less than nine digits can hold: in the files they touch.
   auto beside = tetrahedron(1.0);
   for (auto& point : beside.points)
   {
@@ -341,7 +341,7 @@ TEST_F(SubstrateFolder, SaysFirstWhatWasNotJudged)
   EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"judged\": [\n    \"outer\"\n  ]"), std::string::npos);
 }
 
-// The simulator takes similar keys for each other and ignores the rest: only ones that it knows, spelt as it spells them.
+// The simulator confuses similar keys and ignores unknown ones: only keys that it knows, in its own spelling.
 TEST_F(SubstrateFolder, ConfigurationHoldsKnownKeysAndBoxesInMillimetres)
 {
   ASSERT_EQ(this->write(this->Scratch / "s"), "");
@@ -451,7 +451,7 @@ TEST_F(SubstrateFolder, LeavesNothingBehindWhereItFails)
   EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"closed\": false"), std::string::npos);
 }
 
-// What a writer that was killed has left is known for its own, whatever the format: else it would stay for ever as the user's.
+// The leftovers of a killed writer are recognised as its own, in any format: otherwise they would stay for ever as the user's.
 TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
 {
   const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2, 70000 });
@@ -477,7 +477,7 @@ TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
   }
 }
 
-// What a format has no name for is the user's, and would stay.
+// A file without a name in the format counts as the user's, and would stay.
 TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
 {
   const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2 });
@@ -509,7 +509,7 @@ TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
   }
 }
 
-// Pieces of fibres have ids beyond all others, and follow the fibre that they are of.
+// Pieces of fibres have ids beyond all others, and follow their fibre.
 TEST_F(SubstrateFolder, HasCentreLinesInTheOrderOfIds)
 {
   cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2, 5, 4 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: a production writes the files of growth, surfaces and writer one after the other, bit for bit; one that is killed
-// at any place goes on there, and writes them too; it touches no work of another one, says what is damaged, and leaves nothing
+// Guarantees: a production writes the same files as growth, surfaces and writer one after the other, bit for bit; one that is
+// killed at any place continues there, and writes them too; it touches no work of another one, reports damage, and leaves nothing
 // behind.
 #include "io/SubstrateProduction.h"
 
@@ -89,11 +89,11 @@ protected:
     return produceSubstrate(this->Fibres_, this->Order, this->folder(name), context);
   }
 
-  /// Under which memory runs out in this part of the work.
+  /// Returns a context under which memory runs out in this part of the work.
   static Context failingAt(const std::string& part)
   {
     Context context;
-    context.threads = 1; // of two the other one may do all of the part, while the first reports nothing
+    context.threads = 1; // with two, the other one may do the whole part while the first reports nothing
     context.progress = [part](double, const std::string& message)
     {
       if (message.find(part) == 0)
@@ -104,7 +104,7 @@ protected:
     return context;
   }
 
-  /// The message of what it throws, which is of that kind; empty where it throws nothing.
+  /// Returns the message of its exception, of that kind; empty if it throws nothing.
   template <typename Expected = InvalidInput>
   std::string refusal(const std::string& name, const Context& context = {}) const
   {
@@ -119,7 +119,7 @@ protected:
     return "";
   }
 
-  /// In so many processes, of which each says what it has found of an earlier run, or why it has ended.
+  /// Runs it in so many processes; each returns what it has found of an earlier run, or why it has ended.
   std::vector<std::string> produceInTeam(
     int size, const std::string& name, const std::function<Context(int place)>& contextOf = [](int) { return Context(); }) const
   {
@@ -134,7 +134,7 @@ protected:
       });
   }
 
-  /// What the stages one after the other write, with the label image in memory.
+  /// Returns the files of the stages one after the other, with the label image in memory.
   std::map<std::string, std::string> filesOfStages() const
   {
     const FibreRadialGrowthOptions& growth = this->Order.growth;
@@ -154,8 +154,8 @@ protected:
     return filesIn(this->folder("stages"));
   }
 
-  /// Runs it in a process, with so many members, that is killed once so much is done. Late in the work there are few fibres left
-  /// that a second thread could do alone, while the first reports nothing.
+  /// Runs it in a process, with so many members, that is killed at this progress. Late in the work there are few fibres left that
+  /// a second thread could do alone, while the first reports nothing.
   void killAt(const std::string& name, double part, int members = 1) const
   {
     const std::string told = cactus_testing::inChild(
@@ -215,7 +215,7 @@ TEST_F(Production, MakesASampleAmongAllFibres)
     }
     return files;
   };
-  this->Order.growth.surfaceTolerance = 0.02; // so that none has to be moved to keep off another
+  this->Order.growth.surfaceTolerance = 0.02; // so that none has to be moved away from another
   this->produce("whole");
   const auto whole = surfacesIn("whole");
   ASSERT_EQ(whole.size(), 6u);
@@ -262,7 +262,7 @@ TEST_F(Production, GoesOnWhereItWasKilled)
       this->killAt("killed", part);
       EXPECT_TRUE(fs::exists(this->folder("killed.work/journal"))) << part;
       EXPECT_FALSE(fs::exists(this->folder("killed"))) << part;
-      // What is in the journal is not made again: its time of change stays. By then all outer surfaces are, in the first case
+      // Surfaces in the journal are not made again: their time of change stays. By then all outer surfaces are, in the first case
       // with inner ones.
       const fs::path first = this->folder("killed.work/outer/00000/00000.surface");
       const bool isThere = part >= (model == GRatioModel::Constant ? 0.7 : 0.45);
@@ -308,11 +308,11 @@ TEST_F(Production, SolvesForNothingAgain)
   }
 }
 
-// What was solved for is kept, too, where no surface has been made yet; and a later run that fails leaves it.
+// The solved growth is kept, too, even if no surface has been made yet; and a later run that fails leaves it.
 TEST_F(Production, GoesOnWhereItWasStoppedBeforeAnySurface)
 {
   Context context;
-  context.threads = 1; // of two the other one may do all the looking, while the first reports nothing
+  context.threads = 1; // with two, the other one may do all the searching while the first reports nothing
   bool isSolved = false;
   context.progress = [&](double, const std::string& message) { isSolved = isSolved || message.find("looking for fibres") == 0; };
   context.cancelled = [&] { return isSolved; };
@@ -428,7 +428,7 @@ TEST_F(Production, EndsInAllProcessesWhereOneFails)
   }
   EXPECT_EQ(this->produceInTeam(2, "failed").front().substr(0, 2), found);
   EXPECT_EQ(filesIn(this->folder("failed")), this->filesOfStages());
-  // What all of them refuse is said once, by the first.
+  // A request that all of them refuse is reported once, by the first.
   this->Order.surfaces.decimationError = 1.0;
   const auto refused = this->produceInTeam(2, "refused");
   EXPECT_NE(refused.front().find("DecimationError"), std::string::npos);
@@ -454,7 +454,7 @@ TEST_F(Production, LeavesNothingWhereItMadeNothing)
   context.cancelled = [] { return true; };
   EXPECT_THROW(this->produce("early", context), Cancelled);
   EXPECT_FALSE(fs::exists(this->folder("early.work")));
-  // Nor where growth has been solved for, and an error asks for other parameters.
+  // Nor if growth has been solved for, and an error requires other parameters.
   EXPECT_THROW(this->produce("early", this->failingAt("looking for fibres")), std::bad_alloc);
   EXPECT_FALSE(fs::exists(this->folder("early.work")));
 }
@@ -517,7 +517,7 @@ TEST_F(Production, SaysAtOnceWhatCannotBeMadeOrWritten)
   context.progress = [](double, const std::string& message) { ADD_FAILURE() << message; };
   const auto refused = [&] { return this->refusal("refused", context); };
   const ProductionOrder good = this->Order;
-  this->Order.encoding = PlyEncoding::Binary; // which MC/DC does not read
+  this->Order.encoding = PlyEncoding::Binary; // MC/DC does not read it
   EXPECT_NE(refused().find("Encoding Binary"), std::string::npos);
   this->Order = good;
   this->Order.surfaces.decimationError = 0.006;
@@ -552,7 +552,7 @@ TEST_F(Production, SaysWhatIsKeptWhereTheDiskOrTheFolderIsTheTrouble)
   EXPECT_EQ(filesIn(this->folder("taken")).size(), 1u);
 }
 
-// No inner surface is there yet where all g-ratios wait for all outer surfaces.
+// There is no inner surface yet if all g-ratios depend on all outer surfaces.
 TEST_F(Production, AFibreMayGoBeforeAnyHasItsAxon)
 {
   this->Fibres_ = example::fibresOfWhichOneGoes();
@@ -575,7 +575,7 @@ TEST_F(Production, MindsNoStopOfAnEarlierRun)
   {
     std::ofstream(this->folder("stopped.work/" + name)).flush();
   }
-  // Nor what a process on another machine was writing.
+  // Nor a file that a process on another machine was writing.
   std::ofstream(this->folder("stopped.work/outer/00000/" + partialName("00001.surface"))) << "half";
   const auto told = this->produceInTeam(3, "stopped");
   EXPECT_NE(told.front().find("certified"), std::string::npos) << told.front();
@@ -617,7 +617,7 @@ TEST_F(Production, LeavesTheWorkOfAnotherOneAlone)
   this->Fibres_.radii[0] *= 1.0 + 1e-15;
   EXPECT_TRUE(refused());
   this->Fibres_ = example::fibresThatMeet();
-  this->Fibres_.grownFraction = 0.5; // to which fibres grow where no target is given
+  this->Fibres_.grownFraction = 0.5; // the growth target if none is given
   EXPECT_TRUE(refused());
   EXPECT_EQ(filesIn(this->folder("work.work")), before);
 }
@@ -651,7 +651,7 @@ TEST_F(Production, SaysWhatIsDamaged)
   }
   EXPECT_EQ(told, "");
   EXPECT_EQ(filesIn(this->folder("damaged")), this->filesOfStages());
-  // Of those that are kept apart none is made by itself.
+  // With surfaces kept apart, a single one is not made again.
   this->killAt("final", 0.93);
   damageAll("final.work");
   told = this->refusal<FileError>("final");

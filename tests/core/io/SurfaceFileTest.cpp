@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: a surface comes out of its file to the bit, and any part of it as if it were cut out of the whole; reading a part
-// takes no more where the surface is longer; damage is found wherever it is, but for what a part has no need of; another one's
+// Guarantees: a surface is read back with the same bits, and any part of it as if it were cut out of the whole; reading a part
+// costs no more for a longer surface; damage is found anywhere, except in layers that a part does not read; another surface's
 // file is neither read nor replaced.
 #include "io/SurfaceFile.h"
 
@@ -37,7 +37,7 @@ void replaceContent(const std::string& path, const std::string& content)
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
 }
 
-/// The same surface with its points and triangles in another order.
+/// Returns the same surface with its points and triangles in another order.
 TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed)
 {
   std::mt19937 engine(seed);
@@ -57,7 +57,7 @@ TriangleMesh shuffled(const TriangleMesh& mesh, unsigned seed)
   return result;
 }
 
-/// Bytes that this process has read from files so far.
+/// Returns the bytes that this process has read from files so far.
 std::uint64_t bytesRead()
 {
   std::ifstream file("/proc/self/io");
@@ -67,7 +67,7 @@ std::uint64_t bytesRead()
   return name == "rchar:" ? bytes : 0;
 }
 
-/// Less what reading the counter itself takes.
+/// Subtracts the bytes of reading the counter itself.
 std::uint64_t bytesReadBy(const std::function<void()>& work)
 {
   const std::uint64_t before = bytesRead();
@@ -93,7 +93,7 @@ void expectSame(const TriangleMesh& a, const TriangleMesh& b, const std::string&
 TEST_F(SurfaceFile, GivesTheSurfaceAndAnyPartOfIt)
 {
   TriangleMesh loose = example::tube(0.0, 0.0, 0.5, -3.0, 4.0, 24, 40);
-  loose.points.insert(loose.points.begin() + 50, Eigen::Vector3d(7.0, -8.0, 99.0)); // of no triangle
+  loose.points.insert(loose.points.begin() + 50, Eigen::Vector3d(7.0, -8.0, 99.0)); // without triangles
   for (auto& t : loose.triangles)
   {
     for (std::int32_t& corner : t)
@@ -104,7 +104,7 @@ TEST_F(SurfaceFile, GivesTheSurfaceAndAnyPartOfIt)
   TriangleMesh pointsOnly;
   pointsOnly.points = { { 1.0, 2.0, 3.0 }, { 1.0, 2.0, -3.0 } };
   const TriangleMesh shortPoints = inSinglePrecision(shuffled(example::tube(1.0, 2.0, 0.6, -20.0, 21.0, 24, 160, 0.2), 6));
-  TriangleMesh someShort = shortPoints; // as caps on a face at no such number
+  TriangleMesh someShort = shortPoints; // like caps on a face that is no such number
   for (Eigen::Vector3d& point : someShort.points)
   {
     point[2] = point[2] > 20.5 ? 20.6 : point[2];
@@ -147,7 +147,7 @@ TEST_F(SurfaceFile, GivesTheSurfaceAndAnyPartOfIt)
   }
 }
 
-// As the surfaces of fibres are: 75 triangles to the µm and in single precision, in files of 17 bytes a triangle.
+// Like the surfaces of fibres: 75 triangles per µm and in single precision, in files of 17 bytes per triangle.
 TEST_F(SurfaceFile, TakesLittleRoomAndLittleReading)
 {
   if (bytesRead() == 0)
@@ -183,7 +183,7 @@ TEST_F(SurfaceFile, FindsDamage)
       {
         const SurfacePart part = readSurfacePart(this->path, own, 5.0, 7.0);
         const SurfacePart wanted = cutOut(surface, 5.0, 7.0);
-        // Damage elsewhere is none to it.
+        // Damage elsewhere does not matter for it.
         EXPECT_EQ(part.mesh.points, wanted.mesh.points);
         EXPECT_EQ(part.mesh.triangles, wanted.mesh.triangles);
         readSurface(this->path, own);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: tractograms are read as they are laid out, byte by byte, and one that is cut off or damaged gives one error of ours.
-// (tests/paraview/TestTractograms.py holds the readers and writers against nibabel.)
+// Guarantee: tractograms are read according to their layout, byte by byte, and a truncated or damaged one gives one error of
+// ours. (tests/paraview/TestTractograms.py compares the readers and writers with nibabel.)
 #include "io/TractogramFile.h"
 
 #include "ScratchPath.h"
@@ -77,7 +77,7 @@ TEST(Tck, IsReadInEachTypeAndOrder)
   }
 }
 
-// It writes END right after the first line, then the rest of the header, and then blanks over that END.
+// MRtrix writes END right after the first line, then the rest of the header, and then blanks over that END.
 TEST(Tck, IsReadAsMrtrixWritesIt)
 {
   std::string header = "mrtrix tracks    \ncommand_history: tckedit " + std::string(100000, 'x') +
@@ -136,7 +136,7 @@ TEST(Tck, BadHeadersAndNumbersAreErrors)
   }
 }
 
-/// A header of 1000 bytes that is put together number by number.
+/// A header of 1000 bytes that is built number by number.
 class TrkText
 {
 public:
@@ -193,7 +193,7 @@ TEST(Trk, IsReadInEitherOrderWithItsValues)
     file.streamline(1, { 0, 0, 0, 0, 0, 0, 43 });
     const Tractogram tracks = file.read();
     EXPECT_EQ(tracks.offsets, (Offsets{ 0, 2, 3 }));
-    // Half a voxel off the corner: mm in the file are scanner mm less origin and half a voxel.
+    // Half a voxel off the corner: mm in the file are scanner mm minus origin and half a voxel.
     EXPECT_EQ(tracks.points, (Doubles{ -10, -20, -30, -8, -17, -26, -11, -21.5, -32 }));
     ASSERT_EQ(tracks.pointValues.size(), 2u);
     EXPECT_EQ(tracks.pointValues[0].name, "FA");
@@ -298,7 +298,7 @@ TEST(Trx, IsReadFromAnArchiveAndFromAFolder)
     ASSERT_EQ(tracks.groups.size(), 1u);
     EXPECT_EQ(tracks.groups[0].streamlines, (std::vector<std::uint32_t>{ 0, 2 }));
   }
-  // Of the three streamlines the second has one point.
+  // The second of the three streamlines has one point.
   const Tractogram kept = cactus::readTractogram(folder);
   EXPECT_EQ(kept.offsets, (Offsets{ 0, 2, 4 }));
   EXPECT_EQ(kept.points, (Doubles{ 1, 2, 3, 4, 5, 6, 10, 11, 12, 13, 14, 15 }));

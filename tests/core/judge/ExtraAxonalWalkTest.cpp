@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: walkers outside fibres diffuse as fast as theory has it, on any number of threads, and do not leak unseen.
+// Guarantee: walkers outside fibres diffuse at the theoretical rate, on any number of threads, and leaks are detected.
 #include "judge/ExtraAxonalWalk.h"
 
 #include "ExampleSurfaces.h"
@@ -19,7 +19,8 @@ namespace
 constexpr double side = 2.0;
 constexpr int corners = 96;
 
-/// A straight tube in the middle of a cube, which the cube's faces mirror into a square array of tubes that fill this much of it.
+/// Makes a straight tube in the middle of a cube, which the cube's faces mirror into a square array of tubes of this area
+/// fraction.
 FibreSurfaces array(double fraction)
 {
   const double area = fraction * side * side;
@@ -36,8 +37,8 @@ ExtraAxonalWalkOptions walks(int walkers, double distance, double step)
   return options;
 }
 
-/// Diffusivity between the tubes of a square array, across them, over the free one: the conductivity of the whole (Perrins,
-/// McKenzie and McPhedran 1979, Proc R Soc A 369:207) over what conducts.
+/// Returns the diffusivity between the tubes of a square array, across them, relative to free diffusion: the conductivity of the
+/// whole (Perrins, McKenzie and McPhedran 1979, Proc R Soc A 369:207) over the conducting fraction.
 double perrins(double f)
 {
   const double f4 = std::pow(f, 4);
@@ -63,7 +64,7 @@ TEST(ExtraAxonalWalk, IsAsFastAsTheoryHasItBetweenTubes)
   EXPECT_GT(perrins(0.4) - perrins(0.7), 0.2) << "or the test would not see a difference";
 }
 
-/// Along a gap that is thinner than a step is long, walkers are as fast as if it were wide: two boxes with 0.02 µm between them.
+/// Walkers are as fast along a gap narrower than a step as along a wide one: two boxes with 0.02 µm between them.
 TEST(ExtraAxonalWalk, GapsMayBeThinnerThanAStepIsLong)
 {
   const Eigen::Vector3d low(-1.0, -1.0, -1.0);
@@ -80,7 +81,7 @@ TEST(ExtraAxonalWalk, GapsMayBeThinnerThanAStepIsLong)
 TEST(ExtraAxonalWalk, HasTheErrorOfItsNumberOfWalkers)
 {
   const ExtraAxonalDiffusion found = walkOutside(Domain::cube(side), array(0.1), walks(4000, 1.0, 0.1));
-  // Of x² − m² with m half way: √6 of its mean.
+  // For x² − m² with m half way: √6 of its mean.
   for (const int axis : { 0, 1, 2 })
   {
     EXPECT_NEAR(found.standardError[axis], std::sqrt(6.0 / 4000.0) * found.ratio[axis], 0.1 * found.standardError[axis]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: what is said of gaps, meetings and nesting is what comparing all pairs says, however few surfaces are kept.
+// Guarantee: gaps, meetings and nesting are those found by comparing all pairs, however few surfaces are kept in memory.
 #include "judge/FibreGaps.h"
 
 #include "ExampleSurfaces.h"
@@ -25,7 +25,7 @@ using cactus::TreedSurface;
 using cactus::TriangleMesh;
 using Eigen::Vector3d;
 
-/// The findings where about so many bytes of surfaces are kept; counts how many are made.
+/// Returns the findings with about so many bytes of surfaces in memory; counts how many surfaces are made.
 SubstrateCertificate findingsOf(const std::vector<TriangleMesh>& surfaces, std::size_t bytes, std::size_t& made, int threads = 1)
 {
   std::atomic<std::size_t> count{ 0 };
@@ -52,7 +52,7 @@ SubstrateCertificate findingsOf(const std::vector<TriangleMesh>& surfaces, std::
   return certificate;
 }
 
-/// The same by looking at all pairs.
+/// Computes the same from all pairs.
 SubstrateCertificate byAllPairs(const std::vector<TriangleMesh>& surfaces)
 {
   SubstrateCertificate certificate;
@@ -103,7 +103,7 @@ void expectSame(const SubstrateCertificate& found, const SubstrateCertificate& e
   }
 }
 
-/// Tubes of different lengths, some of which meet, hold each other or are far from all others.
+/// Makes tubes of different lengths, some of which meet, contain each other or are far from all others.
 std::vector<TriangleMesh> someTubes(unsigned seed)
 {
   std::mt19937 random(seed);
@@ -168,7 +168,7 @@ TEST(FibreGaps, AreTheSameHoweverFewSurfacesAreKeptOnSeveralThreads)
   }
 }
 
-// Two tubes in a wide hollow one are nearer to each other than to what holds them.
+// Two tubes in a wide hollow one are nearer to each other than to the one around them.
 TEST(FibreGaps, FindWhatHoldsFibresFarFromItsWalls)
 {
   const std::vector<TriangleMesh> surfaces{ example::tube(0, 0, 5.0, -50.0, 50.0, 48, 400),

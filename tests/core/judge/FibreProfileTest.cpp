@@ -37,7 +37,7 @@ cactus::Fibres straightFibre(double side = 30.0)
   return fibres;
 }
 
-/// Around it, with radius radius·(1 + part·cos(2π·waves·z / length)); rings lie where it is cut.
+/// Makes a tube around it, with radius radius·(1 + part·cos(2π·waves·z / length)); rings lie at the cuts.
 cactus::TriangleMesh wavyTube(double radius, double part, int waves)
 {
   auto mesh = example::tube(0, 0, radius, -0.5 * length, 0.5 * length, sides, 400);
@@ -74,8 +74,8 @@ TEST(AxonShape, OfAStraightTube)
   EXPECT_NEAR(shape.effectiveRadius, std::sqrt(area / pi), 1e-9);
 }
 
-// Inner surfaces end a little before the domain's faces: a cut that their caps have cut off counts as little as one that the
-// faces have.
+// Inner surfaces end a little before the domain's faces: cuts truncated by their caps do not count, like those truncated by the
+// faces.
 TEST(FibreProfile, LeavesOutCutsOfCapsBeforeTheFaces)
 {
   constexpr double slope = 0.5;
@@ -101,7 +101,7 @@ TEST(FibreProfile, LeavesOutCutsOfCapsBeforeTheFaces)
   EXPECT_LT(cuts.size(), 220u);
 }
 
-// A side of a surface that comes as near to a face as a cap would is none.
+// A side of a surface as near to a face as a cap would be does not count as a cap.
 TEST(FibreProfile, KeepsCutsBesideAFace)
 {
   cactus::Fibres fibres;
@@ -113,7 +113,7 @@ TEST(FibreProfile, KeepsCutsBesideAFace)
   EXPECT_EQ(cactus::cutsAlongFibre(fibres, 0, mesh, 1.0).size(), 20u);
 }
 
-// Means over whole waves of r = R (1 + e cos x): of 1/r² (1 - e²)^(-3/2) / R², of powers of r by the binomial theorem.
+// Means over whole waves of r = R (1 + e cos x): for 1/r² (1 - e²)^(-3/2) / R², for powers of r by the binomial theorem.
 TEST(AxonShape, OfARadiusThatVariesAsACosine)
 {
   const double e = 0.3;
@@ -131,8 +131,7 @@ TEST(AxonShape, OfARadiusThatVariesAsACosine)
     EXPECT_NEAR(shape.areaVariance, fourth / (square * square) - 1.0, 1e-6);
     EXPECT_NEAR(shape.diffusivityRatio, 1.0 / (square * inverse), 1e-6);
     EXPECT_NEAR(shape.effectiveRadius, std::pow(sixth / square, 0.25) * std::sqrt(area / pi), 1e-6);
-    // A / ⟨A⟩ has the amplitude 2e / (1 + e²/2) at the wave number of the waves; the longest wave is seen only where there is
-    // one.
+    // A / ⟨A⟩ has the amplitude 2e / (1 + e²/2) at the wave number of the waves; the longest wave has it only for a single wave.
     const double amplitude = waves == 1 ? 2.0 * e / square : 0.0;
     EXPECT_NEAR(shape.areaFluctuation, amplitude * amplitude * length / 4.0, 1e-6);
     const auto radius = cactus::radiusAlong(cuts);
@@ -162,15 +161,15 @@ TEST(Tortuosity, OfAHelixAndOfBends)
   }
   EXPECT_NEAR(tortuosity(helix, 40.0), std::hypot(2.0 * pi * radius, pitch) / pitch, 1e-6);
   EXPECT_EQ(tortuosity({ { 0, 0, -3 }, { 0, 0, 1 }, { 0, 0, 4 } }, 10.0), 1.0);
-  // Legs of 3 and 7 µm are in the domain; out of it the line goes on.
+  // Legs of 3 and 7 µm are in the domain; the line continues outside.
   EXPECT_NEAR(tortuosity({ { 2, 1, -9 }, { 2, 1, -2 }, { -9, 1, -2 } }, 10.0), 10.0 / std::sqrt(58.0), 1e-12);
-  // It leaves the domain (through x = 5) and comes back: what lies between counts.
+  // It leaves the domain (through x = 5) and comes back: the part in between counts.
   EXPECT_NEAR(tortuosity({ { 4, 0, -3 }, { 8, 0, -3 }, { 8, 0, 3 }, { 4, 0, 3 } }, 10.0), 14.0 / 6.0, 1e-12);
   EXPECT_TRUE(std::isnan(tortuosity({ { 8, 0, 0 }, { 9, 0, 0 } }, 10.0)));
   EXPECT_TRUE(std::isnan(tortuosity({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 0 } }, 10.0)));
 }
 
-// Caps are no walls: those in the domain's faces, and those of axons a little before them.
+// Caps are no walls: neither those in the domain's faces, nor those of axons a little before them.
 TEST(SubstrateStatistics, SurfaceToVolumeWithoutCaps)
 {
   cactus::Fibres fibres = straightFibre(length);
@@ -202,14 +201,14 @@ TEST(SubstrateStatistics, SurfaceToVolumeWithoutCaps)
   EXPECT_EQ(bare.extraSurfaceToVolume, result.extraSurfaceToVolume);
 }
 
-// The middle cut of each axon counts once, however many cuts the axon has and whatever it is elsewhere.
+// The middle cut of each axon counts once, however many cuts the axon has and whatever its other cuts are.
 TEST(SubstrateStatistics, EffectiveRadiusOfAllCutsAndOfTheMiddleOnes)
 {
   cactus::Fibres fibres = straightFibre();
   const auto inner = surfacesOf({ 7 }, { wavyTube(0.8, 0.3, 1) });
   const auto result = cactus::measureSubstrate(fibres, {}, inner);
   EXPECT_NEAR(result.effectiveRadius, result.fibres[0].axon.effectiveRadius, 1e-12);
-  const double atHalf = 0.8 * (1.0 + 0.3 * std::cos(2.0 * pi * 0.5 / length)); // of 20 cuts, it lies half a µm from the middle
+  const double atHalf = 0.8 * (1.0 + 0.3 * std::cos(2.0 * pi * 0.5 / length)); // with 20 cuts, it lies half a µm from the middle
   EXPECT_NEAR(result.middleEffectiveRadius, atHalf * std::sqrt(sectionOfOne() / pi), 1e-9);
 }
 

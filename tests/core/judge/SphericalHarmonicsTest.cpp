@@ -25,8 +25,8 @@ double valueAt(const std::vector<double>& coefficients, const Eigen::Vector3d& d
   return sum;
 }
 
-/// Calls visit(direction, weight) for a quadrature that is exact for products of two harmonics: by midpoints around z, and along
-/// z by many of them.
+/// Calls visit(direction, weight) for a quadrature that is exact for products of two harmonics: by midpoints around z, and by
+/// many of them along z.
 template <typename Visit>
 void overSphere(Visit&& visit)
 {
@@ -59,7 +59,7 @@ TEST(SphericalHarmonics, AreOrthonormal)
   EXPECT_LT((products - Eigen::MatrixXd::Identity(count, count)).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-/// The numbers that `sh2amp` of MRtrix 3.0.3 gives for unit coefficients at (0.3, −0.5, 0.7)/|…|.
+/// The values of MRtrix 3.0.3's `sh2amp` for unit coefficients at (0.3, −0.5, 0.7)/|…|.
 TEST(SphericalHarmonics, AreThoseOfMrtrix)
 {
   const std::vector<double> values = cactus::harmonicsAt(Eigen::Vector3d(0.3, -0.5, 0.7).normalized(), 2);

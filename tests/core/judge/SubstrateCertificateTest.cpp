@@ -113,7 +113,7 @@ TEST(SubstrateCertificate, CertifiesWhatIsSound)
   }
 }
 
-// A file of single numbers has the face of a domain somewhere else, by more than what is taken for rounding.
+// In a file in single precision, the face of a domain moves by more than the tolerance for rounding.
 TEST(SubstrateCertificate, KnowsCapsInAFile)
 {
   const double face = 35.1;
@@ -204,7 +204,7 @@ TEST(SubstrateCertificate, NamesEachFault)
   nested.outer[6] = tube(0.54, 0.0, 0.1, -1.0, 1.0);
   expectFault(nested.certificate(), "1 pairs of fibres lie inside one another");
 
-  Substrate doubled; // an axon in two pieces, one in the other
+  Substrate doubled; // an axon in two pieces, one inside the other
   doubled.inner[3] = both(doubled.inner[3], tube(0.54, 0.0, 0.1, -1.0, 1.0));
   expectFault(doubled.certificate(), "1 surfaces have a piece inside another of their pieces (fibre 3 first)");
   doubled.inner[3] = both(tube(0.54, 0.0, 0.1, -1.5, -0.5), tube(0.54, 0.0, 0.1, 0.5, 1.5));
@@ -259,7 +259,7 @@ TEST(SubstrateCertificate, LeavesOutTheCapsBeyondTheDomain)
   EXPECT_NEAR(certificate.smallestMyelin, 0.15, 0.01);
 }
 
-// What was asked for and is not there is told, by what the surfaces say of themselves or by the fibres.
+// Missing surfaces are reported, from the surfaces' own data or from the fibres.
 TEST(SubstrateCertificate, TellsWhichFibresAreMissing)
 {
   const Substrate all;
@@ -276,7 +276,7 @@ TEST(SubstrateCertificate, TellsWhichFibresAreMissing)
 
   cactus::Fibres fibres;
   fibres.domain = domain;
-  for (const double x : { 0.0, 1.0, 9.0 }) // the last one passes by outside
+  for (const double x : { 0.0, 1.0, 9.0 }) // the last one passes outside
   {
     fibres.addFibre(5 + static_cast<int>(x), 2, 0.1);
     fibres.addPoint({ x, 0.0, -3.0 }, 0.1);
@@ -287,7 +287,7 @@ TEST(SubstrateCertificate, TellsWhichFibresAreMissing)
   EXPECT_EQ(certificate.verdict(), "1 of 6 fibres have no outer surface (fibre 6 first)");
   EXPECT_EQ(certificate.fibres[5].bundleId, 2);
 
-  // All of them lost is a verdict, too, and what they fill is 0.
+  // A verdict is given even if all are lost; their fraction is 0.
   cactus::FibreSurfaces nothing;
   nothing.isGiven = true;
   nothing.wantedIds = { 1, 2 };
@@ -405,7 +405,7 @@ TEST(SubstrateCertificate, GapsAreThoseOfAllPairsOnAnyNumberOfThreads)
   }
 }
 
-// What a run that was killed has found is not looked for again.
+// The findings of a killed run are not computed again.
 TEST(SubstrateCertificate, LooksAtNothingThatIsKnown)
 {
   Substrate substrate;

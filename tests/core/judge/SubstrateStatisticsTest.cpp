@@ -65,7 +65,7 @@ TEST(CrossSection, TiltedCutOfATubeIsAnEllipse)
   EXPECT_TRUE(sections.outlineAround({ 0, 0, 11.0 }, Eigen::Vector3d(0, 0, 1), 1.0).empty()) << "the plane misses";
 }
 
-// A surface that comes back through the plane counts only around the point asked for.
+// A surface that comes back through the plane counts only around the requested point.
 TEST(CrossSection, OnlyTheLoopAroundThePoint)
 {
   auto mesh = tube(0, 0, 1.0, 5.0);
@@ -210,14 +210,14 @@ TEST(SubstrateStatistics, SaysWhatIsWrong)
     options.cutSpacing = spacing;
     EXPECT_NE(messageOf({}, options).find("CutSpacing"), std::string::npos) << spacing;
   }
-  // The least spacing on a centre line that is far too long for it.
+  // The smallest spacing on a centre line that is far too long for it.
   options.cutSpacing = cactus::limits::cutSpacing.lowest;
   auto winding = twoFibres();
   winding.points.back()[2] += 2.0 * cactus::limits::cutSpacing.lowest * cactus::limits::cuts;
   EXPECT_THROW(cactus::measureSubstrate(winding, surfacesOf({ 5 }, { tube(2, 0, 1, 5) }), {}, options), cactus::InvalidInput);
 }
 
-// A set of surfaces that has none fills nothing; one that is not given has no fraction.
+// An empty set of surfaces fills nothing; one that is not given has no fraction.
 TEST(SubstrateStatistics, FractionsOverNothing)
 {
   cactus::FibreSurfaces empty;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: what is coarsened along its axis has far fewer triangles, and stays closed, of the same topology, near its field
-// and in the faces of its box; what planes do not cut into single rings stays as it is.
+// Guarantees: a surface coarsened along its axis has far fewer triangles, and stays closed, of the same topology, near its field
+// and in the faces of its box; parts that planes do not cut into single rings stay unchanged.
 #include "mesh/BandCoarsening.h"
 #include "base/Constants.h"
 #include "mesh/BandExcesses.h"
@@ -64,7 +64,7 @@ SurfaceDecimationOptions optionsFor(const Field& field)
 double windingTube(const Vector3d& p)
 {
   const double x = 0.1 * p.z() + 0.05 * std::sin(p.z());
-  return 0.6001 - std::hypot(p.x() - x, p.y() - 0.05 * std::cos(p.z())); // and at no node 0
+  return 0.6001 - std::hypot(p.x() - x, p.y() - 0.05 * std::cos(p.z())); // and nowhere 0 at a node
 }
 
 /// Points less edges plus triangles.
@@ -161,7 +161,7 @@ TEST(BandCoarsening, RefinesOnlyWhereTheFieldAsksForIt)
   const Field bumpy = [&plain](const Vector3d& p)
   { return plain(p) + 0.04 * std::exp(-(p - Vector3d(0.6, 0.0, 0.3)).squaredNorm() / 0.06); };
   std::array<std::size_t, 2> triangles{};
-  std::array<std::size_t, 2> opposite{}; // of those on the other side of the bump
+  std::array<std::size_t, 2> opposite{}; // of the points on the side opposite the bump
   for (std::size_t i = 0; i < 2; ++i)
   {
     const Field& field = i == 0 ? plain : bumpy;
@@ -234,7 +234,7 @@ TEST(BandCoarsening, KeepsHandlesAndBranches)
   EXPECT_TRUE(report.closedManifold() && report.outward());
   EXPECT_EQ(eulerCharacteristic(surface.mesh), 0);
   EXPECT_LT(surface.mesh.triangles.size(), fine.mesh.triangles.size());
-  // Of the two arms every triangle is there.
+  // Every triangle of the two arms is kept.
   const auto inTheMiddle = [](const CappedSurface& of)
   {
     return std::count_if(of.mesh.triangles.begin(), of.mesh.triangles.end(),
@@ -299,7 +299,7 @@ TEST(PlaneLoops, FindsLoopsRingsAndAnchors)
     const PlaneLoop& loop = loops.loop(plane);
     ASSERT_FALSE(loop.isEmpty());
     EXPECT_TRUE(loop.anchors.empty());
-    double area = 0.0; // positive where counterclockwise
+    double area = 0.0; // positive if counterclockwise
     for (std::size_t i = 0; i < loop.points.size(); ++i)
     {
       const Vector3d& p = tube.mesh.points[std::size_t(loop.points[i])];
@@ -317,7 +317,7 @@ TEST(PlaneLoops, FindsLoopsRingsAndAnchors)
   for (std::size_t plane = 1; plane < 40; ++plane)
   {
     const PlaneLoop& loop = cutLoops.loop(plane);
-    ASSERT_EQ(loop.anchors.size(), 2u); // where it comes to the face, and where it leaves it
+    ASSERT_EQ(loop.anchors.size(), 2u); // where it reaches the face, and where it leaves it
     EXPECT_EQ(loop.anchors[0], 0u);
     for (const std::size_t anchor : loop.anchors)
     {
@@ -335,7 +335,7 @@ TEST(PlaneLoops, FindsLoopsRingsAndAnchors)
   }
 }
 
-// A field that rises along the axis says itself what it is in each band.
+// For a field that rises along the axis, the value in each band is known.
 TEST(BandExcesses, AreTheLargestInEachBand)
 {
   const NodeLattice lattice = boxLattice(20, 20, 40);

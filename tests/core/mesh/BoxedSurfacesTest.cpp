@@ -82,7 +82,7 @@ TriangleMesh quarter(double half, double radius)
   return mesh;
 }
 
-/// Triangles meet in corners and edges only, and every compartment's border is closed.
+/// Expects that triangles meet in corners and edges only, and that every compartment's border is closed.
 void expectComplex(const BoxedSurfaces& joined, std::int32_t compartments)
 {
   EXPECT_FALSE(cactus::meetsItself(joined.mesh));
@@ -172,7 +172,7 @@ TEST(BoxedSurfaces, OnlyFlatEndsNearAFaceAreExtended)
   TriangleMesh far = prism({ 0.0, 0.0, -2.0 }, 4.0, 1.0);
   TriangleMesh pointed = far;
   pointed.points.back()[2] = 2.9;
-  TriangleMesh beside = prism({ 1.98, 0.0, -2.0 }, 4.0, 1.0); // near a face in an edge of its wall, but in no triangle
+  TriangleMesh beside = prism({ 1.98, 0.0, -2.0 }, 4.0, 1.0); // an edge of its wall lies near a face, but no triangle does
   for (int face = 0; face < 6; ++face)
   {
     EXPECT_FALSE(cactus::extendToFace(far, box, face, 0.5));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: a surface is moved to just the volume asked for, by no more than allowed, and its caps stay in their faces.
-// What is coarsened, moved or rounded beside a face of the box stays in the box.
+// Guarantees: a surface is moved to exactly the requested volume, by no more than allowed, and its caps stay in their faces. A
+// surface that is coarsened, moved or rounded beside a face of the box stays in the box.
 #include "mesh/CappedSurface.h"
 #include "base/Constants.h"
 #include "mesh/ExampleContours.h"
@@ -65,7 +65,7 @@ TEST(CappedSurface, MovesNoFartherThanAllowed)
 
 TEST(CappedSurface, StaysInTheBoxWhereItGrazesAFace)
 {
-  // Just cut off, just not, and with a vertex of the coarsened ball beyond the face where nothing held it back.
+  // Just cut off, just not, and with a vertex of the coarsened ball beyond the face if nothing held it back.
   for (const double x : { 0.19, 0.197, 0.199, 0.2003, 0.203 })
   {
     const Eigen::Vector3d centre(x, 0.01, -0.02);
@@ -84,7 +84,7 @@ TEST(CappedSurface, StaysInTheBoxWhereItGrazesAFace)
   }
 }
 
-// Faces need not be where single precision has a number.
+// Faces need not be numbers in single precision.
 TEST(CappedSurface, IsRoundedToWhatFilesHold)
 {
   const Eigen::AlignedBox3d box(Eigen::Vector3d(-0.1, 0.3, 0.0), Eigen::Vector3d(22.3, 22.7, 16.0));
@@ -99,7 +99,7 @@ TEST(CappedSurface, IsRoundedToWhatFilesHold)
   EXPECT_EQ(rounded.points[2], Eigen::Vector3d(-0.1, double(1.0F / 3.0F), double(float(1e-9 / 3.0))));
   EXPECT_EQ(rounded.points[3], Eigen::Vector3d(22.3, 8.5, double(16.0F / 3.0F)));
   EXPECT_FALSE(isInSinglePrecision(rounded)) << "faces of the box";
-  // Without a box, and beyond it, as where surfaces are not clipped.
+  // Without a box, and beyond it, like surfaces that are not clipped.
   TriangleMesh free = mesh;
   roundPoints(free, {});
   EXPECT_TRUE(isInSinglePrecision(free));
@@ -107,7 +107,7 @@ TEST(CappedSurface, IsRoundedToWhatFilesHold)
   EXPECT_EQ(inSinglePrecision(mesh).points, free.points);
 }
 
-// Each coordinate, of meshes of any number of points: a compiler may leave out some of a vector's.
+// Each coordinate, for meshes of any number of points: a compiler may omit some of a vector's.
 TEST(CappedSurface, IsRoundedWhateverItsSize)
 {
   for (int count = 1; count < 20; ++count)

@@ -10,8 +10,8 @@ using Eigen::Vector3d;
 namespace
 {
 
-/// Guarantee: a search for an outline ends, also in a surface that a fault has drawn together into one point, however many
-/// triangles it has.
+/// Guarantee: a search for an outline ends, even in a surface that a fault has contracted to one point, however many triangles it
+/// has.
 TEST(CrossSection, OfASurfaceInOnePointIsNone)
 {
   TriangleMesh mesh;

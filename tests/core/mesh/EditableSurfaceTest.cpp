@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantee: collapses and flips of edges leave a closed, outward 2-manifold of the same topology; a surface that is not closed
-// is refused, not searched without end.
+// is refused, without an endless search.
 #include "mesh/EditableSurface.h"
 #include "ExampleSurfaces.h"
 #include "mesh/SurfaceCheck.h"

@@ -45,8 +45,8 @@ int exactOrientation(const LatticePoint& a, const LatticePoint& b, const Lattice
 
 } // namespace
 
-// The certificate's answers are as right as these signs: against integer arithmetic, on points so nearly in one plane that
-// doubles alone cannot tell.
+// The certificate's answers are as right as these signs: compared with integer arithmetic, on points so nearly in one plane that
+// doubles alone cannot decide.
 TEST(ExactPredicates, OrientationAgreesWithIntegers)
 {
   std::mt19937_64 random(7);
@@ -101,7 +101,7 @@ TEST(ExactPredicates, ProjectedOrientationAgreesWithIntegers)
   }
 }
 
-// In doubles 0.1 + 0.2 is not 0.3; the predicate speaks of the doubles as they are.
+// In doubles 0.1 + 0.2 is not 0.3; the predicate uses the doubles as they are.
 TEST(ExactPredicates, SeesOneUnitInTheLastPlace)
 {
   const Vector3d a(0.1, 0.1, 0.1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contours to try things on.
+// Contours for tests.
 #pragma once
 
 #include "mesh/Isosurface.h"
@@ -39,7 +39,7 @@ inline std::vector<std::uint32_t> allBlocks(const NodeLattice& lattice)
   return blocks;
 }
 
-/// Values of a function of the nodes' numbers.
+/// Returns the values of a function of the nodes' indices.
 inline std::function<void(const NodeRange&, float*)> sampled(const std::function<double(int, int, int)>& field)
 {
   return [field](const NodeRange& range, float* out)

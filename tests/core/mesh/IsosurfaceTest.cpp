@@ -33,7 +33,7 @@ TEST(Isosurface, NoiseGivesClosedManifolds)
 {
   for (std::uint64_t seed = 1; seed <= std::uint64_t(fewerWhereSanitized(20)); ++seed)
   {
-    // Noise has all ambiguous cells there are; of more than one block, and up to the faces.
+    // Noise has all possible ambiguous cells; with more than one block, and up to the faces.
     const NodeLattice lattice = cubeLattice(19 + int(seed % 3), 0.1);
     const CappedSurface surface =
       contour(lattice, allBlocks(lattice), sampled([seed](int i, int j, int k) { return noise(seed, i, j, k) - 0.1; }));

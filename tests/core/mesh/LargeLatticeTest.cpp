@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: a fibre at the far end of a lattice with more than 2³¹ blocks and 2⁴² nodes has the surface that it has in a small
-// one.
+// Guarantee: a fibre at the far end of a lattice with more than 2³¹ blocks and 2⁴² nodes has the same surface as in a small one.
 #include "mesh/ExampleContours.h"
 #include "mesh/Isosurface.h"
 
@@ -13,7 +12,7 @@ namespace
 
 using namespace cactus;
 
-/// Two blocks along x, one along y and z, in a lattice that begins so many blocks before them.
+/// Makes two blocks along x, one along y and z, in a lattice that begins so many blocks before them.
 NodeLattice latticeBefore(int blocks)
 {
   constexpr int farthest = 1300 * NodeLattice::blockCells;

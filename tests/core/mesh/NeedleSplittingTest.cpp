@@ -17,7 +17,7 @@ using example::ballInBox;
 TEST(NeedleSplitting, SplitsNeedlesAndKeepsTheShape)
 {
   CappedSurface surface = ballInBox({ 1, 0, 0 });
-  // A short edge amid it: one end of an edge is drawn to the other.
+  // Makes a short edge in its middle: one end of an edge is moved to the other.
   auto& points = surface.mesh.points;
   const auto t = surface.mesh.triangles[surface.mesh.triangles.size() / 2];
   points[std::size_t(t[0])] += 0.999 * (points[std::size_t(t[1])] - points[std::size_t(t[0])]);

@@ -19,7 +19,7 @@ namespace
 using cactus::PlaneTriangulation;
 using Eigen::Vector2d;
 
-/// What is put in, with the points by their numbers.
+/// The inserted points, by their numbers, and edges.
 struct Plane
 {
   Plane(const Vector2d& lower, const Vector2d& upper)
@@ -47,7 +47,8 @@ struct Plane
 
   const Vector2d& at(std::int32_t point) const { return this->Points[std::size_t(point)]; }
 
-  /// Triangles that fill the rectangle once, by area and by Euler's formula, with each edge in both senses but on the border.
+  /// Expects triangles that fill the rectangle once, by area and by Euler's formula, with each edge in both senses except on the
+  /// border.
   void expectFills() const
   {
     double sum = 0.0;
@@ -81,7 +82,7 @@ struct Plane
       [&](const auto& t) { return std::count(t.begin(), t.end(), from) + std::count(t.begin(), t.end(), to) == 2; });
   }
 
-  /// The number of points that lie in the circle around a triangle, over all triangles.
+  /// Returns the number of points that lie in the circle around a triangle, over all triangles.
   std::size_t pointsInCircles() const
   {
     std::size_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: the table holds what one of the standard library holds, however many keys it has, and whatever these have in common.
+// Guarantee: the table has the content of a standard one, for any number of keys and any regularity among them.
 #include "mesh/PointTable.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(PointTable, HoldsWhatAMapHolds)
   }
 }
 
-// Nodes of a lattice: keys that are multiples of each other, of large powers of two, too.
+// Nodes of a lattice: keys that are multiples of each other, including large powers of two.
 TEST(PointTable, TellsRegularKeysApart)
 {
   for (const std::uint64_t step : { std::uint64_t(1), std::uint64_t(4), std::uint64_t(1) << 20, std::uint64_t(1) << 50 })

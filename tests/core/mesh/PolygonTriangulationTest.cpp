@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: the triangles of a polygon fill it, without gaps or overlaps, however it winds; what is no polygon has none.
+// Guarantees: the triangles of a polygon fill it, without gaps or overlaps, however it winds; an invalid polygon has none.
 #include "mesh/PolygonTriangulation.h"
 #include "base/Constants.h"
 

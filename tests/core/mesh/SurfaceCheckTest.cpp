@@ -102,7 +102,7 @@ TEST(SurfaceCheck, SphereApproachesItsFormulas)
   EXPECT_NEAR(report.area, 4.0 * pi, 0.02);
 }
 
-// Guarantee 2: each way in which a surface can leak is told from the others.
+// Guarantee 2: each way in which a surface can leak is distinguished from the others.
 TEST(SurfaceCheck, Hole)
 {
   auto mesh = cube(1.0, { 0, 0, 0 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: what is coarsened stays closed, near the level of its field and in the faces of its box, and gets no needles.
+// Guarantees: a coarsened surface stays closed, near the level of its field and in the faces of its box, and gets no needles.
 #include "mesh/SurfaceDecimation.h"
 #include "base/Constants.h"
 #include "mesh/EditableSurface.h"
@@ -40,8 +40,8 @@ TEST(SurfaceDecimation, KeepsASphereClosedAndNear)
     EXPECT_NEAR(report.volume, 4.0 / 3.0 * pi, 4.0 * pi * std::max(error, 0.0025));
     for (const auto& p : surface.mesh.points)
     {
-      // Where triangles of the contour cut corners off the sphere by more than the error, that may stay so: √2 · 0.1 long, they
-      // do by up to 0.0025.
+      // Triangles of the contour that cut corners off the sphere by more than the error may stay: with a length of √2 · 0.1, they
+      // do so by up to 0.0025.
       EXPECT_LE(std::abs(sphereDepth(p, 1.0)), std::max(error, 0.0025));
     }
     before = report.triangles;
@@ -119,7 +119,7 @@ double depthInWindingTube(const Eigen::Vector3d& p)
 
 TEST(SurfaceDecimation, LongSurfacesCostAsManyTrianglesPerLengthAsShortOnes)
 {
-  // The long one is coarsened stretch by stretch: at their ends, too, as much is collapsed, and the surface keeps its distance.
+  // The long one is coarsened in stretches: as much is collapsed at their ends, and the surface keeps its distance.
   std::vector<double> triangles;
   for (const int periods : { 1, 2, 8 })
   {

@@ -56,7 +56,7 @@ void expectNearest(const cactus::SurfaceGap& gap, const Triangle& a, const Trian
 
 } // namespace
 
-// The smallest gap of the certificate is the true one: proven for each pair by the slab that keeps two convex sets apart.
+// The certificate's smallest gap is the true one: proven for each pair by the slab that separates two convex sets.
 TEST(SurfaceDistance, TrianglesAreAsFarApartAsTheSlabBetweenThem)
 {
   std::mt19937 random(2);
@@ -135,8 +135,7 @@ TEST(SurfaceDistance, SmallestGapIsThatOfAllPairs)
   }
 }
 
-// Planes, which tell most triangles of trees apart, take none from what is near: not those of slivers either, which hardly have
-// one.
+// The trees' planes, which exclude most triangles, exclude no near one: not even for slivers, which hardly have a plane.
 TEST(SurfaceDistance, TreesFindWhatTrianglesDo)
 {
   std::mt19937 random(8);

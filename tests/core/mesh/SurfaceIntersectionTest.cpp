@@ -22,8 +22,8 @@ using example::both;
 using example::tetrahedron;
 using example::tube;
 
-/// Whether two triangles with whole coordinates have no point in common, by a plane between them: of two convex polytopes that
-/// are apart, one is square to an edge, two edges, or so, of theirs, or to what joins them. All in integers.
+/// Tells whether two triangles with integer coordinates have no point in common, by a plane between them: for two disjoint convex
+/// polytopes, one is perpendicular to an edge, to two edges of theirs, or to a line between their corners. All in integers.
 bool apart(const LatticeTriangle& a, const LatticeTriangle& b)
 {
   std::vector<Lattice> directions{ a[1] - a[0], a[2] - a[1], a[0] - a[2], b[1] - b[0], b[2] - b[1], b[0] - b[2], b[0] - a[0] };
@@ -62,7 +62,7 @@ bool isFlat(const LatticeTriangle& t)
   return (t[1] - t[0]).cross(t[2] - t[0]).isZero();
 }
 
-/// Two triangles that share their first `shared` corners, as one mesh.
+/// Returns the self-intersections of two triangles that share their first `shared` corners.
 Pairs selfIntersectionsOf(const LatticeTriangle& a, const LatticeTriangle& b, std::int32_t shared)
 {
   cactus::TriangleMesh mesh;
@@ -117,7 +117,7 @@ Pairs bruteForce(const cactus::TriangleMesh& a, const cactus::TriangleMesh& b)
 
 } // namespace
 
-// Guarantee 2 rests on this: surfaces that cut each other are found, and those that do not are left alone.
+// Guarantee 2 rests on this: surfaces that cut each other are found, and others are left alone.
 TEST(SurfaceIntersection, TellsCuttingFromApartAndNested)
 {
   const auto large = tetrahedron({ 0, 0, 0 }, 3.0);
@@ -128,8 +128,7 @@ TEST(SurfaceIntersection, TellsCuttingFromApartAndNested)
   EXPECT_TRUE(cactus::surfacesMeet(large, tetrahedron({ 0.5, 0.5, -0.999 }, 1.0)));
 }
 
-// On a coarse lattice triangles touch in points, lie along each other, in one plane, or are no more than a line, most of the
-// time.
+// On a coarse lattice most triangles touch in points, lie along each other, in one plane, or degenerate to a line.
 TEST(SurfaceIntersection, TrianglesMeetAsIntegersSay)
 {
   std::mt19937 random(5);
@@ -205,7 +204,7 @@ TEST(SurfaceIntersection, NeighboursMeetAsIntegersSay)
   }
 }
 
-// The tree leads to every pair: against all pairs, on surfaces with hundreds of contacts.
+// The tree finds every pair: compared with all pairs, on surfaces with hundreds of contacts.
 TEST(SurfaceIntersection, FindsEveryMeetingPair)
 {
   const auto a = tube(0, 0, 1.0, -2, 2, 24, 20, 0.1, 1);
@@ -262,7 +261,7 @@ TEST(SurfaceIntersection, FindsFoldsBetweenNeighbours)
   EXPECT_EQ(cactus::selfIntersections(cactus::TriangleTree(folded)), (Pairs{ { 0, 0 } })) << "flat";
 }
 
-// Touching counts, down to the last place, and one place beside it does not.
+// Touching counts, down to the last digit, and one digit beside it does not.
 TEST(SurfaceIntersection, TouchingIsMeetingAndLessIsNot)
 {
   const double tiny = std::numeric_limits<double>::epsilon();

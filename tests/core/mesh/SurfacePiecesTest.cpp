@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: of a surface in pieces just those stay that belong to it, whole, and what goes is counted.
+// Guarantee: for a surface in pieces, exactly those that belong to it stay, whole, and the removed volume is counted.
 #include "mesh/SurfacePieces.h"
 #include "base/Constants.h"
 #include "mesh/ExampleContours.h"

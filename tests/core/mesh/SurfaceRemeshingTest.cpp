@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: what is made even stays closed, near the level of its field and in the faces of its box, and has few small angles.
+// Guarantees: a remeshed surface stays closed, near the level of its field and in the faces of its box, and has few small angles.
 #include "mesh/SurfaceRemeshing.h"
 
 #include "mesh/ExampleContours.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: inside, outside and on a surface are told apart wherever the point lies.
+// Guarantee: inside, outside and on a surface are distinguished for any point.
 #include "mesh/SurfaceSide.h"
 
 #include "ExampleSurfaces.h"

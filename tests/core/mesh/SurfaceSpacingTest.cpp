@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: surfaces that are too near are moved to the gap, by no more than that takes, wherever they lie to the slabs that
-// are looked at; others keep every bit. What is read of surfaces does not grow faster than they do.
+// Guarantees: surfaces that are too near are moved to the gap, by no more than necessary, wherever they lie relative to the
+// slabs; others keep every bit. Reading grows no faster than the surfaces.
 #include "mesh/SurfaceSpacing.h"
 
 #include "../FindingsInMemory.h"
@@ -42,7 +42,8 @@ TriangleMesh tube(double x, double radius, double bulge = 0.0)
   return mesh;
 }
 
-/// The shortest distance of the points of one mesh to densely spread points of the other's triangles: never less than the truth.
+/// Returns the shortest distance of the points of one mesh to densely sampled points of the other's triangles: never less than
+/// the true one.
 double sampledDistance(const TriangleMesh& a, const TriangleMesh& b)
 {
   double least = 1e300;
@@ -68,7 +69,7 @@ double sampledDistance(const TriangleMesh& a, const TriangleMesh& b)
   return least;
 }
 
-/// keepApart() on meshes that are somewhere else.
+/// Calls keepApart() on meshes in a store.
 template <typename... More>
 SpacingReport keepApart(const std::vector<TriangleMesh*>& meshes, More&&... more)
 {
@@ -87,7 +88,7 @@ SpacingReport keepApart(const std::vector<TriangleMesh*>& meshes, More&&... more
 
 const Eigen::AlignedBox3d domainBox(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
 
-// Two tips, one above the other, whose normals point nearly sideways: what moves them inwards hardly moves them apart.
+// Two tips, one above the other, whose normals point nearly sideways: an inward move hardly moves them apart.
 TEST(SurfaceSpacing, PartsCornersThatMoveAskew)
 {
   const auto tip = [](double z, double up)
@@ -165,7 +166,7 @@ TEST(SurfaceSpacing, PointsOnTheBoxStayOnIt)
 
 TEST(SurfaceSpacing, NamesWhatItCannotPart)
 {
-  // One through the other: to move each inwards does not help.
+  // One through the other: moving each inwards does not help.
   TriangleMesh left = tube(-0.1, 0.5);
   TriangleMesh right = tube(0.1, 0.5);
   EXPECT_EQ(keepApart({ &left, &right }, 0.02, domainBox).tooNear, (std::vector<std::size_t>{ 0, 1 }));
@@ -211,7 +212,7 @@ TEST(SurfaceSpacing, LooksOnlyAtWhatHasChangedOrIsMoved)
   EXPECT_EQ(keepApart(all, std::vector<std::size_t>{ 1 }, 0.02, domainBox).moved, (std::vector<std::size_t>{ 0, 1 }));
 }
 
-/// The mesh with its axes moved on: what was along z lies along x.
+/// Returns the mesh with its axes rotated: z becomes x.
 TriangleMesh alongX(TriangleMesh mesh)
 {
   for (Eigen::Vector3d& p : mesh.points)
@@ -246,7 +247,7 @@ bool tooNear(const TriangleMesh& one, const TriangleMesh& other, double gap)
   return false;
 }
 
-/// Those of the surfaces that are too near to another.
+/// Returns the surfaces that are too near to another.
 std::vector<std::size_t> allTooNear(const std::vector<TriangleMesh>& surfaces, double gap)
 {
   std::set<std::size_t> found;
@@ -313,7 +314,7 @@ TEST(SurfaceSpacing, FindsAllThatIsNearInALongBox)
   }
 }
 
-/// Counts what is asked of it.
+/// Counts the requests that it gets.
 class CountingStore : public SurfacesInMemory
 {
 public:
@@ -349,7 +350,7 @@ public:
 
   mutable std::atomic<std::size_t> wholes{ 0 };
   mutable std::atomic<std::size_t> bytes{ 0 };
-  mutable std::map<std::pair<std::size_t, double>, int> parts; ///< how often each was asked for
+  mutable std::map<std::pair<std::size_t, double>, int> parts; ///< number of requests for each
 
 private:
   mutable std::mutex Mutex;
@@ -412,7 +413,7 @@ TEST(SurfaceSpacing, LooksAgainOnlyWhereAnythingWasMoved)
   }
 }
 
-// What a run that was killed has measured is not measured again.
+// The measurements of a killed run are not repeated.
 TEST(SurfaceSpacing, MeasuresNoSlabThatIsKnown)
 {
   const std::vector<TriangleMesh> tubes = longTubes(100.0, 23.0, 27.0);
@@ -445,7 +446,7 @@ TEST(SurfaceSpacing, MeasuresNoSlabThatIsKnown)
       EXPECT_EQ(found[s].points, wanted[s].points) << s;
     }
   };
-  // The last slabs of a round, and all after it, as where it was killed in the round.
+  // The last slabs of a round, and all after it, like a run killed in the round.
   findings.beginAgain([](const std::string& name) { return name.find("round 0") != std::string::npos && name.back() < '6'; });
   const auto slabs = partsAsked(found);
   expectSame();
@@ -485,7 +486,7 @@ TriangleMesh thorn(const Eigen::Vector3d& tip, const Eigen::Vector3d& along)
   return example::tetrahedronOf(tip, base + 0.2 * aside, base - 0.2 * aside, base + Eigen::Vector3d(0.0, 0.0, 0.2));
 }
 
-// One that leans over is moved at its top, by which its face turns towards another one two slabs below.
+// A leaning one is moved at its top, which turns its face towards another one two slabs below.
 TEST(SurfaceSpacing, FindsWhatAMoveHasBroughtNearInAnotherSlab)
 {
   const Eigen::Vector3d top(-5.0, 0.0, 38.0);

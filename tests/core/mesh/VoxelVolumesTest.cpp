@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: the volume of a surface in each voxel is exact, wherever the surface lies on the grid, and what is out of it does
-// not count.
+// Guarantee: the volume of a surface in each voxel is exact, wherever the surface lies on the grid, and the part outside the grid
+// does not count.
 #include "mesh/VoxelVolumes.h"
 
 #include "ExampleSurfaces.h"

@@ -28,7 +28,7 @@ namespace
 
 using cactus::Fibres;
 
-/// Largest D over all pairs of capsules of different fibres, without any of the machinery under test.
+/// Returns the largest D over all pairs of capsules of different fibres, without the code under test.
 double largestPenetration(const Fibres& fibres)
 {
   double largest = 0.0;
@@ -162,8 +162,8 @@ TEST(CapsuleOptimizer, SameBitsOnAnyNumberOfThreads)
   }
 }
 
-// Guarantee 4 over a whole run, from the initial state that the product makes to zero overlap: 1, 2 and 4 threads end with the
-// same fibres after the same iterations.
+// Guarantee 4 over a whole run, from the product's initial state to zero overlap: 1, 2 and 4 threads end with the same fibres
+// after the same iterations.
 TEST(CapsuleOptimizer, WholeRunHasTheSameBitsOnOneTwoAndFourThreads)
 {
   cactus::BundleInitializerOptions bundle;
@@ -191,7 +191,7 @@ TEST(CapsuleOptimizer, WholeRunHasTheSameBitsOnOneTwoAndFourThreads)
   }
 }
 
-// Guarantee 6: what is stopped, or out of iterations, keeps its best result and says so.
+// Guarantee 6: a run that is stopped, or out of iterations, keeps its best result and says so.
 TEST(CapsuleOptimizer, KeepsTheBestStateWhenStopped)
 {
   Fibres fibres = randomBundle(14, 40, 12, 6.0, 0.0);
@@ -213,7 +213,7 @@ TEST(CapsuleOptimizer, KeepsTheBestStateWhenStopped)
   EXPECT_EQ(cactus::optimise(fibres, options, {}).reason, cactus::StopReason::TimeBudget);
 }
 
-// Guarantee: progress never falls, and tells of the overlap: a run that ends well has come far, whatever it was allowed.
+// Guarantee: progress never falls, and reflects the overlap: a run that ends well reports high progress, whatever its limit.
 TEST(CapsuleOptimizer, ReportsHowFarItHasCome)
 {
   Fibres fibres = randomBundle(14, 40, 12, 6.0, 0.0);
@@ -236,7 +236,7 @@ TEST(CapsuleOptimizer, ReportsHowFarItHasCome)
   EXPECT_EQ(reports, (result.convergence.size() + 9) / 10);
 }
 
-// Guarantee: a state without overlap is left alone.
+// Guarantee: a state without overlap stays unchanged.
 TEST(CapsuleOptimizer, LeavesAGoodStateAlone)
 {
   Fibres fibres = crossingPair();
@@ -250,7 +250,7 @@ TEST(CapsuleOptimizer, LeavesAGoodStateAlone)
   EXPECT_EQ(fibres.points[5], before.points[5]);
 }
 
-// Guarantee: what does not come apart does not run on for nothing, and says so: here for its tiny steps.
+// Guarantee: a run without progress ends early, and says so: here because of its tiny steps.
 TEST(CapsuleOptimizer, StopsWhereNothingMoreIsGained)
 {
   Fibres fibres = crossingPair();
@@ -262,7 +262,7 @@ TEST(CapsuleOptimizer, StopsWhereNothingMoreIsGained)
   EXPECT_GT(result.maximumPenetration, 0.1);
 }
 
-// Guarantee: a bundle denser than PackingLimit is widened to it at once, each fibre as a whole, and others are left alone.
+// Guarantee: a bundle denser than PackingLimit is widened to it at once, each fibre as a whole, and others stay unchanged.
 TEST(BundleBox, SpreadsWhatIsTooDense)
 {
   const Fibres before = randomBundle(17, 50, 12, 6.0, 0.0);
@@ -321,8 +321,8 @@ struct TemporaryFile
 
 } // namespace
 
-// Guarantee: a run that was interrupted and goes on from its checkpoint ends with the same bits and the same table (but for the
-// seconds) as one that was not, wherever it was interrupted, with both methods, and with other threads.
+// Guarantee: an interrupted run that continues from its checkpoint ends with the same bits and the same table (except for the
+// seconds) as an uninterrupted one, wherever it was interrupted, with both methods, and with other threads.
 TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
 {
   const Fibres start = randomBundle(18, 120, 20, 9.0, 0.0);
@@ -337,7 +337,7 @@ TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
     context.threads = 2;
     Fibres whole = start;
     const auto expected = cactus::optimise(whole, options, context);
-    // Interrupted as a run out of iterations is, and as one that is killed after its last regular checkpoint.
+    // Interrupted like a run out of iterations, and like one that is killed after its last regular checkpoint.
     for (const bool killed : { false, true })
     {
       const TemporaryFile file("cactus-checkpoint");
@@ -388,8 +388,8 @@ TEST(CapsuleOptimizer, GoesOnFromACheckpointWithTheSameBits)
   }
 }
 
-// Guarantee: a checkpoint of other fibres or other parameters and one that cannot be written are refused with an error that says
-// so (a damaged one: see CheckpointTest); where there is none, the run starts from the beginning.
+// Guarantee: a checkpoint of other fibres or other parameters, or one that cannot be written, is refused with a clear error (a
+// damaged one: see CheckpointTest); without a checkpoint, the run starts from the beginning.
 TEST(CapsuleOptimizer, RefusesACheckpointOfSomethingElse)
 {
   const TemporaryFile file("cactus-checkpoint-other");
@@ -424,7 +424,7 @@ TEST(CapsuleOptimizer, RefusesACheckpointOfSomethingElse)
   EXPECT_NE(message(crossingPair(), options).find("Resume"), std::string::npos);
 }
 
-// Guarantee: an observer sees the state of every iteration, from the first to the one that is handed back.
+// Guarantee: an observer sees the state of every iteration, from the first to the returned one.
 TEST(CapsuleOptimizer, ShowsEveryStateToAnObserver)
 {
   Fibres fibres = randomBundle(19, 20, 12, 8.0, 0.0);
@@ -529,7 +529,7 @@ TEST(CapsuleOptimizer, RefusesFibresOfFarTooManyPoints)
   }
 }
 
-// The pieces of a fibre that is outside for a moment only would overlap, or meet when they grow.
+// The pieces of a fibre that is outside only briefly would overlap, or meet when they grow.
 TEST(TrimToDomain, KeepsAFibreWholeThatComesBackAtOnce)
 {
   Fibres fibres;
@@ -561,7 +561,7 @@ TEST(TrimToDomain, RefusesWhereNoIdIsFreeForAPiece)
   EXPECT_EQ(cactus::trimToDomain(fibres).fibreIds.back(), std::numeric_limits<int>::max());
 }
 
-// Trimming keeps the domain filled, cuts what is outside, and gives a fibre that comes back an id of its own.
+// Trimming keeps the domain filled, cuts off the parts outside, and gives a new id to a fibre that comes back.
 TEST(TrimToDomain, CutsAndSplits)
 {
   Fibres fibres;
@@ -588,7 +588,7 @@ TEST(TrimToDomain, CutsAndSplits)
   {
     EXPECT_EQ(trimmed.points[i], fibres.points[kept[i]]);
   }
-  // Everything of the first fibre that is in the domain is still there, and nothing far outside.
+  // The whole part of the first fibre in the domain is still there, and nothing far outside.
   EXPECT_NEAR(cactus::capsuleVolumeInDomain(trimmed), cactus::capsuleVolumeInDomain(fibres), 1e-12);
   for (const auto& point : trimmed.points)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: a coarser copy keeps ends, gives no segment of zero length and leaves out about half; what moves it moves all
-// control points alike, and what does not move it moves none; a run that begins with it goes on from wherever it was stopped.
+// Guarantees: a coarser copy keeps ends, gives no segment of zero length and leaves out about half; a uniform move of it moves
+// all control points alike, and without a move none changes; a run that begins with it continues from wherever it was stopped.
 #include "optimiser/CoarseFibres.h"
 
 #include "RandomBundle.h"
@@ -81,7 +81,7 @@ TEST(CoarseFibres, MoveAllControlPointsAlike)
   const Fibres fine = randomBundle(6, 20, 12, 8.0, 0.1);
   const CoarseFibres fewer(fine);
   ASSERT_LT(fewer.fibres().points.size(), 0.75 * static_cast<double>(fine.points.size()));
-  // Where nothing has moved, to the last bit.
+  // Without a move, exact to the last bit.
   EXPECT_EQ(fewer.refine(fewer.fibres().points, fine.points), fine.points);
   const Eigen::Vector3d by(0.3, -0.2, 0.7);
   std::vector<Eigen::Vector3d> moved = fewer.fibres().points;
@@ -96,7 +96,7 @@ TEST(CoarseFibres, MoveAllControlPointsAlike)
   }
 }
 
-// What grows as the square of the place along a fibre, it finds between control points that lie evenly.
+// A quadratic function of the place along a fibre is interpolated exactly between evenly spaced control points.
 TEST(CoarseFibres, InterpolateSmoothly)
 {
   const Fibres fine = randomBundle(7, 3, 13, 8.0, 0.0);
@@ -122,8 +122,8 @@ TEST(CoarseFibres, InterpolateSmoothly)
   }
 }
 
-// Guarantee: wherever a run is stopped that begins with fewer control points, it goes on to the same bits; and its observer sees
-// all control points in every iteration.
+// Guarantee: a run that begins with fewer control points continues with the same bits wherever it is stopped; and its observer
+// sees all control points in every iteration.
 TEST(CoarseFibres, RunGoesOnWhereverItWasStopped)
 {
   const Fibres start = smallBundle();

@@ -168,8 +168,8 @@ std::vector<Vector3d> gradientOf(const Fibres& fibres)
 
 } // namespace
 
-// Guarantee 1: after CapsuleOptimizer fibres do not overlap, also where they come in with axes that meet exactly. 4: with the
-// same bits on any number of threads.
+// Guarantee 1: after CapsuleOptimizer fibres do not overlap, even if their axes met exactly. Guarantee 4: the bits are the same
+// on any number of threads.
 TEST(CoincidentFibres, ComeApart)
 {
   for (const Case& one : cases())
@@ -181,13 +181,13 @@ TEST(CoincidentFibres, ComeApart)
   }
 }
 
-// Fibres that end where they begin give their bundle no direction: +z then.
+// Fibres that end where they begin give their bundle no direction: it is +z then.
 TEST(CoincidentFibres, ClosedOnesComeApartToo)
 {
   EXPECT_LE(cactus::measureOverlap(optimised(rings(), 2)).largestPenetration, 1e-3);
 }
 
-// What two fibres do to each other is equal and opposite, and goes across both.
+// The forces of two fibres on each other are equal and opposite, and across both.
 TEST(CoincidentFibres, PushEachOtherAcrossTheirAxes)
 {
   for (const Case& one : cases())
@@ -206,7 +206,7 @@ TEST(CoincidentFibres, PushEachOtherAcrossTheirAxes)
   }
   for (const int segments : { 9, 10 })
   {
-    // Across both is along z.
+    // The direction across both is z.
     const std::vector<Vector3d> gradient = gradientOf(crossing(Vector3d::Zero(), 2, segments));
     double up = 0.0;
     for (std::size_t i = 0; i < gradient.size() / 2; ++i)

@@ -24,7 +24,7 @@ struct Gradient
 
 constexpr double margin = 1.05;
 
-/// The paper's cost written down once more, over all pairs.
+/// Computes the paper's cost independently, over all pairs.
 double overlapCost(const Fibres& fibres)
 {
   double cost = 0.0;
@@ -110,7 +110,7 @@ TEST(CostGradient, Overlap)
 }
 
 // Guarantee: each term that shapes a fibre has the exact gradient of its own cost, and so have the limits of bends and lengths,
-// which alone are left when the terms have faded.
+// which remain when the terms have faded.
 TEST(CostGradient, ShapeTerms)
 {
   const Fibres reference = randomBundle(6, 6, 8, 3.0, 0.3);
@@ -148,7 +148,7 @@ TEST(CostGradient, ShapeTerms)
   }
 }
 
-// Guarantee: the cost knows no absolute position, orientation or order of fibres.
+// Guarantee: the cost does not depend on absolute position, orientation or order of fibres.
 TEST(CostGradient, OverlapIsInvariant)
 {
   const Fibres fibres = randomBundle(8, 10, 6, 3.0, 0.3);

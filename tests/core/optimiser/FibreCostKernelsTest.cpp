@@ -11,7 +11,7 @@
 namespace
 {
 
-/// What some kernels add for a fibre.
+/// The contributions of some kernels for a fibre.
 struct Added
 {
   double curvature = 0.0;
@@ -69,7 +69,7 @@ TEST(FibreCostKernels, SameBitsOnEveryVectorUnit)
   }
 }
 
-// Guarantee: bends that are sharper than is free to take are told, each of them.
+// Guarantee: every bend that exceeds its limit is reported.
 TEST(FibreCostKernels, TellsSharpBends)
 {
   const cactus::Fibres fibres = randomBundle(33, 1, 60, 6.0, 0.4);

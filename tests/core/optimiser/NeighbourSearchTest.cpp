@@ -57,7 +57,7 @@ TEST(NeighbourSearch, FindsWhatAllPairsFind)
       {
         point += Eigen::Vector3d(250.0, -250.0, 100.0);
       }
-      // Two fibres that are parallel to the last bit.
+      // Two fibres that are exactly parallel.
       for (std::size_t i = 0; i < 12; ++i)
       {
         fibres.points[12 + i] = fibres.points[i] + Eigen::Vector3d(0.5, 0.0, 0.0);
@@ -94,7 +94,7 @@ TEST(NeighbourSearch, FindsWhatSurroundsAThickFibre)
   EXPECT_GT(expectAllPairs(capsules, std::vector<float>(capsules.size(), 0.01f)), 4000u);
 }
 
-// Guarantee: the same for thin and long capsules, whose distance single precision knows least well for its size.
+// Guarantee: the same for thin and long capsules, whose distance is least accurate in single precision.
 TEST(NeighbourSearch, FindsThinAndLongOnes)
 {
   for (const double radius : { 0.05, 0.005 })
@@ -106,14 +106,14 @@ TEST(NeighbourSearch, FindsThinAndLongOnes)
   }
 }
 
-// Guarantee: the same for capsules that are next to parallel, whose closest points are anywhere as far as single precision knows.
+// Guarantee: the same for nearly parallel capsules, whose closest points are arbitrary in single precision.
 TEST(NeighbourSearch, FindsNearlyParallelOnes)
 {
   const cactus::Capsules capsules = cactus::capsulesOf(nearlyParallelPairs(10, 1000, 1.0 - 1e-6));
   EXPECT_EQ(expectAllPairs(capsules, std::vector<float>(capsules.size(), 0.0f)), capsules.size());
 }
 
-// Guarantee: no pairs of one fibre alone, and none of nothing.
+// Guarantee: no pairs within a single fibre, and none without fibres.
 TEST(NeighbourSearch, FindsNothingAmongOneFibre)
 {
   cactus::NeighbourList list;

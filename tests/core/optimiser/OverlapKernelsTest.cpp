@@ -17,7 +17,7 @@ namespace
 
 void expectSame(const cactus::CapsuleOverlap& result, const cactus::CapsuleOverlap& expected)
 {
-  // Not by bytes: −0 is 0.
+  // Not by bytes: −0 equals 0.
   for (int axis = 0; axis < 3; ++axis)
   {
     ASSERT_EQ(result.gradient0[axis], expected.gradient0[axis]);
@@ -32,7 +32,7 @@ void expectSame(const cactus::CapsuleOverlap& result, const cactus::CapsuleOverl
   ASSERT_EQ(result.overlapping, expected.overlapping);
 }
 
-/// What some kernels make of all capsules.
+/// Returns the result of some kernels for all capsules.
 std::vector<cactus::CapsuleOverlap> evaluate(
   const cactus::OverlapKernels& kernels, const cactus::Capsules& capsules, const cactus::NeighbourList& list, bool tapered)
 {
@@ -55,8 +55,8 @@ std::vector<cactus::CapsuleOverlap> evaluate(
 
 } // namespace
 
-// Guarantee: cost and gradient have the same bits on every vector unit, with radii that vary and with radii that do not, and
-// whether or not the caller knows that they do not.
+// Guarantee: cost and gradient have the same bits on every vector unit, with varying and with constant radii, and whether or not
+// the caller knows that they are constant.
 TEST(OverlapKernels, SameBitsOnEveryVectorUnit)
 {
   for (const bool tapered : { false, true })
@@ -85,7 +85,7 @@ TEST(OverlapKernels, SameBitsOnEveryVectorUnit)
   }
 }
 
-// Guarantee: no pair that touches is taken for one that does not, however nearly parallel or nearly apart.
+// Guarantee: no touching pair is missed, however nearly parallel or nearly apart.
 TEST(OverlapKernels, FindsWhatHardlyTouches)
 {
   for (const double distance : { 1.01 - 1e-7, 1.01 + 1e-7 })
@@ -111,8 +111,8 @@ TEST(OverlapKernels, FindsWhatHardlyTouches)
   }
 }
 
-// Guarantee: a result does not depend on how far lists of neighbours reach, nor therefore on when neighbours were last searched.
-// With some hundred neighbours that touch, and with few.
+// Guarantee: a result does not depend on how far lists of neighbours reach, and so not on when neighbours were last searched.
+// With some hundred touching neighbours, and with few.
 TEST(OverlapKernels, SameBitsWhateverTheReach)
 {
   for (const double side : { 5.0, 1.5 })

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-// Guarantee: the columns of capsules near a point hold what they are said to, what fills up the last 16 is far from all of them,
-// and neither depends on the vector unit.
+// Guarantee: the columns of capsules near a point have the right content, the padding of the last 16 is far from all of them, and
+// neither depends on the vector unit.
 TEST(SearchKernels, SameColumnsOnEveryVectorUnit)
 {
   const cactus::Capsules capsules = cactus::capsulesOf(randomBundle(23, 5, 12, 5.0, 0.3));
@@ -67,8 +67,8 @@ TEST(SearchKernels, SameColumnsOnEveryVectorUnit)
   }
 }
 
-// Guarantee: which candidates are neighbours does not depend on the vector unit, nor on how many candidates there are; those are
-// listed whose exact distance is within reach.
+// Guarantee: the selected neighbours do not depend on the vector unit, nor on the number of candidates; those whose exact
+// distance is within reach are listed.
 TEST(SearchKernels, SameNeighboursOnEveryVectorUnit)
 {
   const cactus::Capsules capsules = cactus::capsulesOf(randomBundle(22, 60, 12, 5.0, 0.3));
@@ -115,7 +115,7 @@ TEST(SearchKernels, SameNeighboursOnEveryVectorUnit)
   EXPECT_GT(total, 2 * capsules.size());
 }
 
-// Guarantee: keys come out in increasing order, whatever their number and order, on every vector unit.
+// Guarantee: keys are sorted in increasing order, whatever their number and order, on every vector unit.
 TEST(SearchKernels, SortsKeys)
 {
   for (std::size_t count = 0; count <= 130; ++count)
@@ -136,8 +136,8 @@ TEST(SearchKernels, SortsKeys)
   }
 }
 
-// Guarantee: which capsules of runs, full ones or not, have boxes that overlap a box does not depend on the vector unit, and is
-// what comparing one by one gives.
+// Guarantee: the capsules of runs, full ones or not, whose boxes overlap a box do not depend on the vector unit, and equal those
+// of a one-by-one comparison.
 TEST(SearchKernels, SameCapsulesOfRunsOnEveryVectorUnit)
 {
   constexpr std::size_t count = 60;
@@ -194,8 +194,8 @@ TEST(SearchKernels, SameCapsulesOfRunsOnEveryVectorUnit)
   }
 }
 
-// Guarantee: which boxes of a row of cells overlap, but for those to be skipped, does not depend on the vector unit, and is what
-// comparing one by one gives.
+// Guarantee: the boxes of a row of cells that overlap, except those to be skipped, do not depend on the vector unit, and equal
+// those of a one-by-one comparison.
 TEST(SearchKernels, SameBoxesOnEveryVectorUnit)
 {
   constexpr std::size_t count = 101;

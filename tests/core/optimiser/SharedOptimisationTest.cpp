@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: an optimisation that processes share ends with the bits of one process alone, in all of them, on any number of
-// threads: fibres, table and checkpoint; one that was killed goes on, on another number of processes; it can be stopped in any
-// of them, and an error of one ends all.
+// Guarantees: an optimisation that processes share ends with the bits of a single process, in all of them, on any number of
+// threads: fibres, table and checkpoint; a killed one continues, on another number of processes; it can be stopped in any of
+// them, and an error of one ends all.
 #include "optimiser/CapsuleOptimizer.h"
 
 #include "../ThreadTeam.h"
@@ -34,7 +34,7 @@ using cactus_testing::contentOf;
 using cactus_testing::inTeam;
 using cactus_testing::scratchPath;
 
-/// What an optimisation ends with, but for what it took.
+/// Returns the result of an optimisation, without its effort.
 std::string bytesOfResult(const Fibres& fibres, const OptimisationResult& result)
 {
   ByteWriter put;
@@ -103,7 +103,7 @@ TEST(SharedOptimisation, HasTheSameBitsOnAnyNumberOfProcessesAndThreads)
   }
 }
 
-// Fibres that lie on each other get their direction by FibreId, also where they are other processes'.
+// Coinciding fibres get their direction by FibreId, even if they belong to different processes.
 TEST(SharedOptimisation, PartsFibresOfSeveralProcessesThatCoincide)
 {
   Fibres fibres = smallBundle(5.0);
@@ -158,7 +158,7 @@ TEST(SharedCapsules, HaveTheNeighboursThatOneProcessFinds)
         SharedCapsules shared(own, shares);
         const auto begin = reach.begin() + std::ptrdiff_t(shares.ownCapsule());
         NeighbourList list;
-        // Once more from where a search has left it.
+        // Again from the state that a search has left.
         for (int i = 0; i < 2; ++i)
         {
           sharing.together(
@@ -207,14 +207,14 @@ TEST(FibreShares, HaveAboutAsManyCapsules)
   }
 }
 
-/// A checkpoint without what the clock said, and its checksum.
+/// Returns a checkpoint without its clock values and checksum.
 std::string withoutClock(std::string bytes, std::size_t points, bool withRadii)
 {
   std::size_t at = 20 + 8 + 8;
   std::int64_t iterations = 0;
   std::memcpy(&iterations, bytes.data() + at, 8);
   const auto clear = [&](std::size_t place) { std::fill_n(bytes.begin() + std::ptrdiff_t(place), 8, '\0'); };
-  clear(at += 8 + 1); // behind whether the control points are fewer
+  clear(at += 8 + 1); // behind the flag for fewer control points
   at += 4 * 8 + 4;
   for (std::int64_t i = 0; i < iterations; ++i)
   {
@@ -238,7 +238,7 @@ TEST(SharedOptimisation, WritesTheSameCheckpoint)
     for (const int iterations : { 1, 3, 14, 17, 75 })
     {
       const Fibres fibres = smallBundle(7.0);
-      // With radii that change there are all control points from the start, else after some fifty iterations.
+      // If radii change, all control points are there from the start, else after some fifty iterations.
       const bool isCoarse = tolerance == 0.0 && iterations < 75;
       const std::size_t points = isCoarse ? CoarseFibres(fibres).fibres().points.size() : fibres.points.size();
       CapsuleOptimizerOptions options;
@@ -288,7 +288,7 @@ TEST(SharedOptimisation, GoesOnWithAnotherNumberOfProcesses)
           Fibres part = fibres;
           Context context;
           context.threads = 1;
-          // The last process is killed amid its work; the checkpoint is that of the iteration before.
+          // The last process is killed during its work; the checkpoint is that of the iteration before.
           const auto observe = [&](const ConvergenceRow& row, const Fibres&)
           {
             if (!isLast && row.iteration == until && team.place() == size - 1)
@@ -349,7 +349,7 @@ TEST(SharedOptimisation, RefusesADamagedCheckpointOnce)
   std::remove(path.c_str());
 }
 
-// A later checkpoint that cannot be written is noted, and holds nobody up.
+// A later checkpoint that cannot be written is recorded, and does not stop the run.
 TEST(SharedOptimisation, GoesOnWithoutALaterCheckpoint)
 {
   const std::string path = scratchPath("shared-thesis");
@@ -398,7 +398,7 @@ TEST(SharedOptimisation, StopsWhereAnyProcessWantsIt)
   }
 }
 
-// The clocks of processes differ: that of the first counts.
+// The clocks of processes differ: the first one's counts.
 TEST(SharedOptimisation, EndsItsTimeInAllProcessesAtOnce)
 {
   CapsuleOptimizerOptions options;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: a recipe says what its text says, defaults included, and nothing that a stage would not take gets by.
+// Guarantee: a recipe has the values of its text, defaults included, and no value that a stage would refuse is accepted.
 #include "recipe/RecipeReader.h"
 
 #include "ScratchPath.h"
@@ -144,7 +144,7 @@ TEST(RecipeReader, FilesAreThoseThatWereRead)
            R"("}]}, {"id": "b", "filter": "TractFibres", "properties": {}, "inputs": {"Input": [{"stage": "a"}]}}, )"
            R"({"id": "c", "filter": "SubstrateProduction", "properties": {}, "inputs": {"Input": [{"stage": "b"}]}}]})";
   };
-  // Of a folder, by where its files were, and not by where the program runs.
+  // For a folder, relative to its former files, and not to the working directory.
   EXPECT_EQ(stageIn<TractogramReaderStage>(readRecipe(manifest(file), ""), 0).fileName, folder.string());
   EXPECT_NE(refusal(manifest("/dev/null")).find("is missing"), std::string::npos);
   std::filesystem::remove_all(folder.parent_path());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: a recipe's run can be stopped at any time and leaves nothing, and what it writes is a recipe for the same.
+// Guarantee: a recipe's run can be stopped at any time and leaves nothing, and its output is a recipe for the same substrate.
 #include "recipe/RecipeRun.h"
 
 #include "ScratchPath.h"
@@ -54,7 +54,7 @@ TEST_F(RecipeRuns, WritesARecipeForItself)
   Context context;
   context.threads = 1;
   runRecipe(again, this->place("second"), context);
-  EXPECT_EQ(contentOf(this->place("second") + "/manifest.json"), manifest); // which has the checksums of all files
+  EXPECT_EQ(contentOf(this->place("second") + "/manifest.json"), manifest); // it has the checksums of all files
 }
 
 TEST_F(RecipeRuns, IsStoppedAtAnyTimeAndLeavesNothing)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: a preset says what every one of its stages has, in values that the stages accept, and where they come from.
+// Guarantee: a preset has a value for each property of its stages, which the stages accept, and a source.
 #include "stages/Presets.h"
 
 #include "base/Error.h"

@@ -57,7 +57,7 @@ float at(const FibreImage& image, int i, int j, int k)
   return image.values[image.grid.index(i, j, k)];
 }
 
-/// Where along z a linear contour at `level` ends, of a column that reaches from one face to the other.
+/// Returns where along z a linear contour at `level` ends, for a column that reaches from one face to the other.
 std::array<double, 2> ends(const FibreImage& image, int i, int j, double level)
 {
   const int lowest = image.grid.lower[2];
@@ -81,7 +81,7 @@ std::array<double, 2> ends(const FibreImage& image, int i, int j, double level)
   return found;
 }
 
-/// Whether all outermost samples lie outside, so that the contour is closed; what is at the level counts as inside.
+/// Tells whether all outermost samples lie outside, so that the contour is closed; a value at the level counts as inside.
 bool closes(const FibreImage& image, double level)
 {
   const VoxelGrid& grid = image.grid;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: of an image that is computed where it is looked at the same is told as of the image as a whole, fibre by fibre.
+// Guarantee: an image that is computed on demand gives the same results as the whole image, fibre by fibre.
 #include "surface/FibrePlaces.h"
 
 #include "growth/GrownTiles.h"
@@ -24,7 +24,7 @@ void expectSame(const FoundFibre& one, const FoundFibre& other)
     [](const FoundBox& a, const FoundBox& b) { return a.piece == b.piece && a.ends == b.ends; }));
 }
 
-/// Three that meet, of different targets, and one elsewhere.
+/// Three fibres that meet, with different targets, and one elsewhere.
 Fibres fibresOfTargets()
 {
   Fibres fibres = example::fibresThatMeet();
@@ -66,7 +66,7 @@ TEST(FibrePlaces, AreThoseOfTheWholeImage)
       }
       EXPECT_GT(places.all().at(id).size, 0.0);
     }
-    // None of all, few, most, and all.
+    // None, few, most, and all.
     for (const double radius : { 0.05, 0.45, 0.6, 1.0 })
     {
       const FoundFibres thin = places.thinnerThan(radius);

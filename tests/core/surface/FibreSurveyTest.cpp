@@ -22,7 +22,7 @@ bool areSame(const NodeRange& a, const NodeRange& b)
   return a.size() == b.size() && (a.size() == 0 || (a.first == b.first && a.count == b.count));
 }
 
-/// Calls visit(node, id, depth) for each sample of a field that a fibre has.
+/// Calls visit(node, id, depth) for each sample of a fibre in a field.
 template <typename Visit>
 void forEachOwnSample(const FibreField& field, const LabelImageView& image, Visit&& visit)
 {
@@ -43,7 +43,7 @@ void forEachOwnSample(const FibreField& field, const LabelImageView& image, Visi
   }
 }
 
-/// What findFibres() says of a fibre, sample by sample.
+/// The expected result of findFibres() for a fibre, sample by sample.
 struct Expected
 {
   double depths = 0.0;
@@ -71,7 +71,7 @@ std::map<std::int32_t, Expected> foundOneByOne(const FibreField& field, const La
   return found;
 }
 
-/// Of an image, and of a part of it whose first samples are not the first ones of a piece.
+/// Returns the domain of an image, and of a part of it whose first samples are not the first ones of a piece.
 std::vector<Domain> domains()
 {
   Domain part = Domain::cube(3.0);
@@ -82,7 +82,7 @@ std::vector<Domain> domains()
 
 struct MeetingImage
 {
-  /// shift: of the first sample's place, which changes nothing else.
+  /// shift: of the first sample's index, which changes nothing else.
   explicit MeetingImage(int shift)
   {
     FibreRadialGrowthOptions options;
@@ -97,7 +97,7 @@ struct MeetingImage
   LabelImageView view;
 };
 
-// What the tests below compare with is made of these.
+// The expected values of the tests below are made of these.
 TEST(NodeRange, HasWhatBothHaveAndHoldsBoth)
 {
   const NodeRange one{ { { 0, 1, 2 } }, { { 3, 3, 3 } } };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: samples that are computed where they are asked for have the bits of the whole image, however few tiles are kept and
-// however many threads ask; surfaces made of them have the bits of those made of the image.
+// Guarantees: samples computed on demand have the bits of the whole image, however few tiles are kept and however many threads
+// ask; surfaces made of them have the bits of those made of the image.
 #include "growth/GrownTiles.h"
 #include "base/Parallel.h"
 #include "growth/FibreRadialGrowth.h"
@@ -23,7 +23,7 @@ namespace
 
 using namespace cactus;
 
-/// How many samples of some random boxes are not those of the image.
+/// Returns how many samples of some random boxes differ from the image's.
 std::size_t differences(const GrownTiles& tiles, const LabelImage& image, unsigned seed)
 {
   std::mt19937 random(seed);
@@ -55,7 +55,7 @@ std::size_t differences(const GrownTiles& tiles, const LabelImage& image, unsign
   return different;
 }
 
-// 8·10¹² samples, of which growFibres() gives any part.
+// 8·10¹² samples; growFibres() gives any part of them.
 TEST(GrownTiles, ReachTheFarCornerOfAVeryLargeImage)
 {
   Fibres fibres;
@@ -90,7 +90,7 @@ TEST(GrownTiles, ReachTheFarCornerOfAVeryLargeImage)
   EXPECT_GT(inside, 1000u);
 }
 
-// Their places in lists have 32 bits.
+// Their indices in lists have 32 bits.
 TEST(GrownTiles, SayWhereAnImageHasMoreBlocksThanAreCounted)
 {
   class Image : public LabelSource
@@ -111,7 +111,7 @@ TEST(GrownTiles, SayWhereAnImageHasMoreBlocksThanAreCounted)
   LabelImageFacts facts;
   facts.domain = Domain::cube(3000.0);
   MyelinSurfaceOptions options;
-  options.smoothingIterations = 0; // for which thin fibres would be looked for first
+  options.smoothingIterations = 0; // smoothing would first search for thin fibres
   EXPECT_THROW(SurfaceMaker(std::make_shared<Image>(), facts, options, {}), InvalidInput);
 }
 
@@ -139,7 +139,7 @@ TEST(GrownTiles, HaveTheBitsOfTheImageOnSeveralThreads)
   }
 }
 
-/// The tiles of an image that hold samples of each fibre.
+/// Returns the tiles of an image that hold samples of each fibre.
 std::map<std::int32_t, std::set<std::array<int, 3>>> tilesWithSamples(const LabelImage& image)
 {
   std::map<std::int32_t, std::set<std::array<int, 3>>> tiles;
@@ -164,7 +164,7 @@ std::map<std::int32_t, std::set<std::array<int, 3>>> tilesWithSamples(const Labe
 TEST(GrownTiles, KnowInWhichTilesAFibreMayBe)
 {
   Fibres fibres = example::fibresThatMeet();
-  fibres.addFibre(9, 1, 0.3); // passes by outside
+  fibres.addFibre(9, 1, 0.3); // passes outside
   fibres.addPoint({ 6.0, 0.0, -2.0 }, 0.3);
   fibres.addPoint({ 6.0, 0.0, 2.0 }, 0.3);
   for (const double roughness : { 0.0, 0.3 })
@@ -222,7 +222,7 @@ TEST(GrownTiles, MakeTheSameSurfaces)
     SurfacesInMemory inner(wanted.size());
     maker.makeOuter(outer, inner);
     maker.makeInner(outer, inner);
-    // Inner surfaces are the same, too, where they are made of outer ones that were kept.
+    // Inner surfaces are the same, too, if they are made of kept outer ones.
     SurfaceMaker later(tiles, facts, options, {});
     SurfacesInMemory innerLater(wanted.size());
     later.takeOuter(maker.fibres());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A label image to try things on.
+// A label image for tests.
 #pragma once
 
 #include "base/Domain.h"

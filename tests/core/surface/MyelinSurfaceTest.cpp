@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: thin fibres stay what they are; models give the g-ratios that they state; fibres are the gap apart, and myelin as
-// thick, even where growth left less, voxels are coarse or nothing is coarsened; what is not as asked is counted.
+// Guarantees: thin fibres keep their shape; models give the g-ratios that they state; fibres are the gap apart, and myelin as
+// thick, even if growth left less, voxels are coarse or nothing is coarsened; deviations are counted.
 #include "surface/MyelinSurface.h"
 #include "base/Constants.h"
 #include "base/Error.h"
@@ -62,7 +62,7 @@ struct StraightFibre
   }
 };
 
-/// Moves points towards the axis of a StraightFibre near where the x axis is at `x`, by so much at most (µm).
+/// Moves points towards the axis of a StraightFibre near where the x axis is at `x`, by at most `by` (µm).
 void pushIn(TriangleMesh& mesh, double x, double by)
 {
   for (Eigen::Vector3d& p : mesh.points)
@@ -98,7 +98,7 @@ TEST(FibreMesher, OuterSurfacesLieAsMuchDeeperAsWanted)
   }
 }
 
-// As where a sliver of a fibre that met itself when it was moved is made again, deeper.
+// Like a sliver of a fibre that met itself when it was moved and is made again, deeper.
 TEST(FibreMesher, NothingStaysOfAnOuterSurfaceWhereThereIsNoneSoDeep)
 {
   const StraightFibre fibre;
@@ -115,7 +115,7 @@ TEST(FibreMesher, NothingStaysOfAnOuterSurfaceWhereThereIsNoneSoDeep)
   EXPECT_EQ(pair.outerReport.triangles, 0u);
 }
 
-/// A StraightFibre and its outer surface, coarsened so little that there are points on its wall to move.
+/// A StraightFibre and its outer surface, coarsened so little that its wall has points to move.
 struct FineSurface
 {
   const StraightFibre fibre;
@@ -161,7 +161,7 @@ TEST(FibreMesher, AxonStaysInsideASurfaceThatWasPushedIn)
   EXPECT_FALSE(pair.isFlawed);
   EXPECT_LT(pair.innerReport.volume, volume);
   EXPECT_GT(pair.innerReport.volume, 0.5 * volume);
-  // Pushed in to its middle, the fibre has no room for an axon, and gets none.
+  // If it is pushed in to its middle, the fibre has no room for an axon, and gets none.
   pushIn(pair.outer, 0.35, 0.8);
   mesher.makeInner(field, pair);
   EXPECT_EQ(pair.state, MyelinState::NoAxon);
@@ -185,7 +185,7 @@ TEST(FibreMesher, AnInnerSurfaceStaysWhereTheOuterOneIsMovedALittle)
     EXPECT_LT(pushed.outerReport.volume, made.outerReport.volume);
     FibreSurfacePair kept = pushed;
     EXPECT_EQ(mesher.keepsInner(kept), by < 0.1);
-    // Whoever makes it anew for the outer surface as it is now gets the same, or what there is room for.
+    // Making it anew for the present outer surface gives the same, or what there is room for.
     mesher.makeInner(field, pushed);
     EXPECT_EQ(pushed.inner.points == made.inner.points && pushed.inner.triangles == made.inner.triangles, by < 0.1);
     if (by < 0.1)
@@ -197,7 +197,7 @@ TEST(FibreMesher, AnInnerSurfaceStaysWhereTheOuterOneIsMovedALittle)
     }
     else
     {
-      // Its place is owed to the outer surface, also where that goes back a little.
+      // The outer surface determines its place, even if that goes back a little.
       EXPECT_EQ(pushed.state, MyelinState::Thicker);
       EXPECT_FALSE(mesher.keepsInner(pushed));
     }
@@ -220,7 +220,7 @@ TEST(FibreMesher, SplitsNeedlesThatMovingHasMade)
   FineSurface fine;
   const FibreMesher& mesher = fine.mesher;
   FibreSurfacePair& pair = fine.pair;
-  // A point away from the caps comes to lie next to another one.
+  // A point away from the caps is moved next to another one.
   const auto isInside = [&](std::int32_t p) { return std::abs(pair.outer.points[std::size_t(p)].z()) < 0.5; };
   const auto found = std::find_if(pair.outer.triangles.begin(), pair.outer.triangles.end(),
     [&](const auto& t) { return std::all_of(t.begin(), t.end(), isInside); });
@@ -271,7 +271,7 @@ TEST(GRatio, DistributedHasItsMeanAndDeviationAndDependsOnSeedAndFibre)
   EXPECT_THROW(distributedGRatio(0.7, -0.1, 1, 1), InvalidInput);
 }
 
-/// Surfaces of fibres that have grown by so much, to be `gap` apart.
+/// Returns the surfaces of fibres after this growth, kept `gap` apart.
 std::vector<FibreSurfacePair> surfacesOf(const Fibres& fibres, const FibreRadialGrowthOptions& growth, double by, double gap)
 {
   const LabelImage image = growFibres(fibres, growth, by, growthGrid(fibres.domain, growth));
@@ -282,7 +282,7 @@ std::vector<FibreSurfacePair> surfacesOf(const Fibres& fibres, const FibreRadial
 
 TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
 {
-  // Alone in its cube, as thick as two voxels on either side of its axis.
+  // Alone in its cube, with two voxels on either side of its axis.
   const double radius = 0.2;
   const double slope = 0.3;
   Fibres fibres;
@@ -300,7 +300,7 @@ TEST(MyelinSurfaces, ThinFibresKeepTheirVolumeAndHaveAnAxon)
   EXPECT_NEAR(pairs[0].innerReport.volume, 0.49 * pairs[0].outerReport.volume, 0.002 * volume);
 }
 
-/// A bundle that growth has made tight, and by how much it has grown.
+/// A bundle that is tight after growth, and its growth.
 struct TightBundle
 {
   FibreRadialGrowthOptions growth;
@@ -320,7 +320,7 @@ struct TightBundle
   }
 };
 
-// Surfaces are moved by much more than coarsening costs; some fold, and are made again.
+// Surfaces are moved by much more than the coarsening error; some fold, and are made again.
 TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
 {
   const TightBundle bundle;
@@ -338,7 +338,7 @@ TEST(MyelinSurfaces, PartsFibresThatGrowthLeftTooNear)
   }
 }
 
-// Files are in single precision, and nothing of what is found here may be otherwise there; some of these are moved.
+// Files are in single precision, and all findings here must hold for them; some of these surfaces are moved.
 TEST(MyelinSurfaces, AreWhatFilesHold)
 {
   const TightBundle bundle(6.3);
@@ -362,7 +362,7 @@ TEST(MyelinSurfaces, AreWhatFilesHold)
   }
 }
 
-// A lid so flat that single precision has it in one plane with what it lies on.
+// A lid so flat that single precision puts it in one plane with the surface below it.
 TEST(SurfaceFinishing, FindsWhatMeetsInAFileAlone)
 {
   TriangleMesh mesh;
@@ -374,8 +374,8 @@ TEST(SurfaceFinishing, FindsWhatMeetsInAFileAlone)
   EXPECT_TRUE(placesThatMeet(mesh).empty());
 }
 
-// Whether an inner surface was made before the outer one was moved, and stayed, or is made later, as by a filter for other
-// g-ratios.
+// The inner surface is the same whether it was made before the outer one was moved, and stayed, or is made later, as by a filter
+// with other g-ratios.
 TEST(MyelinSurfaces, InnerOnesAreTheSameWheneverTheyAreMade)
 {
   const TightBundle bundle;
@@ -421,7 +421,7 @@ TEST(MyelinSurfaces, InnerOnesAreTheSameWheneverTheyAreMade)
   }
 }
 
-/// Surfaces of three fibres that meet, and how far growth kept them apart.
+/// Surfaces of three fibres that meet, and the gap that growth kept between them.
 struct Meeting
 {
   FibreRadialGrowthOptions growth;
@@ -447,7 +447,7 @@ struct Meeting
   }
 };
 
-/// That surfaces are sound and keep `gap` from each other, as axons do from the walls of their fibres.
+/// Expects that surfaces are sound and keep `gap` from each other, as axons do from the walls of their fibres.
 void expectSound(const std::vector<FibreSurfacePair>& pairs, double gap)
 {
   for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -586,8 +586,8 @@ std::vector<FibreSurfacePair> surfacesOf(const CoarseBundle& coarse, double gap)
   return myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, options);
 }
 
-// What is not marked keeps to all that is promised. In the first bundle an axon's largest part lies in a part of its fibre that
-// is left out; in the second, surfaces that are moved apart come nearer to a third one.
+// Unmarked surfaces keep all guarantees. In the first bundle an axon's largest part lies in a part of its fibre that is left out;
+// in the second, surfaces that are moved apart come nearer to a third one.
 TEST(MyelinSurfaces, CoarseBundlesAreSoundOrMarked)
 {
   constexpr double gap = 0.02;
@@ -624,7 +624,7 @@ TEST(MyelinSurfaces, CoarseBundlesAreSoundOrMarked)
   }
 }
 
-// Where it is moved, from two others that were too near to it.
+// It disappears when it is moved, away from two others that were too near to it.
 TEST(MyelinSurfaces, AFibreThatGoesIsNoLongerTooNear)
 {
   const Fibres fibres = example::fibresOfWhichOneGoes();
@@ -660,7 +660,7 @@ TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
   EXPECT_EQ(notAsAsked(lost.surfaces(), lost.view().grid.spacing, lost.facts), "");
   lost.facts.lengths = { 3.0, 3.0, 0.0 };
   auto pairs = lost.surfaces();
-  pairs[2].state = MyelinState::NoFibre; // passes by outside
+  pairs[2].state = MyelinState::NoFibre; // passes outside
   EXPECT_EQ(notAsAsked(pairs, lost.view().grid.spacing, lost.facts), "");
   pairs[1].state = MyelinState::NoFibre;
   const std::string one = notAsAsked(pairs, lost.view().grid.spacing, lost.facts);
@@ -692,7 +692,7 @@ TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
   EXPECT_NE(three.find("MinimumGap 0.3"), std::string::npos) << three;
 }
 
-// Of a fibre thicker than the domain nothing but caps is seen.
+// A fibre thicker than the domain shows only caps.
 TEST(MyelinSurfaces, AFibreMayFillTheDomain)
 {
   Fibres fibres;
@@ -713,7 +713,7 @@ TEST(MyelinSurfaces, AFibreMayFillTheDomain)
   EXPECT_TRUE(std::isfinite(pairs[0].thickness));
 }
 
-// Files with six digits leave an image a little beside its domain; surfaces end at the domain all the same.
+// Files with six digits shift an image slightly relative to its domain; surfaces end at the domain all the same.
 TEST(MyelinSurfaces, EndWhereTheDomainDoes)
 {
   StraightFibre straight;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: the volume that samples tell is that of the contour at the same level, but for a shift by a fiftieth of a voxel, or
-// twice that along an axis; the level of a volume is where it is, and at the nearer end where there is none; boxes fill the
-// domain up to its faces.
+// Guarantees: the sampled volume is that of the contour at the same level, up to a shift by a fiftieth of a voxel, or twice that
+// along an axis; the level of a volume is found, or the nearer end if there is none; boxes fill the domain up to its faces.
 #include "surface/SampledVolume.h"
 #include "base/Constants.h"
 #include "surface/FibreContours.h"
@@ -22,7 +21,7 @@ using namespace cactus;
 constexpr double spacing = 0.1;
 constexpr double gap = 0.035;
 
-/// A label image of one fibre along z, at the middle or, askew, from one edge of the box's lower face to the opposite one above.
+/// A label image of one fibre along z, in the middle or oblique, from one edge of the box's lower face to the opposite one above.
 struct Image
 {
   VoxelGrid grid;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: a smoothed field is what smoothing every node gives, however many passes, or far outside away from the fibre; two
-// sum to at most -gap everywhere on the grid, where thin fibres are spared, too; a field is the same whichever blocks are asked
-// for; what is no label image is refused.
+// Guarantees: a smoothed field equals smoothing every node, for any number of passes, or is far outside away from the fibre; two
+// sum to at most -gap everywhere on the grid, even if thin fibres are spared; a field does not depend on the requested blocks; an
+// invalid label image is refused.
 #include "surface/SmoothedField.h"
 #include "mesh/Isosurface.h"
 #include "mesh/SurfaceCheck.h"
@@ -28,7 +28,7 @@ bool isHeld(const SmoothedField& field, std::uint32_t block)
   return std::binary_search(field.blocks().begin(), field.blocks().end(), block);
 }
 
-/// Far outside where the block is not held.
+/// Values are far outside if the block is not stored.
 std::vector<float> valuesAt(const SmoothedField& field, std::uint32_t block)
 {
   const NodeRange range = nodesOfBlock(field.lattice(), block).widened(1);
@@ -75,7 +75,7 @@ TEST(SmoothedField, FieldsOfTwoFibresSumToAtMostMinusTheGap)
   }
 }
 
-// An outer surface may lie further in than the field tells, after it was moved; the axon keeps clear of it all the same.
+// A moved outer surface may lie further in than its field; the axon keeps clear of it all the same.
 TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
 {
   FibreRadialGrowthOptions options;
@@ -92,7 +92,7 @@ TEST(SmoothedField, FieldsOfThinFibresDoSoToo)
   }
 }
 
-/// Compares two fields of a fibre at those nodes of a block that are two or fewer from one inside it along each axis. Returns how
+/// Compares two fields of a fibre at those nodes of a block that are at most two from one inside it along each axis. Returns how
 /// many are inside.
 int compareBesideFibre(const SmoothedField& one, const SmoothedField& other, std::uint32_t block)
 {
@@ -120,7 +120,7 @@ int compareBesideFibre(const SmoothedField& one, const SmoothedField& other, std
   return inside;
 }
 
-// Blocks are smoothed together, and only around the fibre; what comes out there does not depend on which are asked for.
+// Blocks are smoothed together, and only around the fibre; the result does not depend on which are requested.
 TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
 {
   for (const double voxelSize : { 0.06, 0.15 })
@@ -134,7 +134,7 @@ TEST(SmoothedField, BlocksAreSmoothedTheSameAloneOrTogether)
     const NearBlocks all = blocksNear(field, found.at(1), anywhere);
     ASSERT_EQ(all.numbers.size(), lattice.blockCount());
     ASSERT_GE(all.numbers.size(), 8u);
-    const ThinFibres thin(field, found); // of larger voxels, in part
+    const ThinFibres thin(field, found); // for larger voxels, in part
     for (const int passes : { 0, 2, 9, 20 })
     {
       const SmoothedField together(field, 1, all, passes, &thin);
@@ -180,7 +180,7 @@ struct SmoothedByHand
 {
   NodeRange range;
   std::vector<float> before;
-  std::vector<double> after; ///< right but for as many nodes at the rim as there are passes
+  std::vector<double> after; ///< correct except for as many nodes at the rim as there are passes
 
   SmoothedByHand(const FibreField& field, int passes, int beyond)
   {
@@ -223,7 +223,7 @@ struct SmoothedByHand
   }
 };
 
-/// A thin fibre that bends on its way through a cube of 3 µm, and not along an axis of it.
+/// A thin fibre that bends on its way through a cube of 3 µm, not along one of its axes.
 LabelImage bentFibre(std::uint32_t seed, const FibreRadialGrowthOptions& options)
 {
   std::mt19937 numbers(seed);

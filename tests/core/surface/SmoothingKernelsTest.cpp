@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: fields, their smoothing and the sums of SampledVolume have the same bits on every vector unit, also where they do
-// not fill a vector, and nothing is written beyond them.
+// Guarantee: fields, their smoothing and the sums of SampledVolume have the same bits on every vector unit, even if they do not
+// fill a vector, and nothing is written beyond them.
 #include "surface/SmoothingKernels.h"
 #include "surface/SampledVolumeKernels.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantee: nodes in thin fibres and beside them are smoothed in part, all others as a whole, wherever thin fibres are.
+// Guarantee: nodes in thin fibres and beside them are smoothed in part, all others fully, wherever thin fibres are.
 #include "surface/ThinFibres.h"
 
 #include "growth/FibreRadialGrowth.h"
@@ -70,7 +70,7 @@ TEST(ThinFibres, AreSparedWhereverTheyAre)
       const std::array<int, 3> in{ { n % edge, n / edge % edge, n / edge / edge } };
       if (*std::min_element(in.begin(), in.end()) == 0 || *std::max_element(in.begin(), in.end()) == edge - 1)
       {
-        continue; // what is beside these is not known
+        continue; // their neighbours are unknown
       }
       const int i = begin[0] + in[0];
       const int j = begin[1] + in[1];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Voxels four times as wide as the fibres are thick: what is left of one goes when it is moved.
+// Voxels four times as wide as the fibres are thick: the rest of one disappears when it is moved.
 #pragma once
 
 #include "bundle/BundleInitializer.h"
