@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-/// Of LLVM's OpenMP library: for how many ms a thread that waits holds its core.
+/// Sets how long a waiting thread holds its core (ms); from LLVM's OpenMP library.
 extern "C" void kmp_set_blocktime(int milliseconds);
 
 namespace cactus
