@@ -65,6 +65,7 @@ struct SubstrateCertificate
   double smallestFeature = 0.0; ///< µm, smallest altitude of a triangle; no edge is shorter
   double largestAspect = 0.0;   ///< longest edge of a triangle over the altitude on it
   double largestSquaredEdgeRatio = 0.0;
+  double largestNormalAngle = 0.0; ///< degrees, see SurfaceReport
   double reach = 0.0; ///< µm by which surfaces reach out of the domain; above 0.1 fractions are NaN, and a remark says so
   double fibreVolumeFraction = 0.0;
   double axonVolumeFraction = 0.0;

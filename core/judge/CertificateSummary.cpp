@@ -32,6 +32,7 @@ void add(SubstrateCertificate& all, bool has, const SurfaceReport& report, std::
   all.smallestFeature = std::fmin(all.smallestFeature, report.smallestAltitude);
   all.largestAspect = std::fmax(all.largestAspect, report.largestAspect);
   all.largestSquaredEdgeRatio = std::fmax(all.largestSquaredEdgeRatio, report.largestSquaredEdgeRatio);
+  all.largestNormalAngle = std::fmax(all.largestNormalAngle, report.largestNormalAngle);
 }
 
 /// Adds a fibre to counts and extremes; summarise() computes the sums.
@@ -73,6 +74,7 @@ void summarise(const Domain& domain, const FibreSurfaces& outer, const FibreSurf
   all.wantedFibres = all.fibres.size();
   all.reach = reach;
   all.smallestMyelin = all.smallestFeature = all.largestAspect = all.largestSquaredEdgeRatio = notANumber;
+  all.largestNormalAngle = notANumber;
   double outerVolume = 0.0;
   double innerVolume = 0.0;
   double area = 0.0;

@@ -84,6 +84,7 @@ std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& cert
   columns.number("SmallestFeature_um", [](const All* c) { return c->smallestFeature; });
   columns.number("LargestAspect", [](const All* c) { return c->largestAspect; });
   columns.number("LargestSquaredEdgeRatio", [](const All* c) { return c->largestSquaredEdgeRatio; });
+  columns.number("LargestNormalAngle_deg", [](const All* c) { return c->largestNormalAngle; });
   columns.number("Reach_um", [](const All* c) { return c->reach; });
   columns.number("FVF", [](const All* c) { return c->fibreVolumeFraction; });
   columns.number("AVF", [](const All* c) { return c->axonVolumeFraction; });
@@ -127,6 +128,8 @@ std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certific
     [&](const Fibre& f) { return least(of(f.hasOuter, f.outer.smallestAltitude), of(f.hasInner, f.inner.smallestAltitude)); });
   columns.number("LargestSquaredEdgeRatio",
     [](const Fibre& f) { return std::fmax(f.outer.largestSquaredEdgeRatio, f.inner.largestSquaredEdgeRatio); });
+  columns.number(
+    "LargestNormalAngle_deg", [](const Fibre& f) { return std::fmax(f.outer.largestNormalAngle, f.inner.largestNormalAngle); });
   return columns.take();
 }
 

@@ -201,15 +201,32 @@ void EditableSurface::flip(std::size_t one, std::size_t other, std::int32_t a, s
   }
 }
 
-std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place)
+std::int32_t EditableSurface::addPoint(const Eigen::Vector3d& place, std::uint8_t faces)
 {
-  const std::size_t halved[2] = { this->triangleAlong(a, b), this->triangleAlong(b, a) };
-  const auto middle = static_cast<std::int32_t>(this->pointCount());
+  const auto point = static_cast<std::int32_t>(this->pointCount());
   this->Surface.mesh.points.push_back(place);
-  this->Surface.faces.push_back(this->facesOf(a) & this->facesOf(b));
+  this->Surface.faces.push_back(faces);
   this->locate();
   this->First.push_back(-1);
   this->Mark.push_back(0);
+  return point;
+}
+
+/// It is not linked yet.
+std::size_t EditableSurface::addTriangle(const std::array<std::int32_t, 3>& corners)
+{
+  this->Surface.mesh.triangles.push_back(corners);
+  this->locate();
+  this->Next.resize(this->Next.size() + 3);
+  this->Normals.emplace_back();
+  ++this->Alive;
+  return this->triangleCount() - 1;
+}
+
+std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place)
+{
+  const std::size_t halved[2] = { this->triangleAlong(a, b), this->triangleAlong(b, a) };
+  const std::int32_t middle = this->addPoint(place, this->facesOf(a) & this->facesOf(b));
   for (const std::size_t triangle : halved)
   {
     // The half at b keeps its index, the half at a is new.
@@ -221,18 +238,43 @@ std::int32_t EditableSurface::split(std::int32_t a, std::int32_t b, const Eigen:
       corner = corner == a ? middle : corner;
       half[i] = half[i] == b ? middle : half[i];
     }
-    this->Surface.mesh.triangles.push_back(half);
-    this->locate();
-    this->Next.resize(this->Next.size() + 3);
-    this->Normals.emplace_back();
-    for (const std::size_t t : { triangle, this->triangleCount() - 1 })
+    for (const std::size_t t : { triangle, this->addTriangle(half) })
     {
       this->link(t);
       this->findNormal(t);
     }
   }
-  this->Alive += 2;
   return middle;
+}
+
+std::int32_t EditableSurface::fan(
+  const std::vector<std::size_t>& disc, const std::vector<std::int32_t>& loop, const Eigen::Vector3d& place)
+{
+  std::uint8_t faces = 0xff;
+  for (const std::int32_t point : loop)
+  {
+    faces &= this->facesOf(point);
+  }
+  for (const std::size_t triangle : disc)
+  {
+    this->unlink(triangle);
+    this->Triangles[triangle] = { { -1, -1, -1 } };
+  }
+  this->Alive -= disc.size();
+  const std::int32_t centre = this->addPoint(place, faces);
+  for (std::size_t i = 0; i < loop.size(); ++i)
+  {
+    const std::array<std::int32_t, 3> corners{ { loop[i], loop[(i + 1) % loop.size()], centre } };
+    const std::size_t triangle = i < disc.size() ? disc[i] : this->addTriangle(corners);
+    if (i < disc.size())
+    {
+      this->Triangles[triangle] = corners;
+      ++this->Alive;
+    }
+    this->link(triangle);
+    this->findNormal(triangle);
+  }
+  return centre;
 }
 
 void EditableSurface::compact()

@@ -79,6 +79,9 @@ public:
   /// Halves the edge of two points, and its triangles, by a new point at `place`, which lies on the faces of the box that both
   /// lie on. Returns that point.
   std::int32_t split(std::int32_t a, std::int32_t b, const Eigen::Vector3d& place);
+  /// Replaces the triangles of a disc, whose border is `loop` in their sense, by a fan about a new point at `place`, which lies
+  /// on the faces of the box that all of them lie on. Returns that point.
+  std::int32_t fan(const std::vector<std::size_t>& disc, const std::vector<std::int32_t>& loop, const Eigen::Vector3d& place);
   void move(std::int32_t point, const Eigen::Vector3d& place);
   /// Removes dead triangles and points. Points are numbered by their first use; the object must not be used afterwards.
   void compact();
@@ -87,7 +90,9 @@ public:
   std::int32_t thirdCorner(std::size_t triangle, std::int32_t a, std::int32_t b) const;
 
 private:
-  /// Stores the addresses of the surface's vectors. Call it whenever one of them has grown.
+  std::int32_t addPoint(const Eigen::Vector3d& place, std::uint8_t faces);
+  std::size_t addTriangle(const std::array<std::int32_t, 3>& corners);
+  /// Where things lie now. To be called whenever one of the surface's vectors has grown.
   void locate();
   void findNormal(std::size_t triangle);
   void findNormalsAt(std::int32_t point);

@@ -144,6 +144,39 @@ void measureTriangles(const TriangleMesh& mesh, SurfaceReport& report)
   }
 }
 
+void measureNormals(const TriangleMesh& mesh, SurfaceReport& report)
+{
+  std::vector<Eigen::Vector3d> ofTriangle;
+  ofTriangle.reserve(mesh.triangles.size());
+  std::vector<Eigen::Vector3d> ofPoint(mesh.points.size(), Eigen::Vector3d::Zero());
+  for (const auto& t : mesh.triangles)
+  {
+    const Eigen::Vector3d& a = mesh.points[static_cast<std::size_t>(t[0])];
+    const Eigen::Vector3d normal =
+      (mesh.points[static_cast<std::size_t>(t[1])] - a).cross(mesh.points[static_cast<std::size_t>(t[2])] - a);
+    ofTriangle.push_back(normal);
+    for (const std::int32_t point : t)
+    {
+      ofPoint[static_cast<std::size_t>(point)] += normal;
+    }
+  }
+  double smallest = 1.0; // cosine
+  for (Eigen::Vector3d& normal : ofPoint)
+  {
+    normal.normalize(); // leaves zero as it is
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    const double length = ofTriangle[i].norm();
+    for (const std::int32_t point : mesh.triangles[i])
+    {
+      const double along = ofPoint[static_cast<std::size_t>(point)].dot(ofTriangle[i]);
+      smallest = length > 0.0 ? std::min(smallest, along / length) : smallest;
+    }
+  }
+  report.largestNormalAngle = radian * std::acos(std::max(smallest, -1.0));
+}
+
 /// Numbers the pieces by their first triangles, and measures their volumes.
 void measurePieces(const TriangleMesh& mesh, Sets& pieces, SurfaceReport& report, std::vector<std::uint32_t>* componentOf)
 {
@@ -248,6 +281,7 @@ SurfaceReport checkSurface(const TriangleMesh& mesh, std::vector<std::uint32_t>*
   Sets fans(3 * mesh.triangles.size());
   joinAcrossEdges(mesh, edges, pieces, fans, report);
   measureTriangles(mesh, report);
+  measureNormals(mesh, report);
   measurePieces(mesh, pieces, report, componentOf);
   countPoints(mesh, fans, report);
   return report;

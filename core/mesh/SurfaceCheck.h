@@ -29,7 +29,10 @@ struct SurfaceReport
   double largestSquaredEdgeRatio = 0.0; ///< longest² / shortest² edge of a triangle; MCDC warns above 1000
   double smallestAltitude = 0.0;        ///< µm, over all triangles; no edge of a triangle is shorter
   double largestAspect = 0.0;           ///< longest edge over the altitude on it, over all triangles; 2 / √3 at best
-  std::vector<std::int32_t> pieces;     ///< one point of each component
+  /// Degrees, between a point's area-weighted normal and the normal of one of its triangles, over all points: beyond 90° the
+  /// triangle seems to be turned inside out to a reader that takes points' normals.
+  double largestNormalAngle = 0.0;
+  std::vector<std::int32_t> pieces; ///< one point of each component
 
   /// Tells whether every edge belongs to exactly two triangles, which run through it in opposite senses.
   bool closed() const { return components > 0 && openEdges == 0 && crowdedEdges == 0 && flippedEdges == 0; }

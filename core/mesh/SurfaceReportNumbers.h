@@ -26,6 +26,7 @@ void visitNumbers(Report& report, Visit&& visit)
   visit(report.largestSquaredEdgeRatio);
   visit(report.smallestAltitude);
   visit(report.largestAspect);
+  visit(report.largestNormalAngle);
   visit(report.pieces);
 }
 

@@ -2,6 +2,7 @@
 #include "surface/SurfaceFinishing.h"
 
 #include "mesh/BandCoarsening.h"
+#include "mesh/EvenFans.h"
 #include "mesh/NeedleSplitting.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfacePieces.h"
@@ -24,7 +25,9 @@ constexpr double samplingDistance = 6.0;
 constexpr double longestEdge = 6.0;
 /// MC/DC warns about triangles above 1000.
 constexpr double largestSquaredEdgeRatio = 800.0;
-/// Number of attempts with less coarsening around faults.
+/// Degrees, least angle of what is cut so that vertex normals stand for all sides, where no MinimumAngle is asked for.
+constexpr double leastAngle = 0.6;
+/// How often a surface is made again with less coarsening where something was wrong with it.
 constexpr int repairs = 4;
 
 Eigen::Vector3d centreOf(const TriangleMesh& mesh, std::size_t triangle)
@@ -122,6 +125,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
     this->Filters->finish(surface);
     roundPoints(surface.mesh, surface.box);
     report = checkSurface(surface.mesh);
+    this->even(surface, report);
     change.largestMove = this->largestMove(field, surface, target.level);
     return true;
   }
@@ -136,7 +140,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
   }
   roundPoints(surface.mesh, surface.box);
   report = keepSoundPieces(surface.mesh, change.droppedVolume);
-  surface.faces.clear(); // they belong to the former points
+  this->even(surface, report);
   return placesThatMeet(surface.mesh, target, change).empty();
 }
 
@@ -146,10 +150,27 @@ void SurfaceFinishing::finishMoved(CappedSurface& surface) const
   {
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
+  this->even(surface);
+}
+
+void SurfaceFinishing::even(CappedSurface& surface) const
+{
+  evenFans(surface, largestSquaredEdgeRatio, std::max(this->MinimumAngle, leastAngle));
   roundPoints(surface.mesh, surface.box);
 }
 
-/// Leaves the surface unchanged, and returns false, if it cannot be coarsened.
+/// The same for one whose points may be others than `faces` tells of, if it is a closed manifold.
+void SurfaceFinishing::even(CappedSurface& surface, SurfaceReport& report) const
+{
+  surface.faces = facesOf(surface.mesh, surface.box);
+  if (report.closedManifold())
+  {
+    this->even(surface);
+    report = checkSurface(surface.mesh);
+  }
+}
+
+/// Leaves the surface as it is, and returns false, if it cannot be coarsened.
 bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface,
   SurfaceReport& report, SurfaceChange& change) const
 {
@@ -173,7 +194,7 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
     this->reshape(trial, decimation);
     moveToVolume(trial, target.volume, this->DecimationError);
     splitNeedles(trial, largestSquaredEdgeRatio);
-    roundPoints(trial.mesh, trial.box);
+    this->even(trial);
     report = checkSurface(trial.mesh);
     const std::vector<Eigen::Vector3d> places = placesThatMeet(trial.mesh, target, change);
     if (places.empty() && report.degenerateTriangles == 0 && report.sound())

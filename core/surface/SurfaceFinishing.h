@@ -43,7 +43,7 @@ public:
   bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
     SurfaceChange& change) const;
 
-  /// Removes needles that moving has left in a coarsened surface, and rounds its points to single precision.
+  /// Splits needles that moving has left in a coarsened surface, evens its fans again and rounds its points.
   void finishMoved(CappedSurface& surface) const;
 
 private:
@@ -51,6 +51,8 @@ private:
     SurfaceChange& change) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
+  void even(CappedSurface& surface) const;
+  void even(CappedSurface& surface, SurfaceReport& report) const;
   void reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const;
 
   double DecimationError;

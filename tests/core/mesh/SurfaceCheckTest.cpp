@@ -92,6 +92,21 @@ TEST(SurfaceCheck, CubeFarFromTheOrigin)
   EXPECT_NEAR(report.largestSquaredEdgeRatio, 2.0, 1e-9);
 }
 
+TEST(SurfaceCheck, NormalOfTheApexOfAPyramid)
+{
+  // Over a square of side 2, so low that the base outweighs a side at a corner of it; at the apex all sides weigh the same.
+  cactus::TriangleMesh mesh;
+  const double height = 0.5;
+  mesh.points = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 }, { 0, 0, height } };
+  mesh.triangles = { { { 0, 2, 1 } }, { { 0, 3, 2 } }, { { 0, 1, 4 } }, { { 1, 2, 4 } }, { { 2, 3, 4 } }, { { 3, 0, 4 } } };
+  // Twice the area normals: 4 down of each half of the base, (0, -2 height, 2) and (-2 height, 0, 2) of the sides at a corner.
+  const Eigen::Vector3d side(0.0, -2.0 * height, 2.0);
+  const Eigen::Vector3d sum(-2.0 * height, -2.0 * height, 4.0 - 8.0);
+  const double expected = 180.0 / pi * std::acos(sum.normalized().dot(side.normalized()));
+  EXPECT_NEAR(cactus::checkSurface(mesh).largestNormalAngle, expected, 1e-9);
+  EXPECT_NEAR(cactus::checkSurface(cube(2.0, { 3, 4, 5 })).largestNormalAngle, 180.0 / pi * std::acos(1.0 / 3.0), 1e-9);
+}
+
 TEST(SurfaceCheck, SphereApproachesItsFormulas)
 {
   const auto report = cactus::checkSurface(octahedralSphere(5));

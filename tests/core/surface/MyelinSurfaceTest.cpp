@@ -235,6 +235,34 @@ TEST(FibreMesher, SplitsNeedlesThatMovingHasMade)
   EXPECT_TRUE(pair.outerReport.closedManifold() && pair.outerReport.outward());
 }
 
+TEST(FibreMesher, NormalsOfVerticesStandForWallsAndCaps)
+{
+  const StraightFibre fibre;
+  for (const double error : { 0.0, 0.0075 })
+  {
+    MyelinSurfaceOptions options;
+    options.decimationError = error;
+    const FibreMesher mesher(fibre.source(), fibre.facts, options);
+    const SmoothedField field = mesher.smoothed(1);
+    FibreSurfacePair pair;
+    pair.fibreId = 1;
+    pair.targetGRatio = 0.7;
+    mesher.makeOuter(field, pair);
+    mesher.makeInner(field, pair);
+    EXPECT_LT(checkSurface(pair.outer).largestNormalAngle, 75.0) << error;
+    EXPECT_LT(checkSurface(pair.inner).largestNormalAngle, 75.0) << error;
+    EXPECT_EQ(pair.outerReport.largestNormalAngle, checkSurface(pair.outer).largestNormalAngle);
+    // And where a surface was moved: one point at the rim, so that its triangles weigh otherwise.
+    for (Eigen::Vector3d& p : pair.outer.points)
+    {
+      p.x() *= std::abs(p.z()) < 1.5 ? 1.0 : 0.98;
+    }
+    mesher.checkOuter(pair);
+    EXPECT_LT(checkSurface(pair.outer).largestNormalAngle, 75.0) << error;
+    EXPECT_TRUE(pair.outerReport.sound());
+  }
+}
+
 TEST(GRatio, LogLinearSolvesItsRelation)
 {
   for (const double outer : { 1.0, 1.7, 3.0, 8.0 })

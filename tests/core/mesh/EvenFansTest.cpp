@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Guarantee: normals of vertices stand for all triangles at them, at the rims of caps above all, and nothing of the surface
+// moves.
+#include "mesh/EvenFans.h"
+#include "ExampleSurfaces.h"
+#include "mesh/SurfaceCheck.h"
+#include "mesh/SurfaceIntersection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+using namespace cactus;
+
+constexpr double largestRatio = 800.0;
+constexpr double smallestAngle = 0.6;
+
+/// A prism along an axis from face to face of a box, with a ring of points at each cap and none between; or, with `isFlat`, so
+/// short that its caps are large beside its wall. Its caps are strips or, with `isFan`, fans about a corner.
+CappedSurface prism(int axis, bool isFlat, bool isFan)
+{
+  const int sides = 16;
+  const double radius = 0.5;
+  const double half = isFlat ? 0.011 : 1.53;
+  TriangleMesh mesh;
+  for (const double z : { -half, half })
+  {
+    for (int i = 0; i < sides; ++i)
+    {
+      const double angle = 2.0 * pi * i / sides;
+      Eigen::Vector3d p;
+      p[axis] = z;
+      p[(axis + 1) % 3] = radius * std::cos(angle);
+      p[(axis + 2) % 3] = radius * std::sin(angle);
+      mesh.points.push_back(p);
+    }
+  }
+  for (int i = 0; i < sides; ++i)
+  {
+    const int next = (i + 1) % sides;
+    mesh.triangles.push_back({ { i, next, sides + next } });
+    mesh.triangles.push_back({ { i, sides + next, sides + i } });
+  }
+  for (int i = 1; i + 1 < sides; ++i)
+  {
+    // A strip goes to and fro between both sides of the polygon.
+    const auto at = [](int n) { return n % 2 == 0 ? n / 2 : sides - (n + 1) / 2; };
+    std::array<std::int32_t, 3> t{ { 0, i, i + 1 } };
+    if (!isFan)
+    {
+      t = { { at(i - 1), at(i), at(i + 1) } };
+      std::sort(t.begin(), t.end());
+    }
+    mesh.triangles.push_back({ { t[0], t[2], t[1] } });
+    mesh.triangles.push_back({ { sides + t[0], sides + t[1], sides + t[2] } });
+  }
+  const Eigen::AlignedBox3d box(Eigen::Vector3d::Constant(-half), Eigen::Vector3d::Constant(half));
+  std::vector<std::uint8_t> faces(mesh.points.size(), 0);
+  for (std::size_t p = 0; p < faces.size(); ++p)
+  {
+    faces[p] = static_cast<std::uint8_t>(1 << (2 * axis + (p < std::size_t(sides) ? 0 : 1)));
+  }
+  return { std::move(mesh), std::move(faces), box };
+}
+
+void expectSame(const SurfaceReport& before, const SurfaceReport& after)
+{
+  EXPECT_TRUE(after.closedManifold() && after.outward());
+  EXPECT_EQ(after.components, before.components);
+  EXPECT_NEAR(after.volume, before.volume, 1e-12);
+  EXPECT_NEAR(after.area, before.area, 1e-12);
+}
+
+TEST(EvenFans, LongAndFlatPrismsInAnyPosition)
+{
+  for (const bool isFlat : { false, true })
+  {
+    for (const bool isFan : { false, true })
+    {
+      std::size_t triangles = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        CappedSurface surface = prism(axis, isFlat, isFan);
+        const SurfaceReport before = checkSurface(surface.mesh);
+        ASSERT_TRUE(before.sound());
+        EXPECT_GT(before.largestNormalAngle, 80.0) << isFlat << isFan;
+        evenFans(surface, largestRatio, smallestAngle);
+        const SurfaceReport after = checkSurface(surface.mesh);
+        EXPECT_LT(after.largestNormalAngle, 75.0) << isFlat << isFan << axis;
+        expectSame(before, after);
+        EXPECT_LE(after.largestSquaredEdgeRatio, largestRatio);
+        EXPECT_GE(after.smallestAngle, std::min(before.smallestAngle, smallestAngle));
+        EXPECT_GE(after.smallestAltitude, 0.999e-3);
+        EXPECT_TRUE(selfIntersections(TriangleTree(surface.mesh)).empty());
+        ASSERT_EQ(surface.faces.size(), surface.mesh.points.size());
+        for (std::size_t p = 0; p < surface.faces.size(); ++p)
+        {
+          const double x = surface.mesh.points[p][axis];
+          const int face = x == surface.box.min()[axis] ? 1 : x == surface.box.max()[axis] ? 2 : 0;
+          EXPECT_EQ(surface.faces[p], face << (2 * axis)) << p;
+        }
+        EXPECT_TRUE(axis == 0 || after.triangles == triangles) << "depends on the position";
+        triangles = after.triangles;
+      }
+    }
+  }
+}
+
+TEST(EvenFans, MirroredPrism)
+{
+  CappedSurface surface = prism(2, false, true);
+  for (Eigen::Vector3d& p : surface.mesh.points)
+  {
+    p.x() = -p.x();
+  }
+  for (auto& t : surface.mesh.triangles)
+  {
+    std::swap(t[1], t[2]);
+  }
+  const SurfaceReport before = checkSurface(surface.mesh);
+  evenFans(surface, largestRatio, smallestAngle);
+  const SurfaceReport after = checkSurface(surface.mesh);
+  EXPECT_GT(before.largestNormalAngle, 85.0);
+  EXPECT_LT(after.largestNormalAngle, 75.0);
+  expectSame(before, after);
+}
+
+/// As a fibre that meets a face at 60°: normals of cap and wall are up to 120° apart.
+TEST(EvenFans, ObliquePrism)
+{
+  CappedSurface surface = prism(2, false, false);
+  for (Eigen::Vector3d& p : surface.mesh.points)
+  {
+    p.x() += p.z() * std::tan(pi / 6.0);
+  }
+  const SurfaceReport before = checkSurface(surface.mesh);
+  ASSERT_GT(before.largestNormalAngle, 100.0);
+  evenFans(surface, largestRatio, smallestAngle);
+  const SurfaceReport after = checkSurface(surface.mesh);
+  EXPECT_LT(after.largestNormalAngle, 75.0);
+  expectSame(before, after);
+}
+
+TEST(EvenFans, LeavesEvenSurfacesAsTheyAre)
+{
+  CappedSurface surface;
+  surface.mesh = example::box({ 0, 0, 0 }, { 1, 1, 1 });
+  surface.faces.assign(8, 0);
+  const TriangleMesh before = surface.mesh;
+  evenFans(surface, largestRatio, smallestAngle);
+  EXPECT_EQ(surface.mesh.points, before.points);
+  EXPECT_EQ(surface.mesh.triangles, before.triangles);
+}
+
+} // namespace
