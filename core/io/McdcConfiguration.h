@@ -11,11 +11,11 @@
 namespace cactus
 {
 
-/// A first simulation with the MC/DC simulator (Rafael-Patino et al. 2020), for the user to edit. SI units, as in its files.
+/// What both first simulations with the MC/DC simulator (Rafael-Patino et al. 2020) share, to be edited by whoever runs them. SI
+/// units, as in its files.
 struct McdcOptions
 {
   int walkers = 1000;
-  int steps = 5000;
   double diffusivity = 2e-9;                    ///< m²/s
   double gradientDuration = 0.010;              ///< s, δ
   double gradientSeparation = 0.020;            ///< s, Δ
@@ -28,12 +28,32 @@ struct McdcOptions
   double displacement() const;
 };
 
-/// Returns the configuration of one simulation, with paths relative to the working directory. Walkers start inside the domain
-/// (µm), away from its boundary by their free displacement or, if that is less, a quarter of the side; the voxel leaves so much
-/// room around the domain that no walker reaches its periodic walls, which would map it into another fibre. Keys are spelt
-/// exactly as in the simulator, because it confuses similar ones.
-std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, const std::string& plyList,
-  const std::string& scheme, const std::string& outputPrefix, const std::string& compartment);
+/// One of the simulations: inside the axons, or outside the fibres.
+struct McdcSimulation
+{
+  std::string compartment; ///< "intra" or "extra"
+  double longestStep;      ///< µm
+  Domain start;            ///< the box where walkers start
+  int startPositions = 0;  ///< lines of start/COMPARTMENT.txt, for a walker each; 0: the simulator draws its own
+};
+
+/// Walkers inside axons: each step is as long as the smallest radius (µm) at most, but no shorter than those outside, and 0.3 µm
+/// at most. The box to start in is off the domain's faces by the free displacement or, if that is less, by a quarter of the side:
+/// axons end there in caps, which reflect.
+McdcSimulation intraSimulation(const McdcOptions& options, const Domain& domain, double smallestRadius);
+
+/// Walkers outside fibres: each step is 0.05 µm at most. The box to start in is off the domain's faces by four times the free
+/// displacement or, if that is less, by three eighths of the side: walkers that come to a face leave the substrate.
+McdcSimulation extraSimulation(const McdcOptions& options, const Domain& domain);
+
+/// The fewest steps, of two digits, that are shorter than `longestStep` (µm): each is √(6 D t / T) long.
+int mcdcSteps(const McdcOptions& options, double longestStep);
+
+/// The configuration of one simulation, with paths relative to the folder it is started in: mcdc/COMPARTMENT_ply_list.txt,
+/// mcdc/pgse.scheme, mcdc/output/COMPARTMENT and start/COMPARTMENT.txt. The voxel leaves walkers so much room around the domain
+/// that none reaches its periodic walls, which would map it into another fibre. Keys are written exactly as the simulator spells
+/// them, because it takes similar ones for each other.
+std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, const McdcSimulation& simulation);
 
 /// Returns the acquisition (PGSE, format VERSION: STEJSKALTANNER): one line without gradient, then every b-value along every
 /// direction.
@@ -43,8 +63,8 @@ std::string mcdcScheme(const McdcOptions& options);
 /// z.
 std::vector<Eigen::Vector3d> mcdcDirections(int count);
 
-/// Returns the list of obstacles: the scale from µm to the simulator's mm, then one path per line; for permeable ones, one line
-/// each of path, scale and permeability.
+/// The list of obstacles: the scale from µm to the simulator's mm, then one path per line; for permeable ones, one line each of
+/// path, scale and permeability, which is what rules as long as the configuration has none for all.
 std::string mcdcPlyList(const std::vector<std::string>& paths, double permeability = 0.0);
 
 } // namespace cactus

@@ -47,16 +47,44 @@ std::string pointsText(const std::vector<Eigen::Vector3d>& points, const Surface
   return text;
 }
 
+/// In the boxes of these simulations, and, where there is none, in the domain.
+StartPositions drawFor(const std::vector<McdcSimulation>& simulations, const SubstrateFolderContents& contents, std::size_t count,
+  const Context& context)
+{
+  // The seed is a choice of those who ask for StartPositions.
+  const std::uint64_t seed = contents.startPositions > 0 ? contents.seed : SubstrateFolderContents().seed;
+  const auto draw = [&](const Domain& box, const StartCounts& counts)
+  { return drawStartPositions(box, contents.outer, contents.inner, counts, seed, context); };
+  if (simulations.empty())
+  {
+    return draw(contents.domain, { count, count, count });
+  }
+  StartPositions points = draw(contents.domain, { 0, count, 0 });
+  for (const McdcSimulation& simulation : simulations)
+  {
+    if (simulation.compartment == "intra")
+    {
+      points.intra = draw(simulation.start, { count, 0, 0 }).intra;
+    }
+    else
+    {
+      points.extra = draw(simulation.start, { 0, 0, count }).extra;
+    }
+  }
+  return points;
+}
+
 } // namespace
 
-void writeStartPositions(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context)
+void writeStartPositions(const SubstrateFolderContents& contents, const std::vector<McdcSimulation>& simulations,
+  FolderWriter& writer, const Context& context)
 {
-  if (contents.startPositions == 0)
+  const int count = startPointCount(contents);
+  if (count == 0)
   {
     return;
   }
-  const StartPositions points = drawStartPositions(
-    contents.domain, contents.outer, contents.inner, static_cast<std::size_t>(contents.startPositions), contents.seed, context);
+  const StartPositions points = drawFor(simulations, contents, static_cast<std::size_t>(count), context);
   SurfaceBox around; // of everything
   around.lower = contents.domain.lower;
   around.upper = contents.domain.upper;

@@ -60,8 +60,8 @@ struct SubstrateFolderContents
   PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files that no simulator reads, see mayBeBinary()
   McdcOptions mcdc;
   double voxelSize = 0.1; ///< µm, of label volumes
-  int startPositions = 0; ///< number of start positions in each compartment
-  std::uint64_t seed = 1; ///< of the start positions
+  int startPositions = 0; ///< points in each compartment for walkers to start from; see startPointCount()
+  std::uint64_t seed = 1; ///< of their places
 };
 
 /// Tells whether the folder has the centre lines: a strand file can hold them.
@@ -70,7 +70,15 @@ inline bool hasStrandFile(const SubstrateFolderContents& contents)
   return contents.fibres != nullptr && fitsStrandFile(contents.fibres->domain);
 }
 
-/// Tells whether a format has PLY files that may be binary: simulators that read PLY files only read ASCII.
+/// Points in each compartment that walkers are to start from. In MC/DC, a walker that it has placed inside meets the walls of its
+/// own axon alone; those who can get out of it have to start from a file.
+inline int startPointCount(const SubstrateFolderContents& contents)
+{
+  const bool isPermeable = contents.format == SubstrateFormat::Mcdc && contents.mcdc.permeability > 0.0;
+  return contents.startPositions == 0 && isPermeable ? contents.mcdc.walkers : contents.startPositions;
+}
+
+/// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
 inline bool mayBeBinary(SubstrateFormat format)
 {
   return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor ||
@@ -90,12 +98,20 @@ struct SubstrateFile
   bool closed = false; ///< a closed 2-manifold that points outward
 };
 
-/// The written substrate, and its certificate.
+/// Of the walkers outside the fibres, the part that leaves the substrate within a simulation.
+struct LeavingShare
+{
+  double share;        ///< 0 to 1
+  std::size_t walkers; ///< that were seen to; 0: of free walkers, and so the most that may leave
+};
+
+/// What has been written, and how good it is.
 struct WrittenSubstrate
 {
   std::vector<SubstrateFile> files;
-  SubstrateCertificate certificate; ///< of the surfaces as stored in the files
-  /// Remarks for the user on the substrate in this format, a sentence each.
+  SubstrateCertificate certificate;    ///< of the surfaces as the files hold them
+  std::optional<LeavingShare> leaving; ///< for MC/DC, where that is known
+  /// What its user has to know of it as the format has it: a sentence for each thing.
   std::vector<std::string> remarks;
   /// A sentence for each leftover of killed writes beside the folder that is kept because it holds the user's files.
   std::vector<std::string> leftovers;

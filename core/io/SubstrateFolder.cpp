@@ -11,6 +11,7 @@
 #include "io/ElementFiles.h"
 #include "io/FolderReplacement.h"
 #include "io/FolderWriter.h"
+#include "io/McdcFiles.h"
 #include "io/NumberedName.h"
 #include "io/PlyFile.h"
 #include "io/RmsFiles.h"
@@ -274,33 +275,6 @@ FibreSurfaces asWritten(const FibreSurfaces& surfaces, PlyEncoding encoding)
   return written;
 }
 
-void writeMcdc(const SubstrateFolderContents& contents, const std::vector<SubstrateFile>& files, FolderWriter& writer)
-{
-  writer.makeFolder("mcdc");
-  writer.makeFolder("mcdc/output");
-  writer.write("mcdc/pgse.scheme", mcdcScheme(contents.mcdc));
-  const auto simulate = [&](const std::string& compartment, const std::string& surface)
-  {
-    std::vector<std::string> paths;
-    for (const SubstrateFile& file : files)
-    {
-      if (file.surface == surface)
-      {
-        paths.push_back(file.path);
-      }
-    }
-    if (!paths.empty())
-    {
-      const std::string list = "mcdc/" + compartment + "_ply_list.txt";
-      writer.write(list, mcdcPlyList(paths, contents.mcdc.permeability));
-      writer.write("mcdc/" + compartment + ".conf",
-        mcdcConfiguration(contents.mcdc, contents.domain, list, "mcdc/pgse.scheme", "mcdc/output/" + compartment, compartment));
-    }
-  };
-  simulate("intra", contents.inner.size() > 0 ? "inner" : "outer");
-  simulate("extra", "outer");
-}
-
 void requireWritable(const SubstrateFolderContents& contents, const std::string& folder)
 {
   contents.certificate.validate();
@@ -336,10 +310,6 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
     const bool isSorted = std::is_sorted(ids.begin(), ids.end());
     writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands", [&](const std::string& path)
       { writeStrandFile(isSorted ? *contents.fibres : selectFibres(*contents.fibres, orderById(*contents.fibres)), path); });
-  }
-  if (contents.format == SubstrateFormat::Mcdc)
-  {
-    writeMcdc(contents, substrate.files, writer);
   }
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
@@ -383,9 +353,10 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
     requireSound(
       substrate.certificate, ", and walkers would leak: mend it, or turn on AllowOpenSurfaces to write it all the same");
   }
-  else if (contents.startPositions > 0)
+  else if (startPointCount(contents) > 0)
   {
-    requireSound(substrate.certificate, ", so that nobody knows which StartPositions are inside: mend it, or set them to 0");
+    requireSound(substrate.certificate,
+      ", so that nobody knows which StartPositions are inside: mend it, or set them and Permeability to 0");
   }
   if (contents.format == SubstrateFormat::SpinDoctor)
   {
@@ -417,9 +388,15 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
   {
     substrate.remarks = writeElementFiles(contents, writer, context);
   }
+  else if (contents.format == SubstrateFormat::Mcdc)
+  {
+    const std::vector<McdcSimulation> simulations = mcdcSimulations(contents, substrate.files);
+    writeMcdc(contents, simulations, substrate, writer, context);
+    writeStartPositions(contents, simulations, writer, context);
+  }
   else
   {
-    writeStartPositions(contents, writer, context);
+    writeStartPositions(contents, {}, writer, context);
   }
   if (contents.fibres != nullptr && !hasStrandFile(contents))
   {

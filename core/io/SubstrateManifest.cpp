@@ -142,6 +142,10 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   manifest["triangles"] = triangles;
   manifest["outer_volume_um3"] = outerVolume;
   manifest["inner_volume_um3"] = innerVolume;
+  if (substrate.leaving)
+  {
+    manifest["extra_walkers_leaving"] = substrate.leaving->share;
+  }
   manifest["faults"] = substrate.certificate.faults;
   manifest["provenance"] = stagesOf(contents.provenance);
   manifest["files"] = std::move(files);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace cactus
 {
@@ -90,9 +91,50 @@ bool hasFilePerSurface(SubstrateFormat format)
   return format == SubstrateFormat::Mcdc || mayBeBinary(format);
 }
 
-/// Returns how to run MC/DC here.
-std::string mcdcText(bool hasInner, bool hasOuter)
+/// What permeable surfaces mean to MC/DC.
+std::string permeableText(double permeability, bool hasInner)
 {
+  std::string text = "Surfaces are permeable: " + cactus::text(permeability) +
+                     " of the hits on a surface lead through it. The last number of each line in\n"
+                     "mcdc/*_ply_list.txt is that of its surface, to be edited; 0 lets nobody through. Leave out a line "
+                     "`permeability` in a .conf:\n"
+                     "MC/DC would take its number for all surfaces, whatever the lists say. `deportation 0` is needed, or MC/DC "
+                     "throws out walkers\n"
+                     "that have crossed, as errors of its own.\n";
+  if (hasInner)
+  {
+    text +=
+      "intra.conf has inner surfaces alone: a walker that goes through one of them is outside, in water that takes the place of\n"
+      "myelin and extra-axonal space alike, up to the next inner surface. There is neither myelin nor an outer wall in its "
+      "way.\n";
+  }
+  text += hasInner
+            ? "extra.conf has outer surfaces alone: a walker that goes through one of them is in a fibre without an inner wall.\n"
+            : "intra.conf and extra.conf have the same surfaces, and differ in where walkers start.\n";
+  return text + '\n';
+}
+
+/// How many walkers leave the substrate.
+std::string leavingText(const std::optional<LeavingShare>& leaving, double echoTime)
+{
+  const std::string time = cactus::text(1e3 * echoTime) + " ms";
+  if (!leaving)
+  {
+    return "How many walkers of extra.conf leave the substrate within its " + time + " is not known.\n";
+  }
+  const std::string share = cactus::text(0.1 * std::round(1000.0 * leaving->share)) + " %";
+  return leaving->walkers == 0 ? "Fewer than " + cactus::text(std::max(0.1, 0.1 * std::ceil(1000.0 * leaving->share))) +
+                                   " % of the walkers of extra.conf leave the substrate within its " + time +
+                                   ": free ones would not leave more often.\n"
+                               : share + " of the walkers of extra.conf leave the substrate within its " + time +
+                                   ", by a walk of " + std::to_string(leaving->walkers) + " walkers.\n";
+}
+
+/// How MC/DC is run here.
+std::string mcdcText(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate)
+{
+  const bool hasInner = contents.inner.size() > 0;
+  const bool hasOuter = contents.outer.size() > 0;
   std::string text = "mcdc/           configurations for the MC/DC simulator (github.com/jonhrafe/MCDC_Simulator_public)\n\n";
   text += "To simulate, start MC/DC in this folder; it looks for all files from where it is started:\n\n";
   text += "    MC-DC_Simulator --conf mcdc/intra.conf\n";
@@ -102,7 +144,7 @@ std::string mcdcText(bool hasInner, bool hasOuter)
   }
   text +=
     "\nMC/DC before December 2024 takes the file without --conf, where later ones end without a word.\n"
-    "The signals come to mcdc/output/. \n"
+    "The signals come to mcdc/output/.\n"
     "Writing the substrate again replaces the surfaces and all else that is as it was written. Where you have changed or added\n"
     "anything (results, a .conf, notes), the writer refuses and says what: move it away, or write to another folder.\n\n";
   text += std::string("intra.conf  walkers inside the ") + (hasInner ? "inner" : "outer") + " surfaces\n";
@@ -114,12 +156,31 @@ std::string mcdcText(bool hasInner, bool hasOuter)
     "\nMyelin has no walkers: MC/DC knows the inside and the outside of a surface, and no third compartment. For the signal of\n"
     "both, divide each by its number of walkers and weight it with its compartment's share of the domain (manifest.json): "
     "inside,\n"
-    "the volume of the surfaces used over the domain's; outside, 1 - outer_volume_um3 over the domain's.\n\n"
-    "What to edit: N (walkers) and num_process first, T (steps: a step should be shorter than the smallest radius), and\n"
-    "pgse.scheme. Walkers start in <spawning_area>, off the substrate's boundary. A fibre ends in a cap at the boundary, and\n"
-    "outside it water is free: a walker that gets there no longer tells of the substrate. Choose the duration and the\n"
-    "<spawning_area> (both in the .conf, in s and mm) so that few do. <voxels> is wider than the substrate, because MC/DC\n"
-    "continues a walker that leaves it on the opposite side, where there is another fibre.\n";
+    "the volume of the surfaces used over the domain's; outside, 1 - outer_volume_um3 over the domain's.\n\n";
+  if (contents.mcdc.permeability > 0.0)
+  {
+    text += permeableText(contents.mcdc.permeability, hasInner);
+  }
+  if (hasOuter)
+  {
+    text += leavingText(substrate.leaving, contents.mcdc.echoTime) +
+            "Outside the substrate water is free, and a walker there no longer tells of the substrate. A shorter duration or a\n"
+            "larger substrate keeps them in.\n\n";
+  }
+  text +=
+    "Axons end in closed caps at the boundary, which reflect. So nobody leaves them, but along an axon walkers go no farther "
+    "than\n"
+    "its ends: in times in which they get there, diffusion along it comes out slower than in an axon that goes on.\n\n"
+    "What to edit: N (walkers) and num_process first, and pgse.scheme. After a change of duration or diffusivity, change T, too: "
+    "a\n"
+    "step, the root of 6 diffusivity duration / T, stays below 0.05 micrometres outside, and below the smallest radius (at most\n"
+    "0.3) inside. ";
+  text += startPointCount(contents) > 0
+            ? "Walkers start from the points in start/, one each; where N is larger than the number of lines, MC/DC takes\n"
+              "points again from the first. "
+            : "Walkers start in <spawning_area> (mm), off the substrate's boundary. ";
+  text += "<voxels> is wider than the substrate, because\n"
+          "MC/DC continues a walker that leaves it on the opposite side, where there is another fibre.\n";
   return text;
 }
 
@@ -136,7 +197,7 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
   }
   text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
   const bool isVolume = contents.format == SubstrateFormat::Rms || contents.format == SubstrateFormat::SpinDoctor;
-  if (contents.startPositions > 0 && !isVolume)
+  if (startPointCount(contents) > 0 && !isVolume)
   {
     text += "start/          points for walkers to start from, one a line, in the unit of the simulator, or micrometres\n";
   }
@@ -161,7 +222,7 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
     text += "fibres.strands  centre lines and radii\n";
   }
   text += certificateLine;
-  return text + (contents.format == SubstrateFormat::Mcdc ? mcdcText(hasInner, hasOuter) : filesFor(contents.format));
+  return text + (contents.format == SubstrateFormat::Mcdc ? mcdcText(contents, substrate) : filesFor(contents.format));
 }
 
 } // namespace cactus

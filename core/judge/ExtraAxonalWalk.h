@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace cactus
 {
@@ -48,5 +49,26 @@ struct ExtraAxonalDiffusion
 /// outside, or if more than one in a hundred walkers leaks; InvalidInput for options out of range; Cancelled.
 ExtraAxonalDiffusion walkOutside(
   const Domain& domain, const FibreSurfaces& outer, const ExtraAxonalWalkOptions& options, const Context& context = {});
+
+/// Walkers outside the fibres that come to a face of the domain.
+struct LeavingWalkers
+{
+  std::size_t walkers = 0; ///< of which that is known: none that leaked or found no room to start
+  /// For each that leaves, what free walkers have moved by then along each axis (µm, root mean square: the square is 2 D t);
+  /// increasing.
+  std::vector<double> distances;
+
+  double share() const { return this->walkers > 0 ? double(this->distances.size()) / double(this->walkers) : notANumber; }
+};
+
+/// 1,000 walkers that start evenly in a box of the domain, outside the surfaces, walk until they come to a face of the domain, or
+/// until free walkers have moved by `distance` (µm along each axis, root mean square). Steps are 0.5 µm at most, longer than some
+/// pores: what leads out is motion along fibres. The result does not depend on threads. Throws OutOfMemory where the surfaces do
+/// not fit into memory, and Cancelled.
+LeavingWalkers walkUntilLeaving(const Domain& domain, const Domain& start, const FibreSurfaces& outer, double distance,
+  std::uint64_t seed, const Context& context = {});
+
+/// The share of walkers that leave where there are no fibres, exactly: fibres in their way leave more of them inside.
+double freeLeavingShare(const Domain& domain, const Domain& start, double distance);
 
 } // namespace cactus

@@ -25,14 +25,14 @@ enum class Place : unsigned char
   OnSurface
 };
 
-/// Draws a point evenly over the domain; the same for the same seed and number.
-Eigen::Vector3d candidate(const Domain& domain, std::uint64_t seed, std::uint64_t number)
+/// Evenly over the box; the same for the same seed and number.
+Eigen::Vector3d candidate(const Domain& box, std::uint64_t seed, std::uint64_t number)
 {
   RandomEngine random = randomStream(seed, RandomStage::StartPositions, number);
   const double x = uniform(random);
   const double y = uniform(random);
   const double z = uniform(random);
-  return domain.lower + domain.size().cwiseProduct(Eigen::Vector3d(x, y, z));
+  return box.lower + box.size().cwiseProduct(Eigen::Vector3d(x, y, z));
 }
 
 /// The candidates in or on a surface.
@@ -96,19 +96,20 @@ void take(const Eigen::Vector3d& point, std::size_t count, std::vector<Eigen::Ve
 
 } // namespace
 
-StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, std::size_t count,
-  std::uint64_t seed, const Context& context)
+StartPositions drawStartPositions(const Domain& box, const FibreSurfaces& outer, const FibreSurfaces& inner,
+  const StartCounts& counts, std::uint64_t seed, const Context& context)
 {
   constexpr std::uint64_t mostDrawn = 85; // per start position
   constexpr std::uint64_t mostAtOnce = std::uint64_t(1) << 22;
   const bool hasMyelin = outer.size() > 0 && inner.size() > 0;
   const bool hasExtra = outer.size() > 0;
+  const std::size_t count = std::max({ counts.intra, counts.myelin, counts.extra });
   requireMemory(120.0 * double(count), text("StartPositions ", count), "ask for fewer");
   StartPositions found;
   const auto isDone = [&]
   {
-    return found.intra.size() >= count && (!hasMyelin || found.myelin.size() >= count) &&
-           (!hasExtra || found.extra.size() >= count);
+    return found.intra.size() >= counts.intra && (!hasMyelin || found.myelin.size() >= counts.myelin) &&
+           (!hasExtra || found.extra.size() >= counts.extra);
   };
   // Every surface is made once per round: each round draws more points than the one before, as far as memory allows.
   std::uint64_t wanted = 8 * std::uint64_t(count) + 64;
@@ -121,26 +122,33 @@ StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& out
     candidates.reserve(drawn);
     for (std::size_t i = 0; i < drawn; ++i)
     {
-      candidates.push_back(candidate(domain, seed, number++));
+      candidates.push_back(candidate(box, seed, number++));
     }
     std::vector<Place> places(drawn, Place::Outside);
     mark(outer, hasMyelin ? Place::InsideOuter : Place::InsideInner, candidates, places, context);
     mark(inner, Place::InsideInner, candidates, places, context);
     for (std::size_t i = 0; i < drawn; ++i)
     {
-      if (places[i] != Place::OnSurface && (places[i] != Place::Outside || hasExtra))
+      switch (places[i])
       {
-        take(candidates[i], count,
-          places[i] == Place::Outside       ? found.extra
-          : places[i] == Place::InsideInner ? found.intra
-                                            : found.myelin);
+      case Place::Outside:
+        take(candidates[i], hasExtra ? counts.extra : 0, found.extra);
+        break;
+      case Place::InsideInner:
+        take(candidates[i], counts.intra, found.intra);
+        break;
+      case Place::InsideOuter:
+        take(candidates[i], counts.myelin, found.myelin);
+        break;
+      case Place::OnSurface:
+        break;
       }
     }
   }
   if (!isDone())
   {
-    throw Infeasible(text("StartPositions ", count, ": of ", number, " points in the domain, ", found.intra.size(),
-      " lay in axons, ", found.myelin.size(), " in myelin and ", found.extra.size(), " outside: ask for fewer"));
+    throw Infeasible(text("StartPositions ", count, ": of ", number, " points drawn, ", found.intra.size(), " lay in axons, ",
+      found.myelin.size(), " in myelin and ", found.extra.size(), " outside: ask for fewer"));
   }
   return found;
 }

@@ -22,11 +22,19 @@ struct StartPositions
   std::vector<Eigen::Vector3d> extra;  ///< outside all surfaces
 };
 
-/// Draws `count` points in each compartment, evenly over its part of the domain, by exact inside tests; none lies on a surface. A
-/// missing compartment (myelin without inner surfaces) gets none. Fibres are processed one after the other, and the result does
-/// not depend on threads. Throws Infeasible if a compartment fills so little of the domain that not enough points were found in
-/// it, and Cancelled.
-StartPositions drawStartPositions(const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, std::size_t count,
-  std::uint64_t seed, const Context& context = {});
+/// How many are wanted in each compartment.
+struct StartCounts
+{
+  std::size_t intra = 0;
+  std::size_t myelin = 0;
+  std::size_t extra = 0;
+};
+
+/// So many points in each compartment, evenly over its part of the box, by exact inside tests; none lies on a surface. A
+/// compartment that there is not (myelin without inner surfaces) gets none. Fibres are taken one after the other, and the result
+/// does not depend on threads. Throws Infeasible where a compartment takes up so little of the box that so many points were
+/// not found in it, and Cancelled.
+StartPositions drawStartPositions(const Domain& box, const FibreSurfaces& outer, const FibreSurfaces& inner,
+  const StartCounts& counts, std::uint64_t seed, const Context& context = {});
 
 } // namespace cactus

@@ -93,7 +93,8 @@ class Command(unittest.TestCase):
         shutil.move(strands, self.folder)
         # The file is named from where the recipe is, whatever folder the command runs in; its fibres do not overlap.
         recipe = self.recipe({"StrandReader": {"FileName": "fibres.strands"}, "CapsuleOptimizer": False,
-                              "FibreRadialGrowth": SMALL["FibreRadialGrowth"]}, "strands.json")
+                              "FibreRadialGrowth": SMALL["FibreRadialGrowth"],
+                              "SubstrateWriter": {"Format": "Surfaces alone"}}, "strands.json")
         done = subprocess.run([PROGRAM, recipe], capture_output=True, text=True, cwd="/")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(self.run_it("strands").returncode, 0)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Folders for simulators, read back by lines of numpy that share nothing with the writer: volumes, compartments and units are right."""
 
+import json
 import math
 import os
 import re
@@ -112,13 +113,19 @@ class Simulators(CactusTestCase):
         self.assertEqual(len(points["intra"]), 300)
 
     def test_starts_fill_each_compartment_evenly(self):
-        path = self.write(StartPositions=20000, Seed=5)
-        starts = self.starts(path, 1e-3)
+        path = self.write(Format="Surfaces alone", StartPositions=20000, Seed=5)
+        starts = self.starts(path, 1.0)
         intra = starts["intra"]
         share = 0.7**2 / (0.7**2 + 0.9**2)
         self.assertAlmostEqual((intra[:, 0] < 0).mean(), share, delta=5 * math.sqrt(share / 20000))
         for points in starts.values():
             self.assertAlmostEqual(points[:, 2].mean(), 0, delta=5 * math.sqrt(100 / 12 / 20000))
+
+    def test_walkers_of_mcdc_start_in_the_boxes_of_its_configurations(self):
+        starts = self.starts(self.write(StartPositions=500), 1e-3)
+        for name, half in (("intra", 2.5), ("extra", 1.25)):
+            self.assertLessEqual(numpy.abs(starts[name]).max(), half)
+            self.assertGreater(numpy.abs(starts[name]).max(), 0.95 * half)
 
     def test_permeability(self):
         path = self.write(Permeability=0.02)
@@ -127,7 +134,16 @@ class Simulators(CactusTestCase):
         with open(path("mcdc", "intra.conf")) as file:
             text = file.read()
         self.assertIn("\nply_file_list_scale_permeability mcdc/intra_ply_list.txt\n", text)
-        self.assertIn("\npermeability 0.02\n", text)
+        self.assertIn("\ndeportation 0\n", text)
+        self.assertNotIn("\npermeability ", text)
+        self.assertEqual(len(self.starts(path, 1e-3)["intra"]), 1000)
+
+    def test_says_how_many_walkers_leave(self):
+        self.usual = None
+        with self.assertError(r"9\d % of the walkers of mcdc/extra.conf leave the substrate within its 35 ms.*for at most 5 %"):
+            path = self.write()
+        with open(path("manifest.json")) as file:
+            self.assertGreater(json.load(file)["extra_walkers_leaving"], 0.9)
 
     def read_rms(self, folder):
         """As RMS's main.cu reads it: numbers in their order, whatever the line they are in; voxel (x, y, z) at (x·ny + y)·nz + z."""

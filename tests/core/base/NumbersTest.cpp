@@ -130,7 +130,7 @@ std::string everyText()
 
   McdcOptions options;
   options.walkers = 123456;
-  all += mcdcConfiguration(options, fibres.domain, "list", "scheme", "prefix", "intra") + mcdcScheme(options);
+  all += mcdcConfiguration(options, fibres.domain, extraSimulation(options, fibres.domain)) + mcdcScheme(options);
   all += text("a message with ", 1234.5, " and ", 123456);
   all += messageOf([&] { readRadiusTable(testing::TempDir() + "no/such/file"); });
   all += messageOf(

@@ -51,7 +51,7 @@ std::string write(const fs::path& folder, double size = 1.0, int threads = 1)
   mesh.points = { { 0, 0, 0 }, { size, 0, 0 }, { 0, size, 0 }, { 0, 0, size } };
   mesh.triangles = { { { 0, 2, 1 } }, { { 0, 1, 3 } }, { { 0, 3, 2 } }, { { 1, 2, 3 } } };
   cactus::SubstrateFolderContents contents;
-  contents.domain = cactus::Domain::cube(30.0);
+  contents.domain = cactus::Domain::cube(200.0); // from which no walker leaves, so that none has to walk
   contents.outer.fibreIds = { 2, 7 };
   contents.outer.bundleIds = { 1, 1 };
   contents.outer.mesh = [mesh](std::size_t) { return mesh; };

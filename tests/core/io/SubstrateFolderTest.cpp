@@ -370,7 +370,7 @@ TEST_F(SubstrateFolder, ConfigurationHoldsKnownKeysAndBoxesInMillimetres)
   }
   const std::set<std::string> known{ "N", "T", "duration", "diffusivity", "exp_prefix", "scheme_file", "scale_from_stu",
     "write_txt", "write_bin", "write_traj_file", "<obstacle>", "ply_file_list", "</obstacle>", "<voxels>", "</voxels>",
-    "<spawning_area>", "</spawning_area>", "ini_walkers_pos", "num_process", "<END>" };
+    "<spawning_area>", "</spawning_area>", "ini_walkers_pos", "num_process", "sphere_size", "<END>" };
   for (const auto& entry : values)
   {
     EXPECT_EQ(known.count(entry.first), 1u) << entry.first;
@@ -378,9 +378,9 @@ TEST_F(SubstrateFolder, ConfigurationHoldsKnownKeysAndBoxesInMillimetres)
   EXPECT_EQ(values["ini_walkers_pos"], std::vector<std::string>{ "extra" });
   ASSERT_EQ(values["<spawning_area>"].size(), 6u);
   ASSERT_EQ(values["<voxels>"].size(), 6u);
-  // A free walker moves sqrt(2 · 2e-9 · 0.035) m = 11.8 µm, more than a quarter of the side, 7.5 µm.
-  EXPECT_DOUBLE_EQ(std::stod(values["<spawning_area>"][0]), -7.5e-3);
-  EXPECT_DOUBLE_EQ(std::stod(values["<spawning_area>"][5]), 7.5e-3);
+  // A free walker moves sqrt(2 · 2e-9 · 0.035) m = 11.8 µm, and three eighths of the side are less than four times that.
+  EXPECT_DOUBLE_EQ(std::stod(values["<spawning_area>"][0]), -3.75e-3);
+  EXPECT_DOUBLE_EQ(std::stod(values["<spawning_area>"][5]), 3.75e-3);
   EXPECT_NEAR(std::stod(values["<voxels>"][2]), -15e-3 - 10.0 * std::sqrt(2.0 * 2e-9 * 0.035) * 1e3, 1e-9);
   EXPECT_TRUE(fs::exists(this->Scratch / "s" / values["ply_file_list"].at(0)));
   EXPECT_TRUE(fs::exists(this->Scratch / "s" / values["scheme_file"].at(0)));
