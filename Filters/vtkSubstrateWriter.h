@@ -7,8 +7,8 @@
  * `Fibres` (optional): their centre lines. The folder is written when the filter executes for the first time after one of its own
  * properties or connections has changed, and by Write(); not because its input has changed. It holds the surfaces as the
  * simulator named by `Format` reads them (for MC/DC one ASCII PLY file (µm) per fibre and surface, and configurations; for RMS
- * labels of voxels besides, for SpinDoctor what tetgen makes finite elements of), a
- * certificate (see vtkSubstrateCertificate), a manifest, a README.txt and, with `Fibres`, a strand file.
+ * labels of voxels besides, for SpinDoctor what tetgen makes finite elements of, for MCMRSimulator.jl its
+ * geometry file), a certificate (see vtkSubstrateCertificate), a manifest, a README.txt and, with `Fibres`, a strand file.
  *
  * Output: a table of the files written, with fibre, bundle, triangles, volume and area. A warning says why the surfaces, as the
  * files hold them, are not certified; those that are not closed are refused.

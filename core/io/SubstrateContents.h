@@ -29,12 +29,13 @@ enum class SubstrateFormat
   Rms = 4,        ///< RMS: labels of voxels, beside a PLY file per surface (µm)
   Surfaces = 5,   ///< no simulator's: a PLY file per surface (µm) and nothing beside
   SpinDoctor = 6, ///< finite elements: one complex of triangles for tetgen, beside a PLY file per surface (µm)
-  Bundles = 7     ///< no simulator's: a PLY file per bundle and kind of surface (µm) and nothing beside
+  Bundles = 7,    ///< no simulator's: a PLY file per bundle and kind of surface (µm) and nothing beside
+  Mcmr = 8        ///< MCMRSimulator.jl: its geometry file, beside a PLY file per surface (µm)
 };
 
 /// What they are called, by their numbers.
 constexpr const char* formatNames[] = { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone", "SpinDoctor",
-  "Surfaces by bundle" };
+  "Surfaces by bundle", "MCMRSimulator" };
 
 /// A substrate's fibres that surfaces were made of, where these are not all.
 struct SubstrateSample
@@ -69,11 +70,11 @@ inline bool hasStrandFile(const SubstrateFolderContents& contents)
   return contents.fibres != nullptr && fitsStrandFile(contents.fibres->domain);
 }
 
-/// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
+/// Whether a format has PLY files that may be binary: the simulators that read them know ASCII only, but for MCMRSimulator.jl.
 inline bool mayBeBinary(SubstrateFormat format)
 {
   return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor ||
-         format == SubstrateFormat::Bundles;
+         format == SubstrateFormat::Bundles || format == SubstrateFormat::Mcmr;
 }
 
 /// One surface's file, as the manifest lists it.
@@ -96,6 +97,8 @@ struct WrittenSubstrate
   SubstrateCertificate certificate; ///< of the surfaces as the files hold them
   /// What its user has to know of it as the format has it: a sentence for each thing.
   std::vector<std::string> remarks;
+  /// What README.txt says besides, which nobody has to be warned of: a sentence for each thing.
+  std::vector<std::string> notes;
   /// What writes that were killed have left beside the folder and is kept, as it holds what is the user's: a sentence for each.
   std::vector<std::string> leftovers;
 
