@@ -7,7 +7,8 @@
  * `Fibres` (optional): their centre lines. The folder is written when the filter executes for the first time after one of its own
  * properties or connections has changed, and by Write(); not because its input has changed. It holds the surfaces in the format
  * of the simulator `Format` (for MC/DC one ASCII PLY file (µm) per fibre and surface, and configurations; for RMS also voxel
- * labels; for SpinDoctor the input from which tetgen makes finite elements), a certificate (see vtkSubstrateCertificate), a
+ * labels; for SpinDoctor the input from which tetgen makes finite elements;
+ * for MCMRSimulator.jl its geometry file), a certificate (see vtkSubstrateCertificate), a
  * manifest, a README.txt and, with `Fibres`, a strand file.
  *
  * Output: a table of the files written, with fibre, bundle, triangles, volume and area. A warning says why the surfaces, as

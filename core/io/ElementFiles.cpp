@@ -271,9 +271,17 @@ std::string setupText(const SubstrateFolderContents& contents, const Compartment
   return out.str();
 }
 
-std::vector<std::string> remarksOn(const BoxedSurfaces& joined, const CompartmentNumbers& numbers, const std::vector<int>& closed)
+std::vector<std::string> remarksOn(
+  const BoxedSurfaces& joined, const CompartmentNumbers& numbers, const std::vector<int>& closed, double smallestGap)
 {
+  constexpr double narrow = 0.1; // µm, see docs/simulators.md
   std::vector<std::string> remarks;
+  if (smallestGap < narrow)
+  {
+    remarks.push_back(text("The smallest gap between two fibres is ", smallestGap, " µm: gaps below ", narrow,
+      " µm take tetgen so many tetrahedra that it may not end within hours. Grow with a MinimumGap of ", narrow,
+      " µm or more, and make even triangles with MinimumAngle 20"));
+  }
   if (!closed.empty())
   {
     remarks.push_back(text("The axons of ", closed.size(), " fibres (such as ", closed.front(),
@@ -296,7 +304,8 @@ std::vector<std::string> remarksOn(const BoxedSurfaces& joined, const Compartmen
 
 } // namespace
 
-std::vector<std::string> writeElementFiles(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context)
+std::vector<std::string> writeElementFiles(
+  const SubstrateFolderContents& contents, double smallestGap, FolderWriter& writer, const Context& context)
 {
   CompartmentNumbers numbers;
   numbers.axons = static_cast<std::int32_t>(contents.inner.size());
@@ -310,7 +319,7 @@ std::vector<std::string> writeElementFiles(const SubstrateFolderContents& conten
   writer.write("compartments.csv", compartmentTable(contents, numbers, volumes));
   writer.write("substrate_cells", cellText(surfaces, numbers, volumes));
   writer.write("setup_substrate.m", setupText(contents, numbers));
-  return remarksOn(joined, numbers, closed);
+  return remarksOn(joined, numbers, closed, smallestGap);
 }
 
 } // namespace cactus

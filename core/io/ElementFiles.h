@@ -24,10 +24,12 @@ namespace cactus
 /// Boundaries are numbered in the same way: between axons and myelin, myelin and the extra-axonal space, and those in the
 /// domain's faces, of axons, of myelin and of the extra-axonal space. Lines are laid out as SpinDoctor's reader expects them.
 ///
-/// Axons, whose surfaces end just before the domain's faces, are extended to them, unless they would meet their myelin. Returns
-/// remarks for the user: a sentence on such axons, and one if SpinDoctor would refuse the mesh, since it requires an axon and an
-/// end of each kind in each fibre. Throws InvalidInput if there are no outer surfaces, or one for which joinInBox() throws;
-/// FileError and Cancelled.
-std::vector<std::string> writeElementFiles(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context);
+/// Axons, whose surfaces end just before the domain's faces, are extended to them, but for those that would meet their myelin.
+/// Returned is what the user has to know: a sentence on such axons, one where SpinDoctor, which wants an axon and an end of each
+/// kind in each fibre, would refuse the mesh, and one where `smallestGap` (µm, between two fibres; NaN for a single one) is too
+/// narrow for tetgen. Throws InvalidInput where there are no outer surfaces, or one for which joinInBox() throws; FileError and
+/// Cancelled.
+std::vector<std::string> writeElementFiles(
+  const SubstrateFolderContents& contents, double smallestGap, FolderWriter& writer, const Context& context);
 
 } // namespace cactus

@@ -30,8 +30,8 @@ constexpr std::uintmax_t largestManifest = std::uintmax_t(1) << 29; ///< bytes; 
 const std::set<std::string>& streamedFiles()
 {
   static const std::set<std::string> names{ "fibres.strands", manifestName, "optimized_final.txt", "outer.ply", "inner.ply",
-    "outer_vertices.npy", "outer_faces.npy", "inner_vertices.npy", "inner_faces.npy", "intra/fiber.txt", "extra/fiber.txt",
-    "substrate_dir/substrate_mesh.node", "substrate_dir/substrate_mesh.poly" };
+    "geometry.json", "outer_vertices.npy", "outer_faces.npy", "inner_vertices.npy", "inner_faces.npy", "intra/fiber.txt",
+    "extra/fiber.txt", "substrate_dir/substrate_mesh.node", "substrate_dir/substrate_mesh.poly" };
   return names;
 }
 
@@ -40,9 +40,9 @@ const std::set<std::string>& wholeFiles()
 {
   static const auto names = []
   {
-    std::set<std::string> all{ "README.txt", "certificate.csv", "certificate_fibres.csv", "mcdc/pgse.scheme", "mcdc/intra.conf",
-      "mcdc/extra.conf", "mcdc/intra_ply_list.txt", "mcdc/extra_ply_list.txt", "start/intra.txt", "start/myelin.txt",
-      "start/extra.txt", "compartments.csv", "substrate_cells", "setup_substrate.m" };
+    std::set<std::string> all{ "README.txt", "certificate.csv", "certificate_fibres.csv", "pgse.scheme", "mcdc/pgse.scheme",
+      "mcdc/intra.conf", "mcdc/extra.conf", "mcdc/intra_ply_list.txt", "mcdc/extra_ply_list.txt", "start/intra.txt",
+      "start/myelin.txt", "start/extra.txt", "compartments.csv", "substrate_cells", "setup_substrate.m" };
     for (const char* rms : { "simParamInput.txt", "diffusivity.txt", "T2.txt", "bval.txt", "bvec.txt" })
     {
       all.insert(std::string("intra/") + rms);

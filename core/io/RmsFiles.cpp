@@ -4,6 +4,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Numbers.h"
+#include "judge/LabelPieces.h"
 #include "judge/SubstrateSampler.h"
 
 #include <algorithm>
@@ -21,9 +22,11 @@ namespace
 constexpr double squareMetrePerSecond = 1e9;  ///< µm²/ms
 constexpr double secondPerSquareMetre = 1e-9; ///< ms/µm²
 constexpr double second = 1e3;                ///< ms
-constexpr double noRelaxation = 1e9;          ///< ms, since T2 has to be positive
-constexpr double mostOfAVoxel = 0.5;          ///< largest step; RMS looks for walls one voxel ahead
-constexpr double savedMoments = 1000.0;       ///< the number of steps has to be a multiple of this
+constexpr double noRelaxation = 1e9;          ///< ms, of a T2 that has to be positive
+constexpr double mostOfAVoxel = 0.5;          ///< that a step leads through; RMS looks for walls one voxel ahead
+constexpr double savedMoments = 1000.0;       ///< of which the number of steps has to be a multiple
+constexpr double mostLost = 0.1;              ///< of a compartment's volume, or out of its connected part
+constexpr double mostNear = 0.1;              ///< of the fibres, that come nearer to another one than a voxel
 
 /// The voxels with walkers.
 using WalkerVoxels = std::vector<bool>;
@@ -74,6 +77,58 @@ void requireApart(const SampledSubstrate& sampled, const WalkerVoxels& inside)
       }
     }
   }
+}
+
+/// A compartment as labels have it, beside its surfaces.
+struct Labelled
+{
+  std::string what; ///< that has walkers
+  LabelPieces pieces;
+  double fraction = 0.0; ///< of the domain, by the labels
+  double exact = 0.0;    ///< by the surfaces; NaN where they do not tell
+
+  /// Whether hardly a voxel is cut off from the others.
+  bool isConnected() const { return this->pieces.connectedShare() >= 1.0 - mostLost; }
+  /// Whether hardly any of the volume is missing.
+  bool isWhole() const { return !(this->fraction < (1.0 - mostLost) * this->exact); }
+  std::string sentence() const
+  {
+    return text(this->what, " fall into ", this->pieces.pieces, " pieces, ", percent(this->pieces.connectedShare()),
+      " of them connected, and fill ", this->fraction, " of the domain, where the surfaces have ", this->exact);
+  }
+
+private:
+  static std::string percent(double share) { return text(0.1 * std::floor(1000.0 * share), " %"); }
+};
+
+Labelled labelled(const std::string& what, const SampledSubstrate& sampled, const WalkerVoxels& hasWalkers,
+  const std::vector<int>& owner, double exact, const Context& context)
+{
+  Labelled found;
+  found.what = what;
+  found.pieces = labelPieces(sampled.voxels, hasWalkers, owner, context);
+  found.fraction = double(found.pieces.voxels) / double(sampled.voxels.size());
+  found.exact = exact;
+  return found;
+}
+
+/// What to do where gaps are narrower than a voxel: those as wide as one keep the space between fibres together, see
+/// docs/simulators.md.
+std::string wayOut(double voxelSize, double smallestGap)
+{
+  std::string way = text("grow with a MinimumGap of ", voxelSize, " µm or more");
+  if (smallestGap > 0.0)
+  {
+    way += text(", or choose a VoxelSize no larger than the smallest gap, ", smallestGap, " µm");
+  }
+  return way;
+}
+
+/// Fibres that come nearer to another one than a voxel is wide.
+std::size_t nearFibres(const SubstrateCertificate& certificate, double voxelSize)
+{
+  return std::size_t(std::count_if(certificate.fibres.begin(), certificate.fibres.end(),
+    [&](const FibreCertificate& fibre) { return fibre.hasOuter && fibre.gap < voxelSize; }));
 }
 
 void writeLabels(
@@ -176,7 +231,7 @@ void requireRmsVoxels(const Domain& domain, double voxelSize)
   }
 }
 
-void writeRms(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context)
+void writeRms(const SubstrateFolderContents& contents, WrittenSubstrate& substrate, FolderWriter& writer, const Context& context)
 {
   requireRmsVoxels(contents.domain, contents.voxelSize);
   const SampledSubstrate sampled =
@@ -195,12 +250,45 @@ void writeRms(const SubstrateFolderContents& contents, FolderWriter& writer, con
     writer.write(folder + "/bval.txt", bValueText(contents.mcdc));
     writer.write(folder + "/bvec.txt", directionText(contents.mcdc));
   };
-  const WalkerVoxels inside = insideVoxels(sampled, contents.inner.size() > 0);
+  const SubstrateCertificate& found = substrate.certificate;
+  const bool hasInner = contents.inner.size() > 0;
+  const WalkerVoxels inside = insideVoxels(sampled, hasInner);
   requireApart(sampled, inside);
-  simulate("intra", inside);
-  if (contents.outer.size() > 0)
+  const Labelled intra = labelled(
+    text("voxels inside the ", hasInner ? contents.inner.size() : contents.outer.size(), hasInner ? " axons" : " fibres"),
+    sampled, inside, sampled.fibreId, hasInner ? found.axonVolumeFraction : found.fibreVolumeFraction, context);
+  if (!intra.isConnected())
   {
-    simulate("extra", outsideVoxels(sampled));
+    throw InvalidInput(text("VoxelSize ", contents.voxelSize, " µm: ", intra.sentence(),
+      ", so that RMS would find diffusion along them too slow: choose a smaller one"));
+  }
+  simulate("intra", inside);
+  substrate.notes.push_back("Labels: " + intra.sentence());
+  if (!intra.isWhole())
+  {
+    substrate.remarks.push_back(
+      text("VoxelSize ", contents.voxelSize, " µm is too large for thin axons: ", intra.sentence(), "; choose a smaller one"));
+  }
+  if (contents.outer.size() == 0)
+  {
+    return;
+  }
+  const WalkerVoxels outside = outsideVoxels(sampled);
+  const Labelled extra = labelled("voxels outside", sampled, outside, {}, 1.0 - found.fibreVolumeFraction, context);
+  if (!extra.isConnected() || !extra.isWhole())
+  {
+    substrate.remarks.push_back(text("extra/ is left out, since RMS would find diffusion there far too slow: with VoxelSize ",
+      contents.voxelSize, " µm ", extra.sentence(), ": ", wayOut(contents.voxelSize, found.smallestGap)));
+    return;
+  }
+  simulate("extra", outside);
+  substrate.notes.push_back("Labels: " + extra.sentence());
+  const std::size_t near = nearFibres(found, contents.voxelSize);
+  if (double(near) > mostNear * double(contents.outer.size()))
+  {
+    substrate.remarks.push_back(text("RMS may find diffusion in extra/ too slow across the fibres: ", near, " of ",
+      contents.outer.size(), " fibres come nearer to another one than a voxel, ", contents.voxelSize,
+      " µm, where their gap is lost: ", wayOut(contents.voxelSize, found.smallestGap)));
   }
 }
 

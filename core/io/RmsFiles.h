@@ -12,8 +12,8 @@ namespace cactus
 /// are too many.
 void requireRmsVoxels(const Domain& domain, double voxelSize);
 
-/// Writes `intra/` and, if there are outer surfaces, `extra/`: two simulations for the realistic microstructure simulator
-/// (RMS; Lee et al. 2021, J Neurosci Methods 350:109018), each with
+/// Writes `intra/` and, where there are outer surfaces and labels hold the space between them, `extra/`: two simulations for the
+/// realistic microstructure simulator (RMS; Lee et al. 2021, J Neurosci Methods 350:109018), each with
 ///
 ///   fiber.txt           labels of voxels of contents.voxelSize: 1 where walkers are, 0 elsewhere; z runs fastest, x slowest
 ///   simParamInput.txt   step (ms), steps, walkers, gradients, compartments, voxel size (µm), voxels along x, y, z
@@ -21,10 +21,17 @@ void requireRmsVoxels(const Domain& domain, double voxelSize);
 ///   T2.txt              ms, likewise
 ///   bval.txt, bvec.txt  ms/µm² and unit vectors, those of MC/DC's scheme
 ///
-/// A voxel belongs to its largest compartment (see SampledSubstrate). There are two simulations because RMS lets walkers pass
-/// from any label but 0 into any other. Throws as requireRmsVoxels() does, InvalidInput if VoxelSize leaves no voxel to walkers,
-/// or if voxels inside two fibres share a face, through which walkers would pass from one into the other; OutOfMemory, FileError
-/// and Cancelled.
-void writeRms(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context);
+/// A voxel is what most of it is (see SampledSubstrate). Two simulations, since RMS lets walkers go from any label but 0 into any
+/// other.
+///
+/// RMS's walkers cross the faces between two voxels only. So where less than 90 % of the voxels outside are connected, or less
+/// than 90 % of the volume outside by substrate.certificate is left, `extra/` is not written, and substrate.remarks says so, with
+/// the gap and the voxels that would do. Voxels inside, of which each axon's are looked at by themselves, are refused where they
+/// are not connected, and warned of where volume is lost. Where more than a tenth of the fibres come nearer to another one than a
+/// voxel, substrate.remarks has a warning. substrate.notes gets what was counted of the labels that are written.
+///
+/// Throws what requireRmsVoxels() does, InvalidInput where VoxelSize leaves no voxel to walkers, and where voxels inside two
+/// fibres share a face, through which walkers would go from one into the other; OutOfMemory, FileError and Cancelled.
+void writeRms(const SubstrateFolderContents& contents, WrittenSubstrate& substrate, FolderWriter& writer, const Context& context);
 
 } // namespace cactus

@@ -23,6 +23,7 @@ double unitOf(SubstrateFormat format)
   case SubstrateFormat::Reference:
   case SubstrateFormat::Surfaces:
   case SubstrateFormat::Bundles:
+  case SubstrateFormat::Mcmr:
     return 1.0;
   default:
     return 1e-6;

@@ -29,12 +29,13 @@ enum class SubstrateFormat
   Rms = 4,        ///< RMS: voxel labels, beside a PLY file per surface (µm)
   Surfaces = 5,   ///< for no simulator: only a PLY file per surface (µm)
   SpinDoctor = 6, ///< finite elements: one complex of triangles for tetgen, beside a PLY file per surface (µm)
-  Bundles = 7     ///< for no simulator: only a PLY file per bundle and kind of surface (µm)
+  Bundles = 7,    ///< no simulator's: a PLY file per bundle and kind of surface (µm) and nothing beside
+  Mcmr = 8        ///< MCMRSimulator.jl: its geometry file, beside a PLY file per surface (µm)
 };
 
 /// Their names, by their numbers.
 constexpr const char* formatNames[] = { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone", "SpinDoctor",
-  "Surfaces by bundle" };
+  "Surfaces by bundle", "MCMRSimulator" };
 
 /// A sample of a substrate's fibres of which surfaces were made.
 struct SubstrateSample
@@ -82,7 +83,7 @@ inline int startPointCount(const SubstrateFolderContents& contents)
 inline bool mayBeBinary(SubstrateFormat format)
 {
   return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor ||
-         format == SubstrateFormat::Bundles;
+         format == SubstrateFormat::Bundles || format == SubstrateFormat::Mcmr;
 }
 
 /// The file of one surface, as listed in the manifest.
@@ -113,7 +114,9 @@ struct WrittenSubstrate
   std::optional<LeavingShare> leaving; ///< for MC/DC, where that is known
   /// What its user has to know of it as the format has it: a sentence for each thing.
   std::vector<std::string> remarks;
-  /// A sentence for each leftover of killed writes beside the folder that is kept because it holds the user's files.
+  /// What README.txt says besides, which nobody has to be warned of: a sentence for each thing.
+  std::vector<std::string> notes;
+  /// What writes that were killed have left beside the folder and is kept, as it holds what is the user's: a sentence for each.
   std::vector<std::string> leftovers;
 
   std::vector<std::string> allRemarks() const

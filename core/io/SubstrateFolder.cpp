@@ -12,6 +12,7 @@
 #include "io/FolderReplacement.h"
 #include "io/FolderWriter.h"
 #include "io/McdcFiles.h"
+#include "io/McmrGeometry.h"
 #include "io/NumberedName.h"
 #include "io/PlyFile.h"
 #include "io/RmsFiles.h"
@@ -311,6 +312,10 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
     writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands", [&](const std::string& path)
       { writeStrandFile(isSorted ? *contents.fibres : selectFibres(*contents.fibres, orderById(*contents.fibres)), path); });
   }
+  if (contents.format == SubstrateFormat::Camino)
+  {
+    writer.write("pgse.scheme", mcdcScheme(contents.mcdc)); // in Camino's own format
+  }
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
   writer.write("README.txt", readmeText(contents, substrate));
@@ -382,11 +387,11 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
 {
   if (contents.format == SubstrateFormat::Rms)
   {
-    writeRms(contents, writer, context);
+    writeRms(contents, substrate, writer, context);
   }
   else if (contents.format == SubstrateFormat::SpinDoctor)
   {
-    substrate.remarks = writeElementFiles(contents, writer, context);
+    substrate.remarks = writeElementFiles(contents, substrate.certificate.smallestGap, writer, context);
   }
   else if (contents.format == SubstrateFormat::Mcdc)
   {
@@ -397,6 +402,10 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
   else
   {
     writeStartPositions(contents, {}, writer, context);
+  }
+  if (contents.format == SubstrateFormat::Mcmr)
+  {
+    writeMcmrGeometry(contents, writer, context);
   }
   if (contents.fibres != nullptr && !hasStrandFile(contents))
   {
@@ -414,8 +423,8 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
 void requireEncoding(SubstrateFormat format, PlyEncoding encoding)
 {
   require(encoding == PlyEncoding::Ascii || mayBeBinary(format),
-    "Encoding Binary is not for simulators that read PLY files, which take ASCII only: choose Encoding ASCII, or Format Surfaces "
-    "alone, Surfaces by bundle, RMS or SpinDoctor");
+    "Encoding Binary is not for simulators whose readers of PLY files take ASCII only: choose Encoding ASCII, or Format Surfaces "
+    "alone, Surfaces by bundle, RMS, SpinDoctor or MCMRSimulator");
 }
 
 void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)

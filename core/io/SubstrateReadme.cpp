@@ -2,6 +2,8 @@
 #include "io/SubstrateReadme.h"
 
 #include "base/Error.h"
+#include "base/Numbers.h"
+#include "io/McmrGeometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,23 +15,100 @@ namespace cactus
 namespace
 {
 
-/// Returns the files of a format besides the common ones, and their use.
-std::string filesFor(SubstrateFormat format)
+constexpr double inMetres = 1e-6; ///< of one µm
+
+/// µm: steps outside the fibres that are longer make diffusion there too slow, see docs/simulators.md.
+constexpr double longestStep = 0.05;
+
+/// Numbers that words of a command are made of, with blanks between them.
+std::string numberWords(const Eigen::Vector3d& values, const char* between = " ")
 {
-  switch (format)
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    text += axis > 0 ? between : "";
+    appendNumber(text, values[axis], 9);
+  }
+  return text;
+}
+
+/// How Camino is run here. It repeats the substrate, and ends with "has crossed" where a walker outside meets the ends of fibres
+/// in the border between two repeats; so these are a little farther apart than the domain is long.
+std::string caminoText(const SubstrateFolderContents& contents)
+{
+  constexpr double betweenRepeats = 0.1; // µm
+  constexpr double stepInside = 0.1;     // µm
+  const McdcOptions& run = contents.mcdc;
+  const auto command = [&](const std::string& where, const std::string& kind, double micrometres)
+  {
+    const double step = inMetres * micrometres;
+    const auto steps = std::llround(6.0 * run.diffusivity * run.echoTime / (step * step));
+    return "    datasynth -walkers " + std::to_string(run.walkers) + " -tmax " + std::to_string(steps) +
+           " -p 0 -voxels 1 -initial " + where + " -diffusivity " + text(run.diffusivity) +
+           " \\\n      -substrate ply -plyfile " + kind + ".ply -meshsep " +
+           numberWords(inMetres * (contents.domain.size().array() + betweenRepeats).matrix()) +
+           " \\\n      -voxelsizefrac 1 -schemefile pgse.scheme > " + where + ".bfloat\n";
+  };
+  return "outer.ply, inner.ply   all outer, and all inner, surfaces, in metres (Camino)\n"
+         "pgse.scheme     the acquisition of MC/DC's folders, in Camino's format\n\n" +
+         command("intra", contents.inner.size() > 0 ? "inner" : "outer", stepInside) +
+         (contents.outer.size() > 0 ? command("extra", "outer", longestStep) : "") +
+         "\nThe signal is a big-endian 32-bit number for each line of pgse.scheme: the sum of cos(phase) over the walkers. -tmax "
+         "is\n"
+         "the number of steps. They are " +
+         text(stepInside) + " µm long inside, where a fifth of an axon's radius will do, and " + text(longestStep) +
+         " µm outside, where longer ones\nslow diffusion down: try few -walkers first, as Camino takes its time. -meshsep is the "
+         "distance "
+         "of repeats: the sides of\nthe domain and " +
+         text(betweenRepeats) + " µm, as walkers outside would end the run (\"has crossed\") where repeats touch.\n";
+}
+
+/// How MCMRSimulator.jl is run here.
+std::string mcmrText(const SubstrateFolderContents& contents)
+{
+  const Domain box = mcmrBox(contents.domain);
+  const double step = inMetres * longestStep;
+  const double milliseconds = 1e3 * step * step / (6.0 * contents.mcdc.diffusivity);
+  const bool hasBoth = contents.inner.size() > 0 && contents.outer.size() > 0;
+  return "geometry.json   the geometry for MCMRSimulator.jl (git.fmrib.ox.ac.uk/ndcn0236/mcmrsimulator.jl): a Mesh of all outer\n"
+         "                surfaces, one of all inner ones, and Walls at the faces of the domain, as walkers would leave it "
+         "else\n\n"
+         "In Julia, in this folder, with a sequence of your own:\n\n"
+         "    using MCMRSimulator\n"
+         "    geometry = read_geometry(\"geometry.json\")\n"
+         "    simulation = Simulation(read_pulseq(\"FILE.seq\"); geometry=geometry, diffusivity=" +
+         text(1e9 * contents.mcdc.diffusivity) + ", timestep=" + text(milliseconds) +
+         ")\n"
+         "    box = BoundingBox([" +
+         numberWords(box.lower, ", ") + "], [" + numberWords(box.upper, ", ") +
+         "])\n"
+         "    signals = readout(" +
+         std::to_string(contents.mcdc.walkers) + ", simulation; bounding_box=box, subset=[" +
+         (hasBoth ? "Subset(inside=2), Subset(inside=1), Subset(inside=0)" : "Subset(inside=1), Subset(inside=0)") + "])\n\n" +
+         "inside= is the number of surfaces that a walker is in: " +
+         (hasBoth ? "2 in an axon, 1 in myelin, 0 outside the fibres" : "1 in a fibre, 0 outside the fibres") +
+         ". Walkers start all over the box, so that\n"
+         "signals are weighted by volume. Take the signal of myelin for what the tissue has: none, where its T2 is short.\n"
+         "timestep is in ms, and makes steps of " +
+         text(longestStep) + " µm: outside, longer ones slow diffusion down.\n";
+}
+
+/// What stands in a folder besides what all have, and how it is used.
+std::string filesFor(const SubstrateFolderContents& contents)
+{
+  switch (contents.format)
   {
   case SubstrateFormat::Reference:
     return "optimized_final.txt, meshes/simulations/   as the reference program leaves them, in micrometres\n\n"
            "    from dmipy_sim.io.cactus import load_cactus_bundle\n"
            "    bundle = load_cactus_bundle('.', volume_reference='box')\n";
   case SubstrateFormat::Camino:
-    return "outer.ply, inner.ply   all outer, and all inner, surfaces, in metres (Camino)\n\n"
-           "    datasynth -walkers N -tmax T -p 0.0 -initial intra -substrate ply -plyfile inner.ply \\\n"
-           "      -meshsep X Y Z -voxelsizefrac 1 -schemefile FILE\n\n"
-           "X Y Z are the sides of the domain in metres (manifest.json has it in micrometres); -initial extra goes with "
-           "outer.ply.\n";
+    return caminoText(contents);
+  case SubstrateFormat::Mcmr:
+    return mcmrText(contents);
   case SubstrateFormat::Rms:
-    return "intra/, extra/  simulations for RMS: fiber.txt holds the labels of the voxels (1: walkers), simParamInput.txt their\n"
+    return "intra/, extra/  simulations for RMS (extra/ where the labels hold it): fiber.txt holds the labels of the voxels (1: "
+           "walkers), simParamInput.txt their\n"
            "                size and numbers, the time step and how many "
            "(github.com/NYU-DiffusionMRI/monte-carlo-simulation-3D-RMS)\n\n"
            "    cd intra && cp .../hpc_code/lib/main.cu . && nvcc main.cu -o main_cuda && ./main_cuda\n";
@@ -191,9 +270,12 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
   const bool hasInner = contents.inner.size() > 0;
   const bool hasOuter = contents.outer.size() > 0;
   std::string text = headText(contents, substrate.certificate);
-  for (const std::string& remark : substrate.remarks)
+  for (const std::vector<std::string>& sentences : { substrate.remarks, substrate.notes })
   {
-    text += remark + ".\n\n";
+    for (const std::string& sentence : sentences)
+    {
+      text += sentence + ".\n\n";
+    }
   }
   text += "manifest.json   what this is, how it was made, and every surface with its fibre, bundle, volume and area\n";
   const bool isVolume = contents.format == SubstrateFormat::Rms || contents.format == SubstrateFormat::SpinDoctor;
@@ -205,7 +287,7 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
     "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
   if (!hasFilePerSurface(contents.format))
   {
-    return text + certificateLine + filesFor(contents.format);
+    return text + certificateLine + filesFor(contents);
   }
   if (hasOuter)
   {
@@ -222,7 +304,7 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
     text += "fibres.strands  centre lines and radii\n";
   }
   text += certificateLine;
-  return text + (contents.format == SubstrateFormat::Mcdc ? mcdcText(contents, substrate) : filesFor(contents.format));
+  return text + (contents.format == SubstrateFormat::Mcdc ? mcdcText(contents, substrate) : filesFor(contents));
 }
 
 } // namespace cactus

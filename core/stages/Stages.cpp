@@ -19,8 +19,8 @@ const std::vector<std::string> formats(std::begin(formatNames), std::end(formatN
 constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
 constexpr char encodingMeaning[] =
-  "Of PLY files that no simulator reads: text, or bytes, which take half the room; Binary is for Format RMS, "
-  "Surfaces alone, SpinDoctor and Surfaces by bundle, and refused for others";
+  "Of PLY files that no simulator needs as text: text, or bytes, which take half the room; Binary is for Format RMS, "
+  "Surfaces alone, SpinDoctor, Surfaces by bundle and MCMRSimulator, and refused for others";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };
 constexpr Range tableFactor{ 1e-6, 1e6 };
 constexpr Range partOfHits{ 0.0, 1.0 };
@@ -229,9 +229,9 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
       .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a voxel of the labels; it has to divide the domain's sides")
       .where("Format", { 4 })
       .add("StartPositions", &Stage::startPositions, startCount, "Points to draw in each compartment, for walkers to start from")
-      .where("Format", { 0, 1, 2, 3, 5, 7 })
+      .where("Format", { 0, 1, 2, 3, 5, 7, 8 })
       .add("Seed", &Stage::seed, limits::seed, "Chooses the random points")
-      .where("Format", { 0, 1, 2, 3, 5, 7 })
+      .where("Format", { 0, 1, 2, 3, 5, 7, 8 })
       .whereGiven("StartPositions")
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")

@@ -60,9 +60,9 @@ class CactusGrow(CactusTestCase):
 
     def test_two_bundles_distributed_g_ratios_and_another_simulator(self):
         fibres = OutputPort(CapsuleOptimizer(Input=[BundleInitializer(**BUNDLE), BundleInitializer(**OTHER)]), 0)
-        self.write(fibres, GROWTH, SURFACES, Format="RMS", VoxelSize=0.2)
+        self.write(fibres, GROWTH, SURFACES, Format="MCMRSimulator", StartPositions=20)
         self.grow({"BundleInitializer": [BUNDLE, OTHER], "FibreRadialGrowth": GROWTH, "MyelinSurface": SURFACES,
-                   "SubstrateWriter": {"Format": "RMS", "VoxelSize": 0.2}}, "grown")
+                   "SubstrateWriter": {"Format": "MCMRSimulator", "StartPositions": 20}}, "grown")
         self.assertSame("filters", "grown")
 
     def test_blocks_and_tables_from_a_manifest(self):

@@ -23,6 +23,8 @@ def bundle(**properties):
 
 
 class Rerun(CactusTestCase):
+    expected = "The smallest gap between two fibres"  # by Format SpinDoctor
+
     def write(self, fibres, name="substrate", growth=None, surface=None, **properties):
         """A substrate folder, by all stages, and the path of its manifest."""
         optimizer = CapsuleOptimizer(Input=fibres, **properties)

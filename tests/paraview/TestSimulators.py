@@ -221,6 +221,30 @@ class Simulators(CactusTestCase):
                                 VoxelSize=size).UpdatePipeline()
             self.assertEqual(os.listdir(self.folder), [])
 
+    def test_gaps_that_rms_would_lose_are_told(self):
+        thin = {3: tube(-1, 0, 0.5, 9.9), 5: tube(1, 0, 0.5, 9.9)}
+        around = {3: tube(-1, 0, 0.95, 10), 5: tube(1, 0, 0.95, 10)}
+        folder = os.path.join(self.folder, "substrate")
+        with self.assertError(r"too slow across the fibres: 2 of 2 fibres come nearer to another one than a voxel, 0\.2 µm.* MinimumGap of 0\.2 µm"):
+            SubstrateWriter(Outer=produce(surfaces(around, 0, 10)), Inner=produce(surfaces(thin, 1, 10)), FolderName=folder, Format="RMS",
+                            VoxelSize=0.2).UpdatePipeline()
+        with open(os.path.join(folder, "README.txt")) as file:
+            self.assertIn("2 of 2 fibres come nearer", file.read())
+
+    def test_mcmr_simulator(self):
+        """By the rules of its reader: a Mesh has vertices and triangles that count from 1, and Walls a direction and two places."""
+        path = self.write(Format="MCMRSimulator", StartPositions=50)
+        with open(path("geometry.json")) as file:
+            outer, inner, *walls = json.load(file)
+        for kind, mesh in (("outer", outer), ("inner", inner)):
+            self.assertEqual(sorted(mesh), ["triangles", "type", "vertices"])
+            vertices, faces = numpy.array(mesh["vertices"]), numpy.array(mesh["triangles"]) - 1
+            self.assertEqual((mesh["type"], faces.min(), faces.max()), ("Mesh", 0, len(vertices) - 1))
+            self.assertAlmostEqual(volume(vertices, faces), LENGTH[kind] * POLYGON * sum(r * r for _, r in TUBES[kind].values()), 4)
+        self.assertEqual([(wall["type"], wall["rotation"].index(1), wall["position"]) for wall in walls],
+                         [("Walls", axis, [-4.999, 4.999]) for axis in range(3)])
+        self.starts(path, 1.0)
+
     def test_what_a_format_needs(self):
         _, outer, _ = two_tubes()
         with self.assertError(r"Format Reference program .*connect Inner and Fibres"):

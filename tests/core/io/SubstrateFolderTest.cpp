@@ -462,7 +462,7 @@ TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
   this->Contents.startPositions = 1;
   for (const auto format : { cactus::SubstrateFormat::Mcdc, cactus::SubstrateFormat::Reference, cactus::SubstrateFormat::Camino,
          cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms, cactus::SubstrateFormat::Surfaces,
-         cactus::SubstrateFormat::SpinDoctor, cactus::SubstrateFormat::Bundles })
+         cactus::SubstrateFormat::SpinDoctor, cactus::SubstrateFormat::Bundles, cactus::SubstrateFormat::Mcmr })
   {
     this->Contents.format = format;
     const fs::path folder = this->Scratch / std::to_string(int(format));

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/McmrGeometry.h"
+
+#include "base/AtomicFile.h"
+#include "base/Numbers.h"
+#include "io/PlyFile.h"
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <string>
+
+namespace cactus
+{
+
+namespace
+{
+
+constexpr double wallInset = 1e-3; ///< µm
+constexpr int jsonDigits = 9;
+
+/// Writes a JSON list of what `rows` makes of each surface, which has so many points before it: rows that end with a comma.
+void writeRows(std::ostream& out, const FibreSurfaces& surfaces, PlyEncoding encoding, const Context& context,
+  const std::function<std::string(const TriangleMesh&, std::int64_t)>& rows)
+{
+  std::int64_t before = 0;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    context.checkpoint();
+    const TriangleMesh mesh = asWritten(surfaces.mesh(i), encoding);
+    std::string text = rows(mesh, before);
+    if (i + 1 == surfaces.size())
+    {
+      text.erase(text.rfind(',')); // JSON has none after the last
+    }
+    out << text;
+    before += std::int64_t(mesh.points.size());
+  }
+}
+
+std::string vertexRows(const TriangleMesh& mesh)
+{
+  std::string text;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      text += axis == 0 ? '[' : ',';
+      appendNumber(text, point[axis], jsonDigits);
+    }
+    text += "],\n";
+  }
+  return text;
+}
+
+std::string triangleRows(const TriangleMesh& mesh, std::int64_t before)
+{
+  std::string text;
+  for (const auto& triangle : mesh.triangles)
+  {
+    for (std::size_t corner = 0; corner < 3; ++corner)
+    {
+      text += corner == 0 ? '[' : ',';
+      text += std::to_string(before + triangle[corner] + 1);
+    }
+    text += "],\n";
+  }
+  return text;
+}
+
+void writeMesh(std::ostream& out, const FibreSurfaces& surfaces, PlyEncoding encoding, const Context& context)
+{
+  if (surfaces.size() == 0)
+  {
+    return;
+  }
+  out << "{\"type\": \"Mesh\", \"vertices\": [\n";
+  writeRows(out, surfaces, encoding, context, [](const TriangleMesh& mesh, std::int64_t) { return vertexRows(mesh); });
+  out << "], \"triangles\": [\n";
+  writeRows(out, surfaces, encoding, context, triangleRows);
+  out << "]},\n";
+}
+
+std::string wallText(const Domain& box)
+{
+  constexpr const char* axes[] = { "[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]" };
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    text += std::string(R"({"type": "Walls", "rotation": )") + axes[axis] + ", \"position\": [";
+    appendNumber(text, box.lower[axis], jsonDigits);
+    text += ", ";
+    appendNumber(text, box.upper[axis], jsonDigits);
+    text += axis < 2 ? "]},\n" : "]}\n";
+  }
+  return text;
+}
+
+} // namespace
+
+Domain mcmrBox(const Domain& domain)
+{
+  Domain box = domain;
+  box.lower.array() += wallInset;
+  box.upper.array() -= wallInset;
+  return box;
+}
+
+void writeMcmrGeometry(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context)
+{
+  writer.writeBy("geometry.json",
+    [&](const std::string& place)
+    {
+      AtomicFile file(place);
+      file.stream() << "[\n";
+      writeMesh(file.stream(), contents.outer, contents.encoding, context);
+      writeMesh(file.stream(), contents.inner, contents.encoding, context);
+      file.stream() << wallText(mcmrBox(contents.domain)) << "]\n";
+      file.commit();
+    });
+}
+
+} // namespace cactus
