@@ -29,6 +29,10 @@ namespace cactus
 /// for ids that are not whole numbers from 1 to 2147483647, and where blocks have different domains.
 Fibres fibresFrom(vtkDataObject* input);
 
+/// The same for what need not be a substrate, as a tractogram that was read: the domain may have no volume or be larger than
+/// limits are, and so may the fibres.
+Fibres tractFrom(vtkDataObject* input);
+
 /// The fibres of several inputs in their order. Ids stay where they are free; the bundles or fibres of an input or block that
 /// share one with an earlier one all move above the largest. Throws InvalidInput where the inputs have different domains.
 Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs);

@@ -19,7 +19,8 @@ Tractogram readTractogram(const std::string& path, const Context& context = {});
 void requireTractogram(const std::string& path);
 
 /// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); in mm, where they are placed.
-/// The file appears whole or not at all. Throws FileError, and InvalidInput for other extensions and as `validate` does.
+/// Of a .trx the domain becomes the image, whatever its size is. The file appears whole or not at all. Throws FileError, and
+/// InvalidInput for other extensions, where there are no fibres, and for points further away than a scanner reaches.
 void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path);
 
 } // namespace cactus
