@@ -4,6 +4,7 @@
 #include "base/Context.h"
 #include "base/Team.h"
 #include "fibres/Fibres.h"
+#include "fibres/ResampledFibres.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/ConvergenceRow.h"
 #include "optimiser/StoppingRule.h"
@@ -19,6 +20,8 @@ namespace cactus
 struct OptimisationResult
 {
   StopReason reason = StopReason::Converged;
+  Resampling resampling;         ///< of the fibres that came in
+  double lengthIncrease = 0.0;   ///< by how much all fibres together have become longer, as a fraction of what came in
   std::string checkpointFailure; ///< why a checkpoint after the first could not be written; empty where all were
   std::vector<ConvergenceRow> convergence;
   /// Of the fibres handed back, measured afresh over all neighbours.
@@ -36,9 +39,10 @@ struct OptimisationResult
 /// tolerance, or until iterations or time run out or they make no progress any more; then `fibres` holds the state with the
 /// smallest cost of overlap. Where most control points lie nearly straight between their neighbours and radii are kept, every
 /// second of these is moved alone at first, and the others with it (see CoarseFibres): rows tell of the overlap of those few
-/// until all are moved. End points slide in the plane across their bundle's axis. Same bits on any number of threads. `observe`,
-/// where given, is called with each iteration's row and state, the first included. Throws InvalidInput (fibres, options, a
-/// checkpoint of something else) and FileError (the checkpoint), OutOfMemory.
+/// until all are moved. Fibres whose control points lie too densely are resampled first, see resampleDenseFibres(): their number
+/// of control points changes, also for `observe`. End points slide in the plane across their bundle's axis. Same bits on any
+/// number of threads. `observe`, where given, is called with each iteration's row and state, the first included. Throws
+/// InvalidInput (fibres, options, a checkpoint of something else) and FileError (the checkpoint), OutOfMemory.
 ///
 /// The processes of a team share the work: each moves some of the fibres, and knows of the others those that lie beside its own.
 /// All are given the same fibres and options, and end with the same result, which has the bits that one process alone gives it,

@@ -62,7 +62,8 @@ Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vec
 /// Empty where what is to be gone on from could be written down, or was not asked for.
 std::string remarkOnCheckpoint(const OptimisationResult& result);
 
-/// How the optimiser's run fell short, in sentences; empty where it did not.
+/// What the user of an optimisation has to know, in sentences: where it fell short, resampled fibres or lengthened them; empty
+/// where it did none of that.
 std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, const CapsuleOptimizerOptions& options);
 
 /// That fibres which no optimiser has parted overlap, where capsules of different ones have more than a hundredth of their radii
