@@ -38,6 +38,7 @@
 namespace cactus
 {
 struct Context;
+struct FibreRadialGrowthOptions;
 struct Fibres;
 } // namespace cactus
 
@@ -80,7 +81,8 @@ private:
   vtkSmartPointer<vtkDataObject> Fibres; ///< which shares the input's arrays
 
   /// Finds how far which fibres grow, where neither they nor a property are as they were the last time.
-  void solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::Context& context);
+  void solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::FibreRadialGrowthOptions& options,
+    const cactus::Context& context);
 
   // What the target needs, kept from one extent to the next: the fibres that grow, and how far.
   std::unique_ptr<cactus::Fibres> Aimed;

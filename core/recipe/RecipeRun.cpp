@@ -264,9 +264,9 @@ private:
 
   void work(const FibreRadialGrowthStage& stage)
   {
-    const FibreRadialGrowthOptions& options = stage.options;
     const Context context = this->contextFor(stage.threads);
-    Fibres fibres = this->growingFibres(options, context);
+    Fibres fibres = this->growingFibres(stage.options, context);
+    const FibreRadialGrowthOptions options = forFibres(fibres, stage.options);
     const Fibres aimed = aimAtTargetRadii(fibres, options, context);
     const double growth = growthFor(aimed, options, context);
     const VoxelGrid grid = growthGrid(fibres.domain, options);
