@@ -24,6 +24,9 @@ Fibres readStrandFile(const std::string& path);
 /// The same from a stream; `name` is what messages call it.
 Fibres readStrandFile(std::istream& stream, const std::string& name);
 
+/// Throws InvalidInput as `validate` does, with the name of the file that the fibres are of.
+void validateFile(const Fibres& fibres, const std::string& name);
+
 /// Whether the format can say what domain it is: a cube centred on the origin.
 bool fitsStrandFile(const Domain& domain);
 

@@ -225,7 +225,15 @@ private:
     }
   }
 
-  void work(const StrandReaderStage& stage) { this->giveFibres(strandsOf(stage), provenanceOf(strandRecord(stage)), false); }
+  void work(const StrandReaderStage& stage)
+  {
+    FibresOfFile read = strandsOf(stage);
+    for (const std::string& remark : read.remarks)
+    {
+      this->say("StrandReader: " + stage.fileName + ": " + remark);
+    }
+    this->giveFibres(std::move(read.fibres), provenanceOf(strandRecord(stage)), false);
+  }
 
   void work(const CapsuleOptimizerStage& stage)
   {

@@ -6,7 +6,6 @@
 #include "bundle/RadiusColumn.h"
 #include "fibres/TrimToDomain.h"
 #include "io/FileCollection.h"
-#include "io/StrandFile.h"
 #include "io/TractogramFile.h"
 #include "optimiser/OverlapReport.h"
 
@@ -269,13 +268,13 @@ std::string remarksOnTract(const TractFibresReport& report)
   return told;
 }
 
-Fibres strandsOf(const StrandReaderStage& stage)
+FibresOfFile strandsOf(const StrandReaderStage& stage)
 {
   if (stage.fileName.empty())
   {
     throw InvalidInput("FileName is empty: name the strand file to read");
   }
-  return readStrandFile(stage.fileName);
+  return readFibreFile(stage.fileName);
 }
 
 StageRecord strandRecord(const StrandReaderStage& stage)

@@ -9,6 +9,7 @@
 #include "bundle/Streamlines.h"
 #include "bundle/TractFibres.h"
 #include "fibres/Fibres.h"
+#include "io/FibreFile.h"
 #include "io/SubstrateContents.h"
 #include "io/SubstrateProduction.h"
 #include "io/Tractogram.h"
@@ -48,8 +49,8 @@ Streamlines streamlinesOf(const std::vector<const Tractogram*>& tractograms);
 /// What of the streamlines the fibres do not follow; empty where they follow all.
 std::string remarksOnTract(const TractFibresReport& report);
 
-/// The fibres of the file. Throws InvalidInput where none is named, and as readStrandFile() does.
-Fibres strandsOf(const StrandReaderStage& stage);
+/// The fibres of the file. Throws InvalidInput where none is named, and as readFibreFile() does.
+FibresOfFile strandsOf(const StrandReaderStage& stage);
 StageRecord strandRecord(const StrandReaderStage& stage);
 
 /// What is kept of an optimisation, or of a state on its way.
