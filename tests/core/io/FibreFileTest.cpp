@@ -158,7 +158,7 @@ TEST(EllipsoidFile, MistakesAreNamed)
   EXPECT_NE(message("[0.1, 0, 0]", "[0.1, 0]").find("has no position of three numbers"), std::string::npos);
   EXPECT_NE(message("myelinDiameter", "diameter").find("has no myelinDiameter"), std::string::npos);
   EXPECT_NE(message("[4, 4, 6]", "\"large\"").find("has no voxelSize of three numbers"), std::string::npos);
-  EXPECT_NE(message(" ] })", " ]").find("is no strand file"), std::string::npos) << "cut off";
+  EXPECT_NE(message("\"#aabbcc\" } ] }", "\"#aabbcc\" } ]").find("is no strand file"), std::string::npos) << "cut off";
 }
 
 TEST(FibreFile, ItsFirstCharactersTellTheFormat)

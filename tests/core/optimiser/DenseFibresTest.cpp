@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fibres whose control points lie much closer together than their radius, as other generators and microscopes give them.
 #include "bundle/BundleInitializer.h"
-#include "fibres/FibreShape.h"
 #include "fibres/ResampledFibres.h"
 #include "optimiser/CapsuleOptimizer.h"
 
@@ -41,6 +40,19 @@ Fibres wavyBundle(double spacing)
   return fibres;
 }
 
+double lengthOf(const Fibres& fibres)
+{
+  double length = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f] + 1; i < fibres.offsets[f + 1]; ++i)
+    {
+      length += (fibres.points[i] - fibres.points[i - 1]).norm();
+    }
+  }
+  return length;
+}
+
 double volumeOf(const Fibres& fibres)
 {
   double volume = 0.0;
@@ -57,17 +69,15 @@ double volumeOf(const Fibres& fibres)
 TEST(DenseFibres, KeepTheirShapeAsTheyAreParted)
 {
   const Fibres given = wavyBundle(0.1);
-  const cactus::FibreShape before = cactus::measureShape(given);
   Fibres fibres = given;
   const cactus::OptimisationResult result = cactus::optimise(fibres, {}, {});
   EXPECT_EQ(result.reason, cactus::StopReason::Converged);
   EXPECT_EQ(result.resampling.fibres, given.size());
   EXPECT_GT(result.resampling.largestDeviation, 0.0);
   EXPECT_LT(result.resampling.largestDeviation, 0.1 * radius);
-  const cactus::FibreShape after = cactus::measureShape(fibres);
-  EXPECT_NEAR(after.totalLength / before.totalLength, 1.0, 0.03);
-  EXPECT_NEAR(result.lengthIncrease, after.totalLength / before.totalLength - 1.0, 1e-12);
-  EXPECT_NEAR(after.tangentDispersion, before.tangentDispersion, 3.0);
+  EXPECT_NEAR(lengthOf(fibres) / lengthOf(given), 1.0, 0.03);
+  EXPECT_NEAR(result.lengthIncrease, lengthOf(fibres) / lengthOf(given) - 1.0, 1e-12);
+  EXPECT_NEAR(cactus::meanTangentDispersion(fibres), cactus::meanTangentDispersion(given), 3.0);
   EXPECT_NEAR(volumeOf(fibres) / volumeOf(given), 1.0, 0.03);
 }
 
