@@ -112,7 +112,8 @@ def make(path):
     print(
         f"{os.path.basename(path)}: {fibres.GetNumberOfCells()} fibres, length {100 * number(fibres, 'LengthIncrease'):+.1f} %, "
         f"tangents {number(fibres, 'InitialTangentDispersion'):.1f}° -> {number(fibres, 'TangentDispersion'):.1f}°, "
-        f"volume fraction {first_row(before)['CapsuleVolumeFraction']:.3f} -> {first_row(after)['FVF']:.3f}, "
+        f"capsules {first_row(before)['CapsuleVolumeFraction']:.3f} -> {first_row(after)['CapsuleVolumeFraction']:.3f} of the domain, "
+        f"surfaces {first_row(after)['FVF']:.3f}, "
         f"{'certified' if certified else 'NOT certified'}",
         flush=True,
     )
