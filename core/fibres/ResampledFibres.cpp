@@ -157,7 +157,18 @@ void addPoints(const FibreLine& line, const std::vector<Eigen::Vector3d>& points
 
 Resampling resampleDenseFibres(Fibres& fibres)
 {
+  std::vector<std::size_t> segments;
+  bool isAnyDense = false;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    segments.push_back(segmentsFor(FibreLine(fibres, f)));
+    isAnyDense = isAnyDense || segments[f] + 1 < fibres.pointCount(f);
+  }
   Resampling done;
+  if (!isAnyDense)
+  {
+    return done;
+  }
   Fibres resampled;
   resampled.domain = fibres.domain;
   resampled.grownFraction = fibres.grownFraction;
@@ -165,10 +176,9 @@ Resampling resampleDenseFibres(Fibres& fibres)
   {
     resampled.addFibre(fibres.fibreIds[f], fibres.bundleIds[f], fibres.targetRadii[f]);
     const FibreLine line(fibres, f);
-    const std::size_t segments = segmentsFor(line);
-    if (segments + 1 < line.size())
+    if (segments[f] + 1 < line.size())
     {
-      if (const auto points = evenPoints(line, segments); !hasCoincidingPoints(points))
+      if (const auto points = evenPoints(line, segments[f]); !hasCoincidingPoints(points))
       {
         addPoints(line, points, resampled);
         done.largestDeviation = std::max(done.largestDeviation, deviationOf(line, points));
@@ -181,10 +191,7 @@ Resampling resampleDenseFibres(Fibres& fibres)
       resampled.addPoint(line.point(i), line.radius(i));
     }
   }
-  if (done.fibres > 0)
-  {
-    fibres = std::move(resampled);
-  }
+  fibres = std::move(resampled);
   return done;
 }
 
