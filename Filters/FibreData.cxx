@@ -153,7 +153,7 @@ void takeBack(const Placement& placement, Fibres& fibres)
 
 } // namespace
 
-Fibres fibresFrom(vtkDataObject* input)
+Fibres tractFrom(vtkDataObject* input)
 {
   const auto blocks = polyDataBlocks(
     input, "fibres are polylines (vtkPolyData) with point data Radius; AppendGeometry, not AppendDatasets, joins them as such");
@@ -187,6 +187,12 @@ Fibres fibresFrom(vtkDataObject* input)
     throw InvalidInput("the input holds no fibres: connect a BundleInitializer, a reader or polylines with a Radius array");
   }
   fibres.domain = hasDomain(input) ? domainFrom(input) : boundingBox(fibres);
+  return fibres;
+}
+
+Fibres fibresFrom(vtkDataObject* input)
+{
+  Fibres fibres = tractFrom(input);
   validate(fibres);
   return fibres;
 }

@@ -30,8 +30,12 @@ namespace cactus
 /// whole numbers from 1 to 2147483647, and if blocks have different domains.
 Fibres fibresFrom(vtkDataObject* input);
 
-/// Joins the fibres of several inputs in their order. Ids stay if they are free; if an input or block shares ids with an earlier
-/// one, all its bundles or fibres move above the largest. Throws InvalidInput if the inputs have different domains.
+/// The same for what need not be a substrate, as a tractogram that was read: the domain may have no volume or be larger than
+/// limits are, and so may the fibres.
+Fibres tractFrom(vtkDataObject* input);
+
+/// The fibres of several inputs in their order. Ids stay where they are free; the bundles or fibres of an input or block that
+/// share one with an earlier one all move above the largest. Throws InvalidInput where the inputs have different domains.
 Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs);
 
 /// Returns an array's value as a whole number from 1 to 2147483647. Throws InvalidInput, naming array and cell, for any other

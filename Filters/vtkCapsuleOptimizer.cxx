@@ -151,6 +151,7 @@ struct vtkCapsuleOptimizer::LiveRun
     : Start(fibres)
     , Optimisation(fibres, stage.options, stage.threads, stage.showEvery)
   {
+    cactus::resampleDenseFibres(this->Start); // radii are compared at the same control points
     this->Seen.Before = cactus::measureShape(fibres);
     this->Seen.IsOver = false;
   }
@@ -310,6 +311,7 @@ void vtkCapsuleOptimizer::Optimise(vtkInformationVector* inputs, Run& run)
   run.Fibres = cactus::joinedFibres(dataOf(inputs));
   run.Before = cactus::measureShape(run.Fibres);
   cactus::Fibres before = run.Fibres;
+  cactus::resampleDenseFibres(before);                // as optimise() does: radii are compared at the same control points
   std::vector<Eigen::Vector3d>().swap(before.points); // only radii are compared
   const auto keep = [&](const cactus::ConvergenceRow& row, const cactus::Fibres& fibres)
   {

@@ -159,9 +159,9 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
     {
       const auto& stage = cactus::stageOf<cactus::FibreRadialGrowthStage>(this->Properties);
       cactus::validateProperties(stage);
-      const cactus::FibreRadialGrowthOptions& options = stage.options;
       auto* input = vtkDataObject::GetData(inputs[0]);
       const cactus::Fibres fibres = cactus::fibresFrom(input);
+      const cactus::FibreRadialGrowthOptions options = cactus::forFibres(fibres, stage.options);
       this->Fibres.TakeReference(input->NewInstance());
       this->Fibres->ShallowCopy(input);
       const cactus::Context context = cactus::contextFor(this, stage.threads);
@@ -175,7 +175,7 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
         return;
       }
 
-      this->solve(input, fibres, context);
+      this->solve(input, fibres, options, context);
 
       auto fibreId = cactus::makeArray<vtkIntArray>("FibreId", grid.size());
       auto depth = cactus::makeArray<vtkFloatArray>("Depth", grid.size());
@@ -196,13 +196,13 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
     });
 }
 
-void vtkFibreRadialGrowth::solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::Context& context)
+void vtkFibreRadialGrowth::solve(vtkDataObject* input, const cactus::Fibres& fibres,
+  const cactus::FibreRadialGrowthOptions& options, const cactus::Context& context)
 {
   if (this->GrowthParameterTime == this->GetMTime() && this->GrowthInputTime == cactus::changeTime(input))
   {
     return;
   }
-  const auto& options = cactus::stageOf<cactus::FibreRadialGrowthStage>(this->Properties).options;
   for (const std::string& remark :
     { cactus::remarkOnOverlaps(input, fibres, context.threadCount()), cactus::remarkOnTarget(fibres, options) })
   {

@@ -38,6 +38,7 @@
 namespace cactus
 {
 struct Context;
+struct FibreRadialGrowthOptions;
 struct Fibres;
 } // namespace cactus
 
@@ -79,8 +80,9 @@ private:
   std::unique_ptr<cactus::FilterProperties> Properties;
   vtkSmartPointer<vtkDataObject> Fibres; ///< shares the input's arrays
 
-  /// Finds which fibres grow and how far, unless neither they nor a property have changed since the last time.
-  void solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::Context& context);
+  /// Finds how far which fibres grow, where neither they nor a property are as they were the last time.
+  void solve(vtkDataObject* input, const cactus::Fibres& fibres, const cactus::FibreRadialGrowthOptions& options,
+    const cactus::Context& context);
 
   // Results for the target, kept from one extent to the next: the fibres that grow, and how far.
   std::unique_ptr<cactus::Fibres> Aimed;

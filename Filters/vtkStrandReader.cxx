@@ -10,6 +10,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 
+#include <string>
+
 vtkStandardNewMacro(vtkStrandReader);
 
 vtkStrandReader::vtkStrandReader()
@@ -24,8 +26,13 @@ int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInf
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::StrandReaderStage>(this->Properties);
+      const cactus::FibresOfFile read = cactus::strandsOf(stage);
+      for (const std::string& remark : read.remarks)
+      {
+        vtkWarningMacro(<< stage.fileName << ": " << remark);
+      }
       auto* output = vtkPolyData::GetData(outputs);
-      cactus::toPolyData(cactus::strandsOf(stage), output);
+      cactus::toPolyData(read.fibres, output);
       cactus::setProvenance(output, cactus::provenanceOf(cactus::strandRecord(stage)), 0);
     });
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkStrandReader
- * @brief Reads fibres from the CACTUS strand text format (.strands, .init, .partial; µm).
+ * @brief Reads fibres from the CACTUS strand text format (.strands, .init, .partial; µm), from CATERPillar's tables of spheres
+ * and from what the White Matter Generator writes.
+ *
+ * Which of them a file is, its first characters tell, see core/io/FibreFile.h. What is left out of it is a warning.
  *
  * Output: one polyline per fibre with point data `Radius`, cell data `FibreId`, `BundleId`, `TargetRadius` (mean radius of the
- * strand) and field data `Domain` (the centred cube of the file's first line). A file that is truncated or malformed gives one
- * error that names the line, and no output.
+ * strand) and field data `Domain` (of a strand file the centred cube of its first line). A file that is truncated or malformed
+ * gives one error that names the line, and no output.
  */
 #ifndef vtkStrandReader_h
 #define vtkStrandReader_h

@@ -44,7 +44,7 @@ void vtkTractogramWriter::WriteData()
         throw cactus::InvalidInput("FileName is empty: name the tractogram to write");
       }
       const cactus::Placement placement = cactus::placementOf(this->GetInput()).value_or(cactus::Placement());
-      cactus::writeTractogram(cactus::fibresFrom(this->GetInput()), placement, stage.fileName);
+      cactus::writeTractogram(cactus::tractFrom(this->GetInput()), placement, stage.fileName);
     });
   if (!isWritten)
   {

@@ -3,9 +3,18 @@
 
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "growth/VolumeInDomain.h"
 
 namespace cactus
 {
+
+namespace
+{
+
+/// Less of the domain holds too few samples (see growthFor) for a volume that is right to some per cent.
+constexpr double leastCountedFraction = 1e-4;
+
+} // namespace
 
 const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properties()
 {
@@ -16,10 +25,11 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
         "Edge of a voxel; where it does not divide the domain, the nearest size that does is used")
       .add("TargetFibreVolumeFraction", &Options::targetFibreVolumeFraction, limits::targetFraction,
         "Fraction of the domain that the grown fibres fill, with their radii on target; -1: what the fibres were made for "
-        "(GrownFibreVolumeFraction); 0, or where they do not say it: they grow by GrowthIterations")
+        "(GrownFibreVolumeFraction), or, where they do not say it and GrowthIterations is 0, what they fill as they come; 0: no "
+        "target, they grow by GrowthIterations")
       .advise(" (-1: what the fibres were made for; 0: no target)")
       .add("GrowthIterations", &Options::growthIterations, limits::growthIterations,
-        "How many voxels a fibre grows where nothing is in its way")
+        "How many voxels a fibre grows where nothing is in its way and no target is known")
       .where("TargetFibreVolumeFraction", { -1, 0 })
       .add("MinimumGap", &Options::minimumGap, limits::gap, "Least distance between the surfaces of two fibres")
       .add("SurfaceTolerance", &Options::surfaceTolerance, limits::surfaceTolerance,
@@ -35,6 +45,30 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
 void validate(const FibreRadialGrowthOptions& options)
 {
   validateProperties(options);
+}
+
+FibreRadialGrowthOptions forFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options)
+{
+  FibreRadialGrowthOptions own = options;
+  const bool isAsked = options.targetFibreVolumeFraction >= 0.0 || options.growthIterations > 0;
+  if (isAsked || fibres.grownFraction > 0.0 || options.surfaceRoughness == 0.0)
+  {
+    return own;
+  }
+  double volume = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    volume += volumeInDomain(fibres, f, 1.0);
+  }
+  const double fraction = volume / fibres.domain.volume();
+  if (fraction > limits::targetFraction.highest)
+  {
+    throw InvalidInput(text("the fibres fill ", fraction,
+      " of the domain as they come, overlaps counted twice, and it holds less than 1: part them by CapsuleOptimizer, give "
+      "TargetFibreVolumeFraction, or set it to 0 for growth by GrowthIterations"));
+  }
+  own.targetFibreVolumeFraction = fraction >= leastCountedFraction ? fraction : 0.0;
+  return own;
 }
 
 double targetFraction(const Fibres& fibres, const FibreRadialGrowthOptions& options)

@@ -15,10 +15,10 @@ struct FibreRadialGrowthOptions
   /// Edge of a voxel. If it does not divide the domain's sides, the nearest spacing that does is used.
   double voxelSize = 0.1;
   /// Fraction of the domain that the grown fibres fill, in [0, 1), see GrowthTarget.h; 0: grow by `growthIterations` voxels; -1:
-  /// the fraction that the fibres were made for.
+  /// what the fibres were made for. Where these do not say it, see forFibres().
   double targetFibreVolumeFraction = -1.0;
-  /// Growth in voxels without a target.
-  int growthIterations = 4;
+  /// Growth in voxels where no target is given.
+  int growthIterations = 0;
   /// Least distance between the surfaces of two fibres.
   double minimumGap = 0.02;
   /// Additional room on either side of the gap for later steps that move a surface (smoothing, decimation).
@@ -37,9 +37,15 @@ struct FibreRadialGrowthOptions
 /// Throws InvalidInput, naming the parameter, for a value out of range.
 void validate(const FibreRadialGrowthOptions& options);
 
-/// Returns the fraction of the domain that these fibres grow to; 0: they grow by `growthIterations`, as do fibres made for an
-/// unknown fraction. Throws InvalidInput if it is more than the domain can hold, such as for bundles in one place that were all
-/// made to fill it.
+/// The options with a target for fibres that come from elsewhere, of which it is not known what they were made for: they keep the
+/// volume that they come with, unless a target or growth is asked for. Their roughness and the gap between neighbours are then
+/// made up for, as they are for bundles. Without a target where the fibres fill too little of the domain to be counted, and where
+/// SurfaceRoughness is 0, with which they are their capsules. Throws InvalidInput where they fill more than the domain holds.
+FibreRadialGrowthOptions forFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options);
+
+/// The fraction of the domain that these fibres are to be grown to; 0: they grow by `growthIterations`, as do fibres of which it
+/// is not known what they were made for. Throws InvalidInput where it is more than the domain holds, as of bundles in one place
+/// that were all made to fill it.
 double targetFraction(const Fibres& fibres, const FibreRadialGrowthOptions& options);
 
 } // namespace cactus

@@ -222,6 +222,12 @@ Fibres readStrandFile(std::istream& stream, const std::string& name)
     readStrand(reader, s + 1, strands, fibres);
   }
   reader.finish("the last of " + std::to_string(strands) + " strand(s)");
+  validateFile(fibres, name);
+  return fibres;
+}
+
+void validateFile(const Fibres& fibres, const std::string& name)
+{
   try
   {
     validate(fibres);
@@ -230,7 +236,6 @@ Fibres readStrandFile(std::istream& stream, const std::string& name)
   {
     throw InvalidInput(name + ": " + error.what());
   }
-  return fibres;
 }
 
 Fibres readStrandFile(const std::string& path)

@@ -24,7 +24,10 @@ Fibres readStrandFile(const std::string& path);
 /// Does the same with a stream; `name` is its name in messages.
 Fibres readStrandFile(std::istream& stream, const std::string& name);
 
-/// Tells whether the format can hold the domain: a cube centred on the origin.
+/// Throws InvalidInput as `validate` does, with the name of the file that the fibres are of.
+void validateFile(const Fibres& fibres, const std::string& name);
+
+/// Whether the format can say what domain it is: a cube centred on the origin.
 bool fitsStrandFile(const Domain& domain);
 
 /// Writes the same format with 9 significant digits, whatever the locale. The file appears whole or not at all. Throws FileError,

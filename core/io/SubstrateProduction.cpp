@@ -305,8 +305,9 @@ std::string workFolderOf(const std::string& folder)
 }
 
 ProducedSubstrate produceSubstrate(
-  const Fibres& fibres, const ProductionOrder& order, const std::string& folder, const Context& context, Team* team)
+  const Fibres& fibres, const ProductionOrder& given, const std::string& folder, const Context& context, Team* team)
 {
+  ProductionOrder order = given;
   const std::string work = workFolderOf(folder);
   // For this run only: another run that fails, because this one has the folder, must not end it.
   const Sharing sharing(team, work + '/' + Sharing(team).fromFirst(partialName(SurfaceSpool::stopName)));
@@ -317,6 +318,7 @@ ProducedSubstrate produceSubstrate(
   {
     validate(fibres);
     validate(order);
+    order.growth = forFibres(fibres, order.growth);
     requireRoom(order.format, fibres.domain, growthGrid(fibres.domain, order.growth).spacing);
     requireRoomForMyelin(fibres, order);
     require(!folder.empty(), "FolderName is empty: name the folder to write");

@@ -198,7 +198,6 @@ Tractogram readTck(std::istream& stream, const std::string& name, const Context&
 
 void writeTck(const Fibres& fibres, const Placement& placement, const std::string& path)
 {
-  validate(fibres);
   const std::string count = std::to_string(fibres.size());
   std::string header = "mrtrix tracks\ndatatype: Float32LE\nlength_unit: mm\ncount: " + count + "\ntotal_count: " + count + '\n';
   // The offset is part of the header, and includes its own digits.

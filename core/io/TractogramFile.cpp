@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -81,6 +82,33 @@ void requireWithinScanner(const Tractogram& tractogram, const std::string& path)
   }
 }
 
+/// Throws InvalidInput unless the fibres can be written: there are some, and their points lie where a scanner has them. They need
+/// not be fit for a substrate, so that a tractogram that was read can be saved: it may be as large as a head, and its points may
+/// coincide.
+void requireWritable(const Fibres& fibres, const Placement& placement)
+{
+  require(fibres.size() > 0, "the input holds no fibres: there is nothing to write");
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const std::string name = text("fibre ", fibres.fibreIds[f], " (cell ", f, ")");
+    if (fibres.pointCount(f) < 2)
+    {
+      throw InvalidInput(text(name, " has ", fibres.pointCount(f), " control point(s): a fibre needs at least two"));
+    }
+    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
+    {
+      for (const double coordinate : placement.toImage(fibres.points[i]))
+      {
+        requireWithin((name + ": a coordinate").c_str(), coordinate, limits::scannerCoordinate);
+      }
+      if (!std::isfinite(fibres.radii[i]) || fibres.radii[i] <= 0.0)
+      {
+        throw InvalidInput(text(name, ": Radius is ", fibres.radii[i], ", not a positive length"));
+      }
+    }
+  }
+}
+
 } // namespace
 
 Tractogram readTractogram(const std::string& path, const Context& context)
@@ -99,6 +127,7 @@ void requireTractogram(const std::string& path)
 void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path)
 {
   const std::string extension = extensionOf(path);
+  requireWritable(fibres, placement);
   if (extension == ".tck")
   {
     writeTck(fibres, placement, path);

@@ -63,7 +63,6 @@ std::string groupName(int bundle)
 
 void writeTrx(const Fibres& fibres, const Placement& placement, const std::string& path)
 {
-  validate(fibres);
   std::vector<std::pair<std::string, std::string>> files;
   files.emplace_back("header.json", headerText(fibres, placement));
   const std::size_t numbers = 3 * fibres.points.size();

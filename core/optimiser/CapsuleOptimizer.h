@@ -4,6 +4,7 @@
 #include "base/Context.h"
 #include "base/Team.h"
 #include "fibres/Fibres.h"
+#include "fibres/ResampledFibres.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/ConvergenceRow.h"
 #include "optimiser/StoppingRule.h"
@@ -19,7 +20,9 @@ namespace cactus
 struct OptimisationResult
 {
   StopReason reason = StopReason::Converged;
-  std::string checkpointFailure; ///< why a checkpoint after the first could not be written; empty if all were
+  Resampling resampling;         ///< of the fibres that came in
+  double lengthIncrease = 0.0;   ///< by how much all fibres together have become longer, as a fraction of what came in
+  std::string checkpointFailure; ///< why a checkpoint after the first could not be written; empty where all were
   std::vector<ConvergenceRow> convergence;
   /// For the returned fibres, measured afresh over all neighbours.
   double maximumPenetration = 0.0;
@@ -32,13 +35,14 @@ struct OptimisationResult
   double searchSeconds = 0.0;
 };
 
-/// Moves control points (and, if allowed, radii) until no two capsules of different fibres penetrate by more than the tolerance,
-/// or until iterations or time run out or there is no more progress; in the latter cases `fibres` receives the state with the
-/// smallest overlap cost. If most control points lie nearly straight between their neighbours and radii are kept, at first only
-/// every second of these moves and takes the others along (see CoarseFibres); rows then count the overlap of these few until all
-/// move. End points slide in the plane across their bundle's axis. Gives the same bits on any number of threads. `observe`, if
-/// given, is called with each iteration's row and state, the first included. Throws InvalidInput (fibres, options, a checkpoint
-/// of another run), FileError (the checkpoint) and OutOfMemory.
+/// Moves control points (and, where allowed, radii) until no two capsules of different fibres penetrate by more than the
+/// tolerance, or until iterations or time run out or they make no progress any more; then `fibres` holds the state with the
+/// smallest cost of overlap. Where most control points lie nearly straight between their neighbours and radii are kept, every
+/// second of these is moved alone at first, and the others with it (see CoarseFibres): rows tell of the overlap of those few
+/// until all are moved. Fibres whose control points lie too densely are resampled first, see resampleDenseFibres(): their number
+/// of control points changes, also for `observe`. End points slide in the plane across their bundle's axis. Same bits on any
+/// number of threads. `observe`, where given, is called with each iteration's row and state, the first included. Throws
+/// InvalidInput (fibres, options, a checkpoint of something else) and FileError (the checkpoint), OutOfMemory.
 ///
 /// The processes of a team share the work: each moves some of the fibres and knows those of others that lie beside its own. All
 /// are given the same fibres and options and end with the same result after the same iterations: it has the bits of a single

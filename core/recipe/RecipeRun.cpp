@@ -225,7 +225,15 @@ private:
     }
   }
 
-  void work(const StrandReaderStage& stage) { this->giveFibres(strandsOf(stage), provenanceOf(strandRecord(stage)), false); }
+  void work(const StrandReaderStage& stage)
+  {
+    FibresOfFile read = strandsOf(stage);
+    for (const std::string& remark : read.remarks)
+    {
+      this->say("StrandReader: " + stage.fileName + ": " + remark);
+    }
+    this->giveFibres(std::move(read.fibres), provenanceOf(strandRecord(stage)), false);
+  }
 
   void work(const CapsuleOptimizerStage& stage)
   {
@@ -264,9 +272,9 @@ private:
 
   void work(const FibreRadialGrowthStage& stage)
   {
-    const FibreRadialGrowthOptions& options = stage.options;
     const Context context = this->contextFor(stage.threads);
-    Fibres fibres = this->growingFibres(options, context);
+    Fibres fibres = this->growingFibres(stage.options, context);
+    const FibreRadialGrowthOptions options = forFibres(fibres, stage.options);
     const Fibres aimed = aimAtTargetRadii(fibres, options, context);
     const double growth = growthFor(aimed, options, context);
     const VoxelGrid grid = growthGrid(fibres.domain, options);

@@ -6,7 +6,6 @@
 #include "bundle/RadiusColumn.h"
 #include "fibres/TrimToDomain.h"
 #include "io/FileCollection.h"
-#include "io/StrandFile.h"
 #include "io/TractogramFile.h"
 #include "optimiser/OverlapReport.h"
 
@@ -24,7 +23,11 @@ namespace
 /// Well above the overlaps that the optimiser leaves (OverlapTolerance, 0.001), and above the digits of a file.
 constexpr double harmlessPenetration = 0.01;
 
-/// Returns the name for the record.
+/// Of all fibres together. Bundles whose neighbours run alike stay below 0.01, those of independent directions up to 15° below
+/// this.
+constexpr double harmlessLengthIncrease = 0.08;
+
+/// For the record.
 const char* reasonName(StopReason reason)
 {
   switch (reason)
@@ -78,7 +81,8 @@ std::string adviceOn(StopReason reason, const CapsuleOptimizerOptions& options)
   case StopReason::Stopped:
     return "";
   default:
-    return " Ask for a lower density, or for less dispersion.";
+    return " Ask for a lower density, or for less dispersion; fibres that were not made here need more room: thinner ones, or a "
+           "RadiusTolerance above 0.";
   }
 }
 
@@ -264,13 +268,13 @@ std::string remarksOnTract(const TractFibresReport& report)
   return told;
 }
 
-Fibres strandsOf(const StrandReaderStage& stage)
+FibresOfFile strandsOf(const StrandReaderStage& stage)
 {
   if (stage.fileName.empty())
   {
     throw InvalidInput("FileName is empty: name the strand file to read");
   }
-  return readStrandFile(stage.fileName);
+  return readFibreFile(stage.fileName);
 }
 
 StageRecord strandRecord(const StrandReaderStage& stage)
@@ -316,12 +320,26 @@ std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result,
   {
     remarks.push_back(remark);
   }
+  if (const Resampling& done = result.resampling; done.fibres > 0)
+  {
+    remarks.push_back(text(done.fibres, done.fibres == 1 ? " fibre has" : " fibres have",
+      " control points closer together than half the radius, which would fold up, and ", done.fibres == 1 ? "was" : "were",
+      " resampled: no point that came in lies further than ", done.largestDeviation, " µm from the new polyline."));
+  }
   if (result.maximumPenetration > options.overlapTolerance)
   {
     remarks.push_back(text("overlaps remain: ", reasonText(result.reason), " after ", result.convergence.back().iteration,
       " iterations with ", result.overlappingPairs, " capsule pairs above OverlapTolerance ", options.overlapTolerance,
       ", the largest penetration being ", result.maximumPenetration, ". The best state is kept.",
       adviceOn(result.reason, options)));
+  }
+  else if (result.lengthIncrease > harmlessLengthIncrease)
+  {
+    remarks.push_back(text("the fibres have become ", std::lround(100.0 * result.lengthIncrease),
+      " % longer (LengthIncrease), since they wind around each other where there is no straighter way. A larger ",
+      "LengthWeight or a Relaxation nearer to 1 keeps them straighter. Where the bundle is made, so do less dispersion, ",
+      "DispersionModel Coherent and a lower density; fibres that were not made here may have radii too large for their ",
+      "centre lines."));
   }
   return remarks;
 }

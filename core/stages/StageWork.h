@@ -10,6 +10,7 @@
 #include "bundle/Streamlines.h"
 #include "bundle/TractFibres.h"
 #include "fibres/Fibres.h"
+#include "io/FibreFile.h"
 #include "io/SubstrateContents.h"
 #include "io/SubstrateProduction.h"
 #include "io/Tractogram.h"
@@ -50,8 +51,8 @@ Streamlines streamlinesOf(const std::vector<const Tractogram*>& tractograms);
 /// Returns a remark on the streamlines that the fibres do not follow; empty if they follow all.
 std::string remarksOnTract(const TractFibresReport& report);
 
-/// Reads the fibres of the file. Throws InvalidInput if no file is named, and as readStrandFile() does.
-Fibres strandsOf(const StrandReaderStage& stage);
+/// The fibres of the file. Throws InvalidInput where none is named, and as readFibreFile() does.
+FibresOfFile strandsOf(const StrandReaderStage& stage);
 StageRecord strandRecord(const StrandReaderStage& stage);
 
 /// Returns the record of an optimisation, or of an intermediate state.
@@ -65,7 +66,8 @@ Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vec
 /// Returns a remark on a checkpoint that could not be written; empty if it was written, or not requested.
 std::string remarkOnCheckpoint(const OptimisationResult& result);
 
-/// Returns how the optimiser's run fell short, in sentences; empty if it did not.
+/// What the user of an optimisation has to know, in sentences: where it fell short, resampled fibres or lengthened them; empty
+/// where it did none of that.
 std::vector<std::string> remarksOnOptimisation(const OptimisationResult& result, const CapsuleOptimizerOptions& options);
 
 /// Returns a remark if fibres without an optimiser's result overlap: capsules of different ones have more than a hundredth of

@@ -272,7 +272,7 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
 const PropertyList<StrandReaderStage>& StrandReaderStage::properties()
 {
   using Stage = StrandReaderStage;
-  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName, "The strand file to read");
+  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName, "The file to read: strands, a table of CATERPillar, or what the White Matter Generator has written");
   return list;
 }
 

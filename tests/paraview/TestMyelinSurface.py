@@ -265,7 +265,7 @@ class MyelinSurfaceTest(CactusTestCase):
     def test_fibres_that_vanish_are_counted(self):
         lines = [(1.2, [(-0.6, 0, -9), (-0.6, 0, 9)]), (0.3, [(1.2, 0, -9), (1.2, 0, 9)]), (0.5, [(9, 0, -9), (9, 0, 9)])]
         for gap, fraction, verdict in ((2, None, "1 of 2"), (8, 0.0, "2 of 2")):
-            growth = self.growth(strands(6, lines), GrowthIterations=0, MinimumGap=gap, VoxelSize=0.2)
+            growth = self.growth(strands(6, lines), TargetFibreVolumeFraction=0, MinimumGap=gap, VoxelSize=0.2)
             surface = MyelinSurface(Input=growth)
             with self.assertError(rf"of 2 fibres are not as asked.*{verdict[0]} without any surface \(Myelin 4\).*MinimumGap {gap}"):
                 surface.UpdatePipeline()

@@ -38,7 +38,7 @@ NAMES = {
     "FibreRadialGrowth": {
         "VoxelSize": 0.1,
         "TargetFibreVolumeFraction": -1,
-        "GrowthIterations": 4,
+        "GrowthIterations": 0,
         "MinimumGap": 0.02,
         "SurfaceRoughness": None,
         "Seed": 1,

@@ -52,6 +52,19 @@ class StrandFiles(CactusTestCase):
             self.assertEqual(reader.GetXMLName(), "StrandReader")
             self.assertEqual(fetch(reader).GetNumberOfLines(), 2)
 
+    def test_tables_of_other_generators_are_read_by_content(self):
+        table = "cell_type cell_id component component_id X Y Z inner_radius outer_radius\n"
+        table += "".join(f"axon 0 axon 0 3 3 {z} 0.3 0.5\n" for z in range(7)) + "glial_cell 0 soma 0 1 1 1 2 2\n"
+        with open(os.path.join(self.folder, "run_growth_info.txt"), "w") as file:
+            file.write("Voxel Size 6\n")
+        with self.assertError(r"1 sphere\(s\) of type glial_cell are left out"):
+            fibres = fetch(StrandReader(FileName=self.write(table, "run.csv")))
+        self.assertEqual((fibres.GetNumberOfLines(), fibres.GetNumberOfPoints()), (1, 7))
+        domain = fibres.GetFieldData().GetArray("Domain")
+        self.assertEqual([domain.GetValue(i) for i in range(6)], [0, 6, 0, 6, 0, 6])
+        with self.assertError("no strand file"):
+            StrandReader(FileName=self.write('{"name": "of something else"}', "some.json")).UpdatePipeline()
+
     def test_round_trip_keeps_nine_digits(self):
         source = self.write(STRANDS)
         target = os.path.join(self.folder, "again.strands")

@@ -233,6 +233,15 @@ class Tractograms(CactusTestCase):
             numpy.testing.assert_array_equal(array(again.GetCellData(), name), array(fibres.GetCellData(), name))
         SaveData(self.path("again.tck"), proxy=OpenDataFile(self.path("fibres.trx")))  # fibres for any stage
 
+    def test_a_whole_head_is_saved_as_it_was_read(self):
+        """Larger than the domain of a substrate may be, in µm."""
+        points = numpy.array([[-90, -120, -130], [0, 0, 0], [90, 110, 100]], "<f4")
+        header = b"mrtrix tracks\ndatatype: Float32LE\nfile: . 128\nEND\n".ljust(128, b"\0")
+        ends = numpy.array([[numpy.nan] * 3, [numpy.inf] * 3], "<f4")
+        reader = TractogramReader(FileName=self.write("head.tck", header + points.tobytes() + ends.tobytes()), Radius=0.5)
+        SaveData(self.path("again.trx"), proxy=reader)
+        self.assertSameStreamlines(fetch(OpenDataFile(self.path("again.trx"))), [1000.0 * points], 1e-3)
+
     def test_trx_with_groups(self):
         """Packed, as a folder, and with a streamline in two groups."""
         points = numpy.concatenate(some_streamlines()).astype("f8")

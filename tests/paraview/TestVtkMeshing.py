@@ -187,7 +187,7 @@ class VtkMeshingTest(CactusTestCase):
 
     def test_fibres_between_all_samples(self):
         thin = polylines({1: (0.05, [(0.01, 0.02, z) for z in (-3.0, 3.0)])}, SIDE)
-        growth = FibreRadialGrowth(Input=produce(thin), VoxelSize=0.5, GrowthIterations=0, MinimumGap=0, SurfaceTolerance=0)
+        growth = FibreRadialGrowth(Input=produce(thin), VoxelSize=0.5, TargetFibreVolumeFraction=0, MinimumGap=0, SurfaceTolerance=0)
         surface = MyelinSurface(Input=growth, Meshing="VTK filters")
         self.assertEqual(list(column(self.made(surface), "Myelin")), [4])
 

@@ -195,6 +195,45 @@ TEST(GrowthTarget, ComesFromTheFibresUnlessGiven)
   EXPECT_EQ(trimToDomain(fibres).grownFraction, fibres.grownFraction);
 }
 
+TEST(GrowthTarget, FibresFromElsewhereKeepTheirVolume)
+{
+  const Fibres fibres = bundle(0.0);
+  const double given = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+  FibreRadialGrowthOptions options;
+  options.voxelSize = 0.05;
+  const FibreRadialGrowthOptions own = forFibres(fibres, options);
+  const LabelImage image = grown(aimAtTargetRadii(fibres, own), own);
+  const auto outside = static_cast<double>(std::count(image.fibreId.begin(), image.fibreId.end(), 0));
+  EXPECT_NEAR(1.0 - outside / static_cast<double>(image.fibreId.size()), given, 0.01 * given);
+  const Radii radii = measure(fibres, image);
+  ASSERT_GT(radii.target.size(), 50u);
+  EXPECT_NEAR(radii.meanDifference(), 0.0, 0.02);
+
+  // Unless growth or a target is asked for, or what they were made for is known.
+  const auto target = [](const Fibres& some, const FibreRadialGrowthOptions& asked)
+  { return forFibres(some, asked).targetFibreVolumeFraction; };
+  options.growthIterations = 2;
+  EXPECT_EQ(target(fibres, options), -1.0);
+  options.growthIterations = 0;
+  EXPECT_EQ(target(bundle(0.9), options), -1.0);
+  options.targetFibreVolumeFraction = 0.0;
+  EXPECT_EQ(target(fibres, options), 0.0);
+
+  options.targetFibreVolumeFraction = -1.0;
+  options.surfaceRoughness = 0.0;
+  EXPECT_EQ(target(fibres, options), -1.0);
+
+  // Too little for samples, and more than the domain holds.
+  options.surfaceRoughness = 0.1;
+  Fibres thin = emptyFibres(4.0);
+  addStraight(thin, 0.0, 0.0, 4.0, 0.01, 0.01);
+  EXPECT_EQ(target(thin, options), 0.0);
+  Fibres full = emptyFibres(4.0);
+  addStraight(full, 0.0, 0.0, 4.0, 1.9, 1.9);
+  addStraight(full, 0.1, 0.0, 4.0, 1.9, 1.9);
+  EXPECT_THROW(forFibres(full, options), InvalidInput);
+}
+
 TEST(GrowthTarget, SaysWhereItPartsFromWhatTheFibresWereMadeFor)
 {
   Fibres fibres = emptyFibres(4.0);
@@ -208,7 +247,9 @@ TEST(GrowthTarget, SaysWhereItPartsFromWhatTheFibresWereMadeFor)
   options.targetFibreVolumeFraction = 1.002 * fibres.grownFraction;
   EXPECT_NE(remarkOnTarget(fibres, options).find("thicker than their TargetRadius, by less than 1 %"), std::string::npos);
   options.targetFibreVolumeFraction = 0.0;
+  options.growthIterations = 4;
   EXPECT_NE(remarkOnTarget(fibres, options).find("GrowthIterations (4 voxels)"), std::string::npos);
+  options.growthIterations = 0;
 
   // Twice as many as one of them was made for, as when another filter has joined them.
   options.targetFibreVolumeFraction = -1.0;

@@ -360,6 +360,30 @@ TEST(Tractogram, OtherNamesAreErrors)
   EXPECT_THROW(cactus::writeTractogram(fibres, {}, cactus_testing::scratchPath("fibres.trk")), cactus::InvalidInput);
 }
 
+TEST(Tractogram, OfAWholeHeadIsWritten)
+{
+  // Too large, and too flat, for the domain of a substrate.
+  cactus::Fibres fibres;
+  fibres.domain.lower = { -9e4, 0.0, -1.3e5 };
+  fibres.domain.upper = { 9e4, 0.0, 1.3e5 };
+  fibres.addFibre(7, 2, 3.0);
+  fibres.addPoint({ -9e4, 0.0, -1.3e5 }, 3.0);
+  fibres.addPoint({ -9e4, 0.0, -1.3e5 }, 3.0);
+  fibres.addPoint({ 9e4, 0.0, 1.3e5 }, 3.0);
+  for (const char* name : { "head.tck", "head.trx" })
+  {
+    const std::string path = cactus_testing::scratchPath(name);
+    cactus::writeTractogram(fibres, {}, path);
+    const cactus::Tractogram read = cactus::readTractogram(path);
+    EXPECT_EQ(read.points, Doubles({ -90, 0, -130, -90, 0, -130, 90, 0, 130 })) << name;
+    std::filesystem::remove(path);
+    fibres.points[1] = { 2e9, 0.0, 0.0 };
+    EXPECT_THROW(cactus::writeTractogram(fibres, {}, path), cactus::InvalidInput);
+    fibres.points[1] = fibres.points[0];
+  }
+  EXPECT_THROW(cactus::writeTractogram({}, {}, cactus_testing::scratchPath("none.tck")), cactus::InvalidInput);
+}
+
 TEST(Tractogram, PointsFarFromAnyScannerAreErrors)
 {
   const std::string path = cactus_testing::scratchPath("far.tck");

@@ -507,16 +507,17 @@ TEST(CapsuleOptimizer, NamesTheParameterThatIsOutOfRange)
     cactus::InvalidInput);
 }
 
-// Such a fibre has so many capsules within reach of each other that the search for neighbours would take hours.
+// Such a fibre has so many capsules within reach of each other that the search for neighbours would take hours, and runs back the
+// way it came, so that it cannot be resampled.
 TEST(CapsuleOptimizer, RefusesFibresOfFarTooManyPoints)
 {
   Fibres fibres;
   fibres.domain = cactus::Domain::cube(10.0);
   fibres.addFibre(1, 1, 0.5);
-  constexpr int count = 300000;
-  for (int i = 0; i < count; ++i)
+  constexpr int half = 150000;
+  for (int i = -half; i <= half; ++i)
   {
-    fibres.addPoint({ 0.0, 0.0, -4.0 + 8.0 * i / (count - 1) }, 0.5);
+    fibres.addPoint({ 0.0, 0.0, 4.0 - 4.0 * std::abs(i) / half }, 0.5);
   }
   try
   {
@@ -525,8 +526,14 @@ TEST(CapsuleOptimizer, RefusesFibresOfFarTooManyPoints)
   }
   catch (const cactus::InvalidInput& error)
   {
-    EXPECT_NE(std::string(error.what()).find("fibre 1 (cell 0) has 300000 control points"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("fibre 1 (cell 0) has 300001 control points"), std::string::npos) << error.what();
   }
+  // As far as the turn it can.
+  fibres.points.resize(half + 1);
+  fibres.radii.resize(half + 1);
+  fibres.offsets.back() = half + 1;
+  EXPECT_EQ(cactus::optimise(fibres, {}, {}).resampling.fibres, 1u);
+  EXPECT_EQ(fibres.points.size(), 14u);
 }
 
 // The pieces of a fibre that is outside only briefly would overlap, or meet when they grow.

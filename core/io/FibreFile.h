@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+
+#include <string>
+#include <vector>
+
+namespace cactus
+{
+
+/// Fibres as a file holds them.
+struct FibresOfFile
+{
+  Fibres fibres;
+  std::vector<std::string> remarks; ///< what of the file was left out or assumed, in sentences
+};
+
+/// Reads fibres (µm) from a file of any of these formats, which its first characters tell, whatever its name is:
+///  - CACTUS strands, see readStrandFile();
+///  - CATERPillar's table of spheres, see readSphereTable();
+///  - what the White Matter Generator writes, see readEllipsoidFile().
+/// Throws FileError and InvalidInput as these do.
+FibresOfFile readFibreFile(const std::string& path);
+
+} // namespace cactus
