@@ -84,8 +84,9 @@ inline constexpr Range threads{ 0.0, 65536.0 };
 /// Of a volume that fibres fill.
 inline constexpr Range fraction{ 1e-4, 0.999 };
 /// The same, where 0 stands for none.
-inline constexpr Range sampledFraction{ 1e-4, 1.0 };
 inline constexpr Range fractionOrNone{ 1e-4, 0.999, "", 0.0 };
+/// Of all fibres, those whose surfaces are made.
+inline constexpr Range sampledFraction{ 1e-4, 1.0 };
 
 // BundleInitializer.
 
