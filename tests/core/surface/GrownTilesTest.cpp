@@ -110,6 +110,7 @@ TEST(GrownTiles, SayWhereAnImageHasMoreBlocksThanAreCounted)
   };
   LabelImageFacts facts;
   facts.domain = Domain::cube(3000.0);
+  facts.surfaceTolerance = FibreRadialGrowthOptions().surfaceTolerance;
   MyelinSurfaceOptions options;
   options.smoothingIterations = 0; // for which thin fibres would be looked for first
   EXPECT_THROW(SurfaceMaker(std::make_shared<Image>(), facts, options, {}), InvalidInput);
