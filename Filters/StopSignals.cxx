@@ -23,8 +23,9 @@ constexpr std::array<int, 2> watched{ { SIGINT, SIGTERM } };
 
 std::atomic<int> caught{ 0 }; ///< the signal, or 0
 static_assert(std::atomic<int>::is_always_lock_free);
-std::array<struct sigaction, watched.size()> usual; ///< actions while no object exists
-bool isSpeaker = true;
+std::array<struct sigaction, watched.size()> usual; ///< what is done with each while none lives
+std::atomic<bool> isSpeaker{ true };                ///< read where a signal is caught
+static_assert(std::atomic<bool>::is_always_lock_free);
 std::mutex guard;
 int living = 0;
 

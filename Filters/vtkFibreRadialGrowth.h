@@ -15,7 +15,8 @@
  * - point data `Depth` (float, µm): signed distance bound to the fibre's surface, positive inside, cut off at 4 voxels
  *   outside;
  * - field data `Domain`, `Provenance`; `Growth`, `MinimumGap`, `SurfaceTolerance`, `VoxelSize` (µm, one number each, as used);
- * per fibre `FibreTable.FibreId`, `FibreTable.BundleId`, `FibreTable.TargetRadius`, in the order of the input.
+ * per fibre `FibreTable.FibreId`, `FibreTable.BundleId`, `FibreTable.TargetRadius` and `FibreTable.LengthInDomain` (µm, of the
+ * centre line inside the domain), in the order of the input.
  *
  * The update extent is respected: only the requested part is computed and held in memory, and it equals that part of the whole
  * bit for bit. A target fraction is always met over the whole domain. The size of the image follows from the input's `Domain`, so

@@ -55,12 +55,14 @@ def sweep(make, folder, reached=REACHED, **values):
     # Each rank works as if it were alone, so that no stage waits for the others.
     alone = vtkDummyController()
     vtkMultiProcessController.SetGlobalController(alone)
-    for case in cases[rank::ranks]:
-        if not _is_made(_place(folder, case)):
-            print(f"{_place(folder, case)} (rank {rank})", flush=True)
-            _make_one(make, _place(folder, case), case)
-    vtkMultiProcessController.SetGlobalController(world)
-    world.Barrier()
+    try:
+        for case in cases[rank::ranks]:
+            if not _is_made(_place(folder, case)):
+                print(f"{_place(folder, case)} (rank {rank})", flush=True)
+                _make_one(make, _place(folder, case), case)
+    finally:  # also where Ctrl-C ends the script
+        vtkMultiProcessController.SetGlobalController(world)
+        world.Barrier()
 
     made = [case for case in cases if _is_made(_place(folder, case))]
     if rank == 0:

@@ -179,6 +179,25 @@ def arguments():
     return parser.parse_args()
 
 
+def write_preview(folder, manifest, output, triangles):
+    """Writes the file and what it names; the names of its blocks."""
+    blocks = [("Fibres", tubes(folder, triangles))]
+    for axis, kinds in cuts_through(folder, manifest, AXES).items():
+        blocks += [(f"Cut across {axis}, {name}", kinds.get(kind)) for kind, name in (("outer", "fibres"), ("inner", "axons"))]
+    blocks = [(name, block) for name, block in blocks if block is not None]
+    shown = vtkMultiBlockDataSet()
+    for number, (name, block) in enumerate(blocks):
+        shown.SetBlock(number, block)
+        shown.GetMetaData(number).Set(vtkCompositeDataSet.NAME(), name)
+    writer = vtkXMLMultiBlockDataWriter()
+    writer.SetFileName(output)
+    writer.SetInputData(shown)
+    writer.SetDataModeToBinary()  # Debian's ParaView cannot read the appended data that is the default
+    if writer.Write() != 1 or not os.path.isfile(output):
+        raise Refusal(f"cannot write {output}")
+    return [name for name, _ in blocks]
+
+
 def preview(wanted):
     manifest_file = manifest_path(wanted.folder)
     folder = os.path.dirname(os.path.abspath(manifest_file))
@@ -198,22 +217,7 @@ def preview(wanted):
     gone = [entry["path"] for entry in manifest["files"] if not os.path.isfile(os.path.join(folder, entry["path"]))]
     if gone:
         raise Refusal(f"{len(gone)} of {len(manifest['files'])} surfaces are not in the folder, such as {gone[0]}: copy it again, whole")
-    blocks = [("Fibres", tubes(folder, wanted.triangles))]
-    for axis, kinds in cuts_through(folder, manifest, AXES).items():
-        blocks += [(f"Cut across {axis}, {name}", kinds.get(kind)) for kind, name in (("outer", "fibres"), ("inner", "axons"))]
-    shown = vtkMultiBlockDataSet()
-    for name, block in blocks:
-        if block is not None:
-            number = shown.GetNumberOfBlocks()
-            shown.SetBlock(number, block)
-            shown.GetMetaData(number).Set(vtkCompositeDataSet.NAME(), name)
-    writer = vtkXMLMultiBlockDataWriter()
-    writer.SetFileName(output)
-    writer.SetInputData(shown)
-    writer.SetDataModeToBinary()  # Debian's ParaView cannot read the appended data that is the default
-    if writer.Write() != 1 or not os.path.isfile(output):
-        raise Refusal(f"cannot write {output}")
-    print(f"Wrote {output}: " + "; ".join(name for name, block in blocks if block is not None))
+    print(f"Wrote {output}: " + "; ".join(write_preview(folder, manifest, output, wanted.triangles)))
     return 0
 
 

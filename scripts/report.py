@@ -20,7 +20,7 @@ from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
 from preview import IN_ONE_FILE, SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, read_surface, surface_files, tubes, with_numbers
 from report_page import page
 from report_profiles import profiles
-from substrate_folder import Refusal, changed_files, ended, manifest_path, read_manifest, read_quantities, read_rows
+from substrate_folder import Refusal, changed_files, citation, ended, manifest_path, read_manifest, read_quantities, read_rows
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.append(os.path.join(ROOT, "examples"))
@@ -182,18 +182,6 @@ def profile_charts(folder, manifest, fibres, lines):
                                  right, top) for fibre, cuts in found]
 
 
-def citation():
-    """What CITATION.cff prefers, as a line and a link."""
-    with open(os.path.join(ROOT, "CITATION.cff"), encoding="utf-8") as file:
-        preferred = file.read().split("preferred-citation:", 1)[1]
-
-    def one(name):
-        return re.search(rf'\b{name}: "?([^"\n]+)', preferred).group(1)
-
-    authors = ", ".join(re.findall(r'family-names: "([^"]+)"', preferred))
-    return f"{authors} ({one('year')}): {one('title')}. {one('journal')} {one('volume')}:{one('start')}.", f"https://doi.org/{one('doi')}"
-
-
 def gathered(folder, manifest_file, with_pictures):
     """All that the page shows."""
     manifest = read_manifest(manifest_file)
@@ -217,7 +205,7 @@ def gathered(folder, manifest_file, with_pictures):
         "rows": asked_and_reached(manifest, certificate, fibres, mean_dispersion(lines, manifest, fibres)),
         "picture": shown, "no_picture": why, "charts": drawn, "profiles": along, "notes": notes, "stages": manifest["provenance"],
         "again": [f"./cactus rerun {name}/manifest.json", "(the same to the bit, with CACTUS " + manifest["version"] + ")"],
-        "manifest": data_uri("application/json", content), "citation": citation(),
+        "manifest": data_uri("application/json", content), "citation": (citation()["words"], citation()["link"]),
         "versions": f"Substrate: CACTUS {manifest['version']}. Report: ParaView {servermanager.vtkSMProxyManager.GetVersionMajor()}."
                     f"{servermanager.vtkSMProxyManager.GetVersionMinor()}.{servermanager.vtkSMProxyManager.GetVersionPatch()}.",
     }

@@ -6,7 +6,10 @@ import hashlib
 import json
 import math
 import os
+import re
 import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 class Refusal(Exception):
@@ -67,6 +70,26 @@ def changed_files(folder, manifest):
         if not os.path.isfile(here) or sha256(here) != checksum:
             changed.append(path)
     return changed
+
+
+def is_as_written(manifest_file):
+    """Whether a manifest is as it was written, by its own checksum, which is taken with zeros in its place."""
+    with open(manifest_file, "rb") as file:
+        content = file.read()
+    found = re.search(rb'"manifest_sha256": *"([0-9a-f]{64})"', content)
+    return found is not None and hashlib.sha256(content[: found.start(1)] + 64 * b"0" + content[found.end(1) :]).hexdigest().encode() == found.group(1)
+
+
+def citation():
+    """What CITATION.cff prefers: in words, as a link, and its DOI alone."""
+    with open(os.path.join(ROOT, "CITATION.cff"), encoding="utf-8") as file:
+        preferred = file.read().split("preferred-citation:", 1)[1]
+
+    def one(name):
+        return re.search(rf'\b{name}: "?([^"\n]+)', preferred).group(1)
+
+    authors = ", ".join(re.findall(r'family-names: "([^"]+)"', preferred))
+    return {"words": f"{authors} ({one('year')}): {one('title')}. {one('journal')} {one('volume')}:{one('start')}.", "link": f"https://doi.org/{one('doi')}", "doi": one("doi")}
 
 
 def number(text):

@@ -83,9 +83,10 @@ inline constexpr Range seed{ 0.0, 2147483647.0 };
 inline constexpr Range threads{ 0.0, 65536.0 };
 /// A volume fraction of fibres.
 inline constexpr Range fraction{ 1e-4, 0.999 };
-/// The same, with 0 for none.
-inline constexpr Range sampledFraction{ 1e-4, 1.0 };
+/// The same, where 0 stands for none.
 inline constexpr Range fractionOrNone{ 1e-4, 0.999, "", 0.0 };
+/// Of all fibres, those whose surfaces are made.
+inline constexpr Range sampledFraction{ 1e-4, 1.0 };
 
 // BundleInitializer.
 

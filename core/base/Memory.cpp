@@ -7,11 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -41,22 +44,26 @@ std::uint64_t numberIn(const std::string& path)
   return file >> number ? number : unlimited;
 }
 
-/// The number that follows a key in a file of "key number …" lines, or `otherwise`.
-std::uint64_t numberOf(const std::string& path, const std::string& key, std::uint64_t otherwise)
+/// Empty ones stand for none.
+using Keys = std::array<std::string_view, 3>;
+
+/// The numbers that follow some keys in a file of "key number …" lines, added up; nothing where the file has none of them.
+std::optional<std::uint64_t> sumOf(const std::string& path, const Keys& keys)
 {
   std::ifstream file(path);
   file.imbue(std::locale::classic());
+  std::optional<std::uint64_t> sum;
   std::string word;
   std::uint64_t number = 0;
   std::string rest;
   while (file >> word >> number && std::getline(file, rest))
   {
-    if (word == key)
+    if (std::find(keys.begin(), keys.end(), word) != keys.end())
     {
-      return number;
+      sum = sum.value_or(0) + number;
     }
   }
-  return otherwise;
+  return sum;
 }
 
 /// The names of a control group's files in its two versions.
@@ -64,11 +71,13 @@ struct GroupFiles
 {
   const char* limit;
   const char* used;
-  const char* cacheKey; ///< in memory.stat: file pages that give way at once
+  /// In memory.stat: what the kernel takes back before it refuses memory. These are its lists of pages that a file on a disk
+  /// backs, which do not have the pages of tmpfs: `file` and `cache` do, and those can only be swapped.
+  Keys reclaimable;
 };
 
-constexpr GroupFiles version2{ "memory.max", "memory.current", "inactive_file" };
-constexpr GroupFiles version1{ "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file" };
+constexpr GroupFiles version2{ "memory.max", "memory.current", { "active_file", "inactive_file", "slab_reclaimable" } };
+constexpr GroupFiles version1{ "memory.limit_in_bytes", "memory.usage_in_bytes", { "total_active_file", "total_inactive_file" } };
 
 /// What a group and those that it lies in leave, up to the mount point. In a container the path of /proc/self/cgroup may be that
 /// outside, which is not there: the group itself is then what is mounted.
@@ -82,8 +91,8 @@ std::uint64_t leftByGroups(const std::string& mount, std::string path, const Gro
     const std::uint64_t used = numberIn(folder + files.used);
     if (limit != unlimited && used != unlimited)
     {
-      const std::uint64_t cached = numberOf(folder + "memory.stat", files.cacheKey, 0);
-      left = std::min(left, minus(limit, minus(used, cached)));
+      const std::uint64_t reclaimable = sumOf(folder + "memory.stat", files.reclaimable).value_or(0);
+      left = std::min(left, minus(limit, minus(used, reclaimable)));
     }
     const std::size_t slash = path.rfind('/');
     if (path.empty() || slash == std::string::npos)
@@ -159,7 +168,7 @@ std::uint64_t availableAddressSpace()
 
 std::uint64_t sharedMemoryLeft(const std::string& root)
 {
-  const std::uint64_t kilobytes = numberOf(root + "/proc/meminfo", "MemAvailable:", unlimited / 1024);
+  const std::uint64_t kilobytes = sumOf(root + "/proc/meminfo", { { "MemAvailable:" } }).value_or(unlimited / 1024);
   return std::min(kilobytes * 1024, leftByControlGroups(root));
 }
 

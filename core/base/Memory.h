@@ -9,7 +9,8 @@ namespace cactus
 
 /// Bytes that this process can still get, without swapping: the least of
 ///  - what the machine has available (MemAvailable of /proc/meminfo),
-///  - what each of its control groups, v1 and v2, leaves to it (limit less what is used, files in the cache taken as free),
+///  - what each of its control groups, v1 and v2, leaves to it (limit less what is used; cached files and kernel caches that can
+///    be reclaimed count as free),
 ///  - what its limit on address space (RLIMIT_AS) leaves beside what is mapped,
 /// the first two divided by the processes that share them (see setProcessesSharingMemory).
 std::uint64_t availableMemory();

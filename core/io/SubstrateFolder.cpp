@@ -37,31 +37,54 @@ namespace cactus
 namespace
 {
 
-/// Returns the folder of one surface's file, with a slash, if each fibre has a file; `kind` is "outer" or "inner".
-std::string surfaceFolder(const SubstrateFolderContents& contents, const std::string& kind, int id)
+/// The files of surfaces by kind, "outer" or "inner", and ids.
+class SurfacePaths
 {
-  const bool isMany = std::max(contents.outer.size(), contents.inner.size()) > filesInAFolder;
-  return kind + '/' + (isMany ? fiveDigits(std::size_t(id) / filesInAFolder) + '/' : "");
-}
-
-/// Returns the file of one surface.
-std::string surfacePath(const SubstrateFolderContents& contents, const std::string& kind, int id, int bundleId)
-{
-  const std::string digits = fiveDigits(std::size_t(id));
-  switch (contents.format)
+public:
+  explicit SurfacePaths(const SubstrateFolderContents& contents)
+    : Format(contents.format)
+    , IsMany(std::max(contents.outer.size(), contents.inner.size()) > filesInAFolder)
   {
-  case SubstrateFormat::Reference:
-    return "meshes/simulations/strand_" + digits + '_' + kind + "_erode_0.ply";
-  case SubstrateFormat::Camino:
-    return kind + ".ply";
-  case SubstrateFormat::Disimpy:
-    return kind + "_vertices.npy";
-  case SubstrateFormat::Bundles:
-    return kind + "/bundle_" + fiveDigits(std::size_t(bundleId)) + ".ply";
-  default:
-    return surfaceFolder(contents, kind, id) + "fibre_" + digits + ".ply";
+    for (const FibreSurfaces* surfaces : { &contents.outer, &contents.inner })
+    {
+      for (std::size_t i = 0; i < surfaces->size(); ++i)
+      {
+        this->LargestFibre = std::max(this->LargestFibre, std::size_t(surfaces->fibreIds[i]));
+        this->LargestBundle = std::max(this->LargestBundle, std::size_t(surfaces->bundleIds[i]));
+      }
+    }
   }
-}
+
+  std::string path(const std::string& kind, int id, int bundleId) const
+  {
+    const std::string digits = numbered(std::size_t(id), this->LargestFibre);
+    switch (this->Format)
+    {
+    case SubstrateFormat::Reference:
+      return "meshes/simulations/strand_" + digits + '_' + kind + "_erode_0.ply";
+    case SubstrateFormat::Camino:
+      return kind + ".ply";
+    case SubstrateFormat::Disimpy:
+      return kind + "_vertices.npy";
+    case SubstrateFormat::Bundles:
+      return kind + "/bundle_" + numbered(std::size_t(bundleId), this->LargestBundle) + ".ply";
+    default:
+      return kind + '/' + this->thousand(id) + "fibre_" + digits + ".ply";
+    }
+  }
+
+private:
+  /// The folder, with a slash, that ids of the same thousand share where there are many.
+  std::string thousand(int id) const
+  {
+    return this->IsMany ? numbered(std::size_t(id) / filesInAFolder, this->LargestFibre / filesInAFolder) + '/' : "";
+  }
+
+  SubstrateFormat Format;
+  bool IsMany;
+  std::size_t LargestFibre = 0;
+  std::size_t LargestBundle = 0;
+};
 
 /// Tells whether all surfaces of one kind go into one file.
 bool isCombined(SubstrateFormat format)
@@ -109,6 +132,7 @@ std::vector<SubstrateFile> surfaceFiles(
   const SubstrateFolderContents& contents, const std::string& kind, const SubstrateCertificate& certificate)
 {
   const FibreSurfaces& surfaces = kind == "outer" ? contents.outer : contents.inner;
+  const SurfacePaths paths(contents);
   std::vector<SubstrateFile> files;
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
@@ -116,7 +140,7 @@ std::vector<SubstrateFile> surfaceFiles(
     const auto fibre = std::lower_bound(certificate.fibres.begin(), certificate.fibres.end(), id,
       [](const FibreCertificate& f, int wanted) { return f.fibreId < wanted; });
     const SurfaceReport& report = kind == "outer" ? fibre->outer : fibre->inner;
-    files.push_back({ surfacePath(contents, kind, id, surfaces.bundleIds[i]), kind, id, surfaces.bundleIds[i], report.triangles,
+    files.push_back({ paths.path(kind, id, surfaces.bundleIds[i]), kind, id, surfaces.bundleIds[i], report.triangles,
       report.volume, report.area, report.sound() });
   }
   return files;

@@ -20,7 +20,8 @@ void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
 /// Writes a folder for simulators:
 ///
 ///   outer/fibre_00001.ply, inner/…   PLY, µm, one file per fibre and surface; of more than 1,000 fibres
-///                                    outer/00000/fibre_00001.ply, where the ids from 0 to 999 are, and so on
+///                                    outer/00000/fibre_00001.ply, where the ids from 0 to 999 are, and so on;
+///                                    with an id above 99,999 all have six digits or more, as many as the largest
 ///   mcdc/intra.conf, mcdc/extra.conf MC/DC configurations that run as written, with lists of the surfaces and a PGSE scheme
 ///   fibres.strands                   the centre lines, where given, by increasing id, of a domain that is a cube centred
 ///                                    on the origin

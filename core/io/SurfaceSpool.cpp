@@ -42,9 +42,16 @@ void makeFolders(const std::filesystem::path& folder)
   }
 }
 
-std::string surfaceName(std::size_t index)
+/// Of one of `count` surfaces.
+std::string surfaceName(std::size_t index, std::size_t count)
 {
-  return fiveDigits(index) + ".surface";
+  return numbered(index, count) + ".surface";
+}
+
+/// Of the folder, one of those of `count` surfaces, that holds a surface.
+std::string folderName(std::size_t index, std::size_t count)
+{
+  return numbered(index / filesInAFolder, count / filesInAFolder);
 }
 
 /// Removes the files of some names, and partial files of these names.
@@ -78,7 +85,8 @@ SurfaceSpool::Files::Files(std::filesystem::path folder, std::string kind, std::
 std::string SurfaceSpool::Files::pathOf(std::size_t index) const
 {
   const std::string kind = this->isSpaced[index] != 0 ? "spaced" : this->Kind;
-  return (this->Folder / kind / fiveDigits(index / filesInAFolder) / surfaceName(index)).string();
+  const std::size_t count = this->isSpaced.size();
+  return (this->Folder / kind / folderName(index, count) / surfaceName(index, count)).string();
 }
 
 /// Returns the result of `read(path, owner)` for a surface's file. Throws FileError, which says what to do.
@@ -258,11 +266,11 @@ void SurfaceSpool::remove()
   {
     for (std::size_t first = 0; first < this->Count; first += filesInAFolder)
     {
-      const std::filesystem::path folder = this->Folder / kind / fiveDigits(first / filesInAFolder);
+      const std::filesystem::path folder = this->Folder / kind / folderName(first, this->Count);
       std::set<std::string> own;
       for (std::size_t i = first; i < std::min(this->Count, first + filesInAFolder); ++i)
       {
-        own.insert(surfaceName(i));
+        own.insert(surfaceName(i, this->Count));
       }
       removeFrom(folder, own);
       std::filesystem::remove(folder, ignored);

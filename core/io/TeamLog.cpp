@@ -20,7 +20,8 @@ TeamLog::TeamLog(std::filesystem::path folder, std::string name, std::string ide
 {
   // The first one's file is locked before any other process reads the folder, and nobody adds before all have read.
   const std::filesystem::path own =
-    this->Folder / (this->Name + (sharing.isFirst() ? "" : '-' + fiveDigits(std::size_t(sharing.place()))));
+    this->Folder /
+    (this->Name + (sharing.isFirst() ? "" : '-' + numbered(std::size_t(sharing.place()), std::size_t(sharing.size()))));
   if (sharing.isFirst())
   {
     this->Own.emplace(own.string(), this->Identity);

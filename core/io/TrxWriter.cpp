@@ -2,6 +2,7 @@
 #include "base/AtomicFile.h"
 #include "base/ByteOrder.h"
 #include "base/JsonText.h"
+#include "io/NumberedName.h"
 #include "io/TrxFile.h"
 
 #include <algorithm>
@@ -52,13 +53,6 @@ std::string headerText(const Fibres& fibres, const Placement& placement)
   return header.dump();
 }
 
-std::string groupName(int bundle)
-{
-  std::string digits = std::to_string(bundle);
-  digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, '0');
-  return "groups/bundle_" + digits + ".uint32";
-}
-
 } // namespace
 
 void writeTrx(const Fibres& fibres, const Placement& placement, const std::string& path)
@@ -88,9 +82,10 @@ void writeTrx(const Fibres& fibres, const Placement& placement, const std::strin
   {
     appendLittleEndian(groups[fibres.bundleIds[f]], static_cast<std::uint32_t>(f));
   }
+  const std::size_t largest = groups.empty() ? 0 : std::size_t(groups.rbegin()->first);
   for (auto& [bundle, members] : groups)
   {
-    files.emplace_back(groupName(bundle), std::move(members));
+    files.emplace_back("groups/bundle_" + numbered(std::size_t(bundle), largest) + ".uint32", std::move(members));
   }
   AtomicFile file(path);
   const std::string archive = zipText(files);

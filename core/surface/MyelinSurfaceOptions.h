@@ -52,9 +52,9 @@ void requireDecimationRoom(const MyelinSurfaceOptions& options, double surfaceTo
 struct LabelImageFacts
 {
   Domain domain;
-  double minimumGap = 0.02;        ///< least distance between the surfaces of two fibres
-  double surfaceTolerance = 0.005; ///< room beside the gap, on either side, for moving surfaces
-  std::vector<int> fibreIds;       ///< all fibres whose surfaces are made, unique, in any order
+  double minimumGap = 0.0;         ///< least distance between the surfaces of two fibres that growth kept
+  double surfaceTolerance = 0.0;   ///< room that growth left beside the gap, on either side, for moving surfaces
+  std::vector<int> fibreIds;       ///< all fibres whose surfaces are to be made, unique, in any order
   std::vector<int> bundleIds;      ///< one per fibre
   std::vector<double> targetRadii; ///< one per fibre
   /// Length (µm) of each fibre's centre line inside the domain: 0 for one that only passes outside. Empty if unknown.

@@ -3,25 +3,34 @@
 # ctest-needs: display
 # ctest-timeout: 300
 """./cactus report makes one page of a substrate folder that needs nothing but itself, says first whether it is certified, and shows numbers
-that are those of the folder's own tables; what cannot be told of is refused."""
+that are those of the folder's own tables; what cannot be told of is refused. ./cactus pack makes an archive of folders that are as they were written,
+which says of itself what a data repository wants to know, the same to the bit each time."""
 
+import argparse
 import base64
 import csv
+import hashlib
 import html.parser
 import json
 import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+import zipfile
 
 from cactus_testing import CactusTestCase, main
 from paraview import simple
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "report.py")
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+SCRIPT = os.path.join(SCRIPTS, "report.py")
+sys.path.append(SCRIPTS)
+import pack  # noqa: E402  (which is in another folder)
+from substrate_folder import Refusal  # noqa: E402
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
@@ -81,10 +90,13 @@ class Report(CactusTestCase):
         with open(output, encoding="utf-8") as file:
             return file.read()
 
-    def copied(self):
-        folder = os.path.join(self.folder, "copy")
+    def copied_as(self, name):
+        folder = os.path.join(self.folder, name)
         shutil.copytree(self.substrate, folder)
         return folder
+
+    def copied(self):
+        return self.copied_as("copy")
 
     def changed(self, **values):
         """A copy whose manifest says something else."""
@@ -261,6 +273,87 @@ class Report(CactusTestCase):
             self.assertEqual(len(re.findall(rb"/Type\s*/Page\b", file.read())), 2)
         shown = subprocess.run([*browser, "--dump-dom", address], check=True, capture_output=True, text=True, timeout=100).stdout
         self.assertIn('<div class="verdict good">CERTIFIED', shown)
+
+    def uncertified(self):
+        """A copy of another name whose manifest says, with its checksum, that it is not certified."""
+        folder = self.copied_as("faulty")
+        path = os.path.join(folder, "manifest.json")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        own = json.loads(text)["manifest_sha256"]
+        text = text.replace(own, 64 * "0").replace('"certified": true', '"certified": false').replace('"faults": []', '"faults": ["surfaces meet"]')
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace('"manifest_sha256": "' + 64 * "0", '"manifest_sha256": "' + hashlib.sha256(text.encode()).hexdigest()))
+        return folder
+
+    def wanted(self, *folders, **options):
+        return argparse.Namespace(**{"folders": folders, "creator": ["Family, Given"], "output": os.path.join(self.folder, "mine.zip"), "title": None, "version": "1.0.0",
+                                     "licence": "CC-BY-4.0", "allow_uncertified": False, **options})
+
+    def test_a_pack(self):
+        folders = self.substrate, self.uncertified()
+        with open(os.path.join(folders[1], "mcdc", "output", "signal.txt"), "w", encoding="utf-8") as file:
+            file.write("of a simulation")
+        output = os.path.join(self.folder, "mine.zip")
+        done = subprocess.run(["pvpython", os.path.join(SCRIPTS, "pack.py"), *folders, "--creator", "Family, Given", "--creator", "Other, Name", "--output", output,
+                               "--allow-uncertified"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with zipfile.ZipFile(output) as archive:
+            self.assertIsNone(archive.testzip())
+            archive.extractall(self.folder)
+        place = os.path.join(self.folder, "mine")
+        subprocess.run(["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"], cwd=place, check=True)
+        with open(os.path.join(place, "SHA256SUMS"), encoding="utf-8") as file:
+            listed = {line[66:].rstrip("\n") for line in file}
+        self.assertEqual(listed | {"SHA256SUMS"}, set(pack.files_below(place)))
+        for folder in folders:
+            name = os.path.basename(folder)
+            there = os.path.join(place, "substrates", name)
+            self.assertEqual(pack.Substrate(there, True).files(), pack.Substrate(folder, True).files(), "as it was written")
+            self.assertTrue(os.path.isdir(os.path.join(there, "mcdc", "output")))
+            self.assertFalse(os.listdir(os.path.join(there, "mcdc", "output")))
+            self.assertTrue({f"reports/{name}.html", f"previews/{name}.vtm"} <= listed)
+        with open(os.path.join(place, ".zenodo.json"), encoding="utf-8") as file:
+            data = json.load(file)
+        self.assertEqual([one["name"] for one in data["creators"]], ["Family, Given", "Other, Name"])
+        self.assertEqual((data["license"], data["upload_type"], data["version"]), ("CC-BY-4.0", "dataset", "1.0.0"))
+        self.assertEqual(data["related_identifiers"][0]["identifier"], "10.3389/fninf.2023.1208073")
+        self.assertRegex(data["description"], r"<li>faulty: 6 x 6 x 6 µm, \d+ fibres, .*fibre volume fraction 0\.\d{4}, axon volume fraction 0\.\d{4}, not certified, for MC/DC")
+        self.assertRegex(data["description"], r"<li>substrate: [^<]*, certified, for MC/DC")
+        # Again, the same bytes.
+        again = os.path.join(self.folder, "again")
+        os.mkdir(again)
+        pack.pack(self.wanted(*reversed(folders), creator=["Family, Given", "Other, Name"], output=os.path.join(again, "mine.zip"), allow_uncertified=True))
+        with open(output, "rb") as one, open(os.path.join(again, "mine.zip"), "rb") as other:
+            self.assertEqual(hashlib.sha256(one.read()).hexdigest(), hashlib.sha256(other.read()).hexdigest())
+
+    def test_what_is_not_packed(self):
+        """Before anything is read of ParaView, and nothing is written."""
+        faulty, there = self.uncertified(), os.path.join(self.folder, "there.zip")
+        with open(there, "w", encoding="utf-8") as file:
+            file.write("mine")
+        changed = self.changed(certified=False)
+        with open(os.path.join(self.copied_as("other"), "outer", "fibre_00001.ply"), "a", encoding="utf-8") as file:
+            file.write("more")
+        os.remove(os.path.join(self.copied_as("gone"), "certificate.csv"))
+        before = sorted(os.listdir(self.folder))
+        for wanted, why in (
+            (self.wanted(faulty), r"faulty is not certified \(surfaces meet\).*--allow-uncertified"),
+            (self.wanted(changed), r"manifest\.json is not as it was written"),
+            (self.wanted(os.path.join(self.folder, "other")), r"1 files of .*other are gone or not as they were written, such as outer/fibre_00001\.ply"),
+            (self.wanted(os.path.join(self.folder, "gone")), r"1 files of .*gone are gone.*certificate\.csv"),
+            (self.wanted(self.substrate, self.substrate), r"several folders are called substrate"),
+            (self.wanted(self.substrate, creator=["Somebody"]), r"'Somebody' is no name"),
+            (self.wanted(self.substrate, licence="my own"), r"'my own' is no name of a licence"),
+            (self.wanted(self.substrate, output=there), r"there\.zip is there already"),
+            (self.wanted(self.substrate, output=os.path.join(self.folder, "mine.tar")), r"does not end with \.zip"),
+            (self.wanted(self.substrate, output=os.path.join(self.substrate, "mine.zip")), r"mine\.zip is in .*substrate itself"),
+            (self.wanted(self.folder), r"cannot read .*manifest\.json"),
+        ):
+            with self.subTest(why=why), self.assertRaisesRegex(Refusal, why):
+                pack.pack(wanted)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        self.assertFalse(os.path.exists(os.path.join(self.substrate, "mine.zip")))
 
 
 if __name__ == "__main__":

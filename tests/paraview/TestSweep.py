@@ -11,7 +11,9 @@ import json
 import os
 import subprocess
 
+from cactus_sweep import sweep
 from cactus_testing import CactusTestCase, environment_of_its_own, main
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "sweep.py")
 TINY = ("--side", "5", "--voxel-size", "0.2", "--dispersions", "0", "8", "--fractions", "0.5", "--seeds", "1")
@@ -111,6 +113,17 @@ class Sweep(CactusTestCase):
         for row in rows:
             self.assertAlmostEqual(float(row["FVF"]), 0.5, delta=0.01)
             self.assertTrue(os.path.exists(os.path.join(self.folder, "mine", f"style-Sheets_seed-{row['seed']}_angle-60", "manifest.json")))
+
+    def test_an_interrupted_sweep_gives_the_controller_back(self):
+        """Ctrl-C ends the script; what it leaves is a process of its ranks again, which the others have not waited for in vain."""
+        world = vtkMultiProcessController.GetGlobalController()
+
+        def make(_folder, seed):
+            raise KeyboardInterrupt(seed)
+
+        with self.assertRaises(KeyboardInterrupt):
+            sweep(make, os.path.join(self.folder, "interrupted"), seed=[1, 2])
+        self.assertIs(vtkMultiProcessController.GetGlobalController(), world)
 
     def test_refusals(self):
         """Ranks that would all make everything, and a table that is somebody's own."""

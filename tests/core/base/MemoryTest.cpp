@@ -83,6 +83,29 @@ TEST(Memory, IsLimitedByControlGroupsOfVersion1)
   EXPECT_EQ(machine.left(), 1100000000u);
 }
 
+TEST(Memory, CountsWhatTheKernelCanReclaimAsFree)
+{
+  // A job that has read its input: most of what is used are cached files, read more than once.
+  const Machine second;
+  second.write("/proc/self/cgroup", "0::/job\n");
+  second.write("/sys/fs/cgroup/job/memory.max", "4000000000\n");
+  second.write("/sys/fs/cgroup/job/memory.current", "3900000000\n");
+  second.write("/sys/fs/cgroup/job/memory.stat",
+    "anon 400000000\nfile 3200000000\nkernel 300000000\nshmem 200000000\ninactive_anon 500000000\nactive_anon 100000000\n"
+    "inactive_file 700000000\nactive_file 2300000000\nunevictable 0\nslab_reclaimable 250000000\nslab_unreclaimable 50000000\n"
+    "slab 300000000\n");
+  EXPECT_EQ(second.left(), 3350000000u) << "tmpfs, which is in `file`, stays taken, and so does the rest of the kernel's";
+
+  const Machine first;
+  first.write("/proc/self/cgroup", "4:memory:/job\n");
+  first.write("/sys/fs/cgroup/memory/job/memory.limit_in_bytes", "4000000000\n");
+  first.write("/sys/fs/cgroup/memory/job/memory.usage_in_bytes", "3900000000\n");
+  first.write("/sys/fs/cgroup/memory/job/memory.stat",
+    "cache 1000000000\nshmem 0\ninactive_file 100000000\nactive_file 200000000\ntotal_cache 3200000000\ntotal_shmem 200000000\n"
+    "total_inactive_file 700000000\ntotal_active_file 2300000000\n");
+  EXPECT_EQ(first.left(), 3100000000u) << "with the groups inside it";
+}
+
 TEST(Memory, InAContainerTheGroupIsWhatIsMounted)
 {
   const Machine machine;

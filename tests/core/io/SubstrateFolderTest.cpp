@@ -264,6 +264,33 @@ TEST_F(SubstrateFolder, HasFoldersForEachThousandOfMany)
   EXPECT_TRUE(cactus::removeInspected(this->Scratch / "s", ended));
 }
 
+// A listing of a folder, and of what a shell makes of *.ply, has files in the order of their ids, also above 99,999.
+TEST_F(SubstrateFolder, HasNamesThatSortAsTheirNumbersDo)
+{
+  using Paths = std::vector<std::string>;
+  const auto paths = [this](cactus::SubstrateFormat format)
+  {
+    this->Contents.format = format;
+    Paths all;
+    for (const auto& file : cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string()).files)
+    {
+      all.push_back(file.path);
+      EXPECT_TRUE(fs::exists(this->Scratch / "s" / file.path)) << file.path;
+    }
+    return all;
+  };
+  this->Contents.inner = {};
+  this->Contents.outer = surfacesOf({ 2, 99999 }, { tetrahedron(1.0), tetrahedron(2.0) });
+  EXPECT_EQ(paths(cactus::SubstrateFormat::Surfaces), (Paths{ "outer/fibre_00002.ply", "outer/fibre_99999.ply" }));
+  this->Contents.outer = surfacesOf({ 2, 100000 }, { tetrahedron(1.0), tetrahedron(2.0) });
+  EXPECT_EQ(paths(cactus::SubstrateFormat::Surfaces), (Paths{ "outer/fibre_000002.ply", "outer/fibre_100000.ply" }));
+  this->Contents.outer.bundleIds = { 7, 1234567 };
+  EXPECT_EQ(paths(cactus::SubstrateFormat::Bundles), (Paths{ "outer/bundle_0000007.ply", "outer/bundle_1234567.ply" }));
+  // Inner surfaces have the digits of the outer ones.
+  this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(0.5) });
+  EXPECT_EQ(paths(cactus::SubstrateFormat::Surfaces).back(), "inner/fibre_000002.ply");
+}
+
 TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
 {
   const auto files = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s/").string()).files;

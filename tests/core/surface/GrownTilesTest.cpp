@@ -110,6 +110,7 @@ TEST(GrownTiles, SayWhereAnImageHasMoreBlocksThanAreCounted)
   };
   LabelImageFacts facts;
   facts.domain = Domain::cube(3000.0);
+  facts.surfaceTolerance = FibreRadialGrowthOptions().surfaceTolerance;
   MyelinSurfaceOptions options;
   options.smoothingIterations = 0; // smoothing would first search for thin fibres
   EXPECT_THROW(SurfaceMaker(std::make_shared<Image>(), facts, options, {}), InvalidInput);

@@ -732,6 +732,8 @@ TEST(MyelinSurfaces, AFibreMayFillTheDomain)
   const LabelImage image = growFibres(fibres, options, 0.0, growthGrid(fibres.domain, options));
   LabelImageFacts facts;
   facts.domain = fibres.domain;
+  facts.minimumGap = options.minimumGap;
+  facts.surfaceTolerance = options.surfaceTolerance;
   facts.fibreIds = facts.bundleIds = { 1 };
   facts.targetRadii = { 5.0 };
   const auto pairs =
