@@ -85,7 +85,7 @@ inline constexpr Range threads{ 0.0, 65536.0 };
 inline constexpr Range fraction{ 1e-4, 0.999 };
 /// The same, where 0 stands for none.
 inline constexpr Range fractionOrNone{ 1e-4, 0.999, "", 0.0 };
-/// Of all fibres, those whose surfaces are made.
+/// The part of all fibres whose surfaces are made.
 inline constexpr Range sampledFraction{ 1e-4, 1.0 };
 
 // BundleInitializer.

@@ -15,9 +15,9 @@ namespace cactus
 namespace
 {
 
-/// Of walkers outside: where free ones leave more seldom, nobody need walk.
+/// The part of free walkers that may leave before a walk among the fibres is needed.
 constexpr double hardlyAny = 0.01;
-/// Of walkers outside: more of them that leave are too many.
+/// The part of walkers outside that may leave without a warning.
 constexpr double bearable = 0.05;
 constexpr std::uint64_t walkSeed = 1;
 

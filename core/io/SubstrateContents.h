@@ -99,11 +99,11 @@ struct SubstrateFile
   bool closed = false; ///< a closed 2-manifold that points outward
 };
 
-/// Of the walkers outside the fibres, the part that leaves the substrate within a simulation.
+/// The part of the walkers outside the fibres that leaves the substrate within a simulation.
 struct LeavingShare
 {
   double share;        ///< 0 to 1
-  std::size_t walkers; ///< that were seen to; 0: of free walkers, and so the most that may leave
+  std::size_t walkers; ///< number of walkers measured; 0: share of free walkers, an upper bound
 };
 
 /// What has been written, and how good it is.

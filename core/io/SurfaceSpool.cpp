@@ -42,13 +42,13 @@ void makeFolders(const std::filesystem::path& folder)
   }
 }
 
-/// Of one of `count` surfaces.
+/// The file of one of `count` surfaces.
 std::string surfaceName(std::size_t index, std::size_t count)
 {
   return numbered(index, count) + ".surface";
 }
 
-/// Of the folder, one of those of `count` surfaces, that holds a surface.
+/// The folder that holds one of `count` surfaces.
 std::string folderName(std::size_t index, std::size_t count)
 {
   return numbered(index / filesInAFolder, count / filesInAFolder);

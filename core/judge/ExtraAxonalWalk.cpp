@@ -317,7 +317,7 @@ double leavingDistance(const Outside& space, const LeavingWalk& order, std::uint
   return space.holds(walker.place()) ? std::numeric_limits<double>::infinity() : notANumber;
 }
 
-/// Of free walkers that start evenly between `lower` and `upper`, within [0, 1], the part that has not left [0, 1] when they have
+/// The part of free walkers, starting evenly between `lower` and `upper` within [0, 1], that has not left [0, 1] when they have
 /// moved by `distance` (root mean square): the series of the absorbing slab (Carslaw & Jaeger 1959, section 3.3).
 double freeStay(double lower, double upper, double distance)
 {

@@ -30,10 +30,10 @@ struct StartCounts
   std::size_t extra = 0;
 };
 
-/// So many points in each compartment, evenly over its part of the box, by exact inside tests; none lies on a surface. A
-/// compartment that there is not (myelin without inner surfaces) gets none. Fibres are taken one after the other, and the result
-/// does not depend on threads. Throws Infeasible where a compartment takes up so little of the box that so many points were
-/// not found in it, and Cancelled.
+/// Draws `counts` points in the compartments, evenly over their parts of the box, by exact inside tests; none lies on a surface.
+/// A compartment that there is not (myelin without inner surfaces) gets none. Fibres are taken one after the other, and the
+/// result does not depend on threads. Throws Infeasible where a compartment takes up so little of the box that so many points
+/// were not found in it, and Cancelled.
 StartPositions drawStartPositions(const Domain& box, const FibreSurfaces& outer, const FibreSurfaces& inner,
   const StartCounts& counts, std::uint64_t seed, const Context& context = {});
 

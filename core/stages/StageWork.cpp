@@ -23,8 +23,8 @@ namespace
 /// Well above the overlaps that the optimiser leaves (OverlapTolerance, 0.001), and above the digits of a file.
 constexpr double harmlessPenetration = 0.01;
 
-/// Of all fibres together. Bundles whose neighbours run alike stay below 0.01, those of independent directions up to 15° below
-/// this.
+/// The relative increase of all fibres' length. Bundles whose neighbours run alike stay below 0.01, those of independent
+/// directions up to 15° below this.
 constexpr double harmlessLengthIncrease = 0.08;
 
 /// For the record.
