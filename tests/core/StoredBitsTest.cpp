@@ -100,12 +100,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "92dd5ef75123dccb5dd69ef939f0b3c135159d5d3c05e22df103c42705ed6bd8",
-           "962023fdb7b263359e946e2fbc8e458ec64cd4b3d8e2c25fabbe4824b37b7e4b" },
-         Known{ 20, "c8c9b397ad65b47f14b8f5f90d3457c4fe6add93a0499917c78271d1ac417fde",
-           "eb48a49ef2131e37d9173689dd0b1d8d12e4c5492c808cfb677c0e811e883d1e" },
-         Known{ 38, "ea3a8c980d14897ce49af62d6d31109335f6673466533fcd30b8e249fa83f005",
-           "d7cfc7986f88c3e0fce705e427fa7ad6698639478dca86527e06b20ebaf736fc" },
+         Known{ 1, "ece0b3b7617c2033040ed874d063aba09021ffdd7ac6023b01ac622eac5723e1",
+           "f89d7c7c5990ac1a1a6309d4080b30805869e905d24fafbe4fa1e5a2a333b95b" },
+         Known{ 20, "e9615f1ba602b213e940f88bb2d3035e7719929e7df7fe1b5ed39cadc15e179e",
+           "d5f50ce51fda994de869e076b5548300c2651a55caf2847f20f3c6cef908c7a1" },
+         Known{ 38, "cf71a087b1eaed0fe44198883c05452409ac2c91eff85b78023ee7241e020725",
+           "6c9746afca114afb8ab00981cd37ad94b661ef3147a7a26938dbad74802231fb" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];
