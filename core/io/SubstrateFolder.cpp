@@ -420,8 +420,9 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
   else if (contents.format == SubstrateFormat::Mcdc)
   {
     const std::vector<McdcSimulation> simulations = mcdcSimulations(contents, substrate.files);
-    writeMcdc(contents, simulations, substrate, writer, context);
-    writeStartPositions(contents, simulations, writer, context);
+    const Context last = context.part(1.0, 1.0); // surfaces are written, and progress does not go back
+    writeMcdc(contents, simulations, substrate, writer, last);
+    writeStartPositions(contents, simulations, writer, last);
   }
   else
   {

@@ -230,3 +230,14 @@ TEST_F(McdcFiles, PermeabilityIsThatOfEachFile)
   EXPECT_TRUE(this->values("intra", "deportation").empty());
   EXPECT_EQ(this->text("README.txt").find("permeable"), std::string::npos);
 }
+
+TEST_F(McdcFiles, ProgressDoesNotGoBackForTheWalk)
+{
+  std::vector<double> fractions;
+  Context context;
+  context.threads = 1;
+  context.progress = [&](double fraction, const std::string&) { fractions.push_back(fraction); };
+  writeSubstrateFolder(this->Contents, (this->Scratch / "s").string(), context);
+  EXPECT_GT(fractions.size(), 2u);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+}
