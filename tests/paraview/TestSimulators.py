@@ -222,12 +222,12 @@ class Simulators(CactusTestCase):
             self.assertEqual(os.listdir(self.folder), [])
 
     def test_gaps_that_rms_would_lose_are_told(self):
-        thin = {3: tube(-1, 0, 0.5, 9.9), 5: tube(1, 0, 0.5, 9.9)}
+        thin = {3: tube(-1, 0, 0.7, 9.9), 5: tube(1, 0, 0.7, 9.9)}
         around = {3: tube(-1, 0, 0.95, 10), 5: tube(1, 0, 0.95, 10)}
         folder = os.path.join(self.folder, "substrate")
-        with self.assertError(r"too slow across the fibres: 2 of 2 fibres come nearer to another one than a voxel, 0\.2 µm.* MinimumGap of 0\.2 µm"):
+        with self.assertError(r"too slow across the fibres: 2 of 2 fibres come nearer to another one than a voxel, 0\.125 µm.* MinimumGap of 0\.125 µm"):
             SubstrateWriter(Outer=produce(surfaces(around, 0, 10)), Inner=produce(surfaces(thin, 1, 10)), FolderName=folder, Format="RMS",
-                            VoxelSize=0.2).UpdatePipeline()
+                            VoxelSize=0.125).UpdatePipeline()
         with open(os.path.join(folder, "README.txt")) as file:
             self.assertIn("2 of 2 fibres come nearer", file.read())
 
