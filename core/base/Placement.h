@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Constants.h"
+#include "base/LengthUnit.h"
 #include "base/Properties.h"
 
 #include <Eigen/Core>
@@ -21,6 +22,9 @@ struct Placement
   Eigen::Vector3d toImage(const Eigen::Vector3d& point) const { return this->scale * (this->axes * point) + this->position; }
   /// The reverse, rounded to 2⁻²⁶ µm: what lay in a face of the domain, or in one plane, does so again.
   Eigen::Vector3d toSubstrate(const Eigen::Vector3d& point) const;
+
+  /// The same with lengths of the image's space in another unit than mm.
+  Placement in(LengthUnit unit) const;
 
   /// The affine from µm to mm, row by row.
   std::array<double, 16> matrix() const;
