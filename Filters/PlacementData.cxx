@@ -55,18 +55,7 @@ void placePoints(vtkPointSet* data, const Placement& placement)
   data->SetPoints(points);
 }
 
-void placeGrid(vtkImageData* image, const Placement& placement)
-{
-  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Rows direction = placement.axes * Eigen::Map<const Rows>(image->GetDirectionMatrix()->GetData());
-  const Eigen::Vector3d origin = placement.toImage(Eigen::Vector3d(image->GetOrigin()));
-  const Eigen::Vector3d spacing = placement.scale * Eigen::Vector3d(image->GetSpacing());
-  image->SetDirectionMatrix(direction.data());
-  image->SetOrigin(origin.data());
-  image->SetSpacing(spacing.data());
-}
-
-/// Applies `change` to each tuple of an array.
+/// The array with `change` done to each of its tuples.
 template <typename Change>
 void changeArray(vtkDataSetAttributes* data, vtkDataArray* array, Change&& change)
 {
@@ -183,6 +172,26 @@ void requireNotPlaced(vtkDataObject* data)
   {
     throw InvalidInput("the data are placed in an image's space: connect what Placement was given");
   }
+}
+
+void requireFileUnit(LengthUnit unit, bool isPlaced)
+{
+  if (isPlaced && unit != LengthUnit::Millimetre)
+  {
+    throw InvalidInput("LengthUnit is Micrometre, and the data are placed in an image's space, which is in millimetres: choose "
+                       "Millimetre, or connect what Placement was given");
+  }
+}
+
+void placeGrid(vtkImageData* image, const Placement& placement)
+{
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Rows direction = placement.axes * Eigen::Map<const Rows>(image->GetDirectionMatrix()->GetData());
+  const Eigen::Vector3d origin = placement.toImage(Eigen::Vector3d(image->GetOrigin()));
+  const Eigen::Vector3d spacing = placement.scale * Eigen::Vector3d(image->GetSpacing());
+  image->SetDirectionMatrix(direction.data());
+  image->SetOrigin(origin.data());
+  image->SetSpacing(spacing.data());
 }
 
 bool isPlaceable(vtkDataObject* data)

@@ -7,6 +7,7 @@
 #include <optional>
 
 class vtkDataObject;
+class vtkImageData;
 
 namespace cactus
 {
@@ -21,7 +22,16 @@ void forgetPlacement(vtkDataObject* data);
 /// Throws InvalidInput for placed data, if a stage works in the substrate's space on data as large as images.
 void requireNotPlaced(vtkDataObject* data);
 
-/// Tells whether place() accepts data of this type: data with points, images and tables.
+/// Throws InvalidInput for data that are placed, in mm, where a file is to have another unit.
+void requireFileUnit(LengthUnit unit, bool isPlaced);
+/// What is to be known of a file, named before it, with lengths in micrometres.
+constexpr const char* micrometresInFile =
+  " has its lengths in micrometres, and most readers take them for millimetres: set LengthUnit to Millimetre for these";
+
+/// Turns the grid of an image, and nothing else, into that of the space where it is placed.
+void placeGrid(vtkImageData* image, const Placement& placement);
+
+/// Whether place() takes data of this type: what has points, images and tables.
 bool isPlaceable(vtkDataObject* data);
 /// Throws InvalidInput if it does not.
 void requirePlaceable(vtkDataObject* data);

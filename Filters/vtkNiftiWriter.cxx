@@ -24,6 +24,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include <unistd.h>
 
@@ -86,8 +87,8 @@ vtkSmartPointer<vtkImageData> withArray(vtkImageData* image, const std::string& 
   return alone;
 }
 
-/// Writes with VTK's own writer, which derives the format from the name.
-void write(vtkImageData* image, bool isPlaced, const std::string& path)
+/// Writes by VTK's own writer, which knows the format by the name.
+void write(vtkImageData* image, cactus::LengthUnit unit, const std::string& path)
 {
   // The writer ignores an image's direction matrix.
   vtkNew<vtkMatrix4x4> grid;
@@ -107,7 +108,7 @@ void write(vtkImageData* image, bool isPlaced, const std::string& path)
   atOrigin->SetOrigin(0.0, 0.0, 0.0);
   atOrigin->SetExtent(0, extent[1] - extent[0], 0, extent[3] - extent[2], 0, extent[5] - extent[4]);
   vtkNew<vtkNIFTIImageHeader> header;
-  header->SetXYZTUnits(isPlaced ? vtkNIFTIImageHeader::UnitsMM : vtkNIFTIImageHeader::UnitsMicron);
+  header->SetXYZTUnits(unit == cactus::LengthUnit::Millimetre ? vtkNIFTIImageHeader::UnitsMM : vtkNIFTIImageHeader::UnitsMicron);
   vtkNew<vtkNIFTIImageWriter> writer;
   writer->SetInputData(atOrigin);
   writer->SetNIFTIHeader(header);
@@ -129,10 +130,15 @@ void place(const fs::path& from, const std::string& to)
 {
   cactus::AtomicFile file(to);
   std::ifstream content(from, std::ios::binary);
-  file.stream() << content.rdbuf();
-  if (!content)
+  std::vector<char> block(1 << 20);
+  while (content)
   {
-    throw cactus::FileError("cannot read back what was written of " + to);
+    content.read(block.data(), static_cast<std::streamsize>(block.size()));
+    file.stream().write(block.data(), content.gcount());
+  }
+  if (!content.eof())
+  {
+    throw cactus::FileError("cannot write " + to + ": " + from.string() + ", where it was made, cannot be read back");
   }
   file.commit();
 }
@@ -170,8 +176,18 @@ void vtkNiftiWriter::WriteData()
       const ScratchFolder folder;
       const fs::path whole = folder.file(isPacked ? "image.nii.gz" : "image.nii");
       const bool isPlaced = cactus::placementOf(this->GetInput()).has_value();
-      write(withArray(imageOf(this->GetInput()), stage.array), isPlaced, whole.string());
+      cactus::requireFileUnit(stage.lengthUnit, isPlaced);
+      const auto image = withArray(imageOf(this->GetInput()), stage.array);
+      if (!isPlaced)
+      {
+        cactus::placeGrid(image, cactus::Placement().in(stage.lengthUnit));
+      }
+      write(image, stage.lengthUnit, whole.string());
       place(whole, stage.fileName);
+      if (stage.lengthUnit == cactus::LengthUnit::Micrometre)
+      {
+        vtkWarningMacro(<< stage.fileName << cactus::micrometresInFile);
+      }
     });
   if (!isWritten)
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkNiftiWriter
- * @brief Writes one array of an image as NIfTI-1, .nii or .nii.gz, with q- and s-form; in µm, or in mm if it is placed in the
- * space of another image (see vtkPlacement).
+ * @brief Writes one array of an image as NIfTI-1, .nii or .nii.gz, with q- and s-form; in mm, or in µm by `LengthUnit` if it is
+ * not placed in the space of another image (see vtkPlacement).
  *
  * Input: an image. `Array` names the point data to write; without a name, the active scalars are written. Directions of three
  * numbers are written as a fifth dimension, arrays of more numbers as volumes, the fourth. The file appears whole or not at all.
@@ -24,6 +24,7 @@ public:
 
   CACTUS_FILE_PROPERTY(FileName)
   CACTUS_TEXT_PROPERTY(Array)
+  CACTUS_WHOLE_PROPERTY(LengthUnit)
 
 protected:
   vtkNiftiWriter();

@@ -43,8 +43,14 @@ void vtkTractogramWriter::WriteData()
       {
         throw cactus::InvalidInput("FileName is empty: name the tractogram to write");
       }
-      const cactus::Placement placement = cactus::placementOf(this->GetInput()).value_or(cactus::Placement());
-      cactus::writeTractogram(cactus::tractFrom(this->GetInput()), placement, stage.fileName);
+      const auto placement = cactus::placementOf(this->GetInput());
+      cactus::requireFileUnit(stage.lengthUnit, placement.has_value());
+      cactus::writeTractogram(
+        cactus::tractFrom(this->GetInput()), placement.value_or(cactus::Placement()), stage.fileName, stage.lengthUnit);
+      if (stage.lengthUnit == cactus::LengthUnit::Micrometre)
+      {
+        vtkWarningMacro(<< stage.fileName << cactus::micrometresInFile);
+      }
     });
   if (!isWritten)
   {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkTractogramWriter
- * @brief Writes fibres as a tractogram for MRtrix, dipy and others, in mm: .tck (centre lines) or .trx (with radii, ids,
- * bundles).
+ * @brief Writes fibres as a tractogram for MRtrix, dipy and others: .tck (centre lines) or .trx (with radii, ids, bundles), in
+ * mm, or in µm by `LengthUnit`.
  *
- * Input: polylines with point data `Radius` (µm). A .trx has `dpv/Radius` (mm), `dps/FibreId`, `dps/BundleId` and a group for
- * each bundle. The file appears whole or not at all.
+ * Input: polylines with point data `Radius` (µm). A .trx has `dpv/Radius`, `dps/FibreId`, `dps/BundleId` and a group for each
+ * bundle. The file appears whole or not at all.
  */
 #ifndef vtkTractogramWriter_h
 #define vtkTractogramWriter_h
@@ -23,6 +23,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   CACTUS_FILE_PROPERTY(FileName)
+  CACTUS_WHOLE_PROPERTY(LengthUnit)
 
 protected:
   vtkTractogramWriter();

@@ -29,6 +29,15 @@ Eigen::Vector3d Placement::toSubstrate(const Eigen::Vector3d& point) const
   return (exact * parts).array().round() / parts;
 }
 
+Placement Placement::in(LengthUnit unit) const
+{
+  const double units = micrometresIn(LengthUnit::Millimetre) / micrometresIn(unit);
+  Placement placement = *this;
+  placement.scale *= units;
+  placement.position *= units;
+  return placement;
+}
+
 std::array<double, 16> Placement::matrix() const
 {
   std::array<double, 16> rows{};

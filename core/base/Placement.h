@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Constants.h"
+#include "base/LengthUnit.h"
 #include "base/Properties.h"
 
 #include <Eigen/Core>
@@ -22,7 +23,10 @@ struct Placement
   /// The reverse, rounded to 2⁻²⁶ µm, so that points that lay in a face of the domain, or in one plane, do so again.
   Eigen::Vector3d toSubstrate(const Eigen::Vector3d& point) const;
 
-  /// Returns the affine from µm to mm, row by row.
+  /// The same with lengths of the image's space in another unit than mm.
+  Placement in(LengthUnit unit) const;
+
+  /// The affine from µm to mm, row by row.
   std::array<double, 16> matrix() const;
   /// Returns the placement with this matrix. Throws InvalidInput unless it is a rotation with one scale and a position.
   static Placement of(const std::array<double, 16>& matrix);

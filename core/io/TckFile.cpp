@@ -196,11 +196,13 @@ Tractogram readTck(std::istream& stream, const std::string& name, const Context&
   return tractogram;
 }
 
-void writeTck(const Fibres& fibres, const Placement& placement, const std::string& path)
+void writeTck(const Fibres& fibres, const Placement& placement, const std::string& path, LengthUnit unit)
 {
+  const Placement placed = placement.in(unit);
   const std::string count = std::to_string(fibres.size());
-  std::string header = "mrtrix tracks\ndatatype: Float32LE\nlength_unit: mm\ncount: " + count + "\ntotal_count: " + count + '\n';
-  // The offset is part of the header, and includes its own digits.
+  std::string header = std::string("mrtrix tracks\ndatatype: Float32LE\nlength_unit: ") +
+                       (unit == LengthUnit::Millimetre ? "mm" : "um") + "\ncount: " + count + "\ntotal_count: " + count + '\n';
+  // The offset stands in the header, and counts its own digits.
   constexpr char before[] = "file: . ";
   constexpr char after[] = "\nEND\n";
   std::size_t offset = header.size() + sizeof(before) + sizeof(after) - 2;
@@ -224,7 +226,7 @@ void writeTck(const Fibres& fibres, const Placement& placement, const std::strin
   {
     for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
     {
-      const Eigen::Vector3f point = placement.toImage(fibres.points[i]).cast<float>();
+      const Eigen::Vector3f point = placed.toImage(fibres.points[i]).cast<float>();
       write(point[0], point[1], point[2]);
     }
     write(none, none, none);

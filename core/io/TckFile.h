@@ -19,8 +19,9 @@ namespace cactus
 /// Throws FileError (no such file, truncated, an invalid coordinate, with its streamline), OutOfMemory and Cancelled.
 Tractogram readTck(std::istream& stream, const std::string& name, const Context& context = {});
 
-/// Writes the centre lines of fibres (µm) as tracks in mm, at their placement, Float32LE. The format has no radii and ids. The
-/// file appears whole or not at all; throws FileError, and InvalidInput as `validate` does.
-void writeTck(const Fibres& fibres, const Placement& placement, const std::string& path);
+/// Writes the centre lines of fibres (µm) as tracks where they are placed, Float32LE, in mm, as readers take them, or in another
+/// unit. Radii and ids do not fit into the format. The file appears whole or not at all; throws FileError, and InvalidInput as
+/// `validate` does.
+void writeTck(const Fibres& fibres, const Placement& placement, const std::string& path, LengthUnit unit);
 
 } // namespace cactus

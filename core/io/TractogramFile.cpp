@@ -124,17 +124,17 @@ void requireTractogram(const std::string& path)
   opened(path);
 }
 
-void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path)
+void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path, LengthUnit unit)
 {
   const std::string extension = extensionOf(path);
   requireWritable(fibres, placement);
   if (extension == ".tck")
   {
-    writeTck(fibres, placement, path);
+    writeTck(fibres, placement, path, unit);
   }
   else if (extension == ".trx")
   {
-    writeTrx(fibres, placement, path);
+    writeTrx(fibres, placement.in(unit), path);
   }
   else
   {

@@ -18,9 +18,10 @@ Tractogram readTractogram(const std::string& path, const Context& context = {});
 /// Throws FileError if readTractogram() could not begin: for a name of another kind, and a file that cannot be opened.
 void requireTractogram(const std::string& path);
 
-/// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); in mm, where they are placed.
-/// Of a .trx the domain becomes the image, whatever its size is. The file appears whole or not at all. Throws FileError, and
-/// InvalidInput for other extensions, where there are no fibres, and for points further away than a scanner reaches.
-void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path);
+/// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); where they are placed, in mm,
+/// which these formats have, or in another unit. The file appears whole or not at all. Throws FileError, and InvalidInput for
+/// other extensions and as `validate` does.
+void writeTractogram(
+  const Fibres& fibres, const Placement& placement, const std::string& path, LengthUnit unit = LengthUnit::Millimetre);
 
 } // namespace cactus

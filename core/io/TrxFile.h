@@ -19,11 +19,11 @@ namespace cactus
 /// the header, or has impossible values; and OutOfMemory.
 Tractogram readTrx(const FileCollection& files, const std::string& name);
 
-/// Writes fibres (µm) as a .trx archive in mm, at their placement: positions in single precision, or in double precision if their
-/// origin was moved (100 mm from the scanner's, single precision has steps of 0.008 µm); `dpv/Radius` (mm), `dps/FibreId`,
-/// `dps/BundleId`, and a group `bundle_00001` for each bundle. The header's image is the domain in voxels of 1 µm, or larger ones
-/// if it would have more than 65535 along a side. The file appears whole or not at all; throws FileError, and InvalidInput as
-/// `validate` does.
+/// Writes fibres (µm) as a .trx archive where they are placed, in the placement's unit (mm): positions in single precision, in
+/// double precision where their origin was moved (100 mm from the scanner's, single precision has steps of 0.008 µm);
+/// `dpv/Radius` (mm), `dps/FibreId`, `dps/BundleId`, and a group `bundle_00001` for each bundle. The header's image is the domain
+/// in voxels of 1 µm, or larger ones where it would have more than 65535 along a side. The file appears whole or not at all;
+/// throws FileError, and InvalidInput as `validate` does.
 void writeTrx(const Fibres& fibres, const Placement& placement, const std::string& path);
 
 } // namespace cactus

@@ -21,6 +21,8 @@ const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
 constexpr char encodingMeaning[] =
   "Of PLY files that no simulator needs as text: text, or bytes, which take half the room; Binary is for Format RMS, "
   "Surfaces alone, SpinDoctor, Surfaces by bundle and MCMRSimulator, and refused for others";
+constexpr char fileUnit[] =
+  "Unit of the file's lengths. Readers take millimetres, whatever the header says; what is placed is always in them";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };
 constexpr Range tableFactor{ 1e-6, 1e6 };
 constexpr Range partOfHits{ 0.0, 1.0 };
@@ -272,7 +274,8 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
 const PropertyList<StrandReaderStage>& StrandReaderStage::properties()
 {
   using Stage = StrandReaderStage;
-  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName, "The file to read: strands, a table of CATERPillar, or what the White Matter Generator has written");
+  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName,
+    "The file to read: strands, a table of CATERPillar, or what the White Matter Generator has written");
   return list;
 }
 
@@ -298,8 +301,10 @@ const PropertyList<TractogramReaderStage>& TractogramReaderStage::properties()
 const PropertyList<TractogramWriterStage>& TractogramWriterStage::properties()
 {
   using Stage = TractogramWriterStage;
-  static const auto list =
-    PropertyList<Stage>().add("FileName", &Stage::fileName, "The file to write: .tck or .trx").use(PropertyUse::Run);
+  static const auto list = PropertyList<Stage>()
+                             .add("FileName", &Stage::fileName, "The file to write: .tck or .trx")
+                             .use(PropertyUse::Run)
+                             .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
   return list;
 }
 
@@ -315,7 +320,8 @@ const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
   static const auto list = PropertyList<Stage>()
                              .add("FileName", &Stage::fileName, "The file to write: .nii or .nii.gz")
                              .use(PropertyUse::Run)
-                             .add("Array", &Stage::array, "Name of the point data to write; empty: those that views show first");
+                             .add("Array", &Stage::array, "Name of the point data to write; empty: those that views show first")
+                             .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
   return list;
 }
 

@@ -202,6 +202,7 @@ struct TractogramReaderStage
 struct TractogramWriterStage
 {
   std::string fileName;
+  LengthUnit lengthUnit = LengthUnit::Millimetre; ///< of the file
 
   static const PropertyList<TractogramWriterStage>& properties();
 };
@@ -216,7 +217,8 @@ struct PlacementStage
 struct NiftiWriterStage
 {
   std::string fileName;
-  std::string array; ///< name of the point data to write; empty for the active scalars
+  std::string array;                              ///< name of the point data to write; empty for the active scalars
+  LengthUnit lengthUnit = LengthUnit::Millimetre; ///< of the file
 
   static const PropertyList<NiftiWriterStage>& properties();
 };

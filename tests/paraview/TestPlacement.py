@@ -2,8 +2,10 @@
 """A substrate in an image's space: points, grids and directions are where an affine of scipy's has them, whatever the data; files say
 the same to nibabel; and stages that are given what is placed find the substrate as it was."""
 
+import contextlib
 import json
 import os
+import zipfile
 
 import nibabel
 import numpy
@@ -39,6 +41,14 @@ def points(data):
 
 def field(data, name):
     return vtk_to_numpy(data.GetFieldData().GetArray(name))
+
+
+def trx_streamlines(path):
+    with zipfile.ZipFile(path) as archive:
+        name = next(name for name in archive.namelist() if name.startswith("positions.3."))
+        positions = numpy.frombuffer(archive.read(name), "<f" + str(int(name[-2:]) // 8)).reshape(-1, 3)
+        offsets = numpy.frombuffer(archive.read("offsets.uint64"), "<u8").astype(int)
+    return [positions[begin:end] for begin, end in zip(offsets[:-1], offsets[1:])]
 
 
 def turned_image():
@@ -231,8 +241,6 @@ class Placing(CactusTestCase):
         for proxy in (sampler, HistologyMask(**inputs), CapsuleOptimizer(Input=Placement(Input=produce(self.lines), **PLACE))):
             self.assertIsNone(fetch(proxy).GetFieldData().GetAbstractArray("Placement"), proxy.SMProxy.GetXMLName())
         self.assertSameGrid(fetch(Placement(Input=sampler, **PLACE)), fetch(sampler), affine())
-        SaveData(self.path("sampled.nii.gz"), proxy=sampler, Array="AVF")
-        self.assertEqual(nibabel.load(self.path("sampled.nii.gz")).header.get_xyzt_units()[0], "micron")
         self.expected = "has not parted"
         grown = FibreRadialGrowth(Input=Placement(Input=produce(self.lines), **PLACE), VoxelSize=0.5, GrowthIterations=1, TargetFibreVolumeFraction=0)
         self.assertGreater(fetch(MyelinSurface(Input=grown)).GetNumberOfPoints(), 0)
@@ -266,7 +274,7 @@ class Placing(CactusTestCase):
         numpy.testing.assert_array_equal(numpy.asarray(read.dataobj), numpy.asarray(plain.dataobj))
         self.assertEqual(read.header.get_xyzt_units()[0], "mm")
         for form in (read.get_qform(), read.get_sform()):
-            numpy.testing.assert_allclose(form, affine(3) @ plain.affine, atol=1e-5)
+            numpy.testing.assert_allclose(form, affine(3) @ numpy.diag([1e3, 1e3, 1e3, 1]) @ plain.affine, atol=1e-5)
         SaveData(self.path("direction.nii"), proxy=placed, Array="MeanDirection")
         directions = numpy.squeeze(numpy.asarray(nibabel.load(self.path("direction.nii")).dataobj)).reshape(-1, 3)
         inside = numpy.linalg.norm(directions, axis=1) > 0
@@ -274,7 +282,7 @@ class Placing(CactusTestCase):
 
     def test_nifti_of_a_part_of_a_turned_image(self):
         image = turned_image()
-        for name, matrix, data in (("plain", numpy.eye(4), produce(image)), ("placed", affine(), Placement(Input=produce(image), **PLACE))):
+        for name, matrix, data in (("plain", numpy.diag([1e-3, 1e-3, 1e-3, 1]), produce(image)), ("placed", affine(), Placement(Input=produce(image), **PLACE))):
             SaveData(self.path(name + ".nii"), proxy=data)
             read = nibabel.load(self.path(name + ".nii"))
             for point, index in ((0, (0, 0, 0)), (4, (1, 1, 0)), (29, (2, 4, 1))):
@@ -282,6 +290,32 @@ class Placing(CactusTestCase):
                 numpy.testing.assert_allclose(nibabel.affines.apply_affine(read.affine, index), wanted, atol=1e-5)
                 numpy.testing.assert_allclose(nibabel.affines.apply_affine(read.get_qform(), index), wanted, atol=1e-5)
                 self.assertEqual(read.dataobj[index], point)
+
+    def test_images_and_tractograms_lie_on_each_other(self):
+        """By the affine alone, as readers take it that leave units to their user: points along a fibre are in voxels that have it."""
+        sampler = SubstrateSampler(Outer=produce(self.outer), Inner=produce(self.inner), Fibres=produce(self.lines), VoxelSize=0.5)
+        lines = produce(self.lines)
+        for name, place, options in (("plain", None, {}), ("placed", PLACE, {}), ("micrometres", None, {"LengthUnit": "Micrometre"})):
+            image, tracks = (Placement(Input=data, **place) if place else data for data in (sampler, lines))
+            for kind, proxy, more in ((".nii", image, {"Array": "FibreId"}), (".tck", tracks, {}), (".trx", tracks, {})):
+                with self.assertError(r"in micrometres, and most readers take them for millimetres") if options else contextlib.nullcontext():
+                    SaveData(self.path(name + kind), proxy=proxy, **options, **more)
+            read = nibabel.load(self.path(name + ".nii"))
+            ids = numpy.asarray(read.dataobj)
+            self.assertEqual(read.header.get_xyzt_units()[0], "micron" if options else "mm")
+            for streamlines in (list(TckFile.load(self.path(name + ".tck")).streamlines), trx_streamlines(self.path(name + ".trx"))):
+                self.assertEqual(len(streamlines), 2)
+                for fibre, line in zip((3, 5), streamlines):
+                    voxels = nibabel.affines.apply_affine(numpy.linalg.inv(read.affine), line)
+                    inside = voxels[((voxels > -0.5) & (voxels < numpy.array(ids.shape) - 0.5)).all(axis=1)]
+                    self.assertGreater(len(inside), 5)
+                    self.assertEqual(set(ids[tuple(numpy.rint(inside).astype(int).T)]), {fibre})
+
+    def test_what_is_placed_is_in_millimetres(self):
+        placed = Placement(Input=produce(self.lines), **PLACE)
+        with self.assertError(r"LengthUnit is Micrometre, and the data are placed"):
+            SaveData(self.path("placed.tck"), proxy=placed, LengthUnit="Micrometre")
+        self.assertFalse(os.path.exists(self.path("placed.tck")))
 
     def test_tractograms(self):
         placed = Placement(Input=produce(self.lines), ScaleFactor=2, **PLACE)

@@ -184,10 +184,10 @@ class Sampler(CactusTestCase):
                 wanted = array(image, name or "AVF")
                 numpy.testing.assert_array_equal(numpy.squeeze(numpy.asarray(read.dataobj)), wanted)
                 self.assertEqual(read.header.get_data_dtype(), wanted.dtype)
-                self.assertEqual(read.header.get_xyzt_units()[0], "micron")
-                affine = numpy.array([[2, 0, 0, -4], [0, 2, 0, -4], [0, 0, 2, -4], [0, 0, 0, 1.0]])
+                self.assertEqual(read.header.get_xyzt_units()[0], "mm")
+                affine = numpy.array([[2e-3, 0, 0, -4e-3], [0, 2e-3, 0, -4e-3], [0, 0, 2e-3, -4e-3], [0, 0, 0, 1.0]])
                 for wanted_code, (form, code) in ((1, read.header.get_qform(coded=True)), (2, read.header.get_sform(coded=True))):
-                    numpy.testing.assert_allclose(form, affine, atol=1e-6)
+                    numpy.testing.assert_allclose(form, affine, atol=1e-9)
                     self.assertEqual(code, wanted_code)
         self.assertEqual(sorted(os.listdir(self.folder)), ["image.nii", "image.nii.gz"])
 

@@ -19,6 +19,7 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 namespace
 {
@@ -382,6 +383,54 @@ TEST(Tractogram, OfAWholeHeadIsWritten)
     fibres.points[1] = fibres.points[0];
   }
   EXPECT_THROW(cactus::writeTractogram({}, {}, cactus_testing::scratchPath("none.tck")), cactus::InvalidInput);
+}
+
+/// Two fibres of two bundles.
+cactus::Fibres twoFibres()
+{
+  cactus::Fibres fibres;
+  fibres.domain = cactus::Domain::cube(20.0);
+  for (const int bundle : { 3, 100000 })
+  {
+    fibres.addFibre(bundle, bundle, 1.0);
+    fibres.addPoint({ 0, bundle > 3 ? 5.0 : -5.0, -8 }, 1.0);
+    fibres.addPoint({ 0, bundle > 3 ? 5.0 : -5.0, 8 }, 1.0);
+  }
+  return fibres;
+}
+
+TEST(Tractogram, IsWrittenInTheUnitThatIsAskedFor)
+{
+  const std::string tckPath = cactus_testing::scratchPath("unit.tck");
+  const std::string trxPath = cactus_testing::scratchPath("unit.trx");
+  for (const auto& [unit, length, name] : { std::tuple(cactus::LengthUnit::Millimetre, 1e-3, "length_unit: mm\n"),
+         std::tuple(cactus::LengthUnit::Micrometre, 1.0, "length_unit: um\n") })
+  {
+    cactus::writeTractogram(twoFibres(), {}, tckPath, unit);
+    cactus::writeTractogram(twoFibres(), {}, trxPath, unit);
+    std::ifstream file(tckPath, std::ios::binary);
+    EXPECT_NE(std::string(std::istreambuf_iterator<char>(file), {}).find(name), std::string::npos);
+    for (const Tractogram& tracks : { cactus::readTractogram(tckPath), cactus::readTractogram(trxPath) })
+    {
+      EXPECT_NEAR(tracks.points[1], -5.0 * length, 1e-6 * length);
+      EXPECT_NEAR(tracks.points[5], 8.0 * length, 1e-6 * length);
+    }
+    EXPECT_NEAR(cactus::readTractogram(trxPath).pointValues.at(0).values.at(0), length, 1e-6 * length) << "a radius";
+  }
+  cactus::Placement placement;
+  placement.position = { 0.0, 100.0, 0.0 };
+  cactus::writeTractogram(twoFibres(), placement, trxPath, cactus::LengthUnit::Micrometre);
+  EXPECT_NEAR(cactus::readTractogram(trxPath).points[1], 1e5 - 5.0, 1e-9) << "positions, too";
+}
+
+TEST(Trx, NamesOfBundlesSortAsTheirNumbersDo)
+{
+  const std::string path = cactus_testing::scratchPath("bundles.trx");
+  cactus::writeTractogram(twoFibres(), {}, path);
+  const auto& groups = cactus::readTractogram(path).groups;
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].name, "bundle_000003");
+  EXPECT_EQ(groups[1].name, "bundle_100000");
 }
 
 TEST(Tractogram, PointsFarFromAnyScannerAreErrors)
