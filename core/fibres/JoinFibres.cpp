@@ -42,7 +42,8 @@ void appendFibres(const Fibres& added, Fibres& all)
 {
   const std::vector<int> fibreIds = freeIds(all.fibreIds, added.fibreIds);
   const std::vector<int> bundleIds = freeIds(all.bundleIds, added.bundleIds);
-  // Bundles that were made by themselves all count their fibres from 1, while pieces of one substrate share what it says as a whole.
+  // Bundles that were made by themselves all count their fibres from 1, while pieces of one substrate share what it says as a
+  // whole.
   const bool isPartOfTheSame = fibreIds == added.fibreIds && all.grownFraction == added.grownFraction;
   for (std::size_t f = 0; f < added.size(); ++f)
   {

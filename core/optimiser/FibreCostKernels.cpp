@@ -154,8 +154,8 @@ CACTUS_KERNEL_INLINE void clear(double* column, std::ptrdiff_t from, std::ptrdif
   }
 }
 
-std::size_t addCurvature(
-  const FibreColumns& fibre, double weight, double& total, const FibreColumnGradients& gradients, double* room, std::uint32_t* sharp)
+std::size_t addCurvature(const FibreColumns& fibre, double weight, double& total, const FibreColumnGradients& gradients,
+  double* room, std::uint32_t* sharp)
 {
   const std::size_t count = fibre.count;
   if (count < 3)
