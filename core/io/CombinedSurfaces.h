@@ -32,6 +32,9 @@ SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context);
 /// What `KIND.ply` begins with. Throws InvalidInput for more points than the format can number.
 std::string caminoHead(const SurfaceBox& box);
 
+/// µm by which Camino's repeats of a substrate are farther apart than its sides: where they touch, walkers outside end the run.
+constexpr double caminoSpacing = 0.1;
+
 /// `KIND.ply` for Camino: ASCII, metres, with the comment by which it tells inside from outside. Throws as caminoHead() does,
 /// FileError and Cancelled.
 void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context);
