@@ -34,8 +34,11 @@ SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context);
 /// Returns the header of `KIND.ply`. Throws InvalidInput for more points than the format can number.
 std::string caminoHead(const SurfaceBox& box);
 
-/// Writes `KIND.ply` for Camino: ASCII, metres, with the comment by which Camino tells inside from outside. Throws as
-/// caminoHead() does, FileError and Cancelled.
+/// µm by which Camino's repeats of a substrate are farther apart than its sides: where they touch, walkers outside end the run.
+constexpr double caminoSpacing = 0.1;
+
+/// `KIND.ply` for Camino: ASCII, metres, with the comment by which it tells inside from outside. Throws as caminoHead() does,
+/// FileError and Cancelled.
 void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context);
 
 /// Returns the header of a file of a bundle's surfaces. Throws as caminoHead() does.

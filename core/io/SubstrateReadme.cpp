@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Numbers.h"
+#include "io/CombinedSurfaces.h"
 #include "io/McmrGeometry.h"
 
 #include <algorithm>
@@ -36,8 +37,7 @@ std::string numberWords(const Eigen::Vector3d& values, const char* between = " "
 /// in the border between two repeats; so these are a little farther apart than the domain is long.
 std::string caminoText(const SubstrateFolderContents& contents)
 {
-  constexpr double betweenRepeats = 0.1; // µm
-  constexpr double stepInside = 0.1;     // µm
+  constexpr double stepInside = 0.1; // µm
   const McdcOptions& run = contents.mcdc;
   const auto command = [&](const std::string& where, const std::string& kind, double micrometres)
   {
@@ -46,7 +46,7 @@ std::string caminoText(const SubstrateFolderContents& contents)
     return "    datasynth -walkers " + std::to_string(run.walkers) + " -tmax " + std::to_string(steps) +
            " -p 0 -voxels 1 -initial " + where + " -diffusivity " + text(run.diffusivity) +
            " \\\n      -substrate ply -plyfile " + kind + ".ply -meshsep " +
-           numberWords(inMetres * (contents.domain.size().array() + betweenRepeats).matrix()) +
+           numberWords(inMetres * (contents.domain.size().array() + caminoSpacing).matrix()) +
            " \\\n      -voxelsizefrac 1 -schemefile pgse.scheme > " + where + ".bfloat\n";
   };
   return "outer.ply, inner.ply   all outer, and all inner, surfaces, in metres (Camino)\n"
@@ -60,7 +60,7 @@ std::string caminoText(const SubstrateFolderContents& contents)
          " µm outside, where longer ones\nslow diffusion down: try few -walkers first, as Camino takes its time. -meshsep is the "
          "distance "
          "of repeats: the sides of\nthe domain and " +
-         text(betweenRepeats) + " µm, as walkers outside would end the run (\"has crossed\") where repeats touch.\n";
+         text(caminoSpacing) + " µm, as walkers outside would end the run (\"has crossed\") where repeats touch.\n";
 }
 
 /// How MCMRSimulator.jl is run here.

@@ -330,7 +330,7 @@ class SubstrateProductionTest(CactusTestCase):
         told = []
         production = SubstrateProduction(Input=fibres, FolderName=folder, Encoding="Binary")
         production.SMProxy.GetClientSideObject().AddObserver("ProgressEvent", lambda caller, _: told.append(caller.GetProgressText()))
-        with self.assertError("Encoding Binary is not for simulators that read PLY files"):
+        with self.assertError("Encoding Binary is not for simulators whose readers of PLY files"):
             production.UpdatePipeline()
         self.assertFalse([text for text in told if text], "said before anything is made")
         self.assertFalse(os.path.exists(folder + ".work"))

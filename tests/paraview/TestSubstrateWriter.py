@@ -128,7 +128,7 @@ class Writer(CactusTestCase):
 
     def test_simulators_get_no_binary_files(self):
         for name in ("MC/DC", "Reference program", "Camino", "Disimpy"):
-            with self.subTest(Format=name), self.assertError("Encoding Binary is not for simulators that read PLY files"):
+            with self.subTest(Format=name), self.assertError("Encoding Binary is not for simulators whose readers of PLY files"):
                 self.write(Format=name, Encoding="Binary", Fibres=produce(self.fibres))
             self.assertFalse(os.path.exists(self.target))
 
