@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "io/FibreFile.h"
+#include "io/FibresOfFile.h"
 
 #include <istream>
 #include <string>

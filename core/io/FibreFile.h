@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fibres/Fibres.h"
+#include "io/FibresOfFile.h"
 
 #include <string>
-#include <vector>
 
 namespace cactus
 {
-
-/// Fibres as a file holds them.
-struct FibresOfFile
-{
-  Fibres fibres;
-  std::vector<std::string> remarks; ///< what of the file was left out or assumed, in sentences
-};
 
 /// Reads fibres (µm) from a file of any of these formats, which its first characters tell, whatever its name is:
 ///  - CACTUS strands, see readStrandFile();
