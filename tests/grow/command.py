@@ -20,6 +20,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "
 from folder_content import files  # noqa: E402  (which is in another folder)
 
 PROGRAM, RECIPES = sys.argv[1:3]
+REFERENCE = os.path.join(RECIPES, "..", "reference")
 
 # A second of work.
 SMALL = {
@@ -314,8 +315,8 @@ class Command(unittest.TestCase):
             self.assertIn("--progress is " + refused, self.run_it(recipe, "--progress", refused).stderr)
 
     def test_the_examples_are_recipes(self):
-        examples = sorted(glob.glob(os.path.join(RECIPES, "*.json")))
-        self.assertGreaterEqual(len(examples), 3)
+        examples = sorted(glob.glob(os.path.join(RECIPES, "*.json")) + glob.glob(os.path.join(REFERENCE, "*.json")))
+        self.assertGreaterEqual(len(examples), 14)
         os.mkdir(os.path.join(self.folder, "taken"))
         with open(os.path.join(self.folder, "taken", "notes.txt"), "w", encoding="utf-8") as file:
             file.write("mine\n")
@@ -324,6 +325,17 @@ class Command(unittest.TestCase):
             done = self.run_it(example, "--output", "taken")
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn("taken", done.stderr)
+
+    def test_reference_substrates_have_their_checksums(self):
+        """Rows of recipes that are there, of certified substrates; they are made by examples/reference/make.py, which takes minutes."""
+        with open(os.path.join(REFERENCE, "checksums.txt"), encoding="utf-8") as file:
+            rows = [line.split() for line in file if not line.startswith("#")]
+        self.assertGreater(len(rows), 1)
+        self.assertEqual([row[0] for row in rows[1:]], sorted({row[0] for row in rows[1:]}))
+        for row in rows[1:]:
+            self.assertTrue(os.path.isfile(os.path.join(REFERENCE, row[0] + ".json")), row)
+            self.assertEqual(dict(zip(rows[0], row))["certified"], "yes", row)
+            self.assertRegex(row[-1], "^[0-9a-f]{64}$")
 
     def test_needs_no_paraview(self):
         libraries = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
