@@ -4,7 +4,7 @@
 namespace cactus
 {
 
-/// In ParaView's window, loads the plugin's window part (Window/) from the plugin's folder; does nothing elsewhere.
+/// In ParaView's window, loads the plugin's window part (Plugin/Window/) from the plugin's folder; does nothing elsewhere.
 void loadWindow();
 
 } // namespace cactus

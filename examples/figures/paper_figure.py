@@ -22,7 +22,7 @@ from vtkmodules.vtkCommonCore import vtkPoints  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path += [os.path.join(ROOT, "examples"), os.path.join(ROOT, "scripts")]
+sys.path += [os.path.join(ROOT, "examples"), os.path.join(ROOT, "tools", "scripts")]
 import paper  # noqa: E402
 from picture import section_view, solid_view  # noqa: E402
 from substrate_folder import Refusal, sha256  # noqa: E402

@@ -9,8 +9,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 # Where it stands, and in which words.
 PLACES = {
     "CITATION.cff": r"^version: (\S+)$",
-    "packaging/conda/meta.yaml": r'set version = "([^"]+)"',
-    "packaging/spack/cactus-grow/package.py": r'version\("([^"]+)"\)',
+    "tools/packaging/conda/meta.yaml": r'set version = "([^"]+)"',
+    "tools/packaging/spack/cactus-grow/package.py": r'version\("([^"]+)"\)',
     ".github/ISSUE_TEMPLATE/fault.yml": r"placeholder: CACTUS (\d+\.\d+\.\d+)",
     "CHANGELOG.md": r"^## \[(\d+\.\d+\.\d+)\] - \d{4}-\d{2}-\d{2}$",
 }

@@ -76,7 +76,7 @@ class Package(unittest.TestCase):
         for pattern in ("usr/bin/cactus-grow", "usr/share/man/man1/cactus-grow.1.gz", "usr/share/doc/cactus-paraview/copyright",
                         "usr/share/doc/cactus-paraview/changelog.gz", "usr/share/doc/cactus-paraview/README.md*",
                         "usr/share/doc/cactus-paraview/docs/cactus-grow.md*", "usr/share/doc/cactus-paraview/examples/recipes/bundle.json",
-                        "usr/share/doc/cactus-paraview/scripts/report.py"):
+                        "usr/share/doc/cactus-paraview/tools/scripts/report.py"):
             self.one(pattern)
         self.assertEqual(sorted(os.listdir(self.root)), ["usr"])
         self.assertEqual(sorted(os.listdir(os.path.join(self.root, "usr"))), ["bin", "lib", "share"])
@@ -104,7 +104,7 @@ class Package(unittest.TestCase):
         documents = os.path.join(self.root, "usr/share/doc/cactus-paraview")
         script = os.path.join(self.root, "imports.py")
         with open(script, "w", encoding="utf-8") as file:
-            file.write(f"import sys\nsys.path[:0] = [{documents!r} + '/examples/figures', {documents!r} + '/scripts']\nimport paper_figure, report, rerun, preview\nprint('found')\n")
+            file.write(f"import sys\nsys.path[:0] = [{documents!r} + '/examples/figures', {documents!r} + '/tools/scripts']\nimport paper_figure, report, rerun, preview\nprint('found')\n")
         self.addCleanup(os.remove, script)
         self.assertIn("found", output("pvpython", script, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}))
 

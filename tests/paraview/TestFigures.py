@@ -19,7 +19,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-SCRIPT = os.path.join(ROOT, "scripts", "figures.py")
+SCRIPT = os.path.join(ROOT, "tools", "scripts", "figures.py")
 FOLDER = os.path.join(ROOT, "examples", "figures")
 NAMES = ["pipeline", "capsules", "dispersion", "crossings", "histology", "sizes", "single_fibres"]
 sys.path.append(os.path.join(ROOT, "examples"))

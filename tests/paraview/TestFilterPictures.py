@@ -13,7 +13,7 @@ from cactus_testing import CactusTestCase, main
 from PIL import Image
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.append(os.path.join(ROOT, "scripts"))
+sys.path.append(os.path.join(ROOT, "tools", "scripts"))
 import filter_pictures  # noqa: E402  (which is in another folder)
 
 
@@ -24,7 +24,7 @@ class FilterPictures(CactusTestCase):
 
     def test_views_charts_and_sections_are_drawn(self):
         names = ["MyelinSurface", "SubstrateStatistics", "HistologyMask"]
-        made = subprocess.run(["pvpython", os.path.join(ROOT, "scripts", "filter_pictures.py"), "--output", self.folder, *names], capture_output=True, text=True, check=False)
+        made = subprocess.run(["pvpython", os.path.join(ROOT, "tools", "scripts", "filter_pictures.py"), "--output", self.folder, *names], capture_output=True, text=True, check=False)
         self.assertEqual(made.returncode, 0, made.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), sorted(name + ".png" for name in names))
         for name in names:

@@ -13,8 +13,8 @@ import tempfile
 from cactus_testing import CactusTestCase, main
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-SCRIPT = os.path.join(ROOT, "benchmarks", "performance.py")
-PAGE = os.path.join(ROOT, "benchmarks", "performance_page.py")
+SCRIPT = os.path.join(ROOT, "tools", "benchmarks", "performance.py")
+PAGE = os.path.join(ROOT, "tools", "benchmarks", "performance_page.py")
 STAGES = {"filters": ("packing", "optimiser", "growth", "surfaces", "writer"), "streamed": ("packing", "optimiser", "production")}
 
 

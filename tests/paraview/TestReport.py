@@ -26,7 +26,7 @@ from cactus_testing import CactusTestCase, main
 from paraview import simple
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
+SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "scripts")
 SCRIPT = os.path.join(SCRIPTS, "report.py")
 sys.path.append(SCRIPTS)
 import pack  # noqa: E402  (which is in another folder)

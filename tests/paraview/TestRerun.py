@@ -14,7 +14,7 @@ from paraview import servermanager, simple
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
                              SaveData, StrandReader, SubstrateWriter, TractFibres, TractogramReader)
 
-SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "rerun.py")
+SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "scripts", "rerun.py")
 
 
 def bundle(**properties):

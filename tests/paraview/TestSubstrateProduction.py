@@ -300,7 +300,7 @@ class SubstrateProductionTest(CactusTestCase):
     def test_is_made_again_from_its_manifest(self):
         folder = os.path.join(self.folder, "first")
         SubstrateProduction(Input=self.fibres(4.0), FolderName=folder, GrowthIterations=2, Seed=5, GRatio=0.6).UpdatePipeline()
-        rerun = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "rerun.py")
+        rerun = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "scripts", "rerun.py")
         done = subprocess.run(["pvpython", rerun, folder], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr.replace("ERR|", ""))
         again = files(folder + "-rerun")
