@@ -170,7 +170,7 @@ class ChainTest(CactusTestCase):
 
     def test_crossing(self):
         data, _ = self.run_chain(
-            12, 0.7, most_triangles=(11.5, 14), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5
+            12, 0.7, most_triangles=(12.5, 15), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5
         )
         points = vtk_to_numpy(data.GetPoints().GetData())
         offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
