@@ -4,10 +4,11 @@
 
 import json
 import os
+import re
 import subprocess
 
 import numpy
-from cactus_testing import CactusTestCase, main
+from cactus_testing import LEAVING, CactusTestCase, main
 from folder_content import files
 from nibabel.streamlines import TckFile, Tractogram
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort, Placement,
@@ -39,7 +40,9 @@ class CactusGrow(CactusTestCase):
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(recipe, file)
         done = subprocess.run([PROGRAM, path, "--output", self.path(name), "--threads", "2"], capture_output=True, text=True)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        # In so small a substrate all walkers outside leave, which is said.
+        said = [line for line in done.stderr.splitlines() if not re.search(LEAVING, line)]
+        self.assertEqual((done.returncode, said), (0, []))
 
     def assertSame(self, one, two):
         one, two = files(self.path(one)), files(self.path(two))
