@@ -31,7 +31,7 @@ _FOLLOW_UP = re.compile(r"returned failure for request|Failed to execute|Could n
 UNPARTED = r"the optimiser has not parted these fibres"
 
 # What SubstrateWriter says of substrates as small as those of tests, where a test is about something else.
-LEAVING = r"of the walkers of mcdc/extra\.conf leave the substrate"
+LEAVING = r"of the walkers of mcdc/extra\.conf leave the substrate|no room outside the fibres in the middle of the substrate for walkers of mcdc/extra\.conf"
 
 
 def environment_of_its_own():
