@@ -137,8 +137,10 @@ void FibreMesher::makeOuter(
     const double there = now.volume + (level - right) * now.freeArea;
     volume = std::clamp(volume, there - rest * now.freeArea, there + rest * now.freeArea);
   }
-  const bool isSound =
-    this->Finishing.finish(field, { level, right, volume, nullptr, bounds }, surface, pair.outerReport, pair.outerChange);
+  // A surface that is made again is one that did not bear to be moved, and will be moved again.
+  const bool isMadeAgain = !bounds.empty() || deeper > 0.0;
+  const bool isSound = this->Finishing.finish(
+    field, { level, right, volume, nullptr, bounds, !isMadeAgain }, surface, pair.outerReport, pair.outerChange);
   pair.isFlawed = pair.isFlawed || !isSound;
   pair.outer = packed(std::move(surface.mesh));
   pair.outerLevel = right;

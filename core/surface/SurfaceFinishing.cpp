@@ -140,7 +140,11 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
   }
   roundPoints(surface.mesh, surface.box);
   report = keepSoundPieces(surface.mesh, change.droppedVolume);
-  this->even(surface, report);
+  if (target.hasEvenFans)
+  {
+    this->even(surface, report);
+  }
+  surface.faces.clear(); // they count the points of before
   return placesThatMeet(surface.mesh, target, change).empty();
 }
 
@@ -194,7 +198,7 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
     this->reshape(trial, decimation);
     moveToVolume(trial, target.volume, this->DecimationError);
     splitNeedles(trial, largestSquaredEdgeRatio);
-    this->even(trial);
+    target.hasEvenFans ? this->even(trial) : roundPoints(trial.mesh, trial.box);
     report = checkSurface(trial.mesh);
     const std::vector<Eigen::Vector3d> places = placesThatMeet(trial.mesh, target, change);
     if (places.empty() && report.degenerateTriangles == 0 && report.sound())

@@ -26,6 +26,7 @@ struct SurfaceTarget
   double volume = 0.0;                     ///< µm³
   const TriangleTree* container = nullptr; ///< a surface that it must not meet
   std::vector<LocalErrorBound> bounds;     ///< where it is coarsened less
+  bool hasEvenFans = true; ///< off for a surface that is to be moved: small triangles fold where large ones do not
 };
 
 /// Turns contours of fields into final surfaces, with points in single precision, as in files. Thread-safe.
@@ -51,7 +52,9 @@ private:
     SurfaceChange& change) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
+  /// Makes the fans of a surface even, and rounds its points.
   void even(CappedSurface& surface) const;
+  /// Does so with a closed manifold, and measures it again.
   void even(CappedSurface& surface, SurfaceReport& report) const;
   void reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const;
 
