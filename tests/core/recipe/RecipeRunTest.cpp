@@ -47,7 +47,8 @@ TEST_F(RecipeRuns, WritesARecipeForItself)
   const auto remember = [&](const std::string& remark) { remarks.push_back(remark); };
   const WrittenSubstrate first = runRecipe(readRecipe(small, ""), this->place("first"), {}, remember);
   EXPECT_TRUE(first.certificate.certified());
-  EXPECT_EQ(remarks, std::vector<std::string>());
+  ASSERT_EQ(remarks.size(), 1u); // so small a substrate is left by all walkers outside
+  EXPECT_NE(remarks[0].find("of the walkers of mcdc/extra.conf leave the substrate"), std::string::npos) << remarks[0];
   const std::string manifest = contentOf(this->place("first") + "/manifest.json");
   const Recipe again = readRecipe(manifest, "");
   EXPECT_EQ(again.version, CACTUS_VERSION);
