@@ -2,6 +2,7 @@
 #include "surface/FibreMesher.h"
 
 #include "base/Constants.h"
+#include "mesh/SurfaceCheck.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfacePieces.h"
 #include "surface/FibreExtent.h"
@@ -161,6 +162,23 @@ std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) con
     return {};
   }
   return placesThatMeet(pair.outer);
+}
+
+void FibreMesher::evenOuter(FibreSurfacePair& pair) const
+{
+  if (pair.outer.triangles.empty() || !pair.outerReport.closedManifold())
+  {
+    return;
+  }
+  const Eigen::AlignedBox3d box = this->box();
+  CappedSurface surface{ pair.outer, facesOf(pair.outer, box), box };
+  this->Finishing.even(surface);
+  const SurfaceReport report = checkSurface(surface.mesh);
+  if (report.sound() && placesThatMeet(surface.mesh).empty())
+  {
+    pair.outer = packed(std::move(surface.mesh));
+    pair.outerReport = report;
+  }
 }
 
 double FibreMesher::equivalentDiameter(const SmoothedField& field, double outerVolume) const

@@ -48,6 +48,9 @@ public:
   /// split, and pieces turned inside out are removed; if nothing is left, the pair's state is NoFibre.
   std::vector<Eigen::Vector3d> checkOuter(FibreSurfacePair& pair) const;
 
+  /// Makes the fans of an outer surface even (see evenFans) and measures it again. A faulty surface stays as it is.
+  void evenOuter(FibreSurfacePair& pair) const;
+
   /// Returns the diameter (µm) of the circle whose area is the mean cross-section: outer volume over the length of the fibre.
   double equivalentDiameter(const SmoothedField& field, double outerVolume) const;
 

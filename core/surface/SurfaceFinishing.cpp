@@ -154,7 +154,7 @@ void SurfaceFinishing::finishMoved(CappedSurface& surface) const
   {
     splitNeedles(surface, largestSquaredEdgeRatio);
   }
-  this->even(surface);
+  roundPoints(surface.mesh, surface.box);
 }
 
 void SurfaceFinishing::even(CappedSurface& surface) const

@@ -44,17 +44,18 @@ public:
   bool finish(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
     SurfaceChange& change) const;
 
-  /// Splits needles that moving has left in a coarsened surface, evens its fans again and rounds its points.
+  /// Splits needles that moving has left in a coarsened surface, and rounds its points.
   void finishMoved(CappedSurface& surface) const;
+
+  /// Makes the fans of a surface even (see evenFans), and rounds its points. Precondition: closed manifold.
+  void even(CappedSurface& surface) const;
 
 private:
   bool coarsen(const SmoothedField& field, const SurfaceTarget& target, CappedSurface& surface, SurfaceReport& report,
     SurfaceChange& change) const;
   double largestMove(const SmoothedField& field, const CappedSurface& surface, double level) const;
 
-  /// Makes the fans of a surface even, and rounds its points.
-  void even(CappedSurface& surface) const;
-  /// Does so with a closed manifold, and measures it again.
+  /// Does so if the surface is a closed manifold, and measures it again.
   void even(CappedSurface& surface, SurfaceReport& report) const;
   void reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const;
 

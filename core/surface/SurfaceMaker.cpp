@@ -14,6 +14,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace cactus
@@ -296,6 +297,7 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   std::vector<std::size_t> tooNear; // known so far, increasing
   bool isOneGone = false;           // one of these
   BoundsOfFibres bounds;
+  std::set<std::size_t> moved;
   for (int attempt = 0; !made.empty() || isOneGone; ++attempt)
   {
     // Surfaces that were too near are checked again, since the other one of the pair may be new, or gone.
@@ -305,6 +307,7 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
       attempt == 0 ? this->Shares.contoured : this->Shares.spaced, this->Shares.spaced, this->Shared,
       this->Journal.findings().part(text("apart ", attempt)));
     tooNear = spacing.tooNear;
+    moved.insert(spacing.moved.begin(), spacing.moved.end());
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);
     this->makeAgain(made, deeperEachTime * (isCoarsened ? attempt : attempt + 1), bounds, outer);
     const auto gone = std::remove_if(
@@ -316,10 +319,28 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   {
     this->Pairs[i].isFlawed = true;
   }
+  this->evenOuter({ moved.begin(), moved.end() }, outer);
   if (!this->isCommon()) // otherwise there is none yet
   {
     this->keepInner(outer, inner);
   }
+}
+
+/// Makes the fans of moved surfaces even. Before the last move it would be too early: small triangles fold where large ones do
+/// not.
+void SurfaceMaker::evenOuter(const std::vector<std::size_t>& which, SurfaceStore& outer)
+{
+  this->Shared.loop(
+    which.size(), this->Caller,
+    [&](std::size_t i)
+    {
+      FibreSurfacePair& pair = this->Pairs[which[i]];
+      pair.outer = *outer.get(which[i]);
+      this->Mesher.evenOuter(pair);
+      outer.put(which[i], std::exchange(pair.outer, TriangleMesh()));
+    },
+    [&](std::size_t i) { return bytesOf(this->Pairs[which[i]]); },
+    [&](std::size_t i, const std::string& bytes) { this->Pairs[which[i]] = pairFrom(bytes); });
 }
 
 /// Checks moved surfaces, and returns those that have to be made again, with bounds at their faults.

@@ -60,6 +60,7 @@ private:
   void putInner(std::size_t i, const SmoothedField& field, SurfaceStore& inner);
   void contour(SurfaceStore& outer, SurfaceStore& inner);
   void spaceOut(SurfaceStore& outer, const SurfaceSource& inner);
+  void evenOuter(const std::vector<std::size_t>& which, SurfaceStore& outer);
   std::vector<std::size_t> checkMoved(
     const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds);
   void makeAgain(const std::vector<std::size_t>& which, double deeper, const BoundsOfFibres& bounds, SurfaceStore& outer);
