@@ -330,10 +330,9 @@ class Command(unittest.TestCase):
         """Rows of recipes that are there, of certified substrates; they are made by examples/reference/make.py, which takes minutes."""
         with open(os.path.join(REFERENCE, "checksums.txt"), encoding="utf-8") as file:
             rows = [line.split() for line in file if not line.startswith("#")]
-        self.assertGreater(len(rows), 1)
-        self.assertEqual([row[0] for row in rows[1:]], sorted({row[0] for row in rows[1:]}))
+        recipes = sorted(name[: -len(".json")] for name in os.listdir(REFERENCE) if name.endswith(".json"))
+        self.assertEqual([row[0] for row in rows[1:]], recipes)
         for row in rows[1:]:
-            self.assertTrue(os.path.isfile(os.path.join(REFERENCE, row[0] + ".json")), row)
             self.assertEqual(dict(zip(rows[0], row))["certified"], "yes", row)
             self.assertRegex(row[-1], "^[0-9a-f]{64}$")
 
