@@ -11,8 +11,8 @@ import json
 import os
 import subprocess
 
-from cactus_sweep import sweep
 from cactus_testing import CactusTestCase, environment_of_its_own, main
+from cactus_sweep import sweep  # which the plugin holds, once it is loaded
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "sweep.py")

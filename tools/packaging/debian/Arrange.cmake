@@ -38,7 +38,7 @@ if (NOT "${root}/${CPACK_CACTUS_DOCDIR}" STREQUAL "${doc}")
   file(RENAME "${root}/${CPACK_CACTUS_DOCDIR}" "${doc}")
 endif ()
 file(REMOVE "${doc}/LICENSE") # it is in copyright
-file(READ "${CPACK_CACTUS_SOURCE}/packaging/debian/copyright" copyright)
+file(READ "${CPACK_CACTUS_SOURCE}/tools/packaging/debian/copyright" copyright)
 file(WRITE "${doc}/copyright" "${copyright}")
 
 # Debian's changelog has the date of the release, so that the same sources make the same package.
@@ -59,7 +59,7 @@ endforeach ()
 # Lintian is told why that list is beside programs.
 set(plain "${doc}/copyright" "${configuration}")
 if (NOT listed)
-  file(READ "${CPACK_CACTUS_SOURCE}/packaging/debian/lintian-overrides" overrides)
+  file(READ "${CPACK_CACTUS_SOURCE}/tools/packaging/debian/lintian-overrides" overrides)
   file(WRITE "${root}/share/lintian/overrides/${CPACK_PACKAGE_NAME}" "${overrides}")
   list(APPEND plain "${root}/share/lintian/overrides/${CPACK_PACKAGE_NAME}")
 endif ()
