@@ -3,6 +3,7 @@
 
 #include "InputBlocks.h"
 #include "base/FastChecksum.h"
+#include "fibres/ColumnTable.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCellData.h>
@@ -52,6 +53,13 @@ std::string checksumOfData(vtkDataObject* data)
     for (const char* name : { "FibreId", "BundleId", "TargetRadius", "Surface" })
     {
       add(checksum, surface->GetCellData()->GetArray(name));
+    }
+    for (const ColumnFacts& column : fibreColumns())
+    {
+      if (vtkDataArray* array = surface->GetCellData()->GetArray(column.name))
+      {
+        add(checksum, array);
+      }
     }
     return checksum.digest();
   }

@@ -78,6 +78,15 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
   vtkDataArray* bundleId = scalars(input->GetCellData(), "BundleId", input->GetNumberOfCells());
   vtkDataArray* targetRadius = scalars(input->GetCellData(), "TargetRadius", input->GetNumberOfCells());
 
+  std::vector<std::pair<const char*, vtkDataArray*>> columns;
+  for (const ColumnFacts& column : fibreColumns())
+  {
+    if (vtkDataArray* array = scalars(input->GetCellData(), column.name, input->GetNumberOfCells()))
+    {
+      columns.emplace_back(column.name, array);
+    }
+  }
+
   fibres.grownFraction = grownFractionOf(input);
   auto cells = vtk::TakeSmartPointer(input->GetLines()->NewIterator());
   vtkIdType cell = 0;
@@ -102,6 +111,10 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
     }
     fibres.targetRadii.back() =
       targetRadius ? targetRadius->GetComponent(cell, 0) : sum / static_cast<double>(std::max<vtkIdType>(count, 1));
+    for (const auto& [name, array] : columns)
+    {
+      fibres.columns.set(name, static_cast<std::size_t>(cell), array->GetComponent(cell, 0));
+    }
   }
 }
 
@@ -250,6 +263,7 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   addColumn<vtkIntArray>(cells, "FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });
   addColumn<vtkIntArray>(cells, "BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
   addColumn<vtkDoubleArray>(cells, "TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
+  addColumns(fibres, "", cells);
   vtkNew<vtkFieldData> kept; // field data cannot be copied to themselves
   kept->ShallowCopy(output->GetFieldData());
   fresh->SetFieldData(kept);
@@ -262,6 +276,15 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   if (fibres.grownFraction > 0.0)
   {
     addNumber(output->GetFieldData(), grownName, fibres.grownFraction);
+  }
+}
+
+void addColumns(const Fibres& fibres, const std::string& prefix, vtkFieldData* data)
+{
+  for (const auto& column : fibres.columns.all())
+  {
+    addColumn<vtkDoubleArray>(data, (prefix + column.first).c_str(), fibres.size(),
+      [&](std::size_t f) { return fibres.columns.value(column.first, f); });
   }
 }
 

@@ -12,6 +12,7 @@
 
 class vtkDataArray;
 class vtkDataObject;
+class vtkFieldData;
 class vtkPolyData;
 
 namespace cactus
@@ -45,6 +46,9 @@ int idFrom(vtkDataArray* array, vtkIdType cell);
 /// Converts core fibres to polylines; replaces everything in `output` but its field data, in which it sets `Domain` and, if
 /// known, `GrownFibreVolumeFraction`.
 void toPolyData(const Fibres& fibres, vtkPolyData* output);
+
+/// Adds the columns that the fibres have (see fibreColumns()), their names after this prefix.
+void addColumns(const Fibres& fibres, const std::string& prefix, vtkFieldData* data);
 
 /// Adds the colours `Direction` to polylines (red, green and blue are the parts of the tangent along x, y and z, as in diffusion
 /// imaging), which views show if no array is chosen.

@@ -145,6 +145,15 @@ LabelImageInput labelImageFrom(vtkDataObject* input)
   facts.fibreIds = fieldIds(image, "FibreTable.FibreId");
   facts.bundleIds = fieldIds(image, "FibreTable.BundleId");
   facts.targetRadii = fieldValues(image, "FibreTable.TargetRadius");
+  for (const ColumnFacts& column : fibreColumns())
+  {
+    const std::string name = std::string("FibreTable.") + column.name;
+    vtkDataArray* array = image->GetFieldData()->HasArray(name.c_str()) != 0 ? fieldColumn(image, name) : nullptr;
+    for (vtkIdType row = 0; array != nullptr && row < array->GetNumberOfTuples(); ++row)
+    {
+      facts.columns.set(column.name, static_cast<std::size_t>(row), array->GetComponent(row, 0));
+    }
+  }
   if (image->GetFieldData()->HasArray("FibreTable.LengthInDomain"))
   {
     facts.lengths = fieldValues(image, "FibreTable.LengthInDomain");

@@ -90,6 +90,7 @@ void addImageFacts(const cactus::Fibres& fibres, const cactus::FibreRadialGrowth
   cactus::addColumn<vtkIntArray>(data, "FibreTable.BundleId", fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; });
   cactus::addColumn<vtkDoubleArray>(
     data, "FibreTable.TargetRadius", fibres.size(), [&](std::size_t f) { return fibres.targetRadii[f]; });
+  cactus::addColumns(fibres, "FibreTable.", data);
   // 0 for one that only passes outside.
   cactus::addColumn<vtkDoubleArray>(
     data, "FibreTable.LengthInDomain", fibres.size(), [&](std::size_t f) { return cactus::lengthInDomain(fibres, f); });

@@ -68,11 +68,34 @@ void Fibres::addFibre(int fibreId, int bundleId, double targetRadius)
   offsets.push_back(points.size());
 }
 
+void Fibres::addFibre(const Fibres& from, std::size_t fibre)
+{
+  this->columns.copyRow(from.columns, fibre, this->size());
+  this->addFibre(from.fibreIds[fibre], from.bundleIds[fibre], from.targetRadii[fibre]);
+}
+
 void Fibres::addPoint(const Eigen::Vector3d& point, double radius)
 {
   points.push_back(point);
   radii.push_back(radius);
   offsets.back() = points.size();
+}
+
+void Fibres::addPoints(const Fibres& from, std::size_t first, std::size_t last)
+{
+  const auto part = [&](const auto& values) { return values.begin() + static_cast<std::ptrdiff_t>(first); };
+  const auto count = static_cast<std::ptrdiff_t>(last - first);
+  points.insert(points.end(), part(from.points), part(from.points) + count);
+  radii.insert(radii.end(), part(from.radii), part(from.radii) + count);
+  offsets.back() = points.size();
+}
+
+Fibres Fibres::emptyCopy() const
+{
+  Fibres copy;
+  copy.domain = this->domain;
+  copy.grownFraction = this->grownFraction;
+  return copy;
 }
 
 void validate(const Domain& domain)
@@ -130,6 +153,7 @@ void validate(const Fibres& fibres)
     {
       requireWithin((name + ": TargetRadius").c_str(), fibres.targetRadii[f], limits::radius);
     }
+    validateRow(fibres.columns, f, name);
   }
 }
 

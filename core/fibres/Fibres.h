@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Domain.h"
+#include "fibres/ColumnTable.h"
 
 #include <Eigen/Core>
 
@@ -22,6 +23,7 @@ struct Fibres
   std::vector<int> fibreIds;             ///< one per fibre, positive and unique
   std::vector<int> bundleIds;            ///< one per fibre, positive
   std::vector<double> targetRadii;       ///< sampled outer radius, one per fibre
+  ColumnTable columns;                   ///< what else is known of each fibre, see fibreColumns()
   Domain domain;
   /// Fraction of the domain that the fibres are to fill once growth has brought them to their target radii; 0 if unknown.
   double grownFraction = 0.0;
@@ -30,16 +32,22 @@ struct Fibres
   std::size_t pointCount(std::size_t fibre) const { return offsets[fibre + 1] - offsets[fibre]; }
   /// Appends an empty fibre; follow it with addPoint for its control points.
   void addFibre(int fibreId, int bundleId, double targetRadius);
+  /// Appends an empty fibre with everything that is known of one of `from`; follow it with addPoint or addPoints.
+  void addFibre(const Fibres& from, std::size_t fibre);
   /// Appends a control point to the last fibre.
   void addPoint(const Eigen::Vector3d& point, double radius);
+  /// Appends the control points [first, last) of `from` to the last fibre.
+  void addPoints(const Fibres& from, std::size_t first, std::size_t last);
+  /// Returns fibres with the same domain and grown fraction, and no fibre yet.
+  Fibres emptyCopy() const;
 };
 
 /// Throws InvalidInput unless the domain has corners and sides within the limits (see Limits.h) and is not periodic.
 void validate(const Domain& domain);
 
 /// Throws InvalidInput, naming the fibre, unless: there is a fibre; every fibre has at least two control points, no
-/// zero-length segment, and coordinates, radii and target radius within the limits (see Limits.h); ids are positive and
-/// fibre ids unique; the domain is valid.
+/// zero-length segment, and coordinates, radii, target radius and columns within the limits (see Limits.h, ColumnTable.h); ids are
+/// positive and fibre ids unique; the domain is valid.
 void validate(const Fibres& fibres);
 
 /// Volume (µm³) of one fibre: its capsules as truncated cones between control points, without end caps.

@@ -47,11 +47,10 @@ void appendFibres(const Fibres& added, Fibres& all)
   const bool isPartOfTheSame = fibreIds == added.fibreIds && all.grownFraction == added.grownFraction;
   for (std::size_t f = 0; f < added.size(); ++f)
   {
-    all.addFibre(fibreIds[f], bundleIds[f], added.targetRadii[f]);
-    for (std::size_t i = added.offsets[f]; i < added.offsets[f + 1]; ++i)
-    {
-      all.addPoint(added.points[i], added.radii[i]);
-    }
+    all.addFibre(added, f);
+    all.fibreIds.back() = fibreIds[f];
+    all.bundleIds.back() = bundleIds[f];
+    all.addPoints(added, added.offsets[f], added.offsets[f + 1]);
   }
   if (isPartOfTheSame)
   {

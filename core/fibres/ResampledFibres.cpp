@@ -169,12 +169,10 @@ Resampling resampleDenseFibres(Fibres& fibres)
   {
     return done;
   }
-  Fibres resampled;
-  resampled.domain = fibres.domain;
-  resampled.grownFraction = fibres.grownFraction;
+  Fibres resampled = fibres.emptyCopy();
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    resampled.addFibre(fibres.fibreIds[f], fibres.bundleIds[f], fibres.targetRadii[f]);
+    resampled.addFibre(fibres, f);
     const FibreLine line(fibres, f);
     if (segments[f] + 1 < line.size())
     {
@@ -186,10 +184,7 @@ Resampling resampleDenseFibres(Fibres& fibres)
         continue;
       }
     }
-    for (std::size_t i = 0; i < line.size(); ++i)
-    {
-      resampled.addPoint(line.point(i), line.radius(i));
-    }
+    resampled.addPoints(fibres, fibres.offsets[f], fibres.offsets[f + 1]);
   }
   fibres = std::move(resampled);
   return done;

@@ -9,9 +9,7 @@ namespace cactus
 
 Fibres selectFibres(const Fibres& fibres, const std::vector<std::size_t>& which)
 {
-  Fibres selected;
-  selected.domain = fibres.domain;
-  selected.grownFraction = fibres.grownFraction;
+  Fibres selected = fibres.emptyCopy();
   std::size_t points = 0;
   for (const std::size_t f : which)
   {
@@ -21,11 +19,8 @@ Fibres selectFibres(const Fibres& fibres, const std::vector<std::size_t>& which)
   selected.radii.reserve(points);
   for (const std::size_t f : which)
   {
-    selected.addFibre(fibres.fibreIds[f], fibres.bundleIds[f], fibres.targetRadii[f]);
-    for (std::size_t i = fibres.offsets[f]; i < fibres.offsets[f + 1]; ++i)
-    {
-      selected.addPoint(fibres.points[i], fibres.radii[i]);
-    }
+    selected.addFibre(fibres, f);
+    selected.addPoints(fibres, fibres.offsets[f], fibres.offsets[f + 1]);
   }
   return selected;
 }

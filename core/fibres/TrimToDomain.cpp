@@ -24,9 +24,7 @@ bool comesBackAtOnce(const Fibres& fibres, std::size_t left, std::size_t back)
 
 Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
 {
-  Fibres trimmed;
-  trimmed.domain = fibres.domain;
-  trimmed.grownFraction = fibres.grownFraction;
+  Fibres trimmed = fibres.emptyCopy();
   if (kept != nullptr)
   {
     kept->clear();
@@ -65,14 +63,12 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
       pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.second - a.first < b.second - b.first; });
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
     {
-      trimmed.addFibre(piece == longest ? fibres.fibreIds[f] : freeId(), fibres.bundleIds[f], fibres.targetRadii[f]);
-      for (std::size_t i = piece->first; i <= piece->second; ++i)
+      trimmed.addFibre(fibres, f);
+      trimmed.fibreIds.back() = piece == longest ? fibres.fibreIds[f] : freeId();
+      trimmed.addPoints(fibres, piece->first, piece->second + 1);
+      for (std::size_t i = piece->first; kept != nullptr && i <= piece->second; ++i)
       {
-        trimmed.addPoint(fibres.points[i], fibres.radii[i]);
-        if (kept != nullptr)
-        {
-          kept->push_back(i);
-        }
+        kept->push_back(i);
       }
     }
   }

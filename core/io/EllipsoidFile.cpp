@@ -29,7 +29,7 @@ Eigen::Vector3d threeNumbers(const Json& object, const char* member, const std::
   return { (*found)[0].get<double>(), (*found)[1].get<double>(), (*found)[2].get<double>() };
 }
 
-void readAxon(const Json& axon, const std::string& name, Fibres& fibres)
+void readAxon(const Json& axon, const std::string& name, Fibres& fibres, GRatiosOfFile& gRatios)
 {
   const std::string where = text(name, ": axon ", fibres.size() + 1);
   const auto ellipsoids = axon.is_object() ? axon.find("ellipsoids") : axon.end();
@@ -49,14 +49,17 @@ void readAxon(const Json& axon, const std::string& name, Fibres& fibres)
       throw FileError(where + ", an ellipsoid, has no myelinDiameter");
     }
     const double radius = 0.5 * diameter->get<double>();
+    const auto inner = ellipsoid.find("axonDiameter");
     if (fibres.pointCount(fibres.size() - 1) > 0 && (point - fibres.points.back()).norm() <= closestEllipsoids)
     {
       continue;
     }
     fibres.addPoint(point, radius);
     sum += radius;
+    gRatios.add(inner != ellipsoid.end() && inner->is_number() ? 0.5 * inner->get<double>() : 0.0, radius);
   }
   fibres.targetRadii.back() = sum / static_cast<double>(fibres.pointCount(fibres.size() - 1));
+  gRatios.give(fibres);
 }
 
 } // namespace
@@ -77,10 +80,12 @@ FibresOfFile readEllipsoidFile(std::istream& stream, const std::string& name)
     voxel.is_number() ? Eigen::Vector3d::Constant(voxel.get<double>()).eval() : threeNumbers(*json, "voxelSize", name);
   read.fibres.domain.lower = -0.5 * size;
   read.fibres.domain.upper = 0.5 * size;
+  GRatiosOfFile gRatios;
   for (const Json& axon : (*json)["axons"])
   {
-    readAxon(axon, name, read.fibres);
+    readAxon(axon, name, read.fibres, gRatios);
   }
+  gRatios.remark(read);
   if (const auto cells = json->find("cells"); cells != json->end() && cells->is_array() && !cells->empty())
   {
     read.remarks.push_back(text(cells->size(), " cell(s) are left out, since only axons become fibres"));

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Error.h"
 #include "fibres/Fibres.h"
 
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,49 @@ struct FibresOfFile
 {
   Fibres fibres;
   std::vector<std::string> remarks; ///< what of the file was left out or assumed, in sentences
+};
+
+/// Gathers the inner and outer radii along one fibre after the other.
+class GRatiosOfFile
+{
+public:
+  /// Adds a place on the fibre; an inner radius of 0 is unknown.
+  void add(double innerRadius, double outerRadius)
+  {
+    this->Inner += innerRadius * innerRadius;
+    this->Outer += outerRadius * outerRadius;
+  }
+
+  /// Gives the last of the fibres its TargetGRatio, the root of inner over outer cross-sections, and begins the next fibre. A fibre
+  /// whose radii are equal has no myelin, and none is given.
+  void give(Fibres& fibres)
+  {
+    const double gRatio = this->Outer > 0.0 ? std::sqrt(this->Inner / this->Outer) : 0.0;
+    if (targetGRatioColumn.range.holds(gRatio))
+    {
+      fibres.columns.set(targetGRatioColumn.name, fibres.size() - 1, gRatio);
+    }
+    else if (gRatio > targetGRatioColumn.range.highest)
+    {
+      ++this->Bare;
+    }
+    this->Inner = this->Outer = 0.0;
+  }
+
+  /// Adds what a user should know about the fibres without myelin.
+  void remark(FibresOfFile& file) const
+  {
+    if (this->Bare > 0)
+    {
+      file.remarks.push_back(text(this->Bare, " axon(s) have no myelin in this file. MyelinSurface gives them the g-ratio of its "
+                                              "own GRatioModel, since surfaces without myelin are not made"));
+    }
+  }
+
+private:
+  double Inner = 0.0;
+  double Outer = 0.0;
+  std::size_t Bare = 0;
 };
 
 } // namespace cactus

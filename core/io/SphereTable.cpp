@@ -45,6 +45,7 @@ struct SphereColumns
   std::size_t axon = 0;
   std::size_t centre[3] = {};
   std::size_t radius = 0;
+  std::size_t innerRadius = 0; ///< the same as radius in a table without inner radii
   std::size_t count = 0;
 };
 
@@ -63,6 +64,10 @@ std::optional<SphereColumns> columnsOf(const std::string& header)
   const bool isWhole = find({ "cell_type", "Type" }, columns.type) && find({ "cell_id", "id_cell", "id_ax" }, columns.axon) &&
                        find({ "X" }, columns.centre[0]) && find({ "Y" }, columns.centre[1]) && find({ "Z" }, columns.centre[2]) &&
                        find({ "outer_radius", "Rout", "R" }, columns.radius);
+  if (!find({ "inner_radius", "Rin" }, columns.innerRadius))
+  {
+    columns.innerRadius = columns.radius;
+  }
   return isWhole ? std::optional<SphereColumns>(columns) : std::nullopt;
 }
 
@@ -112,13 +117,17 @@ public:
       centre[axis] = this->number(parts[this->Columns.centre[axis]], "a coordinate", number);
     }
     const double radius = this->number(parts[this->Columns.radius], "the radius", number);
+    const bool hasInner = this->Columns.innerRadius != this->Columns.radius;
+    const double inner = hasInner ? this->number(parts[this->Columns.innerRadius], "the inner radius", number) : 0.0;
     if (!this->Points.empty() && (centre - this->Points.back()).norm() <= closestSpheres)
     {
       this->Radii.back() = std::max(this->Radii.back(), radius);
+      this->InnerRadii.back() = std::max(this->InnerRadii.back(), inner);
       return;
     }
     this->Points.push_back(centre);
     this->Radii.push_back(radius);
+    this->InnerRadii.push_back(inner);
   }
 
   FibresOfFile finish()
@@ -154,6 +163,7 @@ public:
     {
       this->Read.remarks.push_back(text(this->Single, " axon(s) of a single sphere are left out"));
     }
+    this->GRatios.remark(this->Read);
     return std::move(this->Read);
   }
 
@@ -184,11 +194,14 @@ private:
         this->Read.fibres.addPoint(this->Points[i], this->Radii[i]);
         sum += this->Radii[i];
         this->Largest = std::max(this->Largest, this->Points[i].maxCoeff());
+        this->GRatios.add(this->InnerRadii[i], this->Radii[i]);
       }
+      this->GRatios.give(this->Read.fibres);
       this->Read.fibres.targetRadii.back() = sum / static_cast<double>(this->Points.size());
     }
     this->Points.clear();
     this->Radii.clear();
+    this->InnerRadii.clear();
   }
 
   std::string Name;
@@ -198,6 +211,8 @@ private:
   double Axon = 0.0; ///< whose spheres these are
   std::vector<Eigen::Vector3d> Points;
   std::vector<double> Radii;
+  std::vector<double> InnerRadii; ///< 0 where the table has none
+  GRatiosOfFile GRatios;
   double Largest = 0.0;
   std::size_t Single = 0;
   std::map<std::string, std::size_t> LeftOut; ///< spheres by type

@@ -19,12 +19,11 @@ bool canBeLeftOut(const std::vector<Eigen::Vector3d>& points, std::size_t i)
 } // namespace
 
 CoarseFibres::CoarseFibres(const Fibres& fine)
+  : Coarse(fine.emptyCopy())
 {
-  this->Coarse.domain = fine.domain;
-  this->Coarse.grownFraction = fine.grownFraction;
   for (std::size_t f = 0; f < fine.size(); ++f)
   {
-    this->Coarse.addFibre(fine.fibreIds[f], fine.bundleIds[f], fine.targetRadii[f]);
+    this->Coarse.addFibre(fine, f);
     const std::size_t last = fine.offsets[f + 1] - 1;
     for (std::size_t i = fine.offsets[f]; i <= last; ++i)
     {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace cactus
@@ -77,6 +78,12 @@ std::string dataChecksum(const Fibres& fibres)
   addArray(checksum, ArrayType::Int, fibres.bundleIds);
   addArray(checksum, ArrayType::Double, fibres.targetRadii);
   addNone(checksum); // they have no Surface
+  for (const auto& column : fibres.columns.all())
+  {
+    std::vector<double> values = column.second;
+    values.resize(fibres.size(), std::numeric_limits<double>::quiet_NaN());
+    addArray(checksum, ArrayType::Double, values);
+  }
   return checksum.digest();
 }
 
@@ -97,6 +104,13 @@ std::string dataChecksum(const Tractogram& tractogram)
   }
   addNamed(checksum, tractogram.streamlineValues, "TargetRadius");
   addNamed(checksum, tractogram.streamlineValues, "Surface");
+  for (const ColumnFacts& column : fibreColumns())
+  {
+    if (valuesNamed(tractogram.streamlineValues, column.name) != nullptr)
+    {
+      addNamed(checksum, tractogram.streamlineValues, column.name);
+    }
+  }
   return checksum.digest();
 }
 

@@ -46,6 +46,7 @@ struct FibreSurfacePair
   double volumeAsMade = std::numeric_limits<double>::quiet_NaN();
   double outerLevel = 0.0; ///< µm, the field's value on the outer surface, 0 or slightly below
   double thickness = 0.0;  ///< µm, depth of the inner surface below the outer one: the difference of the field
+  double ownGRatio = std::numeric_limits<double>::quiet_NaN(); ///< the TargetGRatio of the fibre itself; NaN if it has none
   double targetGRatio = 0.0;
   double gRatio = 0.0;  ///< the one reached: sqrt(inner volume / outer volume); 0 without an axon
   bool isWanted = true; ///< false only if the centre line is known to pass outside the domain

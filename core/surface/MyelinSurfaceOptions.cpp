@@ -75,6 +75,7 @@ LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOpt
   facts.fibreIds = fibres.fibreIds;
   facts.bundleIds = fibres.bundleIds;
   facts.targetRadii = fibres.targetRadii;
+  facts.columns = fibres.columns;
   return facts;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/Domain.h"
 #include "base/Properties.h"
+#include "fibres/ColumnTable.h"
 #include "surface/GRatio.h"
 
 #include <cstdint>
@@ -57,6 +58,7 @@ struct LabelImageFacts
   std::vector<int> fibreIds;       ///< all fibres whose surfaces are to be made, unique, in any order
   std::vector<int> bundleIds;      ///< one per fibre
   std::vector<double> targetRadii; ///< one per fibre
+  ColumnTable columns;             ///< of the fibres, see fibreColumns()
   /// Length (µm) of each fibre's centre line inside the domain: 0 for one that only passes outside. Empty if unknown.
   std::vector<double> lengths;
   bool isSample = false; ///< the image also has other fibres, of which no surfaces are made

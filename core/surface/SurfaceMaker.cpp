@@ -53,6 +53,8 @@ std::vector<FibreSurfacePair> fibresOf(const LabelImageFacts& facts, const Fibre
     pairs[i].fibreId = facts.fibreIds[i];
     pairs[i].bundleId = facts.bundleIds[i];
     pairs[i].targetRadius = facts.targetRadii[i];
+    validateRow(facts.columns, i, text("the label image's FibreTable, fibre ", facts.fibreIds[i]));
+    pairs[i].ownGRatio = facts.columns.value(targetGRatioColumn.name, i);
     pairs[i].isWanted = facts.lengths.empty() || !(facts.lengths[i] <= 0.0);
   }
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.fibreId < b.fibreId; });
@@ -230,6 +232,10 @@ void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
 
 double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const
 {
+  if (!std::isnan(pair.ownGRatio))
+  {
+    return pair.ownGRatio;
+  }
   switch (this->Options.model)
   {
   case GRatioModel::Constant:
@@ -458,7 +464,7 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
 }
 
 /// Makes inner surfaces with one g-ratio for all, so that all axons together have the target volume; if a fibre cannot have that
-/// g-ratio, the others compensate.
+/// g-ratio, or has one of its own, the others compensate.
 void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceStore& inner)
 {
   const double boxVolume = this->Mesher.field().box().volume();
@@ -466,11 +472,17 @@ void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceSt
   double given = 0.0; // inner volume of fibres that cannot have the common g-ratio
   double open = 0.0;  // outer volume of the others
   double reached = 0.0;
+  double whole = 0.0;
   for (const FibreSurfacePair& pair : this->Pairs)
   {
-    open += pair.outerReport.volume;
+    const double volume = pair.outerReport.volume;
+    whole += volume;
+    (std::isnan(pair.ownGRatio) ? open : given) += std::isnan(pair.ownGRatio) ? volume : pair.ownGRatio * pair.ownGRatio * volume;
   }
-  const double fibreFraction = open / boxVolume;
+  require(open > 0.0 || whole == 0.0,
+    "TargetAxonVolumeFraction cannot be aimed at, because every fibre has a TargetGRatio of its own: choose another GRatioModel, or "
+    "take the array TargetGRatio off the fibres");
+  const double fibreFraction = whole / boxVolume;
   double before = 0.0;
   double correction = 1.0; // for the sum of the fibres' own tolerances
   for (int round = 0; round < commonRounds; ++round)
@@ -488,13 +500,13 @@ void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceSt
     }
     for (FibreSurfacePair& pair : this->Pairs)
     {
-      pair.targetGRatio = std::sqrt(square);
+      pair.targetGRatio = std::isnan(pair.ownGRatio) ? std::sqrt(square) : pair.ownGRatio;
     }
     this->makeEachInner(outer, inner);
     given = open = reached = 0.0;
     for (const FibreSurfacePair& pair : this->Pairs)
     {
-      const bool isOpen = pair.state == MyelinState::AsAsked;
+      const bool isOpen = pair.state == MyelinState::AsAsked && std::isnan(pair.ownGRatio);
       reached += pair.innerReport.volume;
       (isOpen ? open : given) += isOpen ? pair.outerReport.volume : pair.innerReport.volume;
     }

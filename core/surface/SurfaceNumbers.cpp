@@ -33,6 +33,7 @@ void visitPair(Pair& pair, Visit&& visit)
   visit(pair.volumeAsMade);
   visit(pair.outerLevel);
   visit(pair.thickness);
+  visit(pair.ownGRatio);
   visit(pair.targetGRatio);
   visit(pair.gRatio);
   visit(pair.isWanted);

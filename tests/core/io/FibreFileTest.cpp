@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -91,7 +92,12 @@ TEST(SphereTable, AxonsBecomeFibres)
   EXPECT_NEAR(read.fibres.targetRadii[0], 1.55 / 3.0, 1e-12);
   EXPECT_EQ(read.fibres.domain.lower, Eigen::Vector3d(0.0, 0.0, 0.0));
   EXPECT_EQ(read.fibres.domain.upper, Eigen::Vector3d(7.5, 7.5, 7.5)) << "nobody has said more";
-  ASSERT_EQ(read.remarks.size(), 3u);
+  // Squares add up; the axon without myelin has no g-ratio.
+  EXPECT_NEAR(read.fibres.columns.value("TargetGRatio", 0),
+    std::sqrt((2.0 * 0.3 * 0.3 + 0.33 * 0.33) / (2.0 * 0.5 * 0.5 + 0.55 * 0.55)), 1e-12);
+  EXPECT_TRUE(std::isnan(read.fibres.columns.value("TargetGRatio", 1)));
+  ASSERT_EQ(read.remarks.size(), 4u);
+  EXPECT_NE(read.remarks[3].find("1 axon(s) have no myelin"), std::string::npos);
   EXPECT_NE(read.remarks[1].find("2 sphere(s) of type glial_cell"), std::string::npos);
   EXPECT_NE(read.remarks[2].find("1 axon(s) of a single sphere"), std::string::npos);
 }
@@ -103,8 +109,9 @@ TEST(SphereTable, EarlierVersionsHoldTheSame)
   EXPECT_EQ(read.fibres.points, now.fibres.points);
   EXPECT_EQ(read.fibres.radii, now.fibres.radii);
   EXPECT_EQ(read.fibres.fibreIds, now.fibres.fibreIds);
+  EXPECT_EQ(read.fibres.columns.value("TargetGRatio", 0), now.fibres.columns.value("TargetGRatio", 0));
   EXPECT_EQ(read.fibres.domain.upper, Eigen::Vector3d(8.0, 8.0, 8.0));
-  EXPECT_TRUE(read.remarks.empty());
+  EXPECT_EQ(read.remarks.size(), 1u) << "of the axon without myelin";
 }
 
 TEST(SphereTable, TheSideOfTheVoxelStandsBesideIt)
@@ -142,6 +149,7 @@ TEST(EllipsoidFile, AxonsBecomeFibres)
   EXPECT_EQ(read.fibres.size(), 1u);
   EXPECT_EQ(read.fibres.points[1], Eigen::Vector3d(0.1, 0.0, 0.0));
   EXPECT_EQ(read.fibres.radii, std::vector<double>({ 0.5, 0.6, 0.5 }));
+  EXPECT_NEAR(read.fibres.columns.value("TargetGRatio", 0), 0.7, 1e-12);
   EXPECT_EQ(read.fibres.domain.lower, Eigen::Vector3d(-2.0, -2.0, -3.0));
   EXPECT_EQ(read.fibres.domain.upper, Eigen::Vector3d(2.0, 2.0, 3.0));
   ASSERT_EQ(read.remarks.size(), 1u);

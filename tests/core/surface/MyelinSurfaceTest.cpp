@@ -683,6 +683,50 @@ TEST(MyelinSurfaces, AFibreThatGoesIsNoLongerTooNear)
   EXPECT_EQ(marked, atFault);
 }
 
+// Whatever the model is for the others.
+TEST(MyelinSurfaces, AFibresOwnGRatioComesFirst)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(4.0);
+  for (const double x : { -1.2, 0.0, 1.2 })
+  {
+    fibres.addFibre(static_cast<int>(fibres.size()) + 1, 1, 0.5);
+    fibres.addPoint({ x, 0.0, -3.0 }, 0.5);
+    fibres.addPoint({ x, 0.0, 3.0 }, 0.5);
+  }
+  fibres.columns.set("TargetGRatio", 1, 0.85);
+  const FibreRadialGrowthOptions growth;
+  const LabelImage image = growFibres(fibres, growth, 0.0, growthGrid(fibres.domain, growth));
+  const LabelImageView view{ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() };
+  LabelImageFacts facts = labelImageFacts(fibres, growth);
+  MyelinSurfaceOptions options;
+  options.targetAxonVolumeFraction = 0.065;
+  for (const GRatioModel model :
+    { GRatioModel::Constant, GRatioModel::LogLinear, GRatioModel::Distributed, GRatioModel::TargetAxonVolumeFraction })
+  {
+    options.model = model;
+    const auto pairs = myelinSurfaces(view, facts, options);
+    EXPECT_EQ(pairs[1].targetGRatio, 0.85);
+    EXPECT_NEAR(pairs[1].gRatio, 0.85, 0.003);
+    double axons = 0.0;
+    for (const std::size_t other : { std::size_t(0), std::size_t(2) })
+    {
+      EXPECT_LT(pairs[other].gRatio, 0.75);
+      EXPECT_NEAR(pairs[other].gRatio, pairs[other].targetGRatio, 0.003);
+      axons += pairs[other].innerReport.volume;
+    }
+    if (model == GRatioModel::TargetAxonVolumeFraction)
+    {
+      EXPECT_NEAR(axons + pairs[1].innerReport.volume, 0.065 * 64.0, 0.01 * 0.065 * 64.0);
+    }
+  }
+  facts.columns.set("TargetGRatio", 0, 0.8);
+  facts.columns.set("TargetGRatio", 2, 0.8);
+  EXPECT_THROW(myelinSurfaces(view, facts, options), InvalidInput) << "nothing is left to aim with";
+  facts.columns.set("TargetGRatio", 2, 1.5);
+  EXPECT_THROW(myelinSurfaces(view, facts, options), InvalidInput);
+}
+
 TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
 {
   Meeting lost;
