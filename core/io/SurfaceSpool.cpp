@@ -156,6 +156,10 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
   }
   for (std::size_t i = 0; i < count; ++i)
   {
+    if (this->IsSpacingDone && this->SpacedNotes[i].empty())
+    {
+      throw FileError("a part of the journal in " + this->Folder.string() + " is missing: remove this folder");
+    }
     const bool isFound = this->IsSpacingDone ? !this->InnerNotes[i].empty() || pairFrom(this->SpacedNotes[i].back()).isInnerMade
                                              : !this->OuterNotes[i].empty();
     this->Found += isFound ? 1 : 0;

@@ -46,7 +46,7 @@ std::vector<std::string> TeamLog::takeRecords()
   return std::exchange(this->Found, {});
 }
 
-/// Returns the files of all processes that have ever worked here, sorted.
+/// Returns the files of all processes that have ever worked here, sorted. Other files may lie beside them.
 std::vector<std::filesystem::path> TeamLog::files() const
 {
   std::vector<std::filesystem::path> found;
@@ -54,7 +54,10 @@ std::vector<std::filesystem::path> TeamLog::files() const
   for (std::filesystem::directory_iterator entry(this->Folder, error), end; !error && entry != end; entry.increment(error))
   {
     const std::string name = entry->path().filename().string();
-    if (name == this->Name || name.compare(0, this->Name.size() + 1, this->Name + '-') == 0)
+    const std::string prefix = this->Name + '-';
+    const bool isOfAnother = name.compare(0, prefix.size(), prefix) == 0 && name.size() > prefix.size() &&
+                             name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+    if (name == this->Name || isOfAnother)
     {
       found.push_back(entry->path());
     }

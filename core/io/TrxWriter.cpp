@@ -77,6 +77,11 @@ void writeTrx(const Fibres& fibres, const Placement& placement, const std::strin
     "dps/FibreId.int32", bytesOf<std::int32_t>(fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; }));
   files.emplace_back(
     "dps/BundleId.int32", bytesOf<std::int32_t>(fibres.size(), [&](std::size_t f) { return fibres.bundleIds[f]; }));
+  for (const auto& column : fibres.columns.all())
+  {
+    files.emplace_back("dps/" + column.first + ".float32",
+      bytesOf<float>(fibres.size(), [&](std::size_t f) { return fibres.columns.value(column.first, f); }));
+  }
   std::map<int, std::string> groups;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {

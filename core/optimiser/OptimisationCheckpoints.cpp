@@ -11,11 +11,20 @@ namespace cactus
 namespace
 {
 
-/// Returns a fingerprint of everything that the result depends on: the input fibres and all parameters except those that only say
-/// when to stop.
+/// Number of the optimiser's method. Raise it with every change that changes results, so that no run goes on from a checkpoint of
+/// another method.
+constexpr int methodNumber = 1;
+
+/// Returns a fingerprint of everything that the result depends on: the program, the input fibres and all parameters except those
+/// that only say when to stop.
 std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
 {
   Fingerprint print;
+  for (const char* c = CACTUS_VERSION; *c != 0; ++c)
+  {
+    print.add(static_cast<int>(*c));
+  }
+  print.add(methodNumber);
   for (const double value : { options.overlapTolerance, options.overlapWeight, options.weights.curvature, options.weights.length,
          options.weights.radius, options.weights.compactness, options.stepSize, options.momentum, options.smoothing,
          options.relaxation, options.packingLimit, options.safetyMargin, options.radiusTolerance })

@@ -156,13 +156,13 @@ protected:
 
   /// Runs it in a process, with so many members, that is killed at this progress. Late in the work there are few fibres left that
   /// a second thread could do alone, while the first reports nothing.
-  void killAt(const std::string& name, double part, int members = 1) const
+  void killAt(const std::string& name, double part, int members = 1, int threads = 2) const
   {
     const std::string told = cactus_testing::inChild(
       [&]
       {
         Context context;
-        context.threads = part > 0.9 ? 1 : 2;
+        context.threads = part > 0.9 ? 1 : threads;
         context.progress = [part](double fraction, const std::string&)
         {
           if (fraction >= part)
@@ -284,7 +284,7 @@ TEST_F(Production, SolvesForNothingAgain)
 {
   for (const int members : { 1, 2 })
   {
-    this->killAt("killed", 0.1, members);
+    this->killAt("killed", 0.1, members, 1); // a second thread might make all surfaces before the first one is told
     std::set<std::string> messages;
     Context context;
     context.threads = 1; // so that all parts are reported
@@ -620,6 +620,17 @@ TEST_F(Production, LeavesTheWorkOfAnotherOneAlone)
   this->Fibres_.grownFraction = 0.5; // the growth target if none is given
   EXPECT_TRUE(refused());
   EXPECT_EQ(filesIn(this->folder("work.work")), before);
+}
+
+TEST_F(Production, LeavesAUsersFilesAmongItsOwn)
+{
+  this->killAt("noted", 0.6);
+  const fs::path notes = this->folder("noted.work/journal-notes.txt");
+  std::ofstream(notes) << "of mine";
+  this->produce("noted");
+  EXPECT_EQ(filesIn(this->folder("noted")), this->filesOfStages());
+  EXPECT_TRUE(fs::exists(notes));
+  fs::remove_all(this->folder("noted.work"));
 }
 
 TEST_F(Production, SaysWhatIsDamaged)

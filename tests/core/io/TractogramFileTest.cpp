@@ -423,6 +423,20 @@ TEST(Tractogram, IsWrittenInTheUnitThatIsAskedFor)
   EXPECT_NEAR(cactus::readTractogram(trxPath).points[1], 1e5 - 5.0, 1e-9) << "positions, too";
 }
 
+TEST(Trx, HoldsTheFibresColumns)
+{
+  cactus::Fibres fibres = twoFibres();
+  fibres.columns.set("TargetGRatio", 1, 0.75);
+  const std::string path = cactus_testing::scratchPath("columns.trx");
+  cactus::writeTractogram(fibres, {}, path);
+  const Tractogram tracks = cactus::readTractogram(path);
+  const auto* gRatios = cactus::valuesNamed(tracks.streamlineValues, "TargetGRatio");
+  ASSERT_NE(gRatios, nullptr);
+  EXPECT_TRUE(std::isnan(gRatios->values[0]));
+  EXPECT_EQ(gRatios->values[1], 0.75);
+  std::filesystem::remove(path);
+}
+
 TEST(Trx, NamesOfBundlesSortAsTheirNumbersDo)
 {
   const std::string path = cactus_testing::scratchPath("bundles.trx");
