@@ -77,14 +77,14 @@ const PropertyList<PlacementOptions>& PlacementOptions::properties()
   using Options = PlacementOptions;
   static const auto list =
     PropertyList<Options>()
-      .add("PositionX", &Options::positionX, placedPosition, "Where the substrate's origin comes to lie, along x")
-      .add("PositionY", &Options::positionY, placedPosition, "Where the substrate's origin comes to lie, along y")
-      .add("PositionZ", &Options::positionZ, placedPosition, "Where the substrate's origin comes to lie, along z")
-      .add("RotationX", &Options::rotationX, rotation, "Turn about x, after that about y")
-      .add("RotationY", &Options::rotationY, rotation, "Turn about y, the first")
-      .add("RotationZ", &Options::rotationZ, rotation, "Turn about z, the last")
+      .add("PositionX", &Options::positionX, placedPosition, "Position of the substrate's origin along x")
+      .add("PositionY", &Options::positionY, placedPosition, "Position of the substrate's origin along y")
+      .add("PositionZ", &Options::positionZ, placedPosition, "Position of the substrate's origin along z")
+      .add("RotationX", &Options::rotationX, rotation, "Rotation about x, after that about y")
+      .add("RotationY", &Options::rotationY, rotation, "Rotation about y, the first")
+      .add("RotationZ", &Options::rotationZ, rotation, "Rotation about z, the last")
       .add("ScaleFactor", &Options::scaleFactor, placedScale,
-        "Length in the image's space over the same length in the substrate: 1 for its true size, 1000 shows 1 µm as 1 mm");
+        "Length in the image's space over the same length in the substrate; 1: true size, 1000 shows 1 µm as 1 mm");
   return list;
 }
 

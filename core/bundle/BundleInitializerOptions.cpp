@@ -16,20 +16,18 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
     PropertyList<Options>()
       .add("Side", &Options::side, limits::side, "Side of the cubic domain, which is centred on the origin")
       .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
-        "Part of the end faces that the fibres' circles cover; with two bundles, part of the domain that the fibres fill")
+        "Fraction of the end faces that the fibres' circles cover; with two bundles, fraction of the domain that the fibres fill")
       .add("GrownFibreVolumeFraction", &Options::grownFibreVolumeFraction, limits::fractionOrNone,
-        "What FibreRadialGrowth is to fill: fibres start thinner than their target radii and are grown to them; 0: they start "
-        "with "
-        "these")
+        "Fraction of the domain that FibreRadialGrowth will fill: fibres start thinner than their target radii and grow to them; "
+        "0: they start with their target radii")
       .include(&Options::radius, RadiusDistributionOptions::properties())
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
         "Mean angle between a fibre's end-to-end direction and its bundle's axis")
       .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent" },
-        "Distribution of the fibres' directions: each for itself about the axis (Watson) or uniform within a cone, or alike "
-        "among "
-        "neighbours (Coherent; two bundles take Watson instead)")
+        "Distribution of the fibres' directions: independent of each other, about the axis (Watson) or uniform within a cone "
+        "(Cone), or similar for neighbours (Coherent; two bundles use Watson instead)")
       .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
-        "Distance over which the directions of neighbours are alike; 0: four times the fibres' mean shift between the faces")
+        "Distance over which the directions of neighbours are similar; 0: four times the fibres' mean shift between the faces")
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
@@ -41,7 +39,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "How two bundles share the space: in thin layers of random thickness, or in few thick sheets")
       .where("NumberOfBundles", { 2 })
       .add("SheetThickness", &Options::sheetThickness, limits::sheetThickness,
-        "Least thickness of each sheet; 0: a sixth of the height, or what the largest radius needs")
+        "Smallest thickness of each sheet; 0: a sixth of the height, or what the largest radius needs")
       .where("CrossingStyle", { 1 })
       .where("NumberOfBundles", { 2 })
       .add("Margin", &Options::margin, limits::bundleMargin,

@@ -70,25 +70,25 @@ const PropertyList<RadiusDistributionOptions>& RadiusDistributionOptions::proper
       .where("RadiusDistribution", { 0 })
       .add("GammaScale", &Options::gammaScale, limits::gammaScale, "Scale of the gamma distribution")
       .where("RadiusDistribution", { 0 })
-      .add("LognormalMean", &Options::lognormalMean, limits::lognormalMean, "Mean radius before it is cut to its limits")
+      .add("LognormalMean", &Options::lognormalMean, limits::lognormalMean, "Mean radius before truncation to the limits")
       .where("RadiusDistribution", { 1 })
       .add("LognormalDeviation", &Options::lognormalDeviation, limits::lognormalDeviation,
-        "Standard deviation of the radius before it is cut to its limits")
+        "Standard deviation of the radius before truncation to the limits")
       .where("RadiusDistribution", { 1 })
-      .add("RadiusTable", &Options::table, "Radii in µm to draw from, each as likely as the others")
+      .add("RadiusTable", &Options::table, "Outer radii in µm; each fibre gets one at random, all equally likely")
       .where("RadiusDistribution", { 2 })
       .add("RadiusHistogram", &Options::histogram, radiusHistogramNames(),
-        "Tissue, and who has published how thick its axons are without their myelin")
+        "Published histogram of the axons' diameters without myelin")
       .where("RadiusDistribution", { 3 })
       .add("RadiusHistogramFactor", &Options::histogramFactor, limits::histogramFactor,
-        "What the histogram's diameters are multiplied by: 1 for those in the fixed tissue, more where it has shrunk")
+        "Factor for the histogram's diameters; 1: as in the fixed tissue, a larger one corrects for its shrinkage")
       .where("RadiusDistribution", { 3 })
       .add("RadiusHistogramGRatio", &Options::histogramGRatio, limits::histogramGRatio,
-        "g-ratio by which the histogram's inner radii become outer ones; 0: myelin by the axon's diameter, as MyelinSurface's "
-        "LogLinear has it")
+        "g-ratio that turns the histogram's inner radii into outer ones; 0: myelin by the axon's diameter, as in MyelinSurface's "
+        "LogLinear")
       .where("RadiusDistribution", { 3 })
-      .add("MinimumRadius", &Options::minimum, limits::radius, "Smallest outer radius: what is drawn below is drawn again")
-      .add("MaximumRadius", &Options::maximum, limits::radius, "Largest outer radius: what is drawn above is drawn again");
+      .add("MinimumRadius", &Options::minimum, limits::radius, "Smallest outer radius; smaller ones are drawn again")
+      .add("MaximumRadius", &Options::maximum, limits::radius, "Largest outer radius; larger ones are drawn again");
   return list;
 }
 

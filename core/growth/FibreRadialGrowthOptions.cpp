@@ -22,20 +22,20 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
   static const auto list =
     PropertyList<Options>()
       .add("VoxelSize", &Options::voxelSize, limits::voxelSize,
-        "Edge of a voxel; where it does not divide the domain, the nearest size that does is used")
+        "Edge of a voxel; if it does not divide the domain, the nearest size that does is used")
       .add("TargetFibreVolumeFraction", &Options::targetFibreVolumeFraction, limits::targetFraction,
-        "Fraction of the domain that the grown fibres fill, with their radii on target; -1: what the fibres were made for "
-        "(GrownFibreVolumeFraction), or, where they do not say it and GrowthIterations is 0, what they fill as they come; 0: no "
-        "target, they grow by GrowthIterations")
+        "Fraction of the domain that the grown fibres should fill, with their radii on target; -1: the fraction that the fibres "
+        "were made for (GrownFibreVolumeFraction) or, if that is unknown and GrowthIterations is 0, the fraction that they fill "
+        "in the input; 0: no target, they grow by GrowthIterations")
       .advise(" (-1: what the fibres were made for; 0: no target)")
       .add("GrowthIterations", &Options::growthIterations, limits::growthIterations,
-        "How many voxels a fibre grows where nothing is in its way and no target is known")
+        "Number of voxels by which an unhindered fibre grows if there is no target")
       .where("TargetFibreVolumeFraction", { -1, 0 })
-      .add("MinimumGap", &Options::minimumGap, limits::gap, "Least distance between the surfaces of two fibres")
+      .add("MinimumGap", &Options::minimumGap, limits::gap, "Smallest distance between the surfaces of two fibres")
       .add("SurfaceTolerance", &Options::surfaceTolerance, limits::surfaceTolerance,
-        "Room left on either side of the gap, within which smoothing and decimation may later move surfaces")
+        "Room on either side of the gap, within which smoothing and decimation may later move surfaces")
       .add("SurfaceRoughness", &Options::surfaceRoughness, limits::surfaceRoughness,
-        "Fraction of its radius by which a fibre may fall short of its capsules, at random along it, before it grows")
+        "Fraction of its radius by which a fibre may be thinner than its capsules before it grows, at random along it")
       .add("Margin", &Options::margin, limits::imageMargin,
         "Width by which the image extends beyond the domain on every side, rounded up to whole voxels")
       .add("Seed", &Options::seed, limits::seed, "Seed of the random calibre that SurfaceRoughness gives the fibres");

@@ -345,13 +345,14 @@ const PropertyList<ExtraAxonalWalkOptions>& ExtraAxonalWalkOptions::properties()
   static const auto list =
     PropertyList<Options>()
       .add("ExtraAxonalWalkers", &Options::walkers, limits::walkers,
-        "Random walkers outside the fibres, which show how fast diffusion is there in the long run; 0: none")
+        "Number of random walkers outside the fibres, which measure the long-time diffusivity there; 0: none")
       .add("WalkDistance", &Options::distance, limits::walkDistance,
-        "Root mean square of what a free walker has moved along each axis in the end: several fibre diameters")
+        "Distance that a walker would cover along each axis without fibres (root mean square); use several fibre diameters")
       .whereGiven("ExtraAxonalWalkers")
-      .add("WalkStep", &Options::step, limits::walkStep, "Length of a step, shorter than the pores between fibres are wide")
+      .add("WalkStep", &Options::step, limits::walkStep,
+        "Length of a walker's step, which should be smaller than the width of the pores between fibres")
       .whereGiven("ExtraAxonalWalkers")
-      .add("WalkSeed", &Options::seed, limits::seed, "Chooses the walks")
+      .add("WalkSeed", &Options::seed, limits::seed, "Seed of the walks")
       .whereGiven("ExtraAxonalWalkers");
   return list;
 }

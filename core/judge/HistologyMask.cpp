@@ -157,8 +157,8 @@ const PropertyList<HistologyMaskOptions>& HistologyMaskOptions::properties()
 {
   using Options = HistologyMaskOptions;
   static const auto list = PropertyList<Options>()
-                             .add("Normal", &Options::normal, { "X", "Y", "Z" }, "The axis that the cut is perpendicular to")
-                             .add("Position", &Options::position, limits::coordinate, "Where along that axis the cut is")
+                             .add("Normal", &Options::normal, { "X", "Y", "Z" }, "Axis perpendicular to the cut")
+                             .add("Position", &Options::position, limits::coordinate, "Position of the cut along that axis")
                              .add("PixelSize", &Options::pixelSize, maskPixel, "Edge of a pixel");
   return list;
 }

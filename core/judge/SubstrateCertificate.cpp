@@ -74,9 +74,8 @@ const PropertyList<SubstrateCertificateOptions>& SubstrateCertificateOptions::pr
   static const auto list =
     PropertyList<Options>()
       .add("MinimumGap", &Options::minimumGap, limits::judgedGap,
-        "Distance that the outer surfaces of any two fibres have to keep; -1: MinimumGap of the growth that they come from; 0, "
-        "or "
-        "where they do not say it: they must not meet")
+        "Smallest distance that the outer surfaces of two fibres must keep; -1: MinimumGap of their growth; 0, or -1 if that is "
+        "unknown: they only must not meet")
       .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing, "Distance between two cross-sections along a fibre");
   return list;
 }

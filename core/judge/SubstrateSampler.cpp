@@ -340,9 +340,10 @@ const PropertyList<SubstrateSamplerOptions>& SubstrateSamplerOptions::properties
     PropertyList<SubstrateSamplerOptions>()
       .add("VoxelSize", &SubstrateSamplerOptions::voxelSize, sampledVoxel, "Edge of a voxel, which is a cube")
       .add("HarmonicsOrder", &SubstrateSamplerOptions::harmonics, { "None", "2", "4", "6", "8", "10", "12" },
-        "Order up to which spherical harmonics of the fibre orientation distribution are given (FOD)")
+        "Maximum order of the spherical harmonics of the fibre orientation distribution (FOD)")
       .add("Peaks", &SubstrateSamplerOptions::peaks,
-        "Give the axes of the three bundles that fill most of a voxel, as long as the fraction that each fills");
+        "Add the axes of the three bundles that fill most of a voxel; the length of an axis is the fraction that its bundle "
+        "fills");
   return list;
 }
 

@@ -17,10 +17,10 @@ const PropertyList<FibreCostWeights>& weightProperties()
     PropertyList<Weights>()
       .add(
         "CurvatureWeight", &Weights::curvature, limits::weight, "Weight of the curvature cost, which keeps fibres from kinking")
-      .add(
-        "LengthWeight", &Weights::length, limits::weight, "Weight of the length cost, which keeps segments from being stretched")
+      .add("LengthWeight", &Weights::length, limits::weight, "Weight of the length cost, which keeps segments from stretching")
       .add("RadiusWeight", &Weights::radius, limits::weight,
-        "Weight of the radius cost, which pulls radii back to where they started; acts where RadiusTolerance is above 0")
+        "Weight of the radius cost, which pulls radii back to their initial values; it has no effect unless RadiusTolerance is "
+        "above 0")
       .add("CompactnessWeight", &Weights::compactness, limits::weight,
         "Weight of the compactness cost, which keeps each bundle in its cuboid and each fibre in its direction");
   return list;
@@ -34,7 +34,7 @@ const PropertyList<CapsuleOptimizerOptions>& CapsuleOptimizerOptions::properties
   static const auto list =
     PropertyList<Options>()
       .add("MaximumIterations", &Options::maximumIterations, limits::iterations,
-        "Iterations after which to give up and keep the best state, with a warning")
+        "Largest number of iterations; a run that reaches it ends with its best state and a warning")
       .add("OverlapTolerance", &Options::overlapTolerance, limits::overlapTolerance,
         "Largest relative penetration D = 1 - d / (rp + rq) that may remain between capsules of different fibres")
       .add("Method", &Options::method, { "Momentum", "Adagrad" },
@@ -42,28 +42,28 @@ const PropertyList<CapsuleOptimizerOptions>& CapsuleOptimizerOptions::properties
       .add("OverlapWeight", &Options::overlapWeight, limits::overlapWeight, "Weight of the overlap cost, the first in priority")
       .include(&Options::weights, weightProperties())
       .add("StepSize", &Options::stepSize, limits::stepSize,
-        "Momentum: multiple of the preconditioned step that is taken; Adagrad: length of the first step in µm")
+        "Momentum: factor of the preconditioned step; Adagrad: length of the first step in µm")
       .add("Momentum", &Options::momentum, limits::momentum, "Part of the last step that the next one carries on")
       .use(PropertyUse::Code)
       .add("Smoothing", &Options::smoothing, limits::weight, "Stiffness of the thread that spreads a step along its fibre")
       .use(PropertyUse::Code)
       .add("Relaxation", &Options::relaxation, limits::relaxation,
-        "Factor by which curvature, length and compactness costs fade in every iteration of Momentum")
+        "Factor that multiplies the curvature, length and compactness costs in every iteration of Momentum")
       .where("Method", { 0 })
       .add("PackingLimit", &Options::packingLimit, limits::packingLimit,
-        "A bundle that fills more than this volume fraction of its cuboid is widened so far before its fibres are bent")
+        "A bundle that fills more than this volume fraction of its cuboid is widened to it before its fibres are bent")
       .add("SafetyMargin", &Options::safetyMargin, limits::safetyMargin, "Factor by which capsules act as if they were thicker")
       .use(PropertyUse::Code)
       .add("RadiusTolerance", &Options::radiusTolerance, limits::radiusTolerance,
-        "Largest change of a radius as a fraction of it; 0 keeps all radii as they are")
+        "Largest change of a radius, as a fraction of the radius; 0: all radii stay as they are")
       .add("TimeBudget", &Options::timeBudget, limits::seconds,
-        "Seconds after which to stop and keep the best state, with a warning; 0: no limit")
+        "Time limit; a run that reaches it ends with its best state and a warning; 0: no limit")
       .add("CheckpointFile", &Options::checkpointFile,
-        "File to which the state of the run is written now and then, and when it ends; none: not written")
+        "File for the state of the run, written at intervals and at the end; none: not written")
       .use(PropertyUse::Run)
-      .add("CheckpointInterval", &Options::checkpointInterval, limits::seconds, "Seconds between two checkpoints at least")
+      .add("CheckpointInterval", &Options::checkpointInterval, limits::seconds, "Shortest time between two checkpoints")
       .use(PropertyUse::Run)
-      .add("Resume", &Options::resume, "Go on from CheckpointFile where it exists, with the same result as without interruption")
+      .add("Resume", &Options::resume, "Continue from CheckpointFile if it exists, with the same result as an uninterrupted run")
       .use(PropertyUse::Run);
   return list;
 }

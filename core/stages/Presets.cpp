@@ -62,7 +62,7 @@ Preset crossing(double angle, const std::string& reached)
 {
   const std::string degrees = text(angle);
   return { "Crossing at " + degrees + " degrees",
-    "Two bundles of 5° each, interwoven, that cross at " + degrees + "°, as dense as can be",
+    "Two bundles of 5° each, interwoven, that cross at " + degrees + "°, as dense as possible",
     paper + "Table 1, where " + reached + " % are reached",
     { { bundle, "NumberOfBundles", std::int64_t(2) }, { bundle, "CrossingAngle", angle },
       { bundle, "CrossingStyle", static_cast<std::int64_t>(CrossingStyle::Interwoven) },
@@ -93,7 +93,7 @@ Preset publishedRadii(PublishedRadii which)
   const auto rounded = [](double value) { return std::round(100.0 * value) / 100.0; };
   return { histogram.name,
     text("One bundle with axons of ", rounded(histogram.meanRadius()), " ± ", rounded(histogram.deviation()),
-      " µm inner radius as they are there"),
+      " µm inner radius, as published"),
     histogram.source,
     { { bundle, "RadiusDistribution", static_cast<std::int64_t>(RadiusModel::Histogram) },
       { bundle, "RadiusHistogram", static_cast<std::int64_t>(which) }, { bundle, "RadiusHistogramGRatio", gRatio },

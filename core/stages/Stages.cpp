@@ -12,17 +12,16 @@ namespace cactus
 namespace
 {
 
-constexpr char threadsMeaning[] = "Threads to use, on which no result depends; 0: all";
+constexpr char threadsMeaning[] = "Number of threads; 0 uses all. Results do not depend on it";
 
 // Properties of writers.
 const std::vector<std::string> formats(std::begin(formatNames), std::end(formatNames));
-constexpr char formatMeaning[] = "The simulator that is to read the folder, or none";
+constexpr char formatMeaning[] = "Simulator that will read the folder, or none";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
-constexpr char encodingMeaning[] =
-  "Of PLY files that no simulator needs as text: text, or bytes, which take half the room; Binary is for Format RMS, "
-  "Surfaces alone, SpinDoctor, Surfaces by bundle and MCMRSimulator, and refused for others";
+constexpr char encodingMeaning[] = "Encoding of PLY files; Binary takes half the space. Binary is for Format RMS, Surfaces "
+                                   "alone, SpinDoctor, Surfaces by bundle and MCMRSimulator, and refused for others";
 constexpr char fileUnit[] =
-  "Unit of the file's lengths. Readers take millimetres, whatever the header says; what is placed is always in them";
+  "Unit of the file's lengths. Readers take them for millimetres, whatever the header says; placed data need millimetres";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };
 constexpr Range tableFactor{ 1e-6, 1e6 };
 constexpr Range partOfHits{ 0.0, 1.0 };
@@ -35,17 +34,17 @@ PropertyList<Stage> withRadiusTable()
 {
   return PropertyList<Stage>()
     .include(&Stage::options, Options::properties())
-    .add(
-      "RadiusTable", &Stage::radiusTable, "Radii in µm to draw from, each as likely as the others, separated by blanks or commas")
+    .add("RadiusTable", &Stage::radiusTable,
+      "Outer radii in µm, separated by blanks or commas; each fibre gets one at random, all equally likely")
     .where("RadiusDistribution", { 2 })
-    .add("RadiusTableFile", &Stage::radiusTableFile, "Text file of such radii, instead of RadiusTable")
+    .add("RadiusTableFile", &Stage::radiusTableFile, "Text file of outer radii in µm, which replaces RadiusTable")
     .where("RadiusDistribution", { 2 })
     .add("RadiusTableColumn", &Stage::radiusTableColumn,
-      "Column of RadiusTableFile that has the radii, where its first line names columns (.csv); none: a mere list")
+      "Column of RadiusTableFile with the radii, if its first line names the columns (.csv); none: a plain list")
     .where("RadiusDistribution", { 2 })
     .whereGiven("RadiusTableFile")
     .add("RadiusTableFactor", &Stage::radiusTableFactor, tableFactor,
-      "What the numbers of RadiusTableFile are multiplied by to be outer radii in µm: 0.5 for diameters, 1/g for inner radii")
+      "Factor that turns the numbers of RadiusTableFile into outer radii in µm: 0.5 for diameters, 1/g for inner radii")
     .where("RadiusDistribution", { 2 })
     .whereGiven("RadiusTableFile");
 }
@@ -89,16 +88,15 @@ const PropertyList<CapsuleOptimizerStage>& CapsuleOptimizerStage::properties()
       .whereGiven("RadiusTolerance")
       .at("CheckpointInterval")
       .whereGiven("CheckpointFile")
-      .add("TrimToDomain", &Stage::trimToDomain, "Cut away what lies outside the domain, but for what growth could bring back in")
+      .add("TrimToDomain", &Stage::trimToDomain, "Cut away what lies outside the domain, except what growth could bring back in")
       .add("KeepHistory", &Stage::keepHistory, "Keep states of the run and offer them as time steps")
       .use(PropertyUse::Run)
-      .add(
-        "HistoryInterval", &Stage::historyInterval, limits::historyInterval, "Iterations from one state that is kept to the next")
+      .add("HistoryInterval", &Stage::historyInterval, limits::historyInterval,
+        "Number of iterations between two states that are kept")
       .where("KeepHistory", { 1.0 })
       .use(PropertyUse::Run)
       .add("ShowEvery", &Stage::showEvery, shownInterval,
-        "Iterations from one state that the window shows to the next while the optimiser works on; 0: the window waits for the "
-        "result")
+        "Number of iterations between two states that the window shows during the run; 0: the window waits for the result")
       .where("KeepHistory", { 0.0 })
       .use(PropertyUse::Run)
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
@@ -133,7 +131,8 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
       .at("Seed")
       .where("GRatioModel", { 2 })
       .add("Meshing", &Stage::meshing, { "CACTUS", "VTK filters" },
-        "What makes the surfaces: contouring, coarsening and spacing with guarantees, or filters of VTK, which promise nothing")
+        "Method that makes the surfaces: contouring, coarsening and spacing with guarantees, or VTK's filters, which guarantee "
+        "nothing")
       .include(&Stage::vtkMeshing, VtkMeshingOptions::properties())
       .at("SincIterations")
       .where("Meshing", { 1 })
@@ -141,7 +140,7 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
       .where("Meshing", { 1 })
       .at("TargetReduction")
       .where("Meshing", { 1 })
-      .add("ReleaseInput", &Stage::releaseInput, "Give the label image's memory back as soon as the surfaces are made")
+      .add("ReleaseInput", &Stage::releaseInput, "Free the label image's memory as soon as the surfaces are made")
       .use(PropertyUse::Run)
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
@@ -153,13 +152,13 @@ const PropertyList<FibreFieldStage>& FibreFieldStage::properties()
   using Stage = FibreFieldStage;
   static const auto list =
     PropertyList<Stage>()
-      .add("Select", &Stage::select, { "One fibre", "One bundle", "All fibres" }, "Whose fields to give")
-      .add("FibreId", &Stage::fibreId, limits::id, "The fibre")
+      .add("Select", &Stage::select, { "One fibre", "One bundle", "All fibres" }, "Fibres whose fields are made")
+      .add("FibreId", &Stage::fibreId, limits::id, "Number of the fibre")
       .where("Select", { 0 })
-      .add("BundleId", &Stage::bundleId, limits::id, "The bundle")
+      .add("BundleId", &Stage::bundleId, limits::id, "Number of the bundle")
       .where("Select", { 1 })
-      .add("Level", &Stage::level, limits::level, "Depth at which the field will be contoured, for which its caps are made")
-      .add("ClipToDomain", &Stage::clipToDomain, "Cut fibres off at the faces of the domain; else where the image ends")
+      .add("Level", &Stage::level, limits::level, "Depth at which the field will be contoured; caps are made for it")
+      .add("ClipToDomain", &Stage::clipToDomain, "Cut fibres off at the faces of the domain; if off, at the end of the image")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;
@@ -209,11 +208,12 @@ const PropertyList<HistologyMaskStage>& HistologyMaskStage::properties()
 const PropertyList<HistologyRadiiStage>& HistologyRadiiStage::properties()
 {
   using Stage = HistologyRadiiStage;
-  static const auto list = PropertyList<Stage>()
-                             .add("PixelSize", &Stage::pixelSize, maskPixel, "Edge of a pixel")
-                             .add("SmallestRadius", &Stage::smallestRadius, leastRadius, "Axons below it are left out")
-                             .add("LeaveOutBorder", &Stage::leaveOutBorder,
-                               "Leave out fibres that reach the border of the image, where they are cut off");
+  static const auto list =
+    PropertyList<Stage>()
+      .add("PixelSize", &Stage::pixelSize, maskPixel, "Edge of a pixel")
+      .add("SmallestRadius", &Stage::smallestRadius, leastRadius, "Smallest radius of an axon; thinner ones are left out")
+      .add(
+        "LeaveOutBorder", &Stage::leaveOutBorder, "Leave out fibres that reach the border of the image, where they are cut off");
   return list;
 }
 
@@ -222,24 +222,26 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
   using Stage = SubstrateWriterStage;
   static const auto list =
     PropertyList<Stage>()
-      .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
+      .add("FolderName", &Stage::folderName, "Folder to write; its parent folder has to exist")
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .add("Permeability", &Stage::permeability, partOfHits, "Part of the hits on a surface that lead walkers through it")
+      .add("Permeability", &Stage::permeability, partOfHits,
+        "Fraction of the hits on a surface after which a walker passes through it")
       .where("Format", { 0 })
-      .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a voxel of the labels; it has to divide the domain's sides")
+      .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a label's voxel; it has to divide the domain's sides")
       .where("Format", { 4 })
-      .add("StartPositions", &Stage::startPositions, startCount, "Points to draw in each compartment, for walkers to start from")
+      .add("StartPositions", &Stage::startPositions, startCount,
+        "Number of random points in each compartment at which walkers start")
       .where("Format", { 0, 1, 2, 3, 5, 7, 8 })
-      .add("Seed", &Stage::seed, limits::seed, "Chooses the random points")
+      .add("Seed", &Stage::seed, limits::seed, "Seed of the random points")
       .where("Format", { 0, 1, 2, 3, 5, 7, 8 })
       .whereGiven("StartPositions")
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
-        "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
+        "Also write surfaces that are not closed, outward 2-manifolds, instead of refusing them")
       .add("MinimumGap", &Stage::minimumGap, limits::judgedGap,
-        "Distance that the certificate asks of the outer surfaces of any two fibres; -1: MinimumGap of the growth that they come "
-        "from; 0, or where they do not say it: they must not meet")
+        "Smallest distance that the certificate requires between the outer surfaces of two fibres; -1: MinimumGap of their "
+        "growth; 0, or -1 if that is unknown: they only must not meet")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;
@@ -248,42 +250,39 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
 const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properties()
 {
   using Stage = SubstrateProductionStage;
-  static const auto list =
-    PropertyList<Stage>()
-      .include(&Stage::growth, FibreRadialGrowthOptions::properties())
-      .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // its Seed replaces the other one
-      .at("Seed")
-      .means(
-        "Seed of the calibre that SurfaceRoughness gives the fibres, of their g-ratios where GRatioModel is Distributed, and of "
-        "the sample where SampledFraction is below 1")
-      .add("FolderName", &Stage::folderName, "The folder to write; the folder that it is in has to exist")
-      .use(PropertyUse::Run)
-      .add("Format", &Stage::format, formats, formatMeaning)
-      .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-      .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
-        "Write surfaces that are not closed, outward 2-manifolds too, instead of refusing them")
-      .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
-        "Part of the fibres whose surfaces are made, drawn at random by Seed, in place among all the others; 1: all. Less is for "
-        "Format "
-        "Surfaces alone and Surfaces by bundle, where no g-ratio is for TargetAxonVolumeFraction, and refused otherwise")
-      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
-      .use(PropertyUse::Run);
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::growth, FibreRadialGrowthOptions::properties())
+                             .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // its Seed replaces the other one
+                             .at("Seed")
+                             .means("Seed of the calibre that SurfaceRoughness gives the fibres, of their g-ratios if "
+                                    "GRatioModel is Distributed, and of the sample if SampledFraction is below 1")
+                             .add("FolderName", &Stage::folderName, "Folder to write; its parent folder has to exist")
+                             .use(PropertyUse::Run)
+                             .add("Format", &Stage::format, formats, formatMeaning)
+                             .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
+                             .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
+                               "Also write surfaces that are not closed, outward 2-manifolds, instead of refusing them")
+                             .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
+                               "Fraction of the fibres whose surfaces are made, drawn at random by Seed, each in its place among "
+                               "all the others; 1: all. Less is only for Format Surfaces alone and Surfaces by bundle, and not "
+                               "for GRatioModel TargetAxonVolumeFraction; otherwise it is refused")
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
   return list;
 }
 
 const PropertyList<StrandReaderStage>& StrandReaderStage::properties()
 {
   using Stage = StrandReaderStage;
-  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName,
-    "The file to read: strands, a table of CATERPillar, or what the White Matter Generator has written");
+  static const auto list = PropertyList<Stage>().add(
+    "FileName", &Stage::fileName, "File to read: strands, CATERPillar's table of spheres, or JSON of the White Matter Generator");
   return list;
 }
 
 const PropertyList<StrandWriterStage>& StrandWriterStage::properties()
 {
   using Stage = StrandWriterStage;
-  static const auto list =
-    PropertyList<Stage>().add("FileName", &Stage::fileName, "The strand file to write").use(PropertyUse::Run);
+  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName, "Strand file to write").use(PropertyUse::Run);
   return list;
 }
 
@@ -292,9 +291,9 @@ const PropertyList<TractogramReaderStage>& TractogramReaderStage::properties()
   using Stage = TractogramReaderStage;
   static const auto list =
     PropertyList<Stage>()
-      .add("FileName", &Stage::fileName, "The tractogram to read: .tck, .trk, or .trx (an archive or a folder)")
-      .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, "Unit of the lengths that come out; files have mm")
-      .add("Radius", &Stage::radius, limits::radiusOrNone, "Radius of every point where the file has none; 0: no radius");
+      .add("FileName", &Stage::fileName, "Tractogram to read: .tck, .trk, or .trx (an archive or a folder)")
+      .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, "Unit of the output's lengths; files have mm")
+      .add("Radius", &Stage::radius, limits::radiusOrNone, "Radius of every point if the file has none; 0: no radius");
   return list;
 }
 
@@ -302,7 +301,7 @@ const PropertyList<TractogramWriterStage>& TractogramWriterStage::properties()
 {
   using Stage = TractogramWriterStage;
   static const auto list = PropertyList<Stage>()
-                             .add("FileName", &Stage::fileName, "The file to write: .tck or .trx")
+                             .add("FileName", &Stage::fileName, "File to write: .tck or .trx")
                              .use(PropertyUse::Run)
                              .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
   return list;
@@ -318,9 +317,9 @@ const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
 {
   using Stage = NiftiWriterStage;
   static const auto list = PropertyList<Stage>()
-                             .add("FileName", &Stage::fileName, "The file to write: .nii or .nii.gz")
+                             .add("FileName", &Stage::fileName, "File to write: .nii or .nii.gz")
                              .use(PropertyUse::Run)
-                             .add("Array", &Stage::array, "Name of the point data to write; empty: those that views show first")
+                             .add("Array", &Stage::array, "Name of the point data to write; empty: the active scalars")
                              .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
   return list;
 }

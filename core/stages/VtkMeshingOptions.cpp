@@ -13,9 +13,9 @@ const PropertyList<VtkMeshingOptions>& VtkMeshingOptions::properties()
                              .add("SincIterations", &Options::sincIterations, limits::sincIterations,
                                "Iterations of VTK's windowed sinc smoothing; 0 leaves the contour as it is")
                              .add("SincPassBand", &Options::sincPassBand, limits::sincPassBand,
-                               "Pass band of VTK's windowed sinc smoothing: the lower, the smoother")
+                               "Pass band of VTK's windowed sinc smoothing; a lower value smooths more")
                              .add("TargetReduction", &Options::targetReduction, limits::targetReduction,
-                               "Part of the triangles that VTK's quadric decimation takes away");
+                               "Fraction of the triangles that VTK's quadric decimation removes");
   return list;
 }
 

@@ -23,28 +23,26 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
   static const auto list =
     PropertyList<Options>()
       .add("GRatioModel", &Options::model, { "Constant", "LogLinear", "Distributed", "TargetAxonVolumeFraction" },
-        "How thick the myelin is: by one g-ratio, by the axon's diameter (Lee 2019), by a g-ratio drawn for each fibre, or by "
-        "the "
-        "fraction that the axons fill")
+        "Model of the myelin's thickness: one g-ratio for all fibres, a thickness by the axon's diameter (Lee 2019), a g-ratio "
+        "drawn for each fibre, or one g-ratio by the fraction that the axons fill")
       .add("GRatio", &Options::gRatio, limits::gRatio,
         "Diameter of the axon over that of the fibre, or its mean (Distributed, from 0.3 to 0.95)")
       .where("GRatioModel", { 0, 2 })
       .add("GRatioDeviation", &Options::gRatioDeviation, limits::gRatioDeviation, "Standard deviation of the g-ratio over fibres")
       .where("GRatioModel", { 2 })
       .add("TargetAxonVolumeFraction", &Options::targetAxonVolumeFraction, limits::fractionOrNone,
-        "Fraction of the domain that the axons are to fill")
+        "Fraction of the domain that the axons should fill")
       .where("GRatioModel", { 3 })
       .add("SmoothingIterations", &Options::smoothingIterations, limits::smoothingIterations,
-        "How often each fibre's depth is averaged with its neighbours' before its surface is drawn")
+        "Number of times that a fibre's depth is averaged over neighbouring voxels before its surface is contoured")
       .advise("; more would blur fibres of few voxels away")
       .add("DecimationError", &Options::decimationError, limits::surfaceTolerance,
-        "Distance by which coarsening may move a surface, an aim and no strict bound; 0 leaves all triangles")
+        "Distance by which coarsening may move a surface (an aim, not a strict bound); 0 keeps all triangles")
       .add("MinimumAngle", &Options::minimumAngle, smallestAngles,
-        "Smallest angle that nearly all triangles are to have, as finite elements want them; 0: any, and as few triangles as may "
-        "be")
+        "Smallest angle of nearly all triangles, for finite elements; 0: no smallest angle, and as few triangles as possible")
       .add("ClipToDomain", &Options::clipToDomain,
-        "Cut fibres off, and close them, at the faces of the domain; else where the image ends")
-      .add("Seed", &Options::seed, limits::seed, "Seed of the fibres' g-ratios where GRatioModel is Distributed");
+        "Cut fibres off at the faces of the domain, and close them; if off, they reach to the end of the image")
+      .add("Seed", &Options::seed, limits::seed, "Seed of the fibres' g-ratios if GRatioModel is Distributed");
   return list;
 }
 

@@ -125,7 +125,7 @@ const PropertyFacts& factsOf(const cactus::PresetValue& value)
 void printPresets()
 {
   std::cout << "\n## Presets\n\n"
-               "Values that belong together ([presets](presets.md)); what is not named has its default.\n\n"
+               "Values that belong together ([presets](presets.md)); other properties have their defaults.\n\n"
                "| preset | what it is | values | source |\n|---|---|---|---|\n";
   for (const cactus::Preset& preset : cactus::presets())
   {
@@ -151,7 +151,7 @@ void printHistograms()
 {
   std::cout
     << "\n## Published radii\n\n"
-       "What `RadiusHistogram` offers ([histology](histology.md#axons-as-they-were-published)): radii of axons without their "
+       "The choices of `RadiusHistogram` ([histology](histology.md#axons-as-they-were-published)): radii of axons without their "
        "myelin, in\nfixed tissue, in µm.\n\n"
        "| histogram | mean ± deviation | effective, (⟨r⁶⟩/⟨r²⟩)^¼ | from, to | source |\n|---|---|---|---|---|\n";
   for (const cactus::RadiusHistogram& histogram : cactus::radiusHistograms())
@@ -167,9 +167,9 @@ void printTables()
 {
   std::cout
     << "# Properties\n\n"
-       "What every stage can be told, made from the descriptions in `core/` by `build/release/bin/cactus_property_table`.\n"
-       "A value out of its range gives one error that names the property; where another property takes away its effect, it\n"
-       "is not looked at.\n";
+       "The properties of every stage, made from the descriptions in `core/` by `build/release/bin/cactus_property_table`.\n"
+       "A value out of its range gives one error that names the property. A property that has no effect, because of the value\n"
+       "of another one, is not checked.\n";
   for (const cactus::StageDescription& stage : cactus::describeStages())
   {
     std::cout << "\n## " << stage.name << "\n\n| property | default | allowed | meaning |\n|---|---|---|---|\n";

@@ -179,7 +179,7 @@ def table(head, rows):
 def input_part(proxy):
     if not proxy.inputs:
         return ""
-    rows = [[f"`{one.name}`", one.takes + ("; may be left out" if one.optional else ""), plain(one.meaning)] for one in proxy.inputs]
+    rows = [[f"`{one.name}`", one.takes + ("; optional" if one.optional else ""), plain(one.meaning)] for one in proxy.inputs]
     return "\n## In\n\n" + table(["input", "takes", "what"], rows)
 
 
@@ -193,7 +193,7 @@ def link(described):
 
 def output_part(proxy):
     text = "\n## Out\n" if proxy.outputs else ""
-    text += "\nField data that came in go along.\n" if proxy.outputs and proxy.inputs else ""
+    text += "\nField data of the input are passed on.\n" if proxy.outputs and proxy.inputs else ""
     for number, output in enumerate(proxy.outputs):
         name = f"Output {number}, *{output.name}*" if output.name else "Output"
         text += f"\n{name}: {output.data}.{f' What is in it: {link(output.described)}.' if output.described else ''}\n"
@@ -226,7 +226,7 @@ def page(name, of_file, by_hand):
     text += input_part(main) + output_part(main)
     for one in of_file:
         text += property_part(one, "Properties" if one is main else f"Properties of {one.file_description}")
-    return text + "\nIn the panel names stand in words (*Minimum Gap* is `MinimumGap`), and what has no effect is hidden; ⚙: among the advanced ones.\n"
+    return text + "\nThe panel shows names in words (*Minimum Gap* is `MinimumGap`) and hides properties without effect. ⚙: advanced property.\n"
 
 
 def by_hand(path):
