@@ -50,6 +50,13 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("LargestPenetration", s.largestPenetration);
   number("MeanDispersion_deg", s.meanDispersion);
   number("TangentDispersion_deg", s.tangentDispersion);
+  number("OrientationP2", s.directions.p2);
+  number("OrientationP2ByAxonVolume", s.directions.p2ByAxonVolume);
+  number("WatsonKappa", s.directions.kappa);
+  number("ODI", s.directions.odi);
+  number("LocalSpread_deg", s.directions.localSpread);
+  number("Twist", s.directions.twist);
+  number("AzimuthRatio", s.directions.azimuthRatio);
   number("MeanTargetRadius_um", s.meanTargetRadius);
   number("MeanOuterRadius_um", s.meanOuterRadius);
   number("MeanInnerRadius_um", s.meanInnerRadius);

@@ -276,6 +276,12 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
   result.largestPenetration = measureOverlap(fibres, 0.0, context.threadCount()).largestPenetration;
   result.meanDispersion = meanDispersion(fibres);
   result.tangentDispersion = meanTangentDispersion(fibres);
+  std::vector<const std::vector<FibreCut>*> innerCuts;
+  for (const FibreStatistics& fibre : result.fibres)
+  {
+    innerCuts.push_back(&fibre.innerCuts);
+  }
+  result.directions = measureDirections(fibres, innerCuts, options.cutSpacing);
   result.meanTargetRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.targetRadius; });
   result.meanOuterRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerRadius.mean; });
   result.meanInnerRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerRadius.mean; });

@@ -4,6 +4,7 @@
 #include "base/Context.h"
 #include "base/Properties.h"
 #include "fibres/Fibres.h"
+#include "judge/DirectionStatistics.h"
 #include "judge/ExtraAxonalWalk.h"
 #include "judge/FibreProfile.h"
 #include "mesh/FibreSurfaces.h"
@@ -71,11 +72,12 @@ struct SubstrateStatistics
   double largestPenetration = 0.0;    ///< D = 1 - d / (rp + rq) over all pairs of capsules of different fibres; 0 without overlap
   double meanDispersion = 0.0;        ///< degrees, end to end
   double tangentDispersion = 0.0;     ///< degrees, by segment
-  double meanTargetRadius = 0.0;      ///< µm, over fibres
-  double meanOuterRadius = 0.0;       ///< µm, over fibres with a cross-section
-  double meanInnerRadius = 0.0;       ///< µm, over fibres with a cross-section
-  std::size_t outerClosed = 0;        ///< closed 2-manifolds that point outward
-  std::size_t outerOpen = 0;          ///< the other outer surfaces
+  DirectionStatistics directions;
+  double meanTargetRadius = 0.0; ///< µm, over fibres
+  double meanOuterRadius = 0.0;  ///< µm, over fibres with a cross-section
+  double meanInnerRadius = 0.0;  ///< µm, over fibres with a cross-section
+  std::size_t outerClosed = 0;   ///< closed 2-manifolds that point outward
+  std::size_t outerOpen = 0;     ///< the other outer surfaces
   std::size_t innerClosed = 0;
   std::size_t innerOpen = 0;
   std::size_t triangles = 0;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The directions of fibres by the measures that diffusion imaging uses.
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "judge/FibreProfile.h"
+
+#include <vector>
+
+namespace cactus
+{
+
+/// The directions of fibres' centre lines inside the domain, about the axis of each fibre's bundle: the principal axis of the
+/// bundle's directions. NaN where there are too few.
+struct DirectionStatistics
+{
+  double p2 = 0.0;             ///< ⟨P2(cos θ)⟩ = ⟨3 cos²θ - 1⟩ / 2 over lengths of fibres: 1 parallel, 0 isotropic
+  double p2ByAxonVolume = 0.0; ///< the same over volumes of axons, as water inside sees it
+  /// Concentration of the Watson distribution with the same ⟨cos²θ⟩, its estimate of maximum likelihood (Mardia and Jupp 2000,
+  /// Directional Statistics, section 10.3).
+  double kappa = 0.0;
+  double odi = 0.0;         ///< orientation dispersion index, (2/π) arctan(1/κ) (Zhang et al. 2012, NeuroImage 61:1000)
+  double localSpread = 0.0; ///< degrees, mean angle between two fibres of a bundle whose middles are at most 10 µm apart
+  /// How far a bundle is one twisted rope: the sum of r × t along its axis over the sum of |r| |t|, with the place r and the
+  /// direction t of each fibre's middle across the axis. ±1: a rope; a mean over bundles by their numbers of fibres.
+  double twist = 0.0;
+  /// Larger over smaller eigenvalue of the covariance of directions across the axis: 1 if all azimuths are alike. Mean as above.
+  double azimuthRatio = 0.0;
+};
+
+/// The concentration κ of the Watson distribution (density ∝ exp(κ cos²θ)) with this mean of cos²θ: 0 up to a third, at most
+/// 1e14.
+double watsonConcentration(double meanSquaredCosine);
+
+/// Measures the directions at every `spacing` (µm) along each centre line, at the places of cutsAlongFibre(). `innerCuts` has the
+/// axons' cuts of each fibre there, in the order of the fibres.
+DirectionStatistics measureDirections(
+  const Fibres& fibres, const std::vector<const std::vector<FibreCut>*>& innerCuts, double spacing);
+
+} // namespace cactus
