@@ -209,7 +209,7 @@ class SubstrateProductionTest(CactusTestCase):
         wanted = os.path.join(self.folder, "one")
         with self.script(wanted, 0) as process:
             process.communicate()
-        for count, next_count in ((2, 3), (4, 2)):
+        for count, next_count in ((3, 2),):
             folder = os.path.join(self.folder, f"on-{count}")
             with self.on_ranks(count, folder) as process:
                 for line in process.stdout:
