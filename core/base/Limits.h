@@ -106,6 +106,8 @@ inline constexpr Range crossingAngle{ 0.1, 90.0, "°" };
 inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", 0.0 };
 /// The margin on each side of the domain.
 inline constexpr Range bundleMargin{ 0.0, 1e4, " µm" };
+/// -1: as much as is needed.
+inline constexpr Range bundleMarginOrAsNeeded{ bundleMargin.lowest, bundleMargin.highest, " µm", -1.0 };
 inline constexpr Range spacingFactor{ 1e-2, 1e3 };
 inline constexpr Range spacing{ 1e-2, 1e5, " µm" };
 

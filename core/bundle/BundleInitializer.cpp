@@ -50,6 +50,10 @@ std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double
 /// Returns the offset of a fibre that follows a flow, within its frame, from the straight line between its ends.
 Eigen::Vector2d bendOf(const Bundle& bundle, std::size_t fibre, double share)
 {
+  if (bundle.paths.places.empty())
+  {
+    return Eigen::Vector2d::Zero();
+  }
   const Eigen::Vector2d& from = bundle.bottom.centres[fibre];
   const Eigen::Vector2d straight = from + (bundle.top.centres[fibre] - from) * share;
   const Eigen::Vector2d bent = straight + bundle.paths.bend(fibre, share);
@@ -97,11 +101,33 @@ Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptio
 
 Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
 {
-  std::vector<Bundle> bundles = { layOutSingle(options) };
+  std::vector<Bundle> bundles = { layOutSingle(options, options.fibreVolumeFraction) };
   packFaces(bundles, options, context);
   report.fibreVolumeFraction = bundles.front().bottom.density();
   report.meanDispersion = orientationOf(bundles.front()).meanAngle;
-  return fibresOf(bundles, options);
+  Fibres fibres = fibresOf(bundles, options);
+  if (!options.isCutOut())
+  {
+    return fibres;
+  }
+  // Slanted fibres fill more of a volume than of a face.
+  constexpr int rounds = 4;
+  constexpr double tolerance = 0.01;
+  double density = options.fibreVolumeFraction;
+  for (int round = 0;; ++round)
+  {
+    report.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+    const double excess = report.fibreVolumeFraction / options.fibreVolumeFraction;
+    if (std::abs(excess - 1.0) <= tolerance || round == rounds || !(excess > 0.0))
+    {
+      return fibres;
+    }
+    density = std::min(density / excess, options.fibreVolumeFraction);
+    bundles = { layOutSingle(options, density) };
+    packFaces(bundles, options, context);
+    report.meanDispersion = orientationOf(bundles.front()).meanAngle;
+    fibres = fibresOf(bundles, options);
+  }
 }
 
 /// Makes crossing bundles whose capsules fill the requested fraction of the domain. Their faces lie outside the domain, and

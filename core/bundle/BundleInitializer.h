@@ -27,8 +27,8 @@ struct BundleInitializerReport
 /// Their displacements are rescaled, and relaxed again, until the mean angle is within 0.05° (and 2 %) of meanDispersion and, as
 /// far as possible (usually to 0.1°), the mean direction is the axis. A fibre is never left out.
 ///
-/// The faces of a single bundle are z = ±side/2, exactly. A crossing bundle's faces bound a cuboid that covers the whole domain
-/// (and margin) and is divided into the layers of its crossing style along y.
+/// The faces of a single bundle are z = ±side/2, exactly, unless the margin is to be as wide as needed. A crossing bundle's faces
+/// bound a cuboid that covers the whole domain (and margin) and is divided into the layers of its crossing style along y.
 ///
 /// Throws InvalidInput (see validate; also if the largest fibre does not fit), Infeasible with the value reached if density or
 /// dispersion cannot be met, OutOfMemory, Cancelled. Gives the same bits on any number of threads.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/BundleInitializerOptions.h"
 
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cactus
@@ -42,8 +44,9 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "Smallest thickness of each sheet; 0: a sixth of the height, or what the largest radius needs")
       .where("CrossingStyle", { 1 })
       .where("NumberOfBundles", { 2 })
-      .add("Margin", &Options::margin, limits::bundleMargin,
-        "Width by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides")
+      .add("Margin", &Options::margin, limits::bundleMarginOrAsNeeded,
+        "Width by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides; -1: as wide as "
+        "needed for a domain that is cut from the middle of the bundle, without a border of its own")
       .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,
         "Distance between a fibre's control points as a multiple of its radius, within the two limits below")
       .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing, "Smallest distance between control points")
@@ -76,6 +79,18 @@ void BundleInitializerOptions::validate() const
 double BundleInitializerOptions::thinning() const
 {
   return grownFibreVolumeFraction > 0.0 ? std::sqrt(fibreVolumeFraction / grownFibreVolumeFraction) : 1.0;
+}
+
+Surroundings surroundings(const BundleInitializerOptions& options)
+{
+  if (!options.isCutOut())
+  {
+    return { options.margin, 0.0 };
+  }
+  constexpr double packed = 2.0;   // µm, within which a wall orders the packing
+  constexpr double steepest = 2.0; // times the mean angle, which hardly any fibres exceed
+  const double half = 0.5 * options.side + packed;
+  return { packed + half * std::tan(std::min(steepest * options.meanDispersion, 60.0) * degree), packed };
 }
 
 bool isCoherent(const BundleInitializerOptions& options)

@@ -44,7 +44,8 @@ struct BundleInitializerOptions
   /// radius.
   double sheetThickness = 0.0;
   /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides), so that the domain
-  /// can be cut from the middle after the optimiser has spread the fibres.
+  /// can be cut from the middle after the optimiser has spread the fibres. -1: as wide as the fibres' slants ask, and a little
+  /// beyond the ends, so that the domain has no border (see surroundings()).
   double margin = 0.0;
   /// Distance between the control points of a fibre, as a multiple of its radius, within the two limits below. A capsule chain
   /// bends once per control point, so the spacing limits how sharply a fibre can bend; longer capsules are cheaper.
@@ -56,9 +57,22 @@ struct BundleInitializerOptions
   static const PropertyList<BundleInitializerOptions>& properties();
   /// Throws InvalidInput, naming the property, unless every value that has an effect is within its range.
   void validate() const;
+  /// Tells whether the domain is cut from the middle of a bundle that is as much larger as needed.
+  bool isCutOut() const { return this->margin < 0.0; }
   /// Returns the radius of the capsules over the sampled target radius.
   double thinning() const;
 };
+
+/// How far the fibres extend beyond the domain, in µm.
+struct Surroundings
+{
+  double sides = 0.0; ///< beyond each lateral face; with two bundles beyond all faces
+  double ends = 0.0;  ///< beyond the faces that the fibres of a single bundle run to
+};
+
+/// Returns the margin, or, where it is to be as wide as needed, the width within which the bundle's own border still shows: as
+/// far as slanted fibres get sideways in half its length, and beside its walls, where circles lie in rows.
+Surroundings surroundings(const BundleInitializerOptions& options);
 
 /// Tells whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
 bool isCoherent(const BundleInitializerOptions& options);

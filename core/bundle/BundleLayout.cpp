@@ -130,17 +130,17 @@ std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& option
 
 } // namespace
 
-Bundle layOutSingle(const BundleInitializerOptions& options)
+Bundle layOutSingle(const BundleInitializerOptions& options, double density)
 {
   const double face = regionSide(options);
   Bundle bundle;
-  bundle.length = options.side;
-  bundle.density = options.fibreVolumeFraction;
+  bundle.length = options.side + 2.0 * surroundings(options).ends;
+  bundle.density = density;
   Rectangle frame;
   frame.lower.setConstant(-0.5 * face);
   frame.upper.setConstant(0.5 * face);
   bundle.bottom.frames = { frame };
-  bundle.bottom.radii = drawRadii(options.radius, options.seed, options.fibreVolumeFraction * frame.area(), itemOf(0, bundle.id));
+  bundle.bottom.radii = drawRadii(options.radius, options.seed, density * frame.area(), itemOf(0, bundle.id));
   bundle.bottom.frameOf.assign(bundle.bottom.radii.size(), 0);
   requireFit(bundle.bottom, "Side");
   return bundle;

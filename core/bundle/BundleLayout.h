@@ -33,14 +33,14 @@ inline std::uint64_t itemOf(std::size_t circle, int bundle, int attempt = 0)
 /// Returns the side of the cube that the fibres cover (µm).
 inline double regionSide(const BundleInitializerOptions& options)
 {
-  return options.side + 2.0 * options.margin;
+  return options.side + 2.0 * surroundings(options).sides;
 }
 
 // The functions below return bundles with radii and, for each circle, its rectangle on the faces; nothing is placed yet. All
 // throw InvalidInput if the largest fibre has no room.
 
-/// Makes a single bundle: one square frame on each face.
-Bundle layOutSingle(const BundleInitializerOptions& options);
+/// Makes a single bundle whose circles fill `density` of each face: one square frame on each.
+Bundle layOutSingle(const BundleInitializerOptions& options, double density);
 
 /// Makes two crossing bundles in alternating layers of equal thickness; each circle, largest first, goes to the layer with most
 /// area left. `density` is that of the circles in each layer.

@@ -133,6 +133,33 @@ void placeOnRings(Bundle& bundle, const BundleInitializerOptions& options, int a
   placeCircles(top, onRing, trialsPerCircle);
 }
 
+/// Lets each fibre pass at its own random angle through its circle, which was packed on the bottom face, in the middle of the
+/// bundle. So fibres are as dense everywhere, but for the sides: those that start and end within faces crowd between these.
+void placeThroughMiddle(Bundle& bundle, const BundleInitializerOptions& options, int attempt)
+{
+  const DirectionDistribution directions(options.dispersionModel, options.meanDispersion);
+  std::vector<Eigen::Vector2d> shifts;
+  for (std::size_t i = 0; i < bundle.bottom.size(); ++i)
+  {
+    RandomEngine engine = randomStream(options.seed, RandomStage::Directions, itemOf(i, bundle.id, attempt));
+    const double reach = std::min(bundle.length * std::tan(directions.sampleAngle(engine)), bundle.bottom.frame(i).size().norm());
+    const double azimuth = 2.0 * pi * uniform(engine);
+    shifts.emplace_back(reach * std::cos(azimuth), reach * std::sin(azimuth));
+  }
+  const std::vector<Eigen::Vector2d> middles = bundle.bottom.centres;
+  bundle.top = bundle.bottom;
+  double scale = 1.0;
+  for (int round = 0; round < 8; ++round) // until the mean angle is the one asked for, to many digits
+  {
+    for (std::size_t i = 0; i < middles.size(); ++i)
+    {
+      bundle.bottom.centres[i] = middles[i] - 0.5 * scale * shifts[i];
+      bundle.top.centres[i] = middles[i] + 0.5 * scale * shifts[i];
+    }
+    scale *= std::tan(options.meanDispersion * degree) / std::tan(orientationOf(bundle).meanAngle * degree);
+  }
+}
+
 /// Carries the circles of the bottom face to the top in one flow; false if the flow does not reach the requested angle.
 bool carryAlong(Bundle& bundle, const BundleInitializerOptions& options, int attempt, const Context& context)
 {
@@ -243,6 +270,11 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const C
       continue;
     }
     context.report(0.5 * (begin + end), what.str());
+    if (options.isCutOut() && options.numberOfBundles == 1 && !isCoherent(options) && options.meanDispersion > 0.0)
+    {
+      placeThroughMiddle(bundle, options, attempt);
+      return;
+    }
     const TopFace outcome = packTop(bundle, options, attempt, context, dispersion);
     if (outcome == TopFace::Done)
     {

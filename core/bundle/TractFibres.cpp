@@ -107,7 +107,7 @@ std::vector<PlacedCircle> circlesWithin(
   square.side = std::max({ 2.0 * (radius + square.radius.maximum), 4.0 * square.radius.maximum, needed });
   square.margin = 0.0;
   square.seed = sizes.straight.seed + (static_cast<std::uint64_t>(path) << 32); // users' seeds have 31 bits
-  std::vector<Bundle> bundles = { layOutSingle(square) };
+  std::vector<Bundle> bundles = { layOutSingle(square, square.fibreVolumeFraction) };
   packFaces(bundles, square, context);
   const Circles& circles = bundles.front().bottom;
 

@@ -148,7 +148,7 @@ class BundleInitializerTest(CactusTestCase):
             (r"CrossingAngle is 91", {"NumberOfBundles": 2, "CrossingAngle": 91}),
             (r"SheetThickness is -1", {"NumberOfBundles": 2, "CrossingStyle": "Sheets", "SheetThickness": -1}),
             (r"SheetThickness gives", {"NumberOfBundles": 2, "CrossingStyle": "Sheets", "SheetThickness": 1}),
-            (r"Margin is -1", {"Margin": -1}),
+            (r"Margin is -0.5", {"Margin": -0.5}),
             (r"SpacingFactor is 0", {"SpacingFactor": 0}),
             (r"MinimumSpacing is 0", {"MinimumSpacing": 0}),
             (r"MaximumSpacing 0\.5 is below", {"MaximumSpacing": 0.5}),

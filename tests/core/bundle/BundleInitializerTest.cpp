@@ -277,6 +277,63 @@ TEST(BundleInitializer, FibresThatFollowAFlowAreAsDenseAmidAsAtTheFaces)
   }
 }
 
+/// Returns the area of the fibres' straight capsules in the domain over the domain's, in planes across z.
+std::vector<double> densitiesAlong(const Fibres& fibres)
+{
+  std::vector<double> densities;
+  for (const double share : { 0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0 })
+  {
+    const double z = fibres.domain.lower[2] + share * fibres.domain.size()[2];
+    double area = 0.0;
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+    {
+      const Eigen::Vector3d first = endPoint(fibres, f, 0);
+      const Eigen::Vector3d along = endPoint(fibres, f, 1) - first;
+      const Eigen::Vector3d p = first + (z - first[2]) / along[2] * along;
+      const double radius = fibres.radii[fibres.offsets[f]];
+      area += fibres.domain.depth({ p[0], p[1], 0.0 }) > 0.0 ? pi * radius * radius * along.norm() / along[2] : 0.0;
+    }
+    densities.push_back(area / (fibres.domain.size()[0] * fibres.domain.size()[1]));
+  }
+  return densities;
+}
+
+TEST(BundleInitializer, ADomainCutFromTheMiddleHasNoBorder)
+{
+  BundleInitializerOptions options;
+  options.side = 40.0;
+  options.meanDispersion = 25.0;
+  options.dispersionModel = DispersionModel::Watson;
+  options.minimumSpacing = options.maximumSpacing = 40.0;
+  const auto ratio = [](const std::vector<double>& densities)
+  { return *std::max_element(densities.begin(), densities.end()) / *std::min_element(densities.begin(), densities.end()); };
+  // Fibres that start and end within the faces of a wider bundle crowd in the middle of it.
+  options.margin = 10.0;
+  EXPECT_GT(ratio(densitiesAlong(initialiseBundles(options))), 1.3);
+  options.margin = -1.0;
+  std::vector<double> mean(7, 0.0);
+  for (const std::uint64_t seed : { 1, 2, 3 })
+  {
+    options.seed = seed;
+    const Fibres fibres = initialiseBundles(options);
+    EXPECT_EQ(fibres.domain.size()[0], 40.0);
+    EXPECT_NEAR(capsuleVolumeInDomain(fibres) / fibres.domain.volume(), options.fibreVolumeFraction, 0.011 * 0.7);
+    EXPECT_NEAR(meanDispersion(fibres), 25.0, 0.2); // about their mean direction
+    const std::vector<double> densities = densitiesAlong(fibres);
+    std::transform(mean.begin(), mean.end(), densities.begin(), mean.begin(), [](double a, double b) { return a + b / 3.0; });
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+    {
+      EXPECT_LT(endPoint(fibres, f, 0)[2], -20.0);
+      EXPECT_GT(endPoint(fibres, f, 1)[2], 20.0);
+    }
+  }
+  EXPECT_LT(ratio(mean), 1.15);
+  // The more they are dispersed, the farther out those begin that come in.
+  EXPECT_EQ(surroundings(options).sides, 2.0 + 22.0 * std::tan(50.0 * degree));
+  options.meanDispersion = 0.0;
+  EXPECT_EQ(surroundings(options).sides, 2.0);
+}
+
 TEST(BundleInitializer, FibresThatFollowAFlowStayInTheFrameAndBendGently)
 {
   DrawnRadii options;
@@ -419,7 +476,7 @@ TEST(BundleInitializer, BadParametersAreNamed)
   names("NumberOfBundles", [](auto& o) { o.numberOfBundles = 3; });
   names("NumberOfBundles", [](auto& o) { o.numberOfBundles = 0; });
   sheets("CrossingAngle", [](auto& o) { o.crossingAngle = 91.0; });
-  names("Margin", [](auto& o) { o.margin = -1.0; });
+  names("Margin", [](auto& o) { o.margin = -0.5; });
   sheets("SheetThickness", [](auto& o) { o.sheetThickness = -1.0; });
   names("DispersionModel", [](auto& o) { o.dispersionModel = static_cast<DispersionModel>(3); });
   names("CorrelationLength", [](auto& o) { o.correlationLength = -1.0; });
