@@ -74,7 +74,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   sum.add(&fibres.grownFraction, sizeof(double));
   sum.add(fibres.domain.lower.data(), 3 * sizeof(double));
   sum.add(fibres.domain.upper.data(), 3 * sizeof(double));
-  const std::string values = "CACTUS " CACTUS_VERSION ", journal 8\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 9\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)
   {
