@@ -123,7 +123,7 @@ std::string contentsOf(const FolderInspection& found)
 FolderInspection inspectReplaceable(
   const fs::path& place, const fs::path& where, const Context& context, const FolderInspection& earlier)
 {
-  const FolderInspection found = inspectFolder(where, context, earlier);
+  FolderInspection found = inspectFolder(where, context, earlier);
   const auto refuse = [&place](const std::string& why, const std::string& what)
   { throw FileError("folder " + place.string() + " is there already and " + why + ": " + what); };
   const std::string another = "choose another FolderName";
