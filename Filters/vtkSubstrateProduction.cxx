@@ -115,7 +115,7 @@ void vtkSubstrateProduction::Produce()
                written.certificate.verdict();
   }
   say(remarks);
-  const std::vector<std::string> sentences = written.allRemarks();
+  const std::vector<std::string> sentences = written.remarks;
   std::for_each(sentences.begin(), sentences.end(), say);
   this->Files->Initialize();
   this->Fibres->Initialize();

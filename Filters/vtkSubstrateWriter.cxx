@@ -115,7 +115,7 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   {
     vtkWarningMacro(<< "the substrate in " << stage.folderName << " is not certified: " << written.certificate.verdict());
   }
-  for (const std::string& sentence : written.allRemarks())
+  for (const std::string& sentence : written.remarks)
   {
     vtkWarningMacro(<< sentence);
   }

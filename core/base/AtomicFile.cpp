@@ -30,7 +30,7 @@ void removeStale(const fs::path& place)
     const Descriptor file(::open(partial.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat status;
     if (file && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() &&
-        status.st_nlink == 1 && lockForWriting(file.get()) && isStale(partial, file.get()))
+        status.st_nlink == 1 && lockForWriting(file.get()))
     {
       ::unlink(partial.c_str());
     }

@@ -4,7 +4,6 @@
 #include "base/Error.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -17,37 +16,11 @@ namespace
 
 /// Every format starts with this; its number and a line feed follow.
 const std::string title = "CACTUS checkpoint ";
-const std::string version = "5\n";
+const std::string version = "6\n";
 /// Reads as another number if the byte order differs.
 constexpr std::uint64_t byteOrder = 0x0102030405060708u;
 constexpr std::size_t headerBytes = 24;
 constexpr std::size_t checksumBytes = 8;
-
-/// For each of eight consecutive bytes, its contribution to the checksum ("slicing by eight", Kounavis and Berry 2005).
-using ChecksumTables = std::array<std::array<std::uint64_t, 256>, 8>;
-
-ChecksumTables makeTables()
-{
-  ChecksumTables tables{};
-  for (std::uint64_t byte = 0; byte < 256; ++byte)
-  {
-    std::uint64_t crc = byte;
-    for (int bit = 0; bit < 8; ++bit)
-    {
-      crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xc96c5795d7870f42u : 0u);
-    }
-    tables[0][byte] = crc;
-  }
-  for (std::size_t place = 1; place < 8; ++place)
-  {
-    for (std::size_t byte = 0; byte < 256; ++byte)
-    {
-      const std::uint64_t before = tables[place - 1][byte];
-      tables[place][byte] = (before >> 8) ^ tables[0][before & 0xff];
-    }
-  }
-  return tables;
-}
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why)
 {
@@ -113,31 +86,6 @@ void requireSame(const CheckpointHeader& header, std::uint64_t fingerprint, cons
 
 } // namespace
 
-std::uint64_t crc64(const void* data, std::size_t bytes, std::uint64_t before)
-{
-  static const ChecksumTables tables = makeTables();
-  const auto* next = static_cast<const unsigned char*>(data);
-  std::uint64_t crc = ~before;
-  for (; bytes >= 8; bytes -= 8, next += 8)
-  {
-    for (std::size_t i = 0; i < 8; ++i)
-    {
-      crc ^= static_cast<std::uint64_t>(next[i]) << (8 * i);
-    }
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < 8; ++i)
-    {
-      sum ^= tables[7 - i][(crc >> (8 * i)) & 0xff];
-    }
-    crc = sum;
-  }
-  for (; bytes > 0; --bytes, ++next)
-  {
-    crc = (crc >> 8) ^ tables[0][(crc ^ *next) & 0xff];
-  }
-  return ~crc;
-}
-
 std::optional<CheckpointHeader> findCheckpoint(const std::string& path, std::uint64_t fingerprint)
 {
   if (!isThere(path))
@@ -161,14 +109,13 @@ CheckpointWriter::CheckpointWriter(const std::string& path, const CheckpointHead
 
 void CheckpointWriter::write(const void* data, std::size_t bytes)
 {
-  this->Checksum = crc64(data, bytes, this->Checksum);
+  this->Sum.add(data, bytes);
   this->File.stream().write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
 }
 
 void CheckpointWriter::commit()
 {
-  const std::uint64_t checksum = this->Checksum;
-  this->put(checksum);
+  this->put(this->Sum.value());
   if (isThere(this->Path))
   {
     std::ifstream there(this->Path, std::ios::binary);
@@ -187,7 +134,7 @@ CheckpointReader::CheckpointReader(const std::string& path, std::uint64_t finger
   this->File.open(path, std::ios::binary);
   if (!this->File)
   {
-    refuse(path, std::string("cannot be read: ") + std::strerror(errno));
+    refuse(path, "cannot be read: " + systemMessage(errno));
   }
   this->Header = readHeader(this->File, path);
   this->verify();
@@ -202,19 +149,19 @@ void CheckpointReader::verify()
   const std::uint64_t before = title.size() + version.size() + headerBytes;
   this->require(this->File && bytes >= before + checksumBytes);
   this->File.seekg(0);
-  std::uint64_t checksum = 0;
+  Hash64 sum;
   std::vector<char> part(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, 1 << 20)));
   for (std::uint64_t left = bytes - checksumBytes; left > 0;)
   {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size()));
     this->File.read(part.data(), static_cast<std::streamsize>(count));
     this->require(this->File.good());
-    checksum = crc64(part.data(), count, checksum);
+    sum.add(part.data(), count);
     left -= count;
   }
   std::uint64_t expected = 0;
   this->File.read(reinterpret_cast<char*>(&expected), sizeof(expected));
-  this->require(this->File.good() && checksum == expected);
+  this->require(this->File.good() && sum.value() == expected);
   this->Left = bytes - before - checksumBytes;
   this->File.seekg(static_cast<std::streamoff>(before));
 }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "base/AtomicFile.h"
+#include "base/Hash64.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -14,30 +14,6 @@
 
 namespace cactus
 {
-
-/// A number that distinguishes sequences of values (64-bit FNV-1a, by words); no protection against malice.
-class Fingerprint
-{
-public:
-  template <typename Value>
-  void add(const Value& value)
-  {
-    static_assert(std::is_arithmetic<Value>::value, "add numbers one by one");
-    std::uint64_t word = 0;
-    static_assert(sizeof(value) <= sizeof(word), "too long for a word");
-    std::memcpy(&word, &value, sizeof(value));
-    this->Hash = (this->Hash ^ word) * 0x100000001b3u;
-    this->Hash ^= this->Hash >> 32;
-  }
-  std::uint64_t value() const { return this->Hash; }
-
-private:
-  std::uint64_t Hash = 0xcbf29ce484222325u;
-};
-
-/// CRC-64/XZ (the polynomial of ECMA-182, reflected) of some bytes; `before` is the CRC of the bytes before them. It detects
-/// every change of an odd number of bits and every change within 64 consecutive bits, and misses one in 2⁶⁴ of other changes.
-std::uint64_t crc64(const void* data, std::size_t bytes, std::uint64_t before = 0);
 
 /// The front of a checkpoint.
 struct CheckpointHeader
@@ -53,7 +29,7 @@ std::optional<CheckpointHeader> findCheckpoint(const std::string& path, std::uin
 
 /// Writes a checkpoint: binary, in the byte order of this machine, whole or not at all (see AtomicFile).
 ///
-/// Layout: title with the format number, a mark for the byte order, header, values, and the CRC-64 of all of these. Throws
+/// Layout: title with the format number, a mark for the byte order, header, values, and the Hash64 of all of these. Throws
 /// FileError.
 class CheckpointWriter
 {
@@ -84,7 +60,7 @@ private:
   std::string Path;
   CheckpointHeader Header;
   AtomicFile File;
-  std::uint64_t Checksum = 0;
+  Hash64 Sum;
 };
 
 /// Reads what a CheckpointWriter wrote, in the same order.

@@ -7,11 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <ctime>
-#include <fstream>
 #include <sys/file.h>
 #include <sys/random.h>
-#include <sys/stat.h>
 
 namespace cactus
 {
@@ -21,30 +18,14 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr std::size_t digits = 8;
+constexpr std::size_t digits = 16;
 constexpr std::size_t longestName = 255;
-constexpr std::time_t oneDay = 24 * 60 * 60;
 const std::string marker = ".partial-";
-const std::string unknownStart(digits, '0');
 
 /// Returns the beginning of every partial name of `name`.
 std::string beginning(const std::string& name)
 {
-  return name.substr(0, longestName - marker.size() - 2 * digits - 1) + marker;
-}
-
-/// Returns eight digits of the number that Linux draws at each boot.
-std::string thisStart()
-{
-  std::ifstream file("/proc/sys/kernel/random/boot_id");
-  std::string id;
-  std::getline(file, id);
-  return id.size() > digits ? id.substr(0, digits) : unknownStart;
-}
-
-bool isHexadecimal(const std::string& text)
-{
-  return text.find_first_not_of("0123456789abcdef") == std::string::npos;
+  return name.substr(0, longestName - marker.size() - digits) + marker;
 }
 
 } // namespace
@@ -65,15 +46,14 @@ std::string partialName(const std::string& name)
     random += "0123456789abcdef"[byte >> 4];
     random += "0123456789abcdef"[byte & 15];
   }
-  return beginning(name) + thisStart() + "-" + random;
+  return beginning(name) + random;
 }
 
 bool isPartialName(const std::string& candidate, const std::string& name)
 {
   const std::string start = beginning(name);
-  return candidate.size() == start.size() + 2 * digits + 1 && candidate.compare(0, start.size(), start) == 0 &&
-         isHexadecimal(candidate.substr(start.size(), digits)) && candidate[start.size() + digits] == '-' &&
-         isHexadecimal(candidate.substr(start.size() + digits + 1));
+  return candidate.size() == start.size() + digits && candidate.compare(0, start.size(), start) == 0 &&
+         candidate.find_first_not_of("0123456789abcdef", start.size()) == std::string::npos;
 }
 
 std::string wholeName(const std::string& candidate)
@@ -85,18 +65,6 @@ std::string wholeName(const std::string& candidate)
 bool lockForWriting(int descriptor)
 {
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-}
-
-bool isStale(const fs::path& partial, int lockedDescriptor)
-{
-  const std::string name = partial.filename().string();
-  const std::string start = name.substr(name.size() - 2 * digits - 1, digits);
-  struct stat status;
-  if (::fstat(lockedDescriptor, &status) != 0)
-  {
-    return false;
-  }
-  return (start == thisStart() && start != unknownStart) || std::time(nullptr) - status.st_mtime > oneDay;
 }
 
 std::vector<fs::path> partialsOf(const fs::path& folder, const std::string& name)

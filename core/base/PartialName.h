@@ -8,8 +8,8 @@
 namespace cactus
 {
 
-/// Returns the name of a file while it is written: `name.partial-BBBBBBBB-RRRRRRRR`, where B identifies one boot of one machine
-/// and R is drawn by the system, so that it cannot be foreseen. A long name is cut to a length that file systems accept.
+/// Returns the name of a file while it is written: `name.partial-` and 16 digits drawn by the system, so that it cannot be
+/// foreseen. A long name is cut to a length that file systems accept.
 std::string partialName(const std::string& name);
 
 /// Tells whether `candidate` is a name that partialName(name) may return.
@@ -21,10 +21,6 @@ std::string wholeName(const std::string& candidate);
 /// Takes the lock that says that this live process uses the file; it ends with the process. Returns false if another process has
 /// it, or if the file system has no locks.
 bool lockForWriting(int descriptor);
-
-/// Tells whether a partial file, whose lock this process has, was left by a process that is gone. The lock proves it for files of
-/// this boot of this machine. Locks of other machines may be invisible here, so their files must have been unchanged for a day.
-bool isStale(const std::filesystem::path& partial, int lockedDescriptor);
 
 /// Returns the entries of `folder` with a partial name of `name`, sorted; none if the folder cannot be read.
 std::vector<std::filesystem::path> partialsOf(const std::filesystem::path& folder, const std::string& name);

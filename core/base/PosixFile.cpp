@@ -93,7 +93,7 @@ void requireNoPipe(const std::string& name, const std::filesystem::path& path)
 
 std::string sha256OfFile(const fs::path& path)
 {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   Sha256 hash;
   std::vector<char> piece(std::size_t(1) << 18);
   ssize_t size = file ? 1 : -1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Provenance.h"
 
-#include "base/Error.h"
 #include "base/JsonText.h"
+#include "base/PosixFile.h"
 #include "base/Sha256.h"
 
 #include <nlohmann/json.hpp>
@@ -53,13 +53,8 @@ Json filesOf(const std::vector<FileRead>& files)
   Json all = Json::array();
   for (const FileRead& file : files)
   {
-    const std::optional<std::string> checksum = sha256OfFile(file.path);
-    if (!checksum)
-    {
-      throw FileError("cannot read " + file.path + " again for its checksum");
-    }
-    all.push_back(
-      { { "property", file.property }, { "path", std::filesystem::absolute(file.path).string() }, { "sha256", *checksum } });
+    all.push_back({ { "property", file.property }, { "path", std::filesystem::absolute(file.path).string() },
+      { "sha256", sha256OfFile(file.path) } });
   }
   return all;
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <vector>
 
 namespace cactus
 {
@@ -123,18 +121,6 @@ std::string sha256(const std::string& text)
   Sha256 hash;
   hash.add(text.data(), text.size());
   return hash.digest();
-}
-
-std::optional<std::string> sha256OfFile(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  Sha256 checksum;
-  std::vector<char> piece(std::size_t(1) << 16);
-  while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())), file.gcount() > 0)
-  {
-    checksum.add(piece.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  return file.is_open() && !file.bad() ? std::optional<std::string>(checksum.digest()) : std::nullopt;
 }
 
 } // namespace cactus

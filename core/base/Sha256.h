@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 
 namespace cactus
@@ -30,8 +29,5 @@ private:
 
 /// Returns the checksum of a text.
 std::string sha256(const std::string& text);
-
-/// Returns the checksum of a file; nothing if it cannot be read.
-std::optional<std::string> sha256OfFile(const std::string& path);
 
 } // namespace cactus

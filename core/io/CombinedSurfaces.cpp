@@ -22,28 +22,27 @@ constexpr double metre = 1e-6; ///< metres in one µm
 /// Returns a surface's part of a file that already has that many points.
 using SurfaceText = std::function<std::string(const TriangleMesh&, std::size_t)>;
 
-/// Writes a file of a head and of text() for each surface, in each of `passes` over them, and returns its checksum.
-std::string writeInPasses(const FibreSurfaces& surfaces, const std::string& path, const std::string& head, PlyEncoding encoding,
-  const StagingFolder& folder, const Context& context, const std::vector<SurfaceText>& passes)
+/// Returns what writes a file of a head and of text() for each surface, in each of `passes` over them.
+std::function<void(const std::string&)> inPasses(const FibreSurfaces& surfaces, const std::string& head, PlyEncoding encoding,
+  const Context& context, const std::vector<SurfaceText>& passes)
 {
-  return folder.writeBy(path,
-    [&](const std::string& place)
+  return [=, &surfaces, &context](const std::string& place)
+  {
+    AtomicFile file(place);
+    file.stream() << head;
+    for (const SurfaceText& text : passes)
     {
-      AtomicFile file(place);
-      file.stream() << head;
-      for (const SurfaceText& text : passes)
+      std::size_t before = 0;
+      for (std::size_t i = 0; i < surfaces.size(); ++i)
       {
-        std::size_t before = 0;
-        for (std::size_t i = 0; i < surfaces.size(); ++i)
-        {
-          context.checkpoint();
-          const TriangleMesh mesh = asWritten(surfaces.mesh(i), encoding);
-          file.stream() << text(mesh, before);
-          before += mesh.points.size();
-        }
+        context.checkpoint();
+        const TriangleMesh mesh = asWritten(surfaces.mesh(i), encoding);
+        file.stream() << text(mesh, before);
+        before += mesh.points.size();
       }
-      file.commit();
-    });
+    }
+    file.commit();
+  };
 }
 
 /// Throws for more points than such a file can number.
@@ -125,11 +124,10 @@ std::string caminoHead(const SurfaceBox& box)
 
 void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context)
 {
-  const std::string path = kind + ".ply";
-  writer.remember(
-    path, writeInPasses(surfaces, path, caminoHead(surfaceBox(surfaces, context)), PlyEncoding::Ascii, writer.folder(), context,
-            { [](const TriangleMesh& mesh, std::size_t) { return caminoVertices(mesh); },
-              [](const TriangleMesh& mesh, std::size_t before) { return faceText(mesh, PlyEncoding::Ascii, before); } }));
+  writer.writeBy(kind + ".ply",
+    inPasses(surfaces, caminoHead(surfaceBox(surfaces, context)), PlyEncoding::Ascii, context,
+      { [](const TriangleMesh& mesh, std::size_t) { return caminoVertices(mesh); },
+        [](const TriangleMesh& mesh, std::size_t before) { return faceText(mesh, PlyEncoding::Ascii, before); } }));
 }
 
 std::string bundleHead(const SurfaceBox& box, const std::string& comment, PlyEncoding encoding)
@@ -139,7 +137,7 @@ std::string bundleHead(const SurfaceBox& box, const std::string& comment, PlyEnc
 }
 
 std::string writeBundleSurfaces(const FibreSurfaces& surfaces, const std::string& path, const std::string& comment,
-  PlyEncoding encoding, const StagingFolder& folder, const Context& context)
+  PlyEncoding encoding, const FolderWriter& writer, const Context& context)
 {
   const auto vertices = [encoding](const TriangleMesh& mesh, std::size_t)
   {
@@ -148,8 +146,8 @@ std::string writeBundleSurfaces(const FibreSurfaces& surfaces, const std::string
     return text;
   };
   const auto faces = [encoding](const TriangleMesh& mesh, std::size_t before) { return faceText(mesh, encoding, before); };
-  return writeInPasses(
-    surfaces, path, bundleHead(surfaceBox(surfaces, context), comment, encoding), encoding, folder, context, { vertices, faces });
+  const std::string head = bundleHead(surfaceBox(surfaces, context), comment, encoding);
+  return writer.putBy(path, inPasses(surfaces, head, encoding, context, { vertices, faces }));
 }
 
 void writeDisimpySurfaces(const FibreSurfaces& surfaces, const std::string& kind, FolderWriter& writer, const Context& context)
@@ -180,7 +178,7 @@ void writeDisimpySurfaces(const FibreSurfaces& surfaces, const std::string& kind
     return bytes;
   };
   const auto write = [&](const std::string& path, const std::string& head, const SurfaceText& text)
-  { writer.remember(path, writeInPasses(surfaces, path, head, PlyEncoding::Ascii, writer.folder(), context, { text })); };
+  { writer.writeBy(path, inPasses(surfaces, head, PlyEncoding::Ascii, context, { text })); };
   write(kind + "_vertices.npy", npyHead("<f8", box.points), vertices);
   write(kind + "_faces.npy", npyHead("<i8", box.triangles), faces);
 }

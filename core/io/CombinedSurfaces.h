@@ -44,10 +44,10 @@ void writeCaminoSurfaces(const FibreSurfaces& surfaces, const std::string& kind,
 /// Returns the header of a file of a bundle's surfaces. Throws as caminoHead() does.
 std::string bundleHead(const SurfaceBox& box, const std::string& comment, PlyEncoding encoding);
 
-/// Writes one PLY file (µm) of consecutive surfaces, in the format of plyText(); returns its checksum. Throws as bundleHead()
-/// does, FileError and Cancelled.
+/// Writes one PLY file (µm) of consecutive surfaces, in the format of plyText(), as FolderWriter::put() does. Throws as
+/// bundleHead() does, FileError and Cancelled.
 std::string writeBundleSurfaces(const FibreSurfaces& surfaces, const std::string& path, const std::string& comment,
-  PlyEncoding encoding, const StagingFolder& folder, const Context& context);
+  PlyEncoding encoding, const FolderWriter& writer, const Context& context);
 
 /// Writes `KIND_vertices.npy` (n × 3, float64, metres from the lower corner of their bounding box, where Disimpy moves them) and
 /// `KIND_faces.npy` (m × 3, int64). Throws FileError and Cancelled.

@@ -22,7 +22,8 @@ namespace cactus
 ///
 /// Compartments are numbered as in SpinDoctor: axons from 1, then the myelin of each fibre, then the extra-axonal space.
 /// Boundaries are numbered in the same way: between axons and myelin, myelin and the extra-axonal space, and those in the
-/// domain's faces, of axons, of myelin and of the extra-axonal space. Lines are laid out as SpinDoctor's reader expects them.
+/// domain's faces, of axons, of myelin and of the extra-axonal space. Lines are laid out as SpinDoctor's reader expects them,
+/// which takes facets of one triangle each.
 ///
 /// Axons, whose surfaces end just before the domain's faces, are extended to them, but for those that would meet their myelin.
 /// Returned is what the user has to know: a sentence on such axons, one where SpinDoctor, which wants an axon and an end of each

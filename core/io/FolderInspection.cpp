@@ -3,7 +3,6 @@
 
 #include "base/Error.h"
 #include "base/Parallel.h"
-#include "base/PartialName.h"
 #include "base/PosixFile.h"
 
 #include <algorithm>
@@ -12,7 +11,6 @@
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <string>
 #include <unistd.h>
 
@@ -25,71 +23,6 @@ namespace
 {
 
 constexpr std::uintmax_t largestManifest = std::uintmax_t(1) << 29; ///< bytes; about 110 for a file
-
-/// Names of files that are written piece by piece, and so have another name until they are complete.
-const std::set<std::string>& streamedFiles()
-{
-  static const std::set<std::string> names{ "fibres.strands", manifestName, "optimized_final.txt", "outer.ply", "inner.ply",
-    "geometry.json", "outer_vertices.npy", "outer_faces.npy", "inner_vertices.npy", "inner_faces.npy", "intra/fiber.txt",
-    "extra/fiber.txt", "substrate_dir/substrate_mesh.node", "substrate_dir/substrate_mesh.poly" };
-  return names;
-}
-
-/// Names of the other files, except those of surfaces.
-const std::set<std::string>& wholeFiles()
-{
-  static const auto names = []
-  {
-    std::set<std::string> all{ "README.txt", "certificate.csv", "certificate_fibres.csv", "pgse.scheme", "mcdc/pgse.scheme",
-      "mcdc/intra.conf", "mcdc/extra.conf", "mcdc/intra_ply_list.txt", "mcdc/extra_ply_list.txt", "start/intra.txt",
-      "start/myelin.txt", "start/extra.txt", "compartments.csv", "substrate_cells", "setup_substrate.m" };
-    for (const char* rms : { "simParamInput.txt", "diffusivity.txt", "T2.txt", "bval.txt", "bvec.txt" })
-    {
-      all.insert(std::string("intra/") + rms);
-      all.insert(std::string("extra/") + rms);
-    }
-    return all;
-  }();
-  return names;
-}
-
-/// Tells whether a path is `start`, five digits or more, and `end`.
-bool isNumbered(const std::string& path, const std::string& start, const std::string& end)
-{
-  constexpr std::size_t digits = 5;
-  if (path.size() < start.size() + digits + end.size() || path.compare(0, start.size(), start) != 0 ||
-      path.compare(path.size() - end.size(), end.size(), end) != 0)
-  {
-    return false;
-  }
-  return path.substr(start.size(), path.size() - start.size() - end.size()).find_first_not_of("0123456789") == std::string::npos;
-}
-
-/// Tells whether the writer uses this path, for a folder whose writing was interrupted before there was a manifest.
-bool isFileOfWriter(const std::string& path)
-{
-  const std::string whole = wholeName(path); // name of a file that is written piece by piece
-  const std::string strand = "meshes/simulations/strand_";
-  for (const std::string kind : { "outer/", "inner/" })
-  {
-    const std::size_t slash = path.rfind('/');
-    if (isNumbered(whole, kind + "bundle_", ".ply") || isNumbered(path, kind + "fibre_", ".ply") ||
-        (slash != std::string::npos && isNumbered(path.substr(0, slash), kind, "") &&
-          isNumbered(path.substr(slash), "/fibre_", ".ply")))
-    {
-      return true;
-    }
-  }
-  return wholeFiles().count(path) > 0 || streamedFiles().count(whole) > 0 || isNumbered(path, strand, "_outer_erode_0.ply") ||
-         isNumbered(path, strand, "_inner_erode_0.ply");
-}
-
-bool isFolderOfWriter(const std::string& path)
-{
-  static const std::set<std::string> names{ "outer", "inner", "mcdc", "mcdc/output", "meshes", "meshes/simulations", "start",
-    "intra", "extra", "substrate_dir" };
-  return names.count(path) > 0 || isNumbered(path, "outer/", "") || isNumbered(path, "inner/", "");
-}
 
 bool sameTime(const timespec& a, const timespec& b)
 {
@@ -202,7 +135,6 @@ private:
 
   void visit(const std::string& path)
   {
-    const bool finished = this->Found.isFinished;
     struct stat status;
     if (::lstat((this->Folder / path).c_str(), &status) != 0)
     {
@@ -210,7 +142,7 @@ private:
     }
     if (S_ISDIR(status.st_mode))
     {
-      if (finished ? this->Manifest.written.folders.count(path) == 0 : !isFolderOfWriter(path))
+      if (this->Manifest.written.folders.count(path) == 0)
       {
         this->Found.added.push_back(path + "/");
         return;
@@ -220,7 +152,7 @@ private:
       this->walk(path);
       return;
     }
-    const bool ours = finished ? path == manifestName || this->Manifest.written.checksums.count(path) > 0 : isFileOfWriter(path);
+    const bool ours = path == manifestName || this->Manifest.written.checksums.count(path) > 0;
     if (!S_ISREG(status.st_mode) || !ours)
     {
       this->Found.added.push_back(path);

@@ -2,9 +2,7 @@
 #include "io/FolderPlace.h"
 
 #include "base/Error.h"
-#include "base/PartialName.h"
 #include "base/PosixFile.h"
-#include "io/RunningPrograms.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -99,16 +97,6 @@ void requireMovable(const fs::path& place)
   }
 }
 
-void requireNobodyIn(const fs::path& place)
-{
-  const std::string program = programIn(place);
-  if (!program.empty())
-  {
-    throw FileError("folder " + place.string() + " is there already and " + program +
-                    " runs in it, whose results would be lost: end it (or leave the folder), or choose another FolderName");
-  }
-}
-
 std::string contentsOf(const FolderInspection& found)
 {
   std::vector<std::string> results;
@@ -132,18 +120,20 @@ std::string contentsOf(const FolderInspection& found)
   return text;
 }
 
-void requireReplaceable(const fs::path& place, const FolderInspection& found)
+FolderInspection inspectReplaceable(
+  const fs::path& place, const fs::path& where, const Context& context, const FolderInspection& earlier)
 {
+  FolderInspection found = inspectFolder(where, context, earlier);
   const auto refuse = [&place](const std::string& why, const std::string& what)
   { throw FileError("folder " + place.string() + " is there already and " + why + ": " + what); };
   const std::string another = "choose another FolderName";
-  if (!found.exists && isThere(place))
+  if (!found.exists && isThere(where))
   {
     throw FileError("FolderName " + place.string() + " is there already and not a folder: choose another one");
   }
   if (!found.exists || (found.empty && found.asWritten()))
   {
-    return;
+    return found;
   }
   if (!found.empty && !found.isSubstrate)
   {
@@ -158,6 +148,7 @@ void requireReplaceable(const fs::path& place, const FolderInspection& found)
   {
     refuse("holds " + contentsOf(found), another + ", or move these out of it or remove them if they are not needed");
   }
+  return found;
 }
 
 } // namespace cactus

@@ -19,15 +19,14 @@ bool isThere(const std::filesystem::path& path);
 /// Returns the absolute path of a FolderName, without links and dots. Throws if there cannot be a folder.
 std::filesystem::path placeOf(const std::string& folder);
 
-/// Throws for this process's working directory and the folders that contain it: after the exchange it would no longer exist. Also
-/// throws for a mount point, which cannot be exchanged.
+/// Throws for this process's working directory and the folders that contain it: then it would no longer exist. Also
+/// throws for a mount point, which cannot be renamed.
 void requireMovable(const std::filesystem::path& place);
 
-/// Throws if a program's working directory is in the folder, such as that of a simulation that will write its results there.
-void requireNobodyIn(const std::filesystem::path& place);
-
-/// Throws unless the place holds a substrate folder as we wrote it, or an empty folder.
-void requireReplaceable(const std::filesystem::path& place, const FolderInspection& found);
+/// Inspects a folder that is at `where`, or has been moved there from its place. Throws unless it is a substrate folder as we
+/// wrote it, an empty folder, or not there; and Cancelled.
+FolderInspection inspectReplaceable(const std::filesystem::path& place, const std::filesystem::path& where,
+  const Context& context, const FolderInspection& earlier = {});
 
 /// Returns a list of the user's files in an inspected folder, for the user to decide on.
 std::string contentsOf(const FolderInspection& found);

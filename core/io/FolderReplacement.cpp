@@ -3,14 +3,14 @@
 
 #include "base/Error.h"
 #include "base/PartialName.h"
-#include "base/PosixFile.h"
 #include "io/FolderPlace.h"
 
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
+#include <fstream>
+#include <set>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 #include <utility>
 
@@ -22,16 +22,9 @@ namespace fs = std::filesystem;
 namespace
 {
 
+constexpr char formerName[] = "former";
 constexpr int attempts = 100;
 constexpr mode_t permissionBits = 07777;
-constexpr unsigned exchangeFlag = 2; // RENAME_EXCHANGE of <linux/fs.h>
-
-/// Returns the identity of a file or folder on the disk; zeros if there is none.
-std::pair<dev_t, ino_t> identityOf(const fs::path& path)
-{
-  struct stat status;
-  return ::lstat(path.c_str(), &status) == 0 ? std::make_pair(status.st_dev, status.st_ino) : std::pair<dev_t, ino_t>();
-}
 
 /// Gives a folder the owners and permissions of the one that it replaces, as far as possible. If the group cannot be kept,
 /// permissions are only removed.
@@ -66,22 +59,49 @@ void makeAlike(const FolderInspection& former, const fs::path& folder)
   adapt("");
 }
 
+/// Removes the files and folders in `under`, a folder in `folder`, that are listed, and adds the others to `kept`.
+void removeListed(
+  const fs::path& folder, const std::string& under, const std::set<std::string>& listed, std::vector<std::string>& kept)
+{
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / under, error), end; !error && entry != end; entry.increment(error))
+  {
+    const std::string path = under + entry->path().filename().string();
+    const bool isFolder = entry->symlink_status().type() == fs::file_type::directory;
+    if (listed.count(wholeName(path)) == 0)
+    {
+      kept.push_back(path);
+    }
+    else if (isFolder)
+    {
+      removeListed(folder, path + "/", listed, kept);
+    }
+    else
+    {
+      ::unlink(entry->path().c_str());
+    }
+  }
+  ::rmdir((folder / under).c_str()); // succeeds if it is empty
+}
+
 } // namespace
 
-FolderReplacement::FolderReplacement(const std::string& folder, const Context& context)
+FolderReplacement::FolderReplacement(fs::path place)
+  : Place(std::move(place))
+  , Container(this->Place.string() + ".partial")
 {
-  try
+  requireMovable(this->Place);
+  this->hold();
+}
+
+FolderReplacement::FolderReplacement(const std::string& folder, const Context& context)
+  : FolderReplacement(placeOf(folder))
+{
+  context.report(0.0, "Comparing the folder that is there with its manifest");
+  this->Former = inspectReplaceable(this->Place, this->Place, context);
+  if (::mkdir((this->Container / FolderWriter::substrateName).c_str(), 0777) != 0)
   {
-    this->Place = placeOf(folder);
-    recoverStaging(this->Place, this->Leftovers);
-    requireMovable(this->Place);
-    context.report(0.0, "Comparing the folder that is there with its manifest");
-    this->inspectPlace(context);
-    this->Staging.emplace(this->Place);
-  }
-  catch (const fs::filesystem_error& error)
-  {
-    cannotWriteFolder(folder, error.what());
+    this->fail(systemMessage(errno));
   }
 }
 
@@ -89,9 +109,9 @@ FolderReplacement::~FolderReplacement()
 {
   try
   {
-    if (this->Staging)
+    if (this->List && !isThere(this->Container / formerName) && this->clean().empty())
     {
-      cleanStaging(this->Staging->container(), {}, this->Leftovers);
+      this->release();
     }
   }
   catch (...)
@@ -105,91 +125,110 @@ void FolderReplacement::fail(const std::string& why) const
   cannotWriteFolder(this->Place.string(), why);
 }
 
-void FolderReplacement::inspectPlace(const Context& context)
+/// Makes the folder beside the place, or takes and empties one that a killed process has left.
+void FolderReplacement::hold()
 {
-  for (int attempt = 0; attempt < attempts; ++attempt)
+  for (int attempt = 0; attempt < attempts && !this->List; ++attempt)
   {
-    const auto before = identityOf(this->Place);
-    try
+    const bool isNew = ::mkdir(this->Container.c_str(), 0700) == 0;
+    if (!isNew && errno != EEXIST)
     {
-      const FolderInspection found = inspectFolder(this->Place, context, this->Former);
-      requireReplaceable(this->Place, found);
-      this->Former = found;
-      break;
+      this->fail(systemMessage(errno));
     }
-    catch (const FileError&)
+    const int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | (isNew ? O_CREAT | O_EXCL : 0);
+    Descriptor list(::open((this->Container / FolderWriter::listName).c_str(), flags, 0600));
+    if (!list)
     {
-      // Meanwhile another writer may have put a new one there.
-      if (before == identityOf(this->Place) || attempt + 1 == attempts)
+      const int error = errno;
+      ::rmdir(this->Container.c_str()); // succeeds if it is empty: its writer was killed, or has just finished
+      if (isNew && error != ENOENT && error != EEXIST)
       {
-        throw;
+        this->fail(systemMessage(error));
       }
+      continue;
+    }
+    if (!lockForWriting(list.get()) && (!isNew || errno == EWOULDBLOCK))
+    {
+      this->fail(errno == EWOULDBLOCK
+                   ? "another process is writing it at this moment: wait until it has ended, or choose another FolderName"
+                   : "another process may be writing it, as " + this->Container.string() +
+                       " is there and its file system knows no locks: remove that if none is");
+    }
+    struct stat status;
+    if (::fstat(list.get(), &status) == 0 && status.st_nlink > 0) // otherwise its writer has just finished
+    {
+      this->List = std::move(list);
     }
   }
-  if (this->Former.exists)
+  const auto refuse = [&](const std::string& why) { this->fail(this->Container.string() + why); };
+  if (!this->List)
   {
-    requireNobodyIn(this->Place);
+    refuse(", in which it would be written, is there already, and not ours: rename it, or choose another FolderName");
+  }
+  const fs::path former = this->Container / formerName;
+  if (isThere(former) && !isThere(this->Place) && std::rename(former.c_str(), this->Place.c_str()) != 0)
+  {
+    refuse(" holds what was in its place, which cannot be put back: " + systemMessage(errno));
+  }
+  const std::string kept = this->clean();
+  if (!kept.empty())
+  {
+    refuse(", which an earlier write has left, holds " + kept + ": move what is needed, and remove it");
   }
 }
 
-/// Exchanges the staged folder with the one in the place; the latter goes where the staged one was, or to former() if that takes
-/// two steps. Returns whether there was one.
-bool FolderReplacement::exchange() const
+/// Removes the new and the former folder. Returns a list of what is kept because it is the user's.
+std::string FolderReplacement::clean()
 {
-  const fs::path staged = this->Staging->substrate();
-  const fs::path former = this->Staging->former();
-  if (::syscall(SYS_renameat2, AT_FDCWD, staged.c_str(), AT_FDCWD, this->Place.c_str(), exchangeFlag) == 0)
+  std::set<std::string> listed;
+  std::ifstream list(this->Container / FolderWriter::listName, std::ios::binary);
+  for (std::string path; std::getline(list, path);)
   {
-    return true;
+    listed.insert(path);
   }
-  if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP && errno != ENOENT)
+  FolderInspection kept;
+  removeListed(this->Container / FolderWriter::substrateName, "", listed, kept.added);
+  const fs::path former = this->Container / formerName;
+  const FolderInspection found = inspectFolder(former);
+  if (!found.asWritten())
+  {
+    return contentsOf(found);
+  }
+  removeInspected(former, found);
+  std::error_code error;
+  for (fs::directory_iterator entry(this->Container, error), end; !error && entry != end; entry.increment(error))
+  {
+    const std::string name = entry->path().filename().string();
+    if (name != FolderWriter::listName && (name != FolderWriter::substrateName || kept.added.empty()))
+    {
+      kept.added.push_back(name);
+    }
+  }
+  return contentsOf(kept);
+}
+
+/// Moves the former folder out of its place, and the new one in; changes nothing if it throws.
+void FolderReplacement::putInPlace(const Context& context)
+{
+  const fs::path former = this->Container / formerName;
+  const bool replaces = std::rename(this->Place.c_str(), former.c_str()) == 0;
+  if (!replaces && errno != ENOENT)
   {
     this->fail(systemMessage(errno));
   }
-  const bool replaces = std::rename(this->Place.c_str(), former.c_str()) == 0;
-  int error = replaces || errno == ENOENT ? 0 : errno;
-  if (error == 0 && std::rename(staged.c_str(), this->Place.c_str()) != 0)
-  {
-    error = errno;
-    if (replaces)
-    {
-      std::rename(former.c_str(), this->Place.c_str());
-    }
-  }
-  if (error != 0)
-  {
-    this->fail(systemMessage(error));
-  }
-  return replaces;
-}
-
-void FolderReplacement::replace(const Context& context)
-{
-  const fs::path staged = this->Staging->substrate();
-  const fs::path former = this->Staging->former();
-  const bool replaces = this->exchange();
-  const bool inTwoSteps = replaces && !isThere(staged);
-  if (!replaces)
-  {
-    return;
-  }
   try
   {
-    const FolderInspection found = inspectFolder(inTwoSteps ? former : staged, context, this->Former);
-    requireReplaceable(this->Place, found);
-    this->Former = found;
+    this->Former = inspectReplaceable(this->Place, former, context, this->Former); // it may have been changed at the last moment
+    if (std::rename((this->Container / FolderWriter::substrateName).c_str(), this->Place.c_str()) != 0)
+    {
+      this->fail(systemMessage(errno));
+    }
   }
   catch (...)
   {
-    // It was changed at the last moment: undo the exchange.
-    if (inTwoSteps)
+    if (replaces)
     {
-      std::rename(this->Place.c_str(), staged.c_str());
       std::rename(former.c_str(), this->Place.c_str());
-    }
-    else
-    {
-      this->exchange();
     }
     throw;
   }
@@ -199,25 +238,40 @@ void FolderReplacement::commit(const Context& context)
 {
   try
   {
-    this->Staging->synchronise();
-    this->inspectPlace(context);
+    // The whole file system at once: requests for thousands of single files take longer.
+    if (::syncfs(this->List.get()) != 0 && errno != ENOSYS)
+    {
+      this->fail(systemMessage(errno));
+    }
+    this->Former = inspectReplaceable(this->Place, this->Place, context, this->Former);
     if (this->Former.exists)
     {
-      makeAlike(this->Former, this->Staging->substrate());
+      makeAlike(this->Former, this->Container / FolderWriter::substrateName);
     }
     // The rest is quick and cannot be stopped.
     Context unstoppable;
     unstoppable.threads = context.threads;
-    this->replace(unstoppable);
-    synchroniseFolder(this->Staging->container());
+    this->putInPlace(unstoppable);
+    synchroniseFolder(this->Container);
     synchroniseFolder(folderOf(this->Place));
-    cleanStaging(this->Staging->container(), this->Former, this->Leftovers);
-    this->Staging.reset();
+    if (!this->Former.exists || removeInspected(this->Container / formerName, this->Former))
+    {
+      this->release();
+    }
+    this->List.close();
   }
   catch (const fs::filesystem_error& error)
   {
     this->fail(error.what());
   }
+}
+
+/// Removes the folder beside the place, which is empty but for the list.
+void FolderReplacement::release()
+{
+  ::unlink((this->Container / FolderWriter::listName).c_str());
+  ::rmdir(this->Container.c_str());
+  this->List.close();
 }
 
 } // namespace cactus

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/RecordLog.h"
 
-#include "base/Checkpoint.h"
 #include "base/Error.h"
+#include "base/Hash64.h"
 #include "base/PartialName.h"
 
 #include <cerrno>
@@ -123,7 +123,7 @@ std::size_t RecordLog::read()
     const char* here = all.data() + good;
     const std::uint64_t length = numberAt(here);
     if (length > all.size() - good - lengthBytes - checksumBytes ||
-        crc64(here, lengthBytes + length) != numberAt(here + lengthBytes + length))
+        hash64(here, lengthBytes + length) != numberAt(here + lengthBytes + length))
     {
       break;
     }
@@ -132,7 +132,7 @@ std::size_t RecordLog::read()
   }
   if (good == 0 && !all.empty())
   {
-    this->fail("it is no record of this program, or damaged");
+    this->fail("it is no record of this version of the program, or damaged");
   }
   return good;
 }
@@ -140,7 +140,7 @@ std::size_t RecordLog::read()
 void RecordLog::add(const std::string& record)
 {
   std::string entry = bytesOf(record.size()) + record;
-  entry += bytesOf(crc64(entry.data(), entry.size()));
+  entry += bytesOf(hash64(entry.data(), entry.size()));
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (const int error = writeAll(this->File.get(), entry.data(), entry.size()))
   {

@@ -12,7 +12,7 @@ namespace cactus
 {
 
 /// A log file to which records (bytes) are appended, and which keeps all complete records if its writer is killed. Each has its
-/// length and CRC-64; the next writer cuts off a half-written one. One process at a time may have it open.
+/// length and Hash64; the next writer cuts off a half-written one. One process at a time may have it open.
 class RecordLog
 {
 public:

@@ -116,15 +116,6 @@ struct WrittenSubstrate
   std::vector<std::string> remarks;
   /// What README.txt says besides, which nobody has to be warned of: a sentence for each thing.
   std::vector<std::string> notes;
-  /// What writes that were killed have left beside the folder and is kept, as it holds what is the user's: a sentence for each.
-  std::vector<std::string> leftovers;
-
-  std::vector<std::string> allRemarks() const
-  {
-    std::vector<std::string> all = remarks;
-    all.insert(all.end(), leftovers.begin(), leftovers.end());
-    return all;
-  }
 };
 
 } // namespace cactus

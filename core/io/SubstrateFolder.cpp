@@ -155,10 +155,11 @@ struct SharedRun
   const Recollection& known;
 };
 
-/// Makes the folders of these files, the outer ones first.
-void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
+/// Makes the folders of these files, the outer ones first, and lists the files.
+void prepare(const std::vector<SubstrateFile>& files, FolderWriter& writer)
 {
-  std::set<std::string> made;
+  std::set<std::string> made = writer.written().folders;
+  std::vector<std::string> paths;
   for (const SubstrateFile& file : files)
   {
     for (std::size_t end = file.path.find('/'); end != std::string::npos; end = file.path.find('/', end + 1))
@@ -168,7 +169,9 @@ void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
         writer.makeFolder(file.path.substr(0, end));
       }
     }
+    paths.push_back(file.path);
   }
+  writer.list(paths);
 }
 
 /// Writes each surface to its own file.
@@ -182,7 +185,7 @@ void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateF
     {
       const std::string comment = "CACTUS " CACTUS_VERSION ", " + files[i].surface + " surface of fibre " +
                                   std::to_string(files[i].fibreId) + ", micrometres";
-      checksums[i] = writer.folder().write(files[i].path, plyText(surfaces.mesh(i), comment, encoding));
+      checksums[i] = writer.put(files[i].path, plyText(surfaces.mesh(i), comment, encoding));
     },
     [&](std::size_t i) { return checksums[i]; }, [&](std::size_t i, const std::string& checksum) { checksums[i] = checksum; },
     "Writing surfaces", from, to);
@@ -254,7 +257,7 @@ void writeByBundle(const FibreSurfaces& surfaces, const std::vector<SubstrateFil
       const SubstrateFile& file = fileOf(i);
       const std::string comment =
         "CACTUS " CACTUS_VERSION ", " + file.surface + " surfaces of bundle " + std::to_string(file.bundleId) + ", micrometres";
-      checksums[i] = writeBundleSurfaces(inTurn[i]->surfaces, file.path, comment, encoding, writer.folder(), context);
+      checksums[i] = writeBundleSurfaces(inTurn[i]->surfaces, file.path, comment, encoding, writer, context);
     },
     [&](std::size_t i) { return checksums[i]; }, [&](std::size_t i, const std::string& checksum) { checksums[i] = checksum; },
     "Writing surfaces", from, to);
@@ -283,9 +286,9 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
     }
     return files;
   }
-  if (run.sharing.isFirst() && contents.format != SubstrateFormat::Reference) // it has surfaces of both kinds in one folder
+  if (run.sharing.isFirst())
   {
-    makeFolders(files, writer);
+    prepare(files, writer);
   }
   run.sharing.exchange();
   const auto write = contents.format == SubstrateFormat::Bundles ? &writeByBundle : &writeSeparately;
@@ -344,7 +347,8 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
   writer.write("README.txt", readmeText(contents, substrate));
-  writer.folder().writeBy(manifestName,
+  writer.list({ manifestName });
+  writer.putBy(manifestName,
     [&](const std::string& path)
     {
       AtomicFile manifest(path);
@@ -395,11 +399,6 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
   const double share =
     static_cast<double>(contents.outer.size()) / static_cast<double>(contents.outer.size() + contents.inner.size());
   const double between = judged + (1.0 - judged) * share;
-  if (contents.format == SubstrateFormat::Reference && run.sharing.isFirst())
-  {
-    writer.makeFolder("meshes");
-    writer.makeFolder("meshes/simulations");
-  }
   substrate.files = writeSurfaces(contents, "outer", substrate.certificate, writer, run, judged, between);
   const auto more = writeSurfaces(contents, "inner", substrate.certificate, writer, run, between, 1.0);
   substrate.files.insert(substrate.files.end(), more.begin(), more.end());
@@ -462,7 +461,6 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
   }
   writeTexts(contents, substrate, writer);
   replacement.commit(context);
-  substrate.leftovers = replacement.leftovers();
 }
 
 } // namespace
@@ -498,9 +496,8 @@ WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, c
       {
         replacement.emplace(folder, context);
       }
-      const std::string container = sharing.fromFirst(replacement ? replacement->staging().container().string() : std::string());
-      const StagingFolder joined(folder, container);
-      FolderWriter writer(replacement ? replacement->staging() : joined);
+      const std::string container = sharing.fromFirst(replacement ? replacement->container().string() : std::string());
+      FolderWriter writer(folder, container);
       substrate = judgeAndWrite(contents, writer, { context, sharing, known });
       if (sharing.isFirst())
       {

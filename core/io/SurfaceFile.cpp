@@ -3,8 +3,8 @@
 
 #include "base/AtomicFile.h"
 #include "base/Bytes.h"
-#include "base/Checkpoint.h"
 #include "base/Error.h"
+#include "base/Hash64.h"
 #include "base/PosixFile.h"
 #include "mesh/CappedSurface.h"
 
@@ -28,7 +28,7 @@ namespace cactus
 namespace
 {
 
-const std::string surfaceTitle = "CACTUS surface 2\n";
+const std::string surfaceTitle = "CACTUS surface 3\n";
 /// Reads as another number if the byte order differs.
 constexpr std::uint64_t orderOfBytes = 0x0102030405060708u;
 
@@ -49,7 +49,7 @@ std::string frontOf(const SurfaceFileOwner& owner)
 
 std::uint64_t checksumOf(const std::string& bytes, std::uint64_t before)
 {
-  return crc64(bytes.data(), bytes.size(), before);
+  return hash64(bytes.data(), bytes.size(), before);
 }
 
 std::uint64_t seedOf(const SurfaceFileOwner& owner)
@@ -60,7 +60,7 @@ std::uint64_t seedOf(const SurfaceFileOwner& owner)
 /// Returns a seed that distinguishes layers, and their entries, from each other.
 std::uint64_t seedOf(std::uint64_t before, std::uint64_t layer)
 {
-  return crc64(&layer, sizeof(layer), before);
+  return hash64(&layer, sizeof(layer), before);
 }
 
 /// The division of a surface into layers.

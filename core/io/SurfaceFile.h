@@ -23,7 +23,7 @@ struct SurfaceFileOwner
 /// Layout: title with the format number, a mark for the byte order, owner; the surface in layers along z, of 1 µm or more and 128
 /// triangles or more on average, each with the triangles whose lowest corners are in it and all their corners; for each layer its
 /// place, its highest corner, and the lowest layer that reaches it; the totals. A triangle takes about 17 bytes, or 25 if
-/// coordinates are not in single precision. Layers, their entries and the rest each have a CRC-64 that includes the owner's.
+/// coordinates are not in single precision. Layers, their entries and the rest each have a Hash64 that includes the owner's.
 ///
 /// Throws FileError, also if something else is at `path` already, or a file with another fingerprint.
 void writeSurface(const std::string& path, const SurfaceFileOwner& owner, const TriangleMesh& surface);

@@ -4,6 +4,10 @@
 #include "base/Bytes.h"
 #include "base/Checkpoint.h"
 #include "base/Error.h"
+#include "base/Hash64.h"
+
+#include <array>
+#include <string>
 
 namespace cactus
 {
@@ -19,33 +23,20 @@ constexpr int methodNumber = 1;
 /// that only say when to stop.
 std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
 {
-  Fingerprint print;
-  for (const char* c = CACTUS_VERSION; *c != 0; ++c)
-  {
-    print.add(static_cast<int>(*c));
-  }
-  print.add(methodNumber);
-  for (const double value : { options.overlapTolerance, options.overlapWeight, options.weights.curvature, options.weights.length,
-         options.weights.radius, options.weights.compactness, options.stepSize, options.momentum, options.smoothing,
-         options.relaxation, options.packingLimit, options.safetyMargin, options.radiusTolerance })
-  {
-    print.add(value);
-  }
-  print.add(static_cast<int>(options.method));
-  for (std::size_t f = 0; f < fibres.size(); ++f)
-  {
-    print.add(fibres.fibreIds[f]);
-    print.add(fibres.bundleIds[f]);
-    print.add(fibres.offsets[f + 1]);
-  }
-  for (std::size_t i = 0; i < fibres.points.size(); ++i)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      print.add(fibres.points[i][axis]);
-    }
-    print.add(fibres.radii[i]);
-  }
+  const std::string program = CACTUS_VERSION;
+  const std::array<double, 15> values{ double(methodNumber), options.overlapTolerance, options.overlapWeight,
+    options.weights.curvature, options.weights.length, options.weights.radius, options.weights.compactness, options.stepSize,
+    options.momentum, options.smoothing, options.relaxation, options.packingLimit, options.safetyMargin, options.radiusTolerance,
+    double(options.method) };
+  Hash64 print;
+  print.add(program.data(), program.size());
+  print.add(values.data(), sizeof(values));
+  const auto add = [&print](const auto& column) { print.add(column.data(), column.size() * sizeof(column[0])); };
+  add(fibres.fibreIds);
+  add(fibres.bundleIds);
+  add(fibres.offsets);
+  add(fibres.points);
+  add(fibres.radii);
   return print.value();
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Numbers.h"
-#include "base/Sha256.h"
+#include "base/PosixFile.h"
 #include "recipe/PropertyText.h"
 
 #include <algorithm>
@@ -204,13 +204,11 @@ private:
     {
       const std::string path = textOf(file, "path");
       std::error_code error;
-      const bool isFile = std::filesystem::is_regular_file(path, error);
-      const std::optional<std::string> checksum = isFile ? sha256OfFile(path) : std::nullopt;
-      if (!checksum)
+      if (!std::filesystem::is_regular_file(path, error))
       {
         throw InvalidInput(path + ", which it has read, is missing: put it back there");
       }
-      if (*checksum != textOf(file, "sha256"))
+      if (sha256OfFile(path) != textOf(file, "sha256"))
       {
         throw InvalidInput(path + ", which it has read, is another file than it was (its SHA-256 was " + textOf(file, "sha256") +
                            "): put the old one there");

@@ -339,7 +339,7 @@ private:
 
   void sayOfFolder(const WrittenSubstrate& written) const
   {
-    for (const std::string& sentence : written.allRemarks())
+    for (const std::string& sentence : written.remarks)
     {
       this->say(sentence);
     }

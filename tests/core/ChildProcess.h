@@ -9,13 +9,10 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
 #include <sched.h>
 #include <set>
 #include <string>
 #include <sys/mount.h>
-#include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -73,16 +70,6 @@ inline bool mountSmallDisk(const std::filesystem::path& folder, std::size_t byte
   }
   return ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
          ::mount("tmpfs", folder.c_str(), "tmpfs", 0, ("size=" + std::to_string(bytes)).c_str()) == 0;
-}
-
-/// For a child: makes renameat2 report that it is not supported, as on NFS.
-inline bool forbidExchange()
-{
-  sock_filter program[] = { BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_renameat2, 0, 1), BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EINVAL),
-    BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW) };
-  sock_fprog filter{ sizeof(program) / sizeof(program[0]), program };
-  return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
 enum class Fate

@@ -115,7 +115,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!asIs)
   {
     content.insert(0, method.whole.substr(0, frontBytes));
-    const std::uint64_t checksum = crc64(content.data(), content.size());
+    const std::uint64_t checksum = hash64(content.data(), content.size());
     content.append(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
   }
   std::ofstream(path(), std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));

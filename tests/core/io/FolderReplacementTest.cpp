@@ -62,8 +62,8 @@ std::string write(const fs::path& folder, double size = 1.0, int threads = 1)
   context.threads = threads;
   try
   {
-    const auto written = cactus::writeSubstrateFolder(contents, folder.string(), context);
-    return written.leftovers.empty() ? "" : written.leftovers.front();
+    cactus::writeSubstrateFolder(contents, folder.string(), context);
+    return "";
   }
   catch (const cactus::Error& error)
   {
@@ -204,7 +204,7 @@ TEST_F(FolderReplacement, KeepsWhatTheUserChangesMeanwhile)
 {
   ASSERT_EQ(write(this->Folder), "");
   cactus::FolderReplacement replacement(this->Folder.string());
-  replacement.staging().write("README.txt", "new");
+  cactus::FolderWriter(this->Folder, replacement.container()).write("README.txt", "new");
   put(this->Folder / "mcdc/intra.conf", "precious");
   EXPECT_THROW(replacement.commit(), cactus::FileError);
   EXPECT_EQ(contentOf(this->Folder / "mcdc/intra.conf"), "precious");
@@ -282,8 +282,8 @@ TEST_F(FolderReplacement, FindsItsPlace)
   EXPECT_TRUE(contains(write(this->Scratch / "round"), "Too many levels"));
   EXPECT_EQ(write(this->Scratch / "a/not UTF-8 \xff"), "");
   EXPECT_EQ(write(this->Scratch / "a/not UTF-8 \xff"), "");
-  const std::string longest(255, 'x');
-  EXPECT_EQ(write(this->Scratch / longest), "") << "the longest name that there is";
+  const std::string longest(255 - std::string(".partial").size(), 'x');
+  EXPECT_EQ(write(this->Scratch / longest), "") << "the longest name that .partial can be added to";
   EXPECT_EQ(write(this->Scratch / longest), "");
   EXPECT_TRUE(contains(write(this->Scratch / (longest + "x")), "too long"));
   EXPECT_TRUE(contains(write(std::string(5000, 'x')), "too long"));
@@ -292,7 +292,7 @@ TEST_F(FolderReplacement, FindsItsPlace)
   EXPECT_TRUE(contains(write("~"), "only a shell"));
   EXPECT_TRUE(contains(write("~/s"), "only a shell"));
   EXPECT_TRUE(contains(write("/"), "the folder that this program runs in"));
-  EXPECT_TRUE(contains(write("/usr"), "not a substrate folder"));
+  EXPECT_TRUE(contains(write("/usr"), ::geteuid() == 0 ? "not a substrate folder" : "Permission denied"));
   EXPECT_TRUE(contains(write("/proc"), "is where a file system is mounted"));
   EXPECT_TRUE(contains(write("/proc/s"), "cannot write folder"));
   put(this->Scratch / "file", "precious");
@@ -348,45 +348,21 @@ TEST_F(FolderReplacement, LeavesTheFolderItRunsIn)
   EXPECT_EQ(snapshot(here).count("absolute/manifest.json"), 1u);
 }
 
-// A simulation writes its results when it ends, into the folder that it was started in.
-TEST_F(FolderReplacement, LeavesAFolderInWhichAProgramRuns)
-{
-  ASSERT_EQ(write(this->Folder), "");
-  int ready[2];
-  ASSERT_EQ(::pipe(ready), 0);
-  const pid_t simulation = ::fork();
-  if (simulation == 0)
-  {
-    const bool moved = ::chdir((this->Folder / "mcdc").c_str()) == 0;
-    const bool told = ::write(ready[1], &moved, 1) == 1;
-    ::pause();
-    ::_exit(told ? 0 : 1);
-  }
-  bool moved = false;
-  EXPECT_EQ(::read(ready[0], &moved, 1), 1);
-  EXPECT_TRUE(moved);
-  this->expectRefused({ "(process " + std::to_string(simulation) + ") runs in it" });
-  EXPECT_EQ(write(this->Scratch / "s2"), "") << "another folder, whose name begins alike";
-  ::kill(simulation, SIGKILL);
-  ::waitpid(simulation, nullptr, 0);
-  ::close(ready[0]);
-  ::close(ready[1]);
-  EXPECT_EQ(write(this->Folder), "");
-}
-
-TEST_F(FolderReplacement, TakesSeveralWritersAtOnce)
+TEST_F(FolderReplacement, IsWrittenByOneProcessAtATime)
 {
   ASSERT_EQ(write(this->Folder), "");
   std::vector<std::thread> writers;
   std::vector<std::string> messages(4);
+  const std::string refusal = "cannot write folder " + this->Folder.string() + ": another process is writing it at this moment";
   for (std::size_t i = 0; i < messages.size(); ++i)
   {
     writers.emplace_back(
-      [this, i, &messages]
+      [this, i, &messages, &refusal]
       {
-        for (int round = 0; round < 25 && messages[i].empty(); ++round)
+        for (int round = 0; round < 25; ++round)
         {
-          messages[i] = write(this->Folder, 1.0 + static_cast<double>(i));
+          const std::string message = write(this->Folder, 1.0 + static_cast<double>(i));
+          messages[i] += contains(message, refusal) ? "" : message;
         }
       });
   }
@@ -452,24 +428,9 @@ TEST_F(FolderReplacement, LosesNothingWhereTheDiskIsFull)
   EXPECT_GE(refused, 5);
 }
 
-namespace
-{
-
-enum class System
-{
-  exchanges,
-  doesNotExchange
-};
-
-} // namespace
-
-class KilledReplacement : public FolderReplacement, public ::testing::WithParamInterface<System>
-{
-};
-
-// The writer is killed at every system call that changes files. The name refers to the former or the new folder, whole; if the
-// file system cannot exchange two folders, there may be none, and the next write first puts the former one back.
-TEST_P(KilledReplacement, LeavesAWholeFolder)
+// The writer is killed at every system call that changes files. The name refers to the former or the new folder, whole, or,
+// between the two, to none, and the next write first puts the former one back.
+TEST_F(FolderReplacement, LeavesAWholeFolderWhereverItIsKilled)
 {
   ASSERT_EQ(write(this->Folder, 2.0), "");
   const auto newer = snapshot(this->Folder);
@@ -480,14 +441,7 @@ TEST_P(KilledReplacement, LeavesAWholeFolder)
   int kills = 0;
   for (int call = 1;; ++call)
   {
-    const auto fate = cactus_testing::killedAtCall(call,
-      [this]
-      {
-        if (GetParam() == System::exchanges || cactus_testing::forbidExchange())
-        {
-          write(this->Folder, 2.0);
-        }
-      });
+    const auto fate = cactus_testing::killedAtCall(call, [this] { write(this->Folder, 2.0); });
     if (fate == cactus_testing::Fate::untraceable)
     {
       GTEST_SKIP() << "processes may not be traced here";
@@ -511,22 +465,15 @@ TEST_P(KilledReplacement, LeavesAWholeFolder)
     }
     ++kills;
   }
-  EXPECT_EQ(missing, GetParam() == System::exchanges ? 0 : 1);
+  EXPECT_EQ(missing, 1);
   EXPECT_GE(kills, 60);
 }
 
-TEST_P(KilledReplacement, LeavesNothingOfAFirstWrite)
+TEST_F(FolderReplacement, LeavesNothingOfAFirstWriteThatWasKilled)
 {
   for (int call = 1;; ++call)
   {
-    const auto fate = cactus_testing::killedAtCall(call,
-      [this]
-      {
-        if (GetParam() == System::exchanges || cactus_testing::forbidExchange())
-        {
-          write(this->Folder);
-        }
-      });
+    const auto fate = cactus_testing::killedAtCall(call, [this] { write(this->Folder); });
     if (fate == cactus_testing::Fate::untraceable)
     {
       GTEST_SKIP() << "processes may not be traced here";
@@ -542,54 +489,52 @@ TEST_P(KilledReplacement, LeavesNothingOfAFirstWrite)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(FileSystem, KilledReplacement, ::testing::Values(System::exchanges, System::doesNotExchange),
-  [](const auto& info) { return info.param == System::exchanges ? "Exchanges" : "DoesNotExchange"; });
-
 TEST_F(FolderReplacement, LeavesAloneWhatMayBeAnothers)
 {
-  put(this->Scratch / "s.partial-1234", "an early version's, or the user's");
-  fs::create_directory(this->Scratch / "s.partial-00000001-00000000");
-  put(this->Scratch / "s.partial-00000001-00000000/notes", "precious");
-  cactus::FolderReplacement living(this->Folder.string());
-  living.staging().makeFolder("outer");
-  living.staging().write("outer/fibre_00001.ply", "still being written");
-  const auto before = snapshot(this->Scratch);
-  ASSERT_EQ(write(this->Folder), "");
-  fs::remove_all(this->Folder);
-  EXPECT_EQ(snapshot(this->Scratch), before);
+  const fs::path beside = this->Scratch / "s.partial";
+  put(beside, "precious");
+  this->expectRefused({ "s.partial, in which it would be written, is there already, and not ours" });
+  fs::remove(beside);
+  fs::create_directory(beside);
+  put(beside / "notes", "precious");
+  this->expectRefused({ "s.partial, in which it would be written, is there already, and not ours" });
+  fs::remove(beside / "notes");
+  {
+    const cactus::FolderReplacement living(this->Folder.string());
+    cactus::FolderWriter(this->Folder, living.container()).write("README.txt", "still being written");
+    this->expectRefused({ "another process is writing it at this moment" });
+  }
+  EXPECT_EQ(this->entries(), Names());
 }
 
-// A process was killed after the exchange, and then its user worked in the folder that it had not yet removed.
+// A process was killed while it wrote, or before it had removed the former folder, and then its user worked in what it left.
 TEST_F(FolderReplacement, NamesWhatItKeeps)
 {
-  ASSERT_EQ(write(this->Folder), "");
-  fs::path kept;
-  for (int call = 1; kept.empty(); ++call)
+  const fs::path beside = this->Scratch / "s.partial";
+  const auto killedWith = [&](const std::string& place)
   {
-    const auto fate = cactus_testing::killedAtCall(call, [this] { write(this->Folder, 2.0); });
-    if (fate != cactus_testing::Fate::killed)
+    fs::remove_all(beside);
+    EXPECT_EQ(write(this->Folder), "");
+    auto fate = cactus_testing::Fate::killed;
+    for (int call = 1; fate == cactus_testing::Fate::killed && !(fs::exists(this->Folder) && fs::exists(beside / place)); ++call)
     {
-      GTEST_SKIP() << "processes may not be traced here";
+      EXPECT_EQ(write(this->Folder), "");
+      fate = cactus_testing::killedAtCall(call, [this] { write(this->Folder, 2.0); });
     }
-    for (const std::string& name : this->entries())
-    {
-      const fs::path there = this->Scratch / name / "substrate";
-      if (name != "s" && fs::exists(there / "manifest.json"))
-      {
-        kept = there;
-      }
-    }
-    if (kept.empty())
-    {
-      ASSERT_EQ(write(this->Folder), "");
-    }
+    return fate == cactus_testing::Fate::killed;
+  };
+  if (!killedWith("substrate/mcdc/intra.conf"))
+  {
+    GTEST_SKIP() << "processes may not be traced here";
   }
-  put(kept / "mcdc/intra.conf", "precious");
-  const auto before = snapshot(kept);
-  const std::string message = write(this->Folder);
-  EXPECT_TRUE(contains(message, "is kept, as it holds files that were changed")) << message;
-  EXPECT_TRUE(contains(message, kept.string())) << message;
-  EXPECT_EQ(snapshot(kept), before);
-  fs::remove_all(kept.parent_path());
+  put(beside / "substrate/mcdc/mine.conf", "precious");
+  EXPECT_TRUE(contains(write(this->Folder), "s.partial, which an earlier write has left, holds other data (mcdc/mine.conf)"));
+  EXPECT_EQ(contentOf(beside / "substrate/mcdc/mine.conf"), "precious");
+  ASSERT_TRUE(killedWith("former/mcdc/intra.conf"));
+  put(beside / "former/mcdc/intra.conf", "precious");
+  const auto before = snapshot(beside);
+  EXPECT_TRUE(contains(write(this->Folder), "s.partial, which an earlier write has left, holds files that were changed"));
+  EXPECT_EQ(snapshot(beside), before);
+  fs::remove_all(beside);
   EXPECT_EQ(write(this->Folder), "");
 }

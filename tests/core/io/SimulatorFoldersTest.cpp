@@ -173,7 +173,7 @@ TEST_F(SimulatorFolders, McmrSimulatorHasItsGeometry)
 {
   this->takePlates(1.0, 0.5);
   this->Contents.startPositions = 5;
-  EXPECT_TRUE(this->write(cactus::SubstrateFormat::Mcmr).allRemarks().empty());
+  EXPECT_TRUE(this->write(cactus::SubstrateFormat::Mcmr).remarks.empty());
   const auto groups = cactus::parsedJson(contentOf(this->Scratch / "s/geometry.json"));
   ASSERT_TRUE(groups && groups->is_array() && groups->size() == 5);
   const double volumes[] = { 2 * 100 * 4.0, 2 * 64 * 2.0 };

@@ -6,7 +6,6 @@
 #include "ScratchPath.h"
 #include "base/Error.h"
 #include "io/CombinedSurfaces.h"
-#include "io/FolderInspection.h"
 #include "io/PlyFile.h"
 
 #include <gtest/gtest.h>
@@ -233,7 +232,7 @@ TEST_F(SubstrateFolder, HasAFileForEachBundle)
 }
 
 // With more than a thousand fibres each folder holds at most a thousand files. MC/DC's lists have the new paths, and the folder
-// is recognised as ours: it is replaced, and the leftovers of an interrupted writing are removed.
+// is recognised as ours, and replaced.
 TEST_F(SubstrateFolder, HasFoldersForEachThousandOfMany)
 {
   std::vector<int> ids(1001);
@@ -257,11 +256,6 @@ TEST_F(SubstrateFolder, HasFoldersForEachThousandOfMany)
   EXPECT_EQ(this->write(this->Scratch / "s"), "") << "is replaced";
   std::ofstream(this->Scratch / "s/outer/00001/mine.ply") << "mine";
   EXPECT_NE(this->write(this->Scratch / "s").find("outer/00001/mine.ply"), std::string::npos);
-  fs::remove(this->Scratch / "s/outer/00001/mine.ply");
-  fs::remove(this->Scratch / "s/manifest.json");
-  const cactus::FolderInspection ended = cactus::inspectFolder(this->Scratch / "s");
-  EXPECT_TRUE(ended.asWritten()) << ended.added.size();
-  EXPECT_TRUE(cactus::removeInspected(this->Scratch / "s", ended));
 }
 
 // A listing of a folder, and of what a shell makes of *.ply, has files in the order of their ids, also above 99,999.
@@ -478,33 +472,7 @@ TEST_F(SubstrateFolder, LeavesNothingBehindWhereItFails)
   EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"closed\": false"), std::string::npos);
 }
 
-// The leftovers of a killed writer are recognised as its own, in any format: otherwise they would stay for ever as the user's.
-TEST_F(SubstrateFolder, KnowsAllItsFilesWithoutTheManifest)
-{
-  const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2, 70000 });
-  this->Contents.fibres = &fibres;
-  this->Contents.outer = surfacesOf({ 2, 70000 }, { tetrahedron(13.0), tetrahedron(14.0) });
-  this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(8.0) });
-  this->Contents.voxelSize = 0.5;
-  this->Contents.startPositions = 1;
-  for (const auto format : { cactus::SubstrateFormat::Mcdc, cactus::SubstrateFormat::Reference, cactus::SubstrateFormat::Camino,
-         cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms, cactus::SubstrateFormat::Surfaces,
-         cactus::SubstrateFormat::SpinDoctor, cactus::SubstrateFormat::Bundles, cactus::SubstrateFormat::Mcmr })
-  {
-    this->Contents.format = format;
-    const fs::path folder = this->Scratch / std::to_string(int(format));
-    EXPECT_EQ(this->write(folder), "");
-    fs::remove(folder / "manifest.json");
-    const auto found = cactus::inspectFolder(folder, {}, {});
-    EXPECT_FALSE(found.isFinished);
-    EXPECT_EQ(found.added, std::vector<std::string>{}) << int(format);
-    EXPECT_GT(found.files.size(), 5u);
-    std::ofstream(folder / "notes.txt") << "mine";
-    EXPECT_EQ(cactus::inspectFolder(folder, {}, {}).added, std::vector<std::string>{ "notes.txt" });
-  }
-}
-
-// A file without a name in the format counts as the user's, and would stay.
+// A file that a format writes without listing it counts as the user's, and would stay.
 TEST_F(SubstrateFolder, StopsAtAnyTimeWithoutATraceInAnyFormat)
 {
   const cactus::Fibres fibres = fibresAcross(this->Contents.domain, { 2 });
