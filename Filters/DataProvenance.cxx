@@ -180,6 +180,16 @@ std::vector<std::pair<std::string, std::vector<DataOrigin>>> originsOf(vtkAlgori
   return origins;
 }
 
+std::string checksumsOf(vtkDataObject* data)
+{
+  std::string checksums;
+  for (vtkDataObject* leaf : leavesOf(data))
+  {
+    checksums += checksumOfData(leaf) + ' ';
+  }
+  return checksums;
+}
+
 bool areAsMade(vtkDataObject* data)
 {
   return isAsMade(originOf(data));

@@ -28,6 +28,9 @@ Provenance recordOf(vtkAlgorithm* self, const std::string& filter, const Stage& 
   return provenanceOf({ filter, Stage::properties().states(stage), std::move(reached), {}, originsOf(self, ports) });
 }
 
+/// Returns the checksums that identify our data, or all parts of them: their points, and the arrays that later stages use.
+std::string checksumsOf(vtkDataObject* data);
+
 /// Tells whether data, or all parts of them, are unchanged since their last recorded stage.
 bool areAsMade(vtkDataObject* data);
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -87,6 +88,21 @@ template <typename Stage>
 const Stage& stageOf(const std::unique_ptr<FilterProperties>& properties)
 {
   return dynamic_cast<const StageProperties<Stage>&>(*properties).values();
+}
+
+/// Returns the properties that a result depends on, but those in `others`: a line each.
+template <typename Stage>
+std::string valuesForResult(const Stage& stage, const std::set<std::string>& others = {})
+{
+  std::string values;
+  for (const PropertyState& state : Stage::properties().states(stage))
+  {
+    if (state.facts->use != PropertyUse::Run && others.count(state.facts->name) == 0)
+    {
+      values += state.facts->name + ' ' + valueText(*state.facts, state.value) + '\n';
+    }
+  }
+  return values;
 }
 
 } // namespace cactus

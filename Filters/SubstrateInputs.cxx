@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SubstrateInputs.h"
 
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "SurfaceData.h"
 #include "base/Error.h"
@@ -87,6 +88,20 @@ SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, i
       "surfaces as Outer and Inner");
   }
   return data;
+}
+
+Sharing sharingOf(const SubstrateData& data, const std::string& order, const Sharing& all)
+{
+  if (all.size() == 1)
+  {
+    return all;
+  }
+  std::string given = order;
+  for (vtkDataObject* one : { data.outer, data.inner, data.fibres })
+  {
+    given += (one != nullptr ? checksumsOf(one) : "none") + '\n';
+  }
+  return all.areAlike(given) ? all : Sharing();
 }
 
 Substrate substrateFrom(const SubstrateData& data)

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "base/Domain.h"
+#include "base/Sharing.h"
 #include "fibres/Fibres.h"
 #include "mesh/FibreSurfaces.h"
 
 #include <optional>
+#include <string>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -34,6 +36,10 @@ SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, 
 /// connected as `Outer`, these are measured, with the data that substrateDataOf() finds. Throws InvalidInput if it finds no
 /// fibres.
 SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, int innerPort);
+
+/// Returns all ranks if they were given the same data and the same `order`, and then they share the work; this rank alone if not,
+/// as where a source has data on the first rank only. Collective.
+Sharing sharingOf(const SubstrateData& data, const std::string& order, const Sharing& all);
 
 /// The converted data.
 struct Substrate

@@ -6,6 +6,7 @@
 #include "FilterSupport.h"
 #include "InputBlocks.h"
 #include "LabelImageData.h"
+#include "RankTeam.h"
 #include "StageProperties.h"
 #include "SubstrateInputs.h"
 #include "SurfaceData.h"
@@ -13,8 +14,11 @@
 #include "SurfaceTable.h"
 #include "VtkMeshing.h"
 #include "WholeData.h"
+#include "base/Bytes.h"
 #include "base/Error.h"
+#include "base/EvenParts.h"
 #include "base/Numbers.h"
+#include "base/Sharing.h"
 #include "judge/SurfaceFaults.h"
 #include "mesh/SurfaceStore.h"
 #include "stages/Stages.h"
@@ -22,6 +26,7 @@
 #include "surface/SurfaceRemarks.h"
 
 #include <vtkCellData.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -31,9 +36,11 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <set>
 #include <string>
@@ -64,20 +71,8 @@ void releaseImage(vtkAlgorithm* consumer)
   }
 }
 
-/// Returns the properties that outer surfaces depend on besides the image: all but those of g-ratios.
-std::string outerDemandOf(const cactus::MyelinSurfaceStage& stage)
-{
-  static const std::set<std::string> ofInner = { "GRatioModel", "GRatio", "GRatioDeviation", "TargetAxonVolumeFraction", "Seed" };
-  cactus::TextStream demand;
-  for (const cactus::PropertyState& state : cactus::MyelinSurfaceStage::properties().states(stage))
-  {
-    if (state.facts->use != cactus::PropertyUse::Run && ofInner.count(state.facts->name) == 0)
-    {
-      demand << state.facts->name << ' ' << cactus::valueText(*state.facts, state.value) << '\n';
-    }
-  }
-  return demand.str();
-}
+/// The properties that outer surfaces do not depend on.
+const std::set<std::string> ofInner = { "GRatioModel", "GRatio", "GRatioDeviation", "TargetAxonVolumeFraction", "Seed" };
 
 /// A source of fibres' surfaces from an output.
 class OutputSurfaces : public cactus::SurfaceSource
@@ -117,11 +112,37 @@ void giveOut(std::vector<cactus::FibreSurfacePair>& fibres, cactus::TriangleMesh
   cactus::toPolyData(std::move(surfaces), kind, output);
 }
 
+/// Tells whether each rank of several was asked for a piece of its own, as by a view.
+bool isAskedForOwnPiece(vtkInformation* request, vtkInformationVector* outputs, const cactus::Sharing& sharing)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const int from = request->Has(vtkExecutive::FROM_OUTPUT_PORT()) ? request->Get(vtkExecutive::FROM_OUTPUT_PORT()) : 0;
+  vtkInformation* info = outputs->GetInformationObject(std::max(from, 0));
+  return sharing.size() > 1 && info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == sharing.size() &&
+         info->Get(Pipeline::UPDATE_PIECE_NUMBER()) == sharing.place();
+}
+
+/// Copies the surfaces of the fibres with ids from `first` to `last`.
+void copyPart(vtkPolyData* whole, int kind, int first, int last, vtkPolyData* part)
+{
+  const cactus::FibreSurfaces surfaces = cactus::surfacesFrom(whole, kind == 0 ? "Outer" : "Inner", kind);
+  std::vector<cactus::NamedSurface> named;
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    if (surfaces.fibreIds[i] >= first && surfaces.fibreIds[i] <= last)
+    {
+      named.push_back({ surfaces.fibreIds[i], surfaces.bundleIds[i], surfaces.mesh(i) });
+    }
+  }
+  cactus::toPolyData(std::move(named), kind, part);
+  part->GetFieldData()->ShallowCopy(whole->GetFieldData());
+}
+
 /// Fills the table, and adds facts for the certificate and the user.
 void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, double minimumGap, const cactus::Domain& domain,
-  const cactus::Provenance& provenance, vtkInformationVector* outputs)
+  const cactus::Provenance& provenance, vtkPolyData* outer, vtkPolyData* inner, vtkTable* table)
 {
-  cactus::fillSurfaceTable(vtkTable::GetData(outputs, 2), fibres);
+  cactus::fillSurfaceTable(table, fibres);
   std::vector<int> wanted;
   for (const auto& fibre : fibres)
   {
@@ -130,12 +151,13 @@ void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, double
       wanted.push_back(fibre.fibreId);
     }
   }
-  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 0), wanted, minimumGap);
-  cactus::setSurfaceFacts(vtkDataObject::GetData(outputs, 1), {}, minimumGap);
-  for (int port = 0; port < 3; ++port)
+  cactus::setSurfaceFacts(outer, wanted, minimumGap);
+  cactus::setSurfaceFacts(inner, {}, minimumGap);
+  int port = 0;
+  for (vtkDataObject* output : std::initializer_list<vtkDataObject*>{ outer, inner, table })
   {
-    cactus::setDomain(vtkDataObject::GetData(outputs, port), domain);
-    cactus::setProvenance(vtkDataObject::GetData(outputs, port), provenance, port);
+    cactus::setDomain(output, domain);
+    cactus::setProvenance(output, provenance, port++);
   }
 }
 
@@ -147,6 +169,35 @@ struct vtkMyelinSurface::KeptOuter
   std::string demand;
   std::vector<cactus::FibreSurfacePair> fibres; ///< as SurfaceMaker::makeOuter() left them
   vtkNew<vtkPolyData> surfaces;                 ///< shares the output's arrays
+};
+
+struct vtkMyelinSurface::Result
+{
+  vtkMTimeType parameterTime = 0;
+  vtkMTimeType inputTime = 0;
+  vtkNew<vtkPolyData> outer;
+  vtkNew<vtkPolyData> inner;
+  vtkNew<vtkTable> table;
+  // Ids of the fibres in the piece of this rank.
+  int first = 1;
+  int last = 0;
+
+  /// Splits the fibres among the ranks.
+  void split(const std::vector<cactus::FibreSurfacePair>& fibres, const cactus::Sharing& sharing)
+  {
+    std::vector<double> triangles;
+    for (const auto& fibre : fibres)
+    {
+      triangles.push_back(double(fibre.outerReport.triangles + fibre.innerReport.triangles));
+    }
+    const std::vector<std::size_t> begins = cactus::evenParts(triangles, std::size_t(sharing.size()));
+    const auto place = std::size_t(sharing.place());
+    if (begins[place] < begins[place + 1])
+    {
+      this->first = fibres[begins[place]].fibreId;
+      this->last = fibres[begins[place + 1] - 1].fibreId;
+    }
+  }
 };
 
 vtkMyelinSurface::vtkMyelinSurface()
@@ -183,69 +234,106 @@ int vtkMyelinSurface::ComputePipelineMTime(
 
 int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  return cactus::guarded(this,
+  cactus::RankTeam ranks;
+  const cactus::Sharing sharing(&ranks);
+  return cactus::guarded(this, sharing,
     [&]
     {
-      const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
-      cactus::validateProperties(stage);
-      const cactus::Context context = cactus::contextFor(this, stage.threads);
-      cactus::MyelinSurfaceOptions options = stage.options;
-      const bool byVtk = stage.meshing == cactus::Meshing::Vtk;
-      if (byVtk)
+      auto* input = vtkDataObject::GetData(inputs[0]);
+      // On several ranks what is made is kept: some ask for pieces, others for everything.
+      if (!sharing.isEverywhere(this->Made != nullptr && this->Made->parameterTime == this->GetMTime() &&
+                                this->Made->inputTime == cactus::changeTime(input)))
       {
-        options.smoothingIterations = 0;
-        options.decimationError = 0.0;
-        options.minimumAngle = 0.0;
+        this->Made.reset();
+        sharing.together([&] { this->make(input, sharing); });
       }
-      cactus::validate(options);
-      auto* image = cactus::requireImage(vtkDataObject::GetData(inputs[0]));
-      this->Fibres = cactus::fibresOfImage(this, 0);
-      if (!cactus::ownsWholeOutput(request, outputs))
+      auto* outer = vtkPolyData::GetData(outputs, 0);
+      auto* inner = vtkPolyData::GetData(outputs, 1);
+      if (isAskedForOwnPiece(request, outputs, sharing))
       {
-        if (stage.releaseInput)
-        {
-          releaseImage(this); // this rank has also grown it
-        }
-        return;
+        copyPart(this->Made->outer, 0, this->Made->first, this->Made->last, outer);
+        copyPart(this->Made->inner, 1, this->Made->first, this->Made->last, inner);
       }
-      const cactus::LabelImageInput labels = cactus::labelImageFrom(image);
-      const cactus::LabelImageFacts& facts = labels.facts;
-      cactus::SurfaceFilters filters;
-      if (byVtk)
+      else if (cactus::ownsWholeOutput(request, outputs))
       {
-        filters = cactus::surfaceFiltersOfVtk(stage.vtkMeshing, labels.view.grid.spacing);
+        outer->ShallowCopy(this->Made->outer);
+        inner->ShallowCopy(this->Made->inner);
       }
-      cactus::SurfaceMaker maker(
-        std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context, byVtk ? &filters : nullptr);
-      auto fibres = this->makeSurfaces(maker, cactus::changeTime(image), vtkPolyData::GetData(outputs, 0));
-      const cactus::Domain domain = options.clipToDomain ? maker.box() : facts.domain; // of an image that was cut
-      if (byVtk)
+      if (cactus::ownsWholeOutput(request, outputs))
       {
-        cactus::markFaults(fibres, domain, facts.minimumGap, context);
+        vtkTable::GetData(outputs, 2)->ShallowCopy(this->Made->table);
       }
-      const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
-      const std::string remarks = cactus::notAsAsked(fibres, labels.view.grid.spacing, facts, byVtk);
-      if (stage.releaseInput)
+      if (sharing.size() == 1)
       {
-        releaseImage(this);
-      }
-      giveOut(fibres, &cactus::FibreSurfacePair::inner, 1, vtkPolyData::GetData(outputs, 1));
-      addSurfaceFacts(fibres, facts.minimumGap, domain, provenance, outputs);
-      if (!remarks.empty())
-      {
-        vtkWarningMacro(<< remarks);
+        this->Made.reset();
       }
     });
 }
 
-std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
-  cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output)
+void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing)
 {
   const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
-  const std::string demand = outerDemandOf(stage);
+  cactus::validateProperties(stage);
+  const cactus::Context context = cactus::contextFor(this, stage.threads);
+  cactus::MyelinSurfaceOptions options = stage.options;
+  const bool byVtk = stage.meshing == cactus::Meshing::Vtk;
+  if (byVtk)
+  {
+    options.smoothingIterations = 0;
+    options.decimationError = 0.0;
+    options.minimumAngle = 0.0;
+  }
+  cactus::validate(options);
+  auto* image = cactus::requireImage(input);
+  this->Fibres = cactus::fibresOfImage(this, 0);
+  const cactus::LabelImageInput labels = cactus::labelImageFrom(image);
+  const cactus::LabelImageFacts& facts = labels.facts;
+  if (sharing.size() > 1)
+  {
+    cactus::require(
+      sharing.areAlike(cactus::checksumsOf(image) + cactus::bytesOf(facts.fibreIds) + cactus::valuesForResult(stage)),
+      "the ranks were given different label images or properties, and cannot share the work: give all of them the same");
+  }
+  cactus::SurfaceFilters filters;
+  if (byVtk)
+  {
+    filters = cactus::surfaceFiltersOfVtk(stage.vtkMeshing, labels.view.grid.spacing);
+  }
+  auto made = std::make_unique<Result>();
+  made->inputTime = cactus::changeTime(image);
+  cactus::SurfaceMaker maker(std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context,
+    byVtk ? &filters : nullptr, nullptr, sharing);
+  auto fibres = this->makeSurfaces(maker, made->inputTime, made->outer, sharing);
+  const cactus::Domain domain = options.clipToDomain ? maker.box() : facts.domain; // of an image that was cut
+  if (byVtk)
+  {
+    cactus::markFaults(fibres, domain, facts.minimumGap, context);
+  }
+  const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
+  const std::string remarks = cactus::notAsAsked(fibres, labels.view.grid.spacing, facts, byVtk);
+  if (stage.releaseInput)
+  {
+    releaseImage(this);
+  }
+  made->split(fibres, sharing);
+  giveOut(fibres, &cactus::FibreSurfacePair::inner, 1, made->inner);
+  addSurfaceFacts(fibres, facts.minimumGap, domain, provenance, made->outer, made->inner, made->table);
+  made->parameterTime = this->GetMTime(); // only now: being stopped modifies the filter
+  this->Made = std::move(made);
+  if (!remarks.empty() && sharing.isFirst())
+  {
+    vtkWarningMacro(<< remarks);
+  }
+}
+
+std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
+  cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output, const cactus::Sharing& sharing)
+{
+  const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
+  const std::string demand = cactus::valuesForResult(stage, ofInner);
   const std::size_t count = maker.fibres().size();
   cactus::SurfacesInMemory inner(count);
-  if (this->Kept == nullptr || this->Kept->inputTime != inputTime || this->Kept->demand != demand)
+  if (!sharing.isEverywhere(this->Kept != nullptr && this->Kept->inputTime == inputTime && this->Kept->demand == demand))
   {
     this->Kept.reset(); // a failing run leaves nothing behind
     cactus::SurfacesInMemory outer(count);

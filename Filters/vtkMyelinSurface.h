@@ -20,7 +20,9 @@
  * Outer surfaces do not depend on g-ratios. They are kept, and not made again if only GRatioModel, GRatio, GRatioDeviation,
  * TargetAxonVolumeFraction or Seed changes.
  *
- * The whole image is needed at once. If the pipeline runs on several ranks, the first one gives the result.
+ * On several ranks each makes the surfaces of its fibres from the whole image, which all need. They then have all surfaces, the
+ * same as on one rank. If each is asked for its piece, it gives consecutive fibres with about the same number of triangles, and
+ * the first gives the table; if each is asked for everything, as by the filters that judge and write, it gives all.
  */
 #ifndef vtkMyelinSurface_h
 #define vtkMyelinSurface_h
@@ -37,6 +39,7 @@
 
 namespace cactus
 {
+class Sharing;
 class SurfaceMaker;
 struct FibreSurfacePair;
 } // namespace cactus
@@ -87,6 +90,8 @@ public:
   /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
+  CACTUS_ABORT_IS_NO_CHANGE
+
 protected:
   vtkMyelinSurface();
   ~vtkMyelinSurface() override;
@@ -101,12 +106,18 @@ private:
 
   /// Outer surfaces of an earlier run, and their inputs.
   struct KeptOuter;
+  /// All surfaces, and what they were made for.
+  struct Result;
 
+  /// Makes `Made`. Collective.
+  void make(vtkDataObject* input, const cactus::Sharing& sharing);
   /// Makes all surfaces, or reuses the outer ones that are kept. Puts the outer ones into `output`, and returns the inner ones.
-  std::vector<cactus::FibreSurfacePair> makeSurfaces(cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output);
+  std::vector<cactus::FibreSurfacePair> makeSurfaces(
+    cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output, const cactus::Sharing& sharing);
 
   std::unique_ptr<cactus::FilterProperties> Properties;
   std::unique_ptr<KeptOuter> Kept;
+  std::unique_ptr<Result> Made;
   vtkSmartPointer<vtkDataObject> Fibres;
 };
 

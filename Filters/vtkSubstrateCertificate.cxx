@@ -4,10 +4,12 @@
 #include "Columns.h"
 #include "DataProvenance.h"
 #include "FilterSupport.h"
+#include "RankTeam.h"
 #include "StageProperties.h"
 #include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
+#include "base/Sharing.h"
 #include "judge/CertificateTables.h"
 #include "judge/SubstrateCertificate.h"
 #include "stages/Stages.h"
@@ -79,35 +81,45 @@ int vtkSubstrateCertificate::ComputePipelineMTime(
 
 int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  return cactus::guarded(this,
-    [&]
-    {
-      const auto& stage = cactus::stageOf<cactus::SubstrateCertificateStage>(this->Properties);
-      cactus::validateProperties(stage);
-      if (!cactus::ownsWholeOutput(request, outputs))
-      {
-        return; // one rank measures; otherwise the tables of all ranks would be joined into rows that repeat
-      }
-      const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
-      const auto certificate = cactus::certify(substrate.domain, substrate.outer, substrate.inner, substrate.fibresOrNull(),
-        stage.options, cactus::contextFor(this, stage.threads));
-      if (!certificate.certified())
-      {
-        vtkWarningMacro(<< "the substrate is not certified: " << certificate.verdict());
-      }
-      else if (!certificate.remarks.empty())
-      {
-        vtkWarningMacro(<< certificate.remarks.front());
-      }
-      fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
-      fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
-      fill(vtkTable::GetData(outputs, 2), cactus::certificateLines(certificate));
-      const auto provenance = cactus::recordOf(this, "SubstrateCertificate", stage, { "Outer", "Inner", "Fibres" });
-      for (int port = 0; port < 3; ++port)
-      {
-        cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
-      }
-    });
+  cactus::RankTeam ranks;
+  const cactus::Sharing all(&ranks);
+  const bool isAsked = cactus::ownsWholeOutput(request, outputs);
+  return cactus::guarded(this, all, [&] { all.together([&] { this->judge(all, isAsked, outputs); }); });
+}
+
+void vtkSubstrateCertificate::judge(const cactus::Sharing& all, bool isAsked, vtkInformationVector* outputs)
+{
+  const auto& stage = cactus::stageOf<cactus::SubstrateCertificateStage>(this->Properties);
+  cactus::validateProperties(stage);
+  const cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, 2);
+  const cactus::Sharing sharing = cactus::sharingOf(data, cactus::valuesForResult(stage), all);
+  if (sharing.size() == 1 && !isAsked)
+  {
+    return;
+  }
+  const cactus::Substrate substrate = cactus::substrateFrom(data);
+  const auto certificate = cactus::certify(substrate.domain, substrate.outer, substrate.inner, substrate.fibresOrNull(),
+    stage.options, cactus::contextFor(this, stage.threads), sharing);
+  if (!isAsked)
+  {
+    return; // the tables of all ranks would be joined into rows that repeat
+  }
+  if (!certificate.certified() && all.isFirst())
+  {
+    vtkWarningMacro(<< "the substrate is not certified: " << certificate.verdict());
+  }
+  else if (!certificate.remarks.empty() && all.isFirst())
+  {
+    vtkWarningMacro(<< certificate.remarks.front());
+  }
+  fill(vtkTable::GetData(outputs, 0), cactus::substrateColumns(certificate));
+  fill(vtkTable::GetData(outputs, 1), cactus::fibreColumns(certificate));
+  fill(vtkTable::GetData(outputs, 2), cactus::certificateLines(certificate));
+  const auto provenance = cactus::recordOf(this, "SubstrateCertificate", stage, { "Outer", "Inner", "Fibres" });
+  for (int port = 0; port < 3; ++port)
+  {
+    cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
+  }
 }
 
 void vtkSubstrateCertificate::PrintSelf(ostream& os, vtkIndent indent)

@@ -14,6 +14,8 @@
  * A substrate is certified if every surface is a closed, outward 2-manifold that does not meet itself, no two outer surfaces meet
  * or lie inside one another, every inner surface lies strictly inside its outer one, and no two fibres are nearer than
  * MinimumGap. All of this is decided by exact predicates (Shewchuk 1997); touching counts as meeting.
+ *
+ * Ranks that were given the same surfaces share the work, and the first gives the tables.
  */
 #ifndef vtkSubstrateCertificate_h
 #define vtkSubstrateCertificate_h
@@ -22,6 +24,11 @@
 #include "FilterProperties.h"
 
 #include <vtkTableAlgorithm.h>
+
+namespace cactus
+{
+class Sharing;
+}
 
 class CACTUSFILTERS_EXPORT vtkSubstrateCertificate : public vtkTableAlgorithm
 {
@@ -37,6 +44,8 @@ public:
   /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
   int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
 
+  CACTUS_ABORT_IS_NO_CHANGE
+
 protected:
   vtkSubstrateCertificate();
   ~vtkSubstrateCertificate() override = default;
@@ -47,6 +56,9 @@ protected:
 private:
   vtkSubstrateCertificate(const vtkSubstrateCertificate&) = delete;
   void operator=(const vtkSubstrateCertificate&) = delete;
+
+  /// Judges the surfaces, and fills the tables where they are asked for. Collective.
+  void judge(const cactus::Sharing& all, bool isAsked, vtkInformationVector* outputs);
 
   std::unique_ptr<cactus::FilterProperties> Properties;
 };

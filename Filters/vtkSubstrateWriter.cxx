@@ -5,11 +5,13 @@
 #include "FilterSupport.h"
 #include "InputBlocks.h"
 #include "PlacementData.h"
+#include "RankTeam.h"
 #include "StageProperties.h"
 #include "SubstrateFileTable.h"
 #include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Numbers.h"
+#include "base/Sharing.h"
 #include "io/SubstrateFolder.h"
 #include "stages/StageWork.h"
 
@@ -24,6 +26,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkSubstrateWriter);
 
@@ -71,36 +74,39 @@ int vtkSubstrateWriter::ComputePipelineMTime(
 
 int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  cactus::attempt(this,
+  cactus::RankTeam ranks;
+  const cactus::Sharing all(&ranks);
+  cactus::attempt(this, all,
     [&]
     {
-      cactus::validateProperties(cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties));
-      if (!cactus::ownsWholeOutput(request, outputs))
+      if (!all.isEverywhere(this->Kept.isWritten(this)))
       {
-        return;
+        all.together([&] { this->WriteFolder(all); });
+        this->Kept.noteWritten(this, newestInput(this));
       }
-      auto* table = vtkTable::GetData(outputs);
-      if (this->Kept.isWritten(this))
+      const std::string remark = this->Kept.remark(this->GetFolderName(), newestInput(this));
+      if (!remark.empty() && all.isFirst())
       {
-        const std::string remark = this->Kept.remark(this->GetFolderName(), newestInput(this));
-        if (!remark.empty())
-        {
-          vtkWarningMacro(<< remark);
-        }
-        table->ShallowCopy(this->WrittenFiles);
-        return;
+        vtkWarningMacro(<< remark);
       }
-      this->WriteFolder(table);
-      this->WrittenFiles->ShallowCopy(table);
-      this->Kept.noteWritten(this, newestInput(this));
+      if (cactus::ownsWholeOutput(request, outputs))
+      {
+        vtkTable::GetData(outputs)->ShallowCopy(this->WrittenFiles);
+      }
     });
   return 1;
 }
 
-void vtkSubstrateWriter::WriteFolder(vtkTable* files)
+void vtkSubstrateWriter::WriteFolder(const cactus::Sharing& all)
 {
   const auto& stage = cactus::stageOf<cactus::SubstrateWriterStage>(this->Properties);
+  cactus::validateProperties(stage);
   const cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, 2);
+  const cactus::Sharing sharing = cactus::sharingOf(data, stage.folderName + '\n' + cactus::valuesForResult(stage), all);
+  if (sharing.size() == 1 && !all.isFirst())
+  {
+    return;
+  }
   cactus::Substrate substrate = cactus::substrateFrom(data);
   cactus::SubstrateFolderContents contents;
   contents.placement = cactus::placementOf(data.outer);
@@ -110,17 +116,18 @@ void vtkSubstrateWriter::WriteFolder(vtkTable* files)
   contents.fibres = substrate.fibresOrNull();
   contents.provenance = cactus::recordOf(this, "SubstrateWriter", stage, { "Outer", "Inner", "Fibres" });
   cactus::setWriterOptions(stage, contents);
-  const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads));
-  if (!written.certificate.certified())
+  const auto written = cactus::writeSubstrateFolder(contents, stage.folderName, cactus::contextFor(this, stage.threads), sharing);
+  if (!written.certificate.certified() && all.isFirst())
   {
     vtkWarningMacro(<< "the substrate in " << stage.folderName << " is not certified: " << written.certificate.verdict());
   }
-  for (const std::string& sentence : written.remarks)
+  for (const std::string& sentence : all.isFirst() ? written.remarks : std::vector<std::string>())
   {
     vtkWarningMacro(<< sentence);
   }
-  cactus::fillFileTable(files, written.files);
-  cactus::setProvenance(files, contents.provenance, 0);
+  this->WrittenFiles->Initialize();
+  cactus::fillFileTable(this->WrittenFiles, written.files);
+  cactus::setProvenance(this->WrittenFiles, contents.provenance, 0);
 }
 
 int vtkSubstrateWriter::Write()

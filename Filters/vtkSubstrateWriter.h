@@ -15,7 +15,7 @@
  * stored in the files, are not certified; open surfaces are refused.
  *
  * The folder appears whole or not at all. An existing one is replaced if it is a substrate folder with nothing else in it, and
- * refused otherwise. On several ranks the first one writes.
+ * refused otherwise. Ranks that were given the same surfaces share the work, and see one disk; the first gives the table.
  */
 #ifndef vtkSubstrateWriter_h
 #define vtkSubstrateWriter_h
@@ -27,6 +27,11 @@
 #include <vtkNew.h>
 #include <vtkTable.h>
 #include <vtkTableAlgorithm.h>
+
+namespace cactus
+{
+class Sharing;
+}
 
 class CACTUSFILTERS_EXPORT vtkSubstrateWriter : public vtkTableAlgorithm
 {
@@ -65,7 +70,8 @@ private:
   vtkSubstrateWriter(const vtkSubstrateWriter&) = delete;
   void operator=(const vtkSubstrateWriter&) = delete;
 
-  void WriteFolder(vtkTable* files);
+  /// Writes the folder, and fills WrittenFiles. Collective.
+  void WriteFolder(const cactus::Sharing& all);
 
   std::unique_ptr<cactus::FilterProperties> Properties;
   cactus::KeptFolder Kept;

@@ -165,16 +165,21 @@ std::string Sharing::fromFirst(const std::string& bytes) const
 
 bool Sharing::isEverywhere(bool isHere) const
 {
-  bool isThere = isHere;
+  return this->areAlike(isHere ? "1" : "0") && isHere;
+}
+
+bool Sharing::areAlike(const std::string& given) const
+{
+  bool areAlike = true;
   this->together(
     [&]
     {
-      for (const std::string& told : this->exchange(isHere ? "1" : "0"))
+      for (const std::string& told : this->exchange(given))
       {
-        isThere = isThere && told == "1";
+        areAlike = areAlike && told == given;
       }
     });
-  return isThere;
+  return areAlike;
 }
 
 void Sharing::addUp(std::vector<std::uint64_t>& counts) const

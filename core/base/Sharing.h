@@ -45,6 +45,8 @@ public:
   void together(const std::function<void()>& work) const;
   /// Tells whether `isHere` is true in all processes.
   bool isEverywhere(bool isHere) const;
+  /// Tells whether all processes have given the same.
+  bool areAlike(const std::string& given) const;
 
   // The functions below are called within together().
 

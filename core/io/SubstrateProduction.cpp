@@ -150,16 +150,6 @@ Context paced(const Context& context)
   return whole;
 }
 
-/// Throws unless all processes have the same request; otherwise they would mix results in one folder.
-void requireAlike(const std::string& identity, const std::string& folder, const Sharing& sharing)
-{
-  for (const std::string& other : sharing.exchange(identity + folder))
-  {
-    require(other == identity + folder,
-      "the ranks were given different fibres, properties or folders, and cannot share the work: give all of them the same");
-  }
-}
-
 /// Returns how many tiles a process keeps: its part of the image with some of its surroundings, less for a large image.
 std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
 {
@@ -328,7 +318,8 @@ ProducedSubstrate produceSubstrate(
     requireRoomForMyelin(fibres, order);
     require(!folder.empty(), "FolderName is empty: name the folder to write");
     const std::string identity = identityOf(fibres, order);
-    requireAlike(identity, folder, sharing);
+    require(sharing.areAlike(identity + folder), // otherwise they would mix results in one folder
+      "the ranks were given different fibres, properties or folders, and cannot share the work: give all of them the same");
     if (sharing.isFirst())
     {
       const FolderReplacement refuses(folder, context); // fails now, rather than at the end, if it cannot be written

@@ -74,7 +74,7 @@ private:
     std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
     SurfacePart part(std::size_t index, double lower, double upper) const override;
     void put(std::size_t index, TriangleMesh surface) override;
-    void putElsewhere(std::size_t index) override { this->isSpaced[index] = this->isSpacing ? 1 : 0; }
+    void putElsewhere(std::size_t index, const std::string&) override { this->isSpaced[index] = this->isSpacing ? 1 : 0; }
 
     bool isSpacing = false;
     bool isFinal = false;       ///< surfaces are kept apart, so that a single one is not made again

@@ -436,11 +436,18 @@ public:
         keepMarks(before, this->Boxes[s]);
         this->Surfaces.put(s, std::move(mesh));
       },
-      [&](std::size_t m) { return bytesOf(this->Boxes[moving[m]]); },
+      [&](std::size_t m)
+      {
+        ByteWriter put;
+        put(bytesOf(this->Boxes[moving[m]]));
+        put(this->Surfaces.bytesOf(moving[m]));
+        return put.bytes();
+      },
       [&](std::size_t m, const std::string& bytes)
       {
-        this->Boxes[moving[m]] = boxesFrom(bytes);
-        this->Surfaces.putElsewhere(moving[m]);
+        ByteReader get(bytes);
+        this->Boxes[moving[m]] = boxesFrom(get.get<std::string>());
+        this->Surfaces.putElsewhere(moving[m], get.get<std::string>());
       });
     for (const std::size_t s : moving)
     {

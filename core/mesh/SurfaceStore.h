@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,11 +35,13 @@ class SurfaceStore : public SurfaceSource
 public:
   /// Replaces a surface. Thread-safe for different surfaces.
   virtual void put(std::size_t index, TriangleMesh surface) = 0;
-  /// Reports that another process has put a surface into a shared store.
-  virtual void putElsewhere(std::size_t /*index*/) {}
+  /// Returns a surface as the bytes that another process needs; none if processes share the store.
+  virtual std::string bytesOf(std::size_t /*index*/) const { return {}; }
+  /// Takes a surface that another process has put, given as that one's bytesOf().
+  virtual void putElsewhere(std::size_t index, const std::string& bytes) = 0;
 };
 
-/// Stores all surfaces in memory.
+/// Stores all surfaces in memory: of processes that share work, each has all of them.
 class SurfacesInMemory : public SurfaceStore
 {
 public:
@@ -53,6 +56,8 @@ public:
     return { std::shared_ptr<const TriangleMesh>(), &this->Surfaces[index] }; // owned by this store
   }
   void put(std::size_t index, TriangleMesh surface) override { this->Surfaces[index] = std::move(surface); }
+  std::string bytesOf(std::size_t index) const override;
+  void putElsewhere(std::size_t index, const std::string& bytes) override;
   /// Moves a surface out of the store.
   TriangleMesh take(std::size_t index) { return std::exchange(this->Surfaces[index], TriangleMesh()); }
 

@@ -111,34 +111,18 @@ std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs
   return order;
 }
 
-/// Returns a pair, and points on its surface, as bytes.
-std::string bytesOfBoth(const FibreSurfacePair& pair, const std::vector<Eigen::Vector3d>& points)
+std::string bytesOf(const std::vector<Eigen::Vector3d>& points)
 {
   ByteWriter put;
-  put(bytesOf(pair));
-  for (const Eigen::Vector3d& point : points)
-  {
-    for (const double coordinate : point)
-    {
-      put(coordinate);
-    }
-  }
+  put.addAll(points.data(), points.size());
   return put.bytes();
 }
 
-FibreSurfacePair bothFrom(const std::string& bytes, std::vector<Eigen::Vector3d>& points)
+std::vector<Eigen::Vector3d> pointsFrom(const std::string& bytes)
 {
-  ByteReader get(bytes);
-  FibreSurfacePair pair = pairFrom(get.get<std::string>());
-  for (points.clear(); !get.isAtEnd();)
-  {
-    Eigen::Vector3d& point = points.emplace_back();
-    for (double& coordinate : point)
-    {
-      get(coordinate);
-    }
-  }
-  return pair;
+  std::vector<Eigen::Vector3d> points(bytes.size() / sizeof(Eigen::Vector3d));
+  ByteReader(bytes).getAll(points.data(), points.size());
+  return points;
 }
 
 /// Throws what myelinSurfaces() throws for options that do not suit the image.
@@ -169,11 +153,43 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
   keepFreedMemory();
 }
 
-/// Works on all fibres in parallel; each process gets those near each other, which share samples. `isMade(i)` tells whether a
-/// fibre is finished, and then completes its pair; `body(i)` calls it, too. The results of a fibre have to be in its pair,
-/// without meshes.
+/// Returns what other processes need of a fibre that this one has worked on: its pair, and its surfaces in `stores`.
+std::string SurfaceMaker::bytesOfFibre(std::size_t i, const Changed& stores) const
+{
+  ByteWriter put;
+  put(bytesOf(this->Pairs[i]));
+  for (const SurfaceStore* store : stores)
+  {
+    put(store->bytesOf(i));
+  }
+  return std::move(put.bytes());
+}
+
+void SurfaceMaker::takeFibre(std::size_t i, const std::string& bytes, const Changed& stores)
+{
+  ByteReader get(bytes);
+  this->Pairs[i] = pairFrom(get.get<std::string>());
+  for (SurfaceStore* store : stores)
+  {
+    store->putElsewhere(i, get.get<std::string>());
+  }
+}
+
+/// Runs body(i) for each of these fibres in one of the processes. Its results have to be in the pair, without meshes, and in
+/// `stores`.
+template <typename Body>
+void SurfaceMaker::forEachOf(const std::vector<std::size_t>& which, const Changed& stores, Body&& body)
+{
+  this->Shared.loop(
+    which.size(), this->Caller, [&](std::size_t i) { body(which[i]); },
+    [&](std::size_t i) { return this->bytesOfFibre(which[i], stores); },
+    [&](std::size_t i, const std::string& bytes) { this->takeFibre(which[i], bytes, stores); });
+}
+
+/// Does the same for all fibres; each process gets those near each other, which share samples. `isMade(i)` tells whether a fibre
+/// is finished, and then completes its pair; `body(i)` calls it, too.
 template <typename IsMade, typename Body>
-void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to)
+void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const Changed& stores, const char* message, double from, double to)
 {
   std::vector<std::uint64_t> made;
   for (const std::size_t i : this->Order)
@@ -195,8 +211,9 @@ void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const char* messag
   }
   const double done = made.empty() ? 0.0 : 1.0 - static_cast<double>(left.size()) / static_cast<double>(made.size());
   this->Shared.loopAlong(
-    weights, this->Caller, [&](std::size_t i) { body(left[i]); }, [&](std::size_t i) { return bytesOf(this->Pairs[left[i]]); },
-    [&](std::size_t i, const std::string& bytes) { this->Pairs[left[i]] = pairFrom(bytes); }, message, from + done * (to - from),
+    weights, this->Caller, [&](std::size_t i) { body(left[i]); },
+    [&](std::size_t i) { return this->bytesOfFibre(left[i], stores); },
+    [&](std::size_t i, const std::string& bytes) { this->takeFibre(left[i], bytes, stores); }, message, from + done * (to - from),
     to);
 }
 
@@ -288,7 +305,7 @@ void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
       outer.put(i, std::exchange(pair.outer, TriangleMesh()));
       this->Journal.noteOuter(i, pair);
     },
-    this->isCommon() ? "making outer surfaces" : "making surfaces", shareOfLooking, this->Shares.contoured);
+    { &outer, &inner }, this->isCommon() ? "making outer surfaces" : "making surfaces", shareOfLooking, this->Shares.contoured);
 }
 
 /// Keeps outer surfaces apart. One that meets itself after a move, as a folding thin cap may, is made again with less coarsening
@@ -336,17 +353,14 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
 /// not.
 void SurfaceMaker::evenOuter(const std::vector<std::size_t>& which, SurfaceStore& outer)
 {
-  this->Shared.loop(
-    which.size(), this->Caller,
+  this->forEachOf(which, { &outer },
     [&](std::size_t i)
     {
-      FibreSurfacePair& pair = this->Pairs[which[i]];
-      pair.outer = *outer.get(which[i]);
+      FibreSurfacePair& pair = this->Pairs[i];
+      pair.outer = *outer.get(i);
       this->Mesher.evenOuter(pair);
-      outer.put(which[i], std::exchange(pair.outer, TriangleMesh()));
-    },
-    [&](std::size_t i) { return bytesOf(this->Pairs[which[i]]); },
-    [&](std::size_t i, const std::string& bytes) { this->Pairs[which[i]] = pairFrom(bytes); });
+      outer.put(i, std::exchange(pair.outer, TriangleMesh()));
+    });
 }
 
 /// Checks moved surfaces, and returns those that have to be made again, with bounds at their faults.
@@ -364,8 +378,19 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
       faults[i] = this->Mesher.checkOuter(pair);
       outer.put(moved[i], std::exchange(pair.outer, TriangleMesh()));
     },
-    [&](std::size_t i) { return bytesOfBoth(this->Pairs[moved[i]], faults[i]); },
-    [&](std::size_t i, const std::string& bytes) { this->Pairs[moved[i]] = bothFrom(bytes, faults[i]); });
+    [&](std::size_t i)
+    {
+      ByteWriter put;
+      put(this->bytesOfFibre(moved[i], { &outer }));
+      put(bytesOf(faults[i]));
+      return put.bytes();
+    },
+    [&](std::size_t i, const std::string& bytes)
+    {
+      ByteReader get(bytes);
+      this->takeFibre(moved[i], get.get<std::string>(), { &outer });
+      faults[i] = pointsFrom(get.get<std::string>());
+    });
   std::vector<std::size_t> again;
   for (std::size_t i = 0; i < faults.size(); ++i)
   {
@@ -384,19 +409,16 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
 void SurfaceMaker::makeAgain(
   const std::vector<std::size_t>& which, double deeper, const BoundsOfFibres& bounds, SurfaceStore& outer)
 {
-  this->Shared.loop(
-    which.size(), this->Caller,
+  this->forEachOf(which, { &outer },
     [&](std::size_t i)
     {
-      FibreSurfacePair& pair = this->Pairs[which[i]];
+      FibreSurfacePair& pair = this->Pairs[i];
       pair.isFlawed = false; // of the old surface
       FibreMesher::forgetInner(pair);
-      pair.outer = *outer.get(which[i]);
-      this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair, bounds.at(which[i]), deeper);
-      outer.put(which[i], std::exchange(pair.outer, TriangleMesh()));
-    },
-    [&](std::size_t i) { return bytesOf(this->Pairs[which[i]]); },
-    [&](std::size_t i, const std::string& bytes) { this->Pairs[which[i]] = pairFrom(bytes); });
+      pair.outer = *outer.get(i);
+      this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair, bounds.at(i), deeper);
+      outer.put(i, std::exchange(pair.outer, TriangleMesh()));
+    });
 }
 
 /// Checks the inner surfaces whose outer ones were moved, and resets those that have to be made again.
@@ -411,13 +433,12 @@ void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& in
       looked.push_back(i);
     }
   }
-  this->Shared.loop(
-    looked.size(), this->Caller,
+  this->forEachOf(looked, {},
     [&](std::size_t i)
     {
-      FibreSurfacePair& pair = this->Pairs[looked[i]];
-      pair.outer = *outer.get(looked[i]);
-      pair.inner = *inner.get(looked[i]);
+      FibreSurfacePair& pair = this->Pairs[i];
+      pair.outer = *outer.get(i);
+      pair.inner = *inner.get(i);
       pair.isInnerMade = this->Mesher.keepsInner(pair);
       if (!pair.isInnerMade)
       {
@@ -425,9 +446,7 @@ void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& in
       }
       pair.outer = TriangleMesh(); // frees its memory, unlike an empty copy
       pair.inner = TriangleMesh();
-    },
-    [&](std::size_t i) { return bytesOf(this->Pairs[looked[i]]); },
-    [&](std::size_t i, const std::string& bytes) { this->Pairs[looked[i]] = pairFrom(bytes); });
+    });
 }
 
 void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
@@ -460,7 +479,7 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
       }
       this->Journal.noteInner(i, pair);
     },
-    "making inner surfaces", this->Shares.spaced, 1.0);
+    { &inner }, "making inner surfaces", this->Shares.spaced, 1.0);
 }
 
 /// Makes inner surfaces with one g-ratio for all, so that all axons together have the target volume; if a fibre cannot have that

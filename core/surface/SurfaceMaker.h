@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,7 +26,8 @@ class SurfaceMaker
 {
 public:
   /// All arguments passed by reference have to outlive the object. With a journal, recorded surfaces are not made again.
-  /// Processes that share the work share stores and journal, and fibres() is the same in all. Throws as myelinSurfaces() does.
+  /// Of processes that share the work, each has stores of its own, or all have those and the journal on a disk; fibres() is the
+  /// same in all, and so are the surfaces. Throws as myelinSurfaces() does.
   SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
     const Context& context, const SurfaceFilters* filters = nullptr, SurfaceJournal* journal = nullptr,
     const Sharing& sharing = Sharing());
@@ -52,9 +54,15 @@ private:
     double spaced;
   };
   using BoundsOfFibres = std::map<std::size_t, std::vector<LocalErrorBound>>;
+  /// The stores whose surfaces a loop changes.
+  using Changed = std::vector<SurfaceStore*>;
 
+  std::string bytesOfFibre(std::size_t i, const Changed& stores) const;
+  void takeFibre(std::size_t i, const std::string& bytes, const Changed& stores);
+  template <typename Body>
+  void forEachOf(const std::vector<std::size_t>& which, const Changed& stores, Body&& body);
   template <typename IsMade, typename Body>
-  void forEachFibre(IsMade&& isMade, Body&& body, const char* message, double from, double to);
+  void forEachFibre(IsMade&& isMade, Body&& body, const Changed& stores, const char* message, double from, double to);
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
   bool isCommon() const { return this->Options.model == GRatioModel::TargetAxonVolumeFraction; }
   void putInner(std::size_t i, const SmoothedField& field, SurfaceStore& inner);

@@ -2,6 +2,7 @@
 // Guarantees: thin fibres keep their shape; models give the g-ratios that they state; fibres are the gap apart, and myelin as
 // thick, even if growth left less, voxels are coarse or nothing is coarsened; deviations are counted.
 #include "surface/MyelinSurface.h"
+#include "ThreadTeam.h"
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
@@ -20,6 +21,7 @@
 #include "surface/MeetingFibres.h"
 #include "surface/SurfaceFinishing.h"
 #include "surface/SurfaceMaker.h"
+#include "surface/SurfaceNumbers.h"
 #include "surface/SurfaceRemarks.h"
 #include "surface/VanishingFibre.h"
 
@@ -446,6 +448,52 @@ TEST(MyelinSurfaces, InnerOnesAreTheSameWheneverTheyAreMade)
       EXPECT_EQ(later.fibres()[i].state, maker.fibres()[i].state);
       EXPECT_EQ(later.fibres()[i].thickness, maker.fibres()[i].thickness);
       EXPECT_EQ(later.fibres()[i].largestMove(), maker.fibres()[i].largestMove());
+    }
+  }
+}
+
+// Each process makes some of the surfaces, and has them all in its own memory.
+TEST(MyelinSurfaces, AreTheSameInProcessesThatShareThem)
+{
+  const TightBundle bundle(6.3);
+  const LabelImage image = growFibres(bundle.fibres, bundle.growth, bundle.by, growthGrid(bundle.fibres.domain, bundle.growth));
+  LabelImageFacts facts = labelImageFacts(bundle.fibres, bundle.growth);
+  const auto source = std::make_shared<LabelImageInMemory>(
+    LabelImageView{ image.grid, image.fibreId.data(), image.depth.data(), bundle.growth.gap() });
+  for (const double fraction : { 0.0, 0.2 })
+  {
+    // Some are moved, in the second case so far that they are made again.
+    facts.minimumGap = bundle.growth.minimumGap + (fraction > 0.0 ? 0.05 : 0.002);
+    MyelinSurfaceOptions options;
+    options.model = fraction > 0.0 ? GRatioModel::TargetAxonVolumeFraction : GRatioModel::Constant;
+    options.targetAxonVolumeFraction = fraction;
+    const auto made = [&](Team* team)
+    {
+      const Sharing sharing(team);
+      std::string bytes;
+      sharing.together(
+        [&]
+        {
+          SurfaceMaker maker(source, facts, options, {}, nullptr, nullptr, sharing);
+          SurfacesInMemory outer(maker.fibres().size());
+          SurfacesInMemory inner(maker.fibres().size());
+          maker.makeOuter(outer, inner);
+          maker.makeInner(outer, inner);
+          for (std::size_t i = 0; i < maker.fibres().size(); ++i)
+          {
+            bytes += bytesOf(maker.fibres()[i]) + outer.bytesOf(i) + inner.bytesOf(i);
+          }
+        });
+      return bytes;
+    };
+    const std::string alone = made(nullptr);
+    EXPECT_GT(alone.size(), 100000u);
+    for (const int size : { 2, 3 })
+    {
+      for (const std::string& one : cactus_testing::inTeam(size, [&](Team& team) { return made(&team); }))
+      {
+        EXPECT_TRUE(one == alone) << one.size() << " bytes, not " << alone.size() << ": " << one.substr(0, 100);
+      }
     }
   }
 }
