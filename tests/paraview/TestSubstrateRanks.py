@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-ranks: 2
-# ctest-timeout: 300
+# ctest-timeout: 600
 """On any number of ranks: statistics and certificate are the same, and one row; a substrate is grown whole; MyelinSurface shares its
 work, each rank holds a piece, and files are the same."""
 
@@ -159,7 +159,7 @@ class Ranks(CactusTestCase):
         self.made = os.path.join(self.folder, f"on-{count}")
         os.mkdir(self.made)
         command = ["mpiexec", "-n", str(count), "pvbatch", path, self.made]
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment_of_its_own(), timeout=100)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment_of_its_own(), timeout=200)
         said = done.stdout.replace("ERR|", "")
         self.assertEqual(done.returncode, 0, said)
         return said
