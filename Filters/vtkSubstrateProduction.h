@@ -11,7 +11,7 @@
  *
  * Work in progress is kept in the folder `FolderName.work`. A run that was stopped or killed continues from there when the filter
  * executes again, with the same fibres, properties and version; the folder is removed at the end. Progress includes the speed.
- * The method is core/io/SubstrateProduction.h. On several ranks all of them share the work; the first one has the tables, and
+ * The method is core/stages/SubstrateProduction.h. On several ranks all of them share the work; the first one has the tables, and
  * reports.
  */
 #ifndef vtkSubstrateProduction_h

@@ -2,11 +2,11 @@
 // cactus-grow RECIPE: makes a substrate without ParaView, see docs/cactus-grow.md.
 #include "base/Context.h"
 #include "base/Error.h"
-#include "io/SubstrateProduction.h"
 #include "program/CommandLine.h"
 #include "program/Terminal.h"
 #include "recipe/RecipeReader.h"
 #include "recipe/RecipeRun.h"
+#include "stages/SubstrateProduction.h"
 
 #include <chrono>
 #include <csignal>

@@ -3,9 +3,9 @@
 
 #include "base/Error.h"
 #include "io/SubstrateFolder.h"
-#include "io/SubstrateProduction.h"
 #include "io/TractogramFile.h"
 #include "stages/StageWork.h"
+#include "stages/SubstrateProduction.h"
 
 #include <algorithm>
 

@@ -10,9 +10,9 @@
 #include "io/FolderReplacement.h"
 #include "io/MadeSurfaces.h"
 #include "io/SubstrateFolder.h"
-#include "io/SubstrateProduction.h"
 #include "recipe/DataChecksum.h"
 #include "stages/StageWork.h"
+#include "stages/SubstrateProduction.h"
 #include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
 

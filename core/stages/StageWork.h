@@ -12,10 +12,10 @@
 #include "fibres/Fibres.h"
 #include "io/FibreFile.h"
 #include "io/SubstrateContents.h"
-#include "io/SubstrateProduction.h"
 #include "io/Tractogram.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "stages/Stages.h"
+#include "stages/SubstrateProduction.h"
 
 #include <cstddef>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/SubstrateProduction.h"
+#include "stages/SubstrateProduction.h"
 
 #include "base/Bytes.h"
 #include "base/Error.h"

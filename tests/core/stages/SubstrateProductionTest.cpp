@@ -2,7 +2,7 @@
 // Guarantees: a production writes the same files as growth, surfaces and writer one after the other, bit for bit; one that is
 // killed at any place continues there, and writes them too; it touches no work of another one, reports damage, and leaves nothing
 // behind.
-#include "io/SubstrateProduction.h"
+#include "stages/SubstrateProduction.h"
 
 #include "../ChildProcess.h"
 #include "../ThreadTeam.h"
