@@ -301,6 +301,10 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   }
   auto made = std::make_unique<Result>();
   made->inputTime = cactus::changeTime(image);
+  for (vtkDataObject* data : std::initializer_list<vtkDataObject*>{ made->outer, made->inner, made->table })
+  {
+    data->GetFieldData()->ShallowCopy(image->GetFieldData()); // as the pipeline passes it on to outputs
+  }
   cactus::SurfaceMaker maker(std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context,
     byVtk ? &filters : nullptr, nullptr, sharing);
   auto fibres = this->makeSurfaces(maker, made->inputTime, made->outer, sharing);

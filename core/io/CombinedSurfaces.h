@@ -34,8 +34,10 @@ SurfaceBox surfaceBox(const FibreSurfaces& surfaces, const Context& context);
 /// Returns the header of `KIND.ply`. Throws InvalidInput for more points than the format can number.
 std::string caminoHead(const SurfaceBox& box);
 
-/// µm by which Camino's repeats of a substrate are farther apart than its sides: where they touch, walkers outside end the run.
-constexpr double caminoSpacing = 0.1;
+/// µm by which Camino's repeats of a substrate are farther apart than its sides. Camino lets a walker into the next repeat only
+/// 1e-9 sides beyond the border (`a` in its Substrate.java). Repeats that touch have the ends of their fibres in between, so that
+/// the walker comes to be inside a fibre, and Camino stops. Twice that distance would do; 0.001 is ample for sides below 0.5 m.
+constexpr double caminoSpacing = 0.001;
 
 /// `KIND.ply` for Camino: ASCII, metres, with the comment by which it tells inside from outside. Throws as caminoHead() does,
 /// FileError and Cancelled.

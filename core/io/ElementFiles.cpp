@@ -274,7 +274,7 @@ std::string setupText(const SubstrateFolderContents& contents, const Compartment
 std::vector<std::string> remarksOn(
   const BoxedSurfaces& joined, const CompartmentNumbers& numbers, const std::vector<int>& closed, double smallestGap)
 {
-  constexpr double narrow = 0.1; // µm, see docs/simulators.md
+  constexpr double narrow = 0.1; // µm, see docs/simulators/spindoctor.md
   std::vector<std::string> remarks;
   if (smallestGap < narrow)
   {

@@ -113,7 +113,7 @@ Labelled labelled(const std::string& what, const SampledSubstrate& sampled, cons
 }
 
 /// What to do where gaps are narrower than a voxel: those as wide as one keep the space between fibres together, see
-/// docs/simulators.md.
+/// docs/simulators/rms.md.
 std::string wayOut(double voxelSize, double smallestGap)
 {
   std::string way = text("grow with a MinimumGap of ", voxelSize, " µm or more");

@@ -405,23 +405,6 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
   return substrate;
 }
 
-/// Camino's repeats have free water between them; of a small or dense substrate that is much of the water outside.
-void noteCaminoWater(const SubstrateFolderContents& contents, WrittenSubstrate& substrate)
-{
-  constexpr double much = 0.05;
-  const Eigen::Vector3d sides = contents.domain.size();
-  const double between = (sides.array() + caminoSpacing).prod() - sides.prod();
-  const double outside = (1.0 - substrate.certificate.fibreVolumeFraction) * sides.prod();
-  const double share = between / (between + outside);
-  if (contents.outer.size() > 0 && share > much)
-  {
-    substrate.remarks.push_back(text("Camino's repeats of this substrate are ", caminoSpacing,
-      " µm apart, and the water between them, where nothing hinders it, is ", 0.1 * std::round(1000.0 * share),
-      " % of all that is outside the fibres, whose diffusion comes out too fast: for walkers outside, take a larger Side or a "
-      "lower TargetFibreVolumeFraction"));
-  }
-}
-
 /// Writes the rest, and puts the folder in its place.
 void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate, FolderWriter& writer,
   FolderReplacement& replacement, const Context& context)
@@ -445,11 +428,7 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
   {
     writeStartPositions(contents, {}, writer, context);
   }
-  if (contents.format == SubstrateFormat::Camino)
-  {
-    noteCaminoWater(contents, substrate);
-  }
-  else if (contents.format == SubstrateFormat::Mcmr)
+  if (contents.format == SubstrateFormat::Mcmr)
   {
     writeMcmrGeometry(contents, writer, context);
   }

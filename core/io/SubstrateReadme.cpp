@@ -18,7 +18,7 @@ namespace
 
 constexpr double inMetres = 1e-6; ///< of one µm
 
-/// µm: steps outside the fibres that are longer make diffusion there too slow, see docs/simulators.md.
+/// µm: steps outside the fibres that are longer make diffusion there too slow, see docs/simulators/mcdc.md.
 constexpr double longestStep = 0.05;
 
 /// Numbers that words of a command are made of, with blanks between them.
@@ -33,8 +33,7 @@ std::string numberWords(const Eigen::Vector3d& values, const char* between = " "
   return text;
 }
 
-/// How Camino is run here. It repeats the substrate, and ends with "has crossed" where a walker outside meets the ends of fibres
-/// in the border between two repeats; so these are a little farther apart than the domain is long.
+/// The commands for Camino, which repeats the substrate: see caminoSpacing.
 std::string caminoText(const SubstrateFolderContents& contents)
 {
   constexpr double stepInside = 0.1; // µm
@@ -57,10 +56,12 @@ std::string caminoText(const SubstrateFolderContents& contents)
          "is\n"
          "the number of steps. They are " +
          text(stepInside) + " µm long inside, where a fifth of an axon's radius will do, and " + text(longestStep) +
-         " µm outside, where longer ones\nslow diffusion down: try few -walkers first, as Camino takes its time. -meshsep is the "
-         "distance "
-         "of repeats: the sides of\nthe domain and " +
-         text(caminoSpacing) + " µm, as walkers outside would end the run (\"has crossed\") where repeats touch.\n";
+         " µm outside, where longer ones\nslow diffusion down. -meshsep is the distance of repeats: the sides of the domain "
+         "and " +
+         text(caminoSpacing) +
+         " µm, as\nCamino stops (\"has crossed\") where repeats touch. With -p 0 it tests each walker against all triangles "
+         "after each "
+         "step,\nwhich takes most of its time: -p 1e-20 leaves that out, and walls let as few walkers through.\n";
 }
 
 /// How MCMRSimulator.jl is run here.

@@ -59,15 +59,13 @@ protected:
 
 } // namespace
 
-// Camino ends with 0 and no signal without -voxels, and with "has crossed" where repeats touch.
+// Camino ends with 0 and no signal without -voxels, and with "has crossed" where repeats touch. Water between repeats is free, so
+// they are as near to each other as Camino takes.
 TEST_F(SimulatorFolders, CaminoHasTheCommandsOfThisSubstrate)
 {
   this->takePlates(1.0, 0.5);
   this->Contents.domain.upper[2] += 2.0;
-  const auto remarks = this->write(cactus::SubstrateFormat::Camino).remarks;
-  ASSERT_EQ(remarks.size(), 1u);
-  // 10.1 · 10.1 · 12.1 - 1200 = 34.321 of free water, and 1200 - 800 outside the plates.
-  EXPECT_NE(remarks[0].find("is 7.9 % of all that is outside the fibres"), std::string::npos) << remarks[0];
+  EXPECT_TRUE(this->write(cactus::SubstrateFormat::Camino).remarks.empty());
   const std::string text = this->readme();
   for (const auto& [where, kind] : { std::pair<const char*, const char*>{ "intra", "inner" }, { "extra", "outer" } })
   {
@@ -75,7 +73,7 @@ TEST_F(SimulatorFolders, CaminoHasTheCommandsOfThisSubstrate)
     ASSERT_NE(begin, std::string::npos) << where;
     const std::string command = text.substr(begin, text.find(".bfloat", begin) - begin);
     EXPECT_NE(command.find(std::string("-plyfile ") + kind + ".ply"), std::string::npos) << command;
-    EXPECT_NE(command.find("-meshsep 1.01e-05 1.01e-05 1.21e-05 "), std::string::npos) << command;
+    EXPECT_NE(command.find("-meshsep 1.0001e-05 1.0001e-05 1.2001e-05 "), std::string::npos) << command;
     EXPECT_NE(command.find("-schemefile pgse.scheme "), std::string::npos) << command;
   }
   EXPECT_EQ(contentOf(this->Scratch / "s/pgse.scheme"), cactus::mcdcScheme(this->Contents.mcdc));
