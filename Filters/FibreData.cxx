@@ -283,8 +283,8 @@ void addColumns(const Fibres& fibres, const std::string& prefix, vtkFieldData* d
 {
   for (const auto& column : fibres.columns.all())
   {
-    addColumn<vtkDoubleArray>(data, (prefix + column.first).c_str(), fibres.size(),
-      [&](std::size_t f) { return fibres.columns.value(column.first, f); });
+    addColumn<vtkDoubleArray>(
+      data, (prefix + column.first).c_str(), fibres.size(), [&](std::size_t f) { return fibres.columns.value(column.first, f); });
   }
 }
 

@@ -186,6 +186,7 @@ struct vtkMyelinSurface::Result
   void split(const std::vector<cactus::FibreSurfacePair>& fibres, const cactus::Sharing& sharing)
   {
     std::vector<double> triangles;
+    triangles.reserve(fibres.size());
     for (const auto& fibre : fibres)
     {
       triangles.push_back(double(fibre.outerReport.triangles + fibre.innerReport.triangles));

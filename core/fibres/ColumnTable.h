@@ -22,7 +22,8 @@ struct ColumnFacts
 };
 
 /// Ratio of the axon's diameter to the fibre's that a fibre is to have, instead of the one that MyelinSurface gives all others.
-inline constexpr ColumnFacts targetGRatioColumn{ "TargetGRatio", "g-ratio that the fibre's surfaces are to have", limits::gRatio };
+inline constexpr ColumnFacts targetGRatioColumn{ "TargetGRatio", "g-ratio that the fibre's surfaces are to have",
+  limits::gRatio };
 
 /// Returns the columns that stages pass on from fibres to fibres, by name.
 const std::vector<ColumnFacts>& fibreColumns();

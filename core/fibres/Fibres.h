@@ -46,8 +46,8 @@ struct Fibres
 void validate(const Domain& domain);
 
 /// Throws InvalidInput, naming the fibre, unless: there is a fibre; every fibre has at least two control points, no
-/// zero-length segment, and coordinates, radii, target radius and columns within the limits (see Limits.h, ColumnTable.h); ids are
-/// positive and fibre ids unique; the domain is valid.
+/// zero-length segment, and coordinates, radii, target radius and columns within the limits (see Limits.h, ColumnTable.h); ids
+/// are positive and fibre ids unique; the domain is valid.
 void validate(const Fibres& fibres);
 
 /// Volume (µm³) of one fibre: its capsules as truncated cones between control points, without end caps.

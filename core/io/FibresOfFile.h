@@ -30,8 +30,8 @@ public:
     this->Outer += outerRadius * outerRadius;
   }
 
-  /// Gives the last of the fibres its TargetGRatio, the root of inner over outer cross-sections, and begins the next fibre. A fibre
-  /// whose radii are equal has no myelin, and none is given.
+  /// Gives the last of the fibres its TargetGRatio, the root of inner over outer cross-sections, and begins the next fibre. A
+  /// fibre whose radii are equal has no myelin, and none is given.
   void give(Fibres& fibres)
   {
     const double gRatio = this->Outer > 0.0 ? std::sqrt(this->Inner / this->Outer) : 0.0;

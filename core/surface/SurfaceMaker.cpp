@@ -498,9 +498,9 @@ void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceSt
     whole += volume;
     (std::isnan(pair.ownGRatio) ? open : given) += std::isnan(pair.ownGRatio) ? volume : pair.ownGRatio * pair.ownGRatio * volume;
   }
-  require(open > 0.0 || whole == 0.0,
-    "TargetAxonVolumeFraction cannot be aimed at, because every fibre has a TargetGRatio of its own: choose another GRatioModel, or "
-    "take the array TargetGRatio off the fibres");
+  require(open > 0.0 || whole == 0.0, "TargetAxonVolumeFraction cannot be aimed at, because every fibre has a TargetGRatio of "
+                                      "its own: choose another GRatioModel, or "
+                                      "take the array TargetGRatio off the fibres");
   const double fibreFraction = whole / boxVolume;
   double before = 0.0;
   double correction = 1.0; // for the sum of the fibres' own tolerances
