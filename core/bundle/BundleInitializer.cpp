@@ -118,11 +118,12 @@ Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& 
   {
     report.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
     const double excess = report.fibreVolumeFraction / options.fibreVolumeFraction;
-    if (std::abs(excess - 1.0) <= tolerance || round == rounds || !(excess > 0.0))
+    const double next = excess > 0.0 ? std::min(density / excess, options.fibreVolumeFraction) : density;
+    if (std::abs(excess - 1.0) <= tolerance || round == rounds || next == density)
     {
       return fibres;
     }
-    density = std::min(density / excess, options.fibreVolumeFraction);
+    density = next;
     bundles = { layOutSingle(options, density) };
     packFaces(bundles, options, context);
     report.meanDispersion = orientationOf(bundles.front()).meanAngle;

@@ -13,22 +13,9 @@ namespace cactus
 namespace
 {
 
-/// Returns the mean angle (radians) of the Watson model: ∫θ w / ∫w with w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
 double meanWatsonAngle(double kappa)
 {
-  const double end = std::min(0.5 * pi, 9.0 / std::sqrt(kappa));
-  constexpr int intervals = 2000;
-  double weighted = 0.0;
-  double weights = 0.0;
-  for (int i = 0; i <= intervals; ++i)
-  {
-    const double angle = end * i / intervals;
-    const double sine = std::sin(angle);
-    const double weight = std::exp(-kappa * sine * sine) * sine * (i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0));
-    weighted += angle * weight;
-    weights += weight;
-  }
-  return weighted / weights;
+  return watsonMean(kappa, [](double angle) { return angle; });
 }
 
 /// Returns the mean angle of directions uniform in a cap of half angle a: ∫θ sin θ / ∫sin θ on [0, a], by its series for small a,
@@ -43,6 +30,24 @@ double meanConeAngle(double a)
 }
 
 } // namespace
+
+/// It is ∫q w / ∫w with w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
+double watsonMean(double kappa, double (*quantity)(double angle))
+{
+  const double end = std::min(0.5 * pi, 9.0 / std::sqrt(kappa));
+  constexpr int intervals = 2000;
+  double weighted = 0.0;
+  double weights = 0.0;
+  for (int i = 0; i <= intervals; ++i)
+  {
+    const double angle = end * i / intervals;
+    const double sine = std::sin(angle);
+    const double weight = std::exp(-kappa * sine * sine) * sine * (i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0));
+    weighted += quantity(angle) * weight;
+    weights += weight;
+  }
+  return weighted / weights;
+}
 
 DirectionDistribution::DirectionDistribution(DispersionModel model, double meanAngle)
   : Model(model)

@@ -14,6 +14,9 @@ enum class DispersionModel
   Coherent ///< similar for neighbours: fibres follow a smooth random flow from face to face (see CoherentFlow)
 };
 
+/// Returns the mean of a quantity of the angle to the axis (radians) over a Watson distribution of concentration κ > 0.
+double watsonMean(double kappa, double (*quantity)(double angle));
+
 /// Draws angles to an axis from a model, Watson or Cone, with a given mean angle; the azimuth is uniform in both.
 class DirectionDistribution
 {

@@ -24,12 +24,6 @@ double coneVolume(double r0, double r1, double height)
   return pi / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * height;
 }
 
-double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
-{
-  // atan2 keeps full precision at small angles, where acos loses half the digits.
-  return radian * std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
-}
-
 Eigen::Vector3d endToEnd(const Fibres& fibres, std::size_t fibre)
 {
   const Eigen::Vector3d chord = fibres.points[fibres.offsets[fibre + 1] - 1] - fibres.points[fibres.offsets[fibre]];
@@ -226,6 +220,12 @@ Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId)
     throw InvalidInput("there is no bundle " + std::to_string(bundleId));
   }
   return found->second;
+}
+
+double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
+{
+  // atan2 keeps full precision at small angles, where acos loses half the digits.
+  return radian * std::atan2(direction.cross(axis).norm(), std::abs(direction.dot(axis)));
 }
 
 double meanDispersion(const Fibres& fibres, int bundleId)

@@ -57,6 +57,9 @@ double chainVolume(const Fibres& fibres, std::size_t fibre);
 /// between control points clipped to the domain along the centre line. Overlaps count twice, end caps are left out.
 double capsuleVolumeInDomain(const Fibres& fibres);
 
+/// Returns the angle (degrees, at most 90) between two lines of these directions, which need not be unit vectors.
+double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis);
+
 /// Mean angle (degrees) between each fibre's end-to-end direction and its bundle's axis, where an axis is the normalised sum
 /// of the end-to-end unit directions of the bundle's fibres. `bundleId` 0 averages over all bundles' fibres.
 double meanDispersion(const Fibres& fibres, int bundleId = 0);

@@ -2,6 +2,7 @@
 #include "judge/DirectionStatistics.h"
 
 #include "base/Constants.h"
+#include "bundle/DirectionDistribution.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -21,45 +22,15 @@ namespace
 /// Distance (µm) of neighbours whose directions are compared.
 constexpr double neighbourhood = 10.0;
 
-/// The direction of a fibre at one place.
-struct Tangent
-{
-  std::size_t number = 0; ///< of the place along the fibre, see FibreCut
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-};
-
 /// The directions of one bundle's fibres.
-struct BundleTangents
+struct BundleDirections
 {
-  std::vector<std::size_t> fibres;
-  std::vector<Tangent> middles; ///< of each of these fibres, if it has one
-  Eigen::Matrix3d dyadic = Eigen::Matrix3d::Zero();
+  std::vector<FibrePlace> middles; ///< of the fibres that have one
+  // Sums of direction ⊗ direction over places, and weighted with the axons' areas there.
+  Eigen::Matrix3d byLength = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d byVolume = Eigen::Matrix3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
 };
-
-std::vector<Tangent> tangentsOf(const Fibres& fibres, std::size_t fibre, double spacing)
-{
-  std::vector<Tangent> tangents;
-  double begin = 0.0; // length before the segment
-  std::size_t number = 0;
-  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
-  {
-    const Eigen::Vector3d along = fibres.points[i + 1] - fibres.points[i];
-    const double length = along.norm();
-    for (double at = (static_cast<double>(number) + 0.5) * spacing; at < begin + length;
-         at = (static_cast<double>(++number) + 0.5) * spacing)
-    {
-      const Eigen::Vector3d place = fibres.points[i] + (at - begin) / length * along;
-      if (fibres.domain.depth(place) >= 0.0)
-      {
-        tangents.push_back({ number, place, along / length });
-      }
-    }
-    begin += length;
-  }
-  return tangents;
-}
 
 /// Means over places, each with a weight.
 struct WeightedMean
@@ -75,23 +46,8 @@ struct WeightedMean
   double value() const { return this->weights > 0.0 ? this->sum / this->weights : notANumber; }
 };
 
-/// ∫ sin²θ w / ∫ w with the Watson weight w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
-double meanSquaredSine(double kappa)
-{
-  const double end = std::min(0.5 * pi, 9.0 / std::sqrt(kappa));
-  constexpr int intervals = 2000;
-  WeightedMean mean;
-  for (int i = 0; i <= intervals; ++i)
-  {
-    const double sine = std::sin(end * i / intervals);
-    const double simpson = i == 0 || i == intervals ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
-    mean.add(sine * sine, simpson * std::exp(-kappa * sine * sine) * sine);
-  }
-  return mean.value();
-}
-
 /// Adds the angles between the middles of neighbouring fibres.
-void addSpread(const std::vector<Tangent>& middles, WeightedMean& spread)
+void addSpread(const std::vector<FibrePlace>& middles, WeightedMean& spread)
 {
   using Cell = std::array<long, 3>;
   std::map<Cell, std::vector<std::size_t>> cells;
@@ -102,7 +58,7 @@ void addSpread(const std::vector<Tangent>& middles, WeightedMean& spread)
   };
   for (std::size_t i = 0; i < middles.size(); ++i)
   {
-    const Cell own = cellOf(middles[i].place);
+    const Cell own = cellOf(middles[i].point);
     for (int k = 0; k < 27; ++k)
     {
       const auto cell = cells.find({ own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1 });
@@ -112,11 +68,9 @@ void addSpread(const std::vector<Tangent>& middles, WeightedMean& spread)
       }
       for (const std::size_t j : cell->second)
       {
-        if ((middles[i].place - middles[j].place).norm() <= neighbourhood)
+        if ((middles[i].point - middles[j].point).norm() <= neighbourhood)
         {
-          const Eigen::Vector3d& a = middles[i].direction;
-          const Eigen::Vector3d& b = middles[j].direction;
-          spread.add(radian * std::atan2(a.cross(b).norm(), std::abs(a.dot(b))), 1.0);
+          spread.add(angleBetweenLines(middles[i].direction, middles[j].direction), 1.0);
         }
       }
     }
@@ -125,17 +79,17 @@ void addSpread(const std::vector<Tangent>& middles, WeightedMean& spread)
 }
 
 /// Adds the twist and the evenness of azimuths of a bundle, weighted by its fibres.
-void addShape(const BundleTangents& bundle, WeightedMean& twist, WeightedMean& azimuths)
+void addShape(const BundleDirections& bundle, WeightedMean& twist, WeightedMean& azimuths)
 {
   const auto count = static_cast<double>(bundle.middles.size());
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> across;
-  for (const Tangent& tangent : bundle.middles)
+  for (const FibrePlace& place : bundle.middles)
   {
-    const double along = tangent.direction.dot(bundle.axis);
-    across.emplace_back((along < 0.0 ? -1.0 : 1.0) * (tangent.direction - along * bundle.axis));
-    middle += tangent.place / count;
+    const double along = place.direction.dot(bundle.axis);
+    across.emplace_back((along < 0.0 ? -1.0 : 1.0) * (place.direction - along * bundle.axis));
+    middle += place.point / count;
     mean += across.back() / count;
   }
   double turned = 0.0;
@@ -143,7 +97,7 @@ void addShape(const BundleTangents& bundle, WeightedMean& twist, WeightedMean& a
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < across.size(); ++i)
   {
-    Eigen::Vector3d arm = bundle.middles[i].place - middle;
+    Eigen::Vector3d arm = bundle.middles[i].point - middle;
     arm -= arm.dot(bundle.axis) * bundle.axis;
     turned += arm.cross(across[i]).dot(bundle.axis);
     most += arm.norm() * across[i].norm();
@@ -175,7 +129,8 @@ double watsonConcentration(double meanSquaredCosine)
   for (int i = 0; i < 100; ++i)
   {
     const double middle = 0.5 * (low + high);
-    (meanSquaredSine(std::exp(middle)) > wanted ? low : high) = middle;
+    const double found = watsonMean(std::exp(middle), [](double angle) { return std::sin(angle) * std::sin(angle); });
+    (found > wanted ? low : high) = middle;
   }
   return std::exp(0.5 * (low + high));
 }
@@ -183,19 +138,25 @@ double watsonConcentration(double meanSquaredCosine)
 DirectionStatistics measureDirections(
   const Fibres& fibres, const std::vector<const std::vector<FibreCut>*>& innerCuts, double spacing)
 {
-  std::map<int, BundleTangents> bundles;
+  std::map<int, BundleDirections> bundles;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    BundleTangents& bundle = bundles[fibres.bundleIds[f]];
-    bundle.fibres.push_back(f);
-    const std::vector<Tangent> tangents = tangentsOf(fibres, f, spacing);
-    for (const Tangent& tangent : tangents)
+    BundleDirections& bundle = bundles[fibres.bundleIds[f]];
+    const std::vector<FibrePlace> places = placesAlongFibre(fibres, f, spacing);
+    auto cut = innerCuts[f]->begin();
+    for (const FibrePlace& place : places)
     {
-      bundle.dyadic += tangent.direction * tangent.direction.transpose();
+      const Eigen::Matrix3d dyad = place.direction * place.direction.transpose();
+      bundle.byLength += dyad;
+      cut = std::find_if(cut, innerCuts[f]->end(), [&](const FibreCut& c) { return c.number >= place.number; });
+      if (cut != innerCuts[f]->end() && cut->number == place.number)
+      {
+        bundle.byVolume += cut->area * dyad;
+      }
     }
-    if (!tangents.empty())
+    if (!places.empty())
     {
-      bundle.middles.push_back(tangents[tangents.size() / 2]);
+      bundle.middles.push_back(places[places.size() / 2]);
     }
   }
   WeightedMean byLength; // of cos²θ
@@ -203,24 +164,17 @@ DirectionStatistics measureDirections(
   WeightedMean spread;
   WeightedMean twist;
   WeightedMean azimuths;
+  const auto add = [](const Eigen::Matrix3d& dyads, const Eigen::Vector3d& axis, WeightedMean& mean)
+  {
+    mean.sum += axis.dot(dyads * axis);
+    mean.weights += dyads.trace();
+  };
   for (auto& entry : bundles)
   {
-    BundleTangents& bundle = entry.second;
-    bundle.axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(bundle.dyadic).eigenvectors().col(2);
-    for (const std::size_t f : bundle.fibres)
-    {
-      auto cut = innerCuts[f]->begin();
-      for (const Tangent& tangent : tangentsOf(fibres, f, spacing))
-      {
-        const double cosine = tangent.direction.dot(bundle.axis);
-        byLength.add(cosine * cosine, 1.0);
-        cut = std::find_if(cut, innerCuts[f]->end(), [&](const FibreCut& c) { return c.number >= tangent.number; });
-        if (cut != innerCuts[f]->end() && cut->number == tangent.number)
-        {
-          byVolume.add(cosine * cosine, cut->area);
-        }
-      }
-    }
+    BundleDirections& bundle = entry.second;
+    bundle.axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(bundle.byLength).eigenvectors().col(2);
+    add(bundle.byLength, bundle.axis, byLength);
+    add(bundle.byVolume, bundle.axis, byVolume);
     addSpread(bundle.middles, spread);
     addShape(bundle, twist, azimuths);
   }

@@ -32,8 +32,8 @@ struct DirectionStatistics
 /// 1e14.
 double watsonConcentration(double meanSquaredCosine);
 
-/// Measures the directions at every `spacing` (µm) along each centre line, at the places of cutsAlongFibre(). `innerCuts` has the
-/// axons' cuts of each fibre there, in the order of the fibres.
+/// Measures the directions at every `spacing` (µm) along each centre line, at the places of placesAlongFibre(). `innerCuts` has
+/// the axons' cuts of each fibre there, in the order of the fibres.
 DirectionStatistics measureDirections(
   const Fibres& fibres, const std::vector<const std::vector<FibreCut>*>& innerCuts, double spacing);
 

@@ -44,7 +44,7 @@ std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre)
 
 } // namespace
 
-std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing)
+std::vector<FibrePlace> placesAlongFibre(const Fibres& fibres, std::size_t fibre, double spacing)
 {
   const std::vector<double> arc = arcLengths(fibres, fibre);
   requireWithin("CutSpacing", spacing, limits::cutSpacing);
@@ -53,29 +53,38 @@ std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, co
     throw InvalidInput(text("CutSpacing ", spacing, " µm makes more than ", limits::cuts, " cross-sections of fibre ",
       fibres.fibreIds[fibre], ", whose centre line is ", arc.back(), " µm long: choose a larger CutSpacing"));
   }
-  const CrossSections sections(surface);
-  const Domain whole = betweenCaps(surface, fibres.domain, largestInset);
-  std::vector<FibreCut> cuts;
+  std::vector<FibrePlace> places;
   for (std::size_t number = 0; (static_cast<double>(number) + 0.5) * spacing < arc.back(); ++number)
   {
     const double s = (static_cast<double>(number) + 0.5) * spacing;
     const Eigen::Vector3d point = positionAt(fibres, fibre, arc, s);
-    // The chord over one spacing, so that a kink between two short segments does not tilt the plane.
+    // The chord over one spacing, so that a kink between two short segments does not tilt the plane of a cut.
     const Eigen::Vector3d chord = positionAt(fibres, fibre, arc, std::min(s + 0.5 * spacing, arc.back())) -
                                   positionAt(fibres, fibre, arc, std::max(s - 0.5 * spacing, 0.0));
-    if (fibres.domain.depth(point) <= 0.0 || chord.norm() <= 0.0)
+    if (fibres.domain.depth(point) > 0.0 && chord.norm() > 0.0)
     {
-      continue;
+      places.push_back({ number, point, chord.normalized() });
     }
-    const Eigen::Vector3d normal = chord.normalized();
-    const auto outline = sections.outlineAround(point, normal, 3.0 * fibres.targetRadii[fibre]);
+  }
+  return places;
+}
+
+std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing)
+{
+  const std::vector<FibrePlace> places = placesAlongFibre(fibres, fibre, spacing);
+  const CrossSections sections(surface);
+  const Domain whole = betweenCaps(surface, fibres.domain, largestInset);
+  std::vector<FibreCut> cuts;
+  for (const FibrePlace& place : places)
+  {
+    const auto outline = sections.outlineAround(place.point, place.direction, 3.0 * fibres.targetRadii[fibre]);
     const bool isWhole = std::all_of(
       outline.begin(), outline.end(), [&](const Eigen::Vector3d& corner) { return whole.depth(corner) > boundaryTolerance; });
     if (!outline.empty() && isWhole)
     {
-      const double area = polygonArea(outline, normal);
+      const double area = polygonArea(outline, place.direction);
       const double perimeter = polygonPerimeter(outline);
-      cuts.push_back({ number, area, 4.0 * pi * area / (perimeter * perimeter) });
+      cuts.push_back({ place.number, area, 4.0 * pi * area / (perimeter * perimeter) });
     }
   }
   return cuts;

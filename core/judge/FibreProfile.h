@@ -11,18 +11,29 @@
 namespace cactus
 {
 
+/// A place on a fibre's centre line.
+struct FibrePlace
+{
+  std::size_t number = 0;                              ///< from 0 along the centre line, at (number + 1/2) · spacing
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();     ///< µm
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero(); ///< unit vector: the chord over one spacing
+};
+
+/// Returns the places inside the domain at every `spacing` µm along fibre number `fibre`'s centre line, in their order. Throws
+/// InvalidInput for a spacing that is out of range or gives more than limits::cuts places.
+std::vector<FibrePlace> placesAlongFibre(const Fibres& fibres, std::size_t fibre, double spacing);
+
 /// One cross-section of a surface, orthogonal to its fibre's centre line.
 struct FibreCut
 {
-  std::size_t number = 0;   ///< from 0 along the centre line: the cut lies at (number + 1/2) · spacing
+  std::size_t number = 0;   ///< of its place, see FibrePlace
   double area = 0.0;        ///< µm²
   double circularity = 0.0; ///< 4π · area / perimeter²: 1 for circles, 0.91 for hexagons, 0.79 for squares
 };
 
 /// Returns the cross-sections of a surface at every `spacing` µm along fibre number `fibre`'s centre line, orthogonal to it, in
 /// their order. Cuts that reach the domain's boundary or a cap of the surface (inner surfaces end before the boundary), or around
-/// a point outside the surface, do not count. Throws InvalidInput for a spacing that is out of range or gives more than
-/// limits::cuts cuts.
+/// a point outside the surface, do not count. Throws as placesAlongFibre() does.
 std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing);
 
 /// Returns the radius (µm) of the circle with a cut's area.

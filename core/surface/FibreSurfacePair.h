@@ -5,6 +5,7 @@
 #include "mesh/TriangleMesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace cactus
@@ -56,6 +57,7 @@ struct FibreSurfacePair
   /// Whether the inner surface was made with the outer one, which has not been moved since.
   bool isInnerMade = false;
 
+  bool hasOwnGRatio() const { return !std::isnan(this->ownGRatio); }
   /// Combine the values of both surfaces.
   double largestMove() const { return std::max(this->outerChange.largestMove, this->innerChange.largestMove); }
   double droppedVolume() const { return this->outerChange.droppedVolume + this->innerChange.droppedVolume; }

@@ -249,7 +249,7 @@ void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
 
 double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const
 {
-  if (!std::isnan(pair.ownGRatio))
+  if (pair.hasOwnGRatio())
   {
     return pair.ownGRatio;
   }
@@ -496,7 +496,8 @@ void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceSt
   {
     const double volume = pair.outerReport.volume;
     whole += volume;
-    (std::isnan(pair.ownGRatio) ? open : given) += std::isnan(pair.ownGRatio) ? volume : pair.ownGRatio * pair.ownGRatio * volume;
+    open += pair.hasOwnGRatio() ? 0.0 : volume;
+    given += pair.hasOwnGRatio() ? pair.ownGRatio * pair.ownGRatio * volume : 0.0;
   }
   require(open > 0.0 || whole == 0.0, "TargetAxonVolumeFraction cannot be aimed at, because every fibre has a TargetGRatio of "
                                       "its own: choose another GRatioModel, or "
@@ -519,13 +520,13 @@ void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceSt
     }
     for (FibreSurfacePair& pair : this->Pairs)
     {
-      pair.targetGRatio = std::isnan(pair.ownGRatio) ? std::sqrt(square) : pair.ownGRatio;
+      pair.targetGRatio = pair.hasOwnGRatio() ? pair.ownGRatio : std::sqrt(square);
     }
     this->makeEachInner(outer, inner);
     given = open = reached = 0.0;
     for (const FibreSurfacePair& pair : this->Pairs)
     {
-      const bool isOpen = pair.state == MyelinState::AsAsked && std::isnan(pair.ownGRatio);
+      const bool isOpen = pair.state == MyelinState::AsAsked && !pair.hasOwnGRatio();
       reached += pair.innerReport.volume;
       (isOpen ? open : given) += isOpen ? pair.outerReport.volume : pair.innerReport.volume;
     }

@@ -8,12 +8,11 @@ all. TimeBudget stops all at the same iteration, whichever of them are asked for
 import glob
 import os
 import re
-import signal
 import socket
 import subprocess
 import unittest
 
-from cactus_testing import UNPARTED, CactusTestCase, environment_of_its_own, fetch, main
+from cactus_testing import UNPARTED, CactusTestCase, environment_of_its_own, fetch, kill_at, main
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, ProgrammableFilter,
                              SaveData)
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
@@ -209,13 +208,7 @@ class SharedRuns(CactusTestCase):
         expected = self.bits(self.said(["pvpython"], CHECKPOINTS, os.path.join(self.folder, "whole")))
         checkpoint = os.path.join(self.folder, "killed")
         with self.start(self.on_ranks(2), CHECKPOINTS, checkpoint) as process:
-            for line in process.stdout:
-                if line.startswith("process"):
-                    number = int(line.split()[1])
-                if "iteration 40:" in line:
-                    os.kill(number, signal.SIGKILL)
-                    break
-            process.stdout.read()
+            kill_at(process, "iteration 40:")
         self.assertNotEqual(process.returncode, 0)
         said = self.said(self.on_ranks(3), CHECKPOINTS, checkpoint)
         self.assertNotIn("iteration 0:", said)

@@ -82,7 +82,8 @@ class StopSignalsTest(CactusTestCase):
     def test_the_process_ends_unless_a_script_hears_of_it(self):
         whole = os.path.join(self.folder, "whole")
         self.assertEqual(self.run_script("pvpython", folder=whole)[0], 0)
-        for launcher, number, isHeard in (("pvpython", signal.SIGINT, True), ("pvbatch", signal.SIGTERM, False)):
+        for launcher, number, isHeard in (("pvpython", signal.SIGINT, False), ("pvpython", signal.SIGINT, True),
+                                          ("pvbatch", signal.SIGTERM, False)):
             with self.subTest(launcher=launcher, number=number, isHeard=isHeard):
                 folder = os.path.join(self.folder, f"{launcher}-{int(number)}-{isHeard}")
                 code, said = self.run_script(launcher, folder=folder, number=number, isHeard=isHeard)

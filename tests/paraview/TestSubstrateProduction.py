@@ -10,7 +10,7 @@ import signal
 import subprocess
 import unittest
 
-from cactus_testing import CactusTestCase, environment_of_its_own, fetch, main, mesh_oracle, random_walk
+from cactus_testing import CactusTestCase, environment_of_its_own, fetch, kill_at, main, mesh_oracle, random_walk
 from folder_content import files
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateProduction,
                              SubstrateWriter)
@@ -209,33 +209,26 @@ class SubstrateProductionTest(CactusTestCase):
         wanted = os.path.join(self.folder, "one")
         with self.script(wanted, 0) as process:
             process.communicate()
-        for count, next_count in ((3, 2),):
-            folder = os.path.join(self.folder, f"on-{count}")
-            with self.on_ranks(count, folder) as process:
-                for line in process.stdout:
-                    if line.startswith("process"):
-                        number = int(line.split()[1])
-                    if "making inner surfaces" in line:
-                        os.kill(number, signal.SIGKILL)
-                        break
-                process.stdout.read()
-            self.assertNotEqual(process.returncode, 0)
-            self.assertFalse(os.path.exists(folder))
-            journals = sorted(name for name in os.listdir(folder + ".work") if name.startswith("journal"))
-            self.assertEqual(journals, ["journal"] + [f"journal-{rank:05}" for rank in range(1, count)])
-            for name in journals:
-                self.assertGreater(os.path.getsize(os.path.join(folder + ".work", name)), 1000, name)
-            with self.on_ranks(next_count, folder) as process:
-                said = process.stdout.read()
-            self.assertEqual(process.returncode, 0, said)
-            self.assertNotIn("keeping fibres apart", said)
-            self.assertEqual(files(folder), files(wanted))
-            self.assertFalse(os.path.exists(folder + ".work"))
-            whole = os.path.join(self.folder, f"whole-{count}")
-            with self.on_ranks(count, whole) as process:
-                said = process.stdout.read()
-            self.assertEqual(process.returncode, 0, said)
-            self.assertEqual(files(whole), files(wanted))
+        folder = os.path.join(self.folder, "killed")
+        with self.on_ranks(3, folder) as process:
+            kill_at(process, "making inner surfaces")
+        self.assertNotEqual(process.returncode, 0)
+        self.assertFalse(os.path.exists(folder))
+        journals = sorted(name for name in os.listdir(folder + ".work") if name.startswith("journal"))
+        self.assertEqual(journals, ["journal", "journal-00001", "journal-00002"])
+        for name in journals:
+            self.assertGreater(os.path.getsize(os.path.join(folder + ".work", name)), 1000, name)
+        with self.on_ranks(2, folder) as process:
+            said = process.stdout.read()
+        self.assertEqual(process.returncode, 0, said)
+        self.assertNotIn("keeping fibres apart", said)
+        self.assertEqual(files(folder), files(wanted))
+        self.assertFalse(os.path.exists(folder + ".work"))
+        whole = os.path.join(self.folder, "whole")
+        with self.on_ranks(3, whole) as process:
+            said = process.stdout.read()
+        self.assertEqual(process.returncode, 0, said)
+        self.assertEqual(files(whole), files(wanted))
 
     @unittest.skipIf(ranks() > 1, "starts processes of its own")
     def test_ranks_end_together_with_one_message(self):

@@ -11,6 +11,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -32,6 +33,18 @@ UNPARTED = r"the optimiser has not parted these fibres"
 
 # What SubstrateWriter says of substrates as small as those of tests, where a test is about something else.
 LEAVING = r"of the walkers of mcdc/extra\.conf leave the substrate|no room outside the fibres in the middle of the substrate for walkers of mcdc/extra\.conf"
+
+
+def kill_at(process, words):
+    """Reads what a job says, one of whose processes has printed its number ("process N"), and kills that one at the line with these words."""
+    number = None
+    for line in process.stdout:
+        if line.startswith("process"):
+            number = int(line.split()[1])
+        if words in line:
+            os.kill(number, signal.SIGKILL)
+            break
+    process.stdout.read()
 
 
 def environment_of_its_own():
