@@ -23,13 +23,26 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "Fraction of the domain that FibreRadialGrowth will fill: fibres start thinner than their target radii and grow to them; "
         "0: they start with their target radii")
       .include(&Options::radius, RadiusDistributionOptions::properties())
+      .add("Border", &Options::border, { "Cut", "Walls" },
+        "What the domain's sides are to the fibres: cuts through a larger bundle, or walls that keep all fibres inside")
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
-        "Mean angle between a fibre's end-to-end direction and its bundle's axis")
+        "Mean angle between fibres and their bundle's axis: anywhere along Coherent fibres (undulation left out), or from end to end")
       .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent" },
         "Distribution of the fibres' directions: independent of each other, about the axis (Watson) or uniform within a cone "
         "(Cone), or similar for neighbours (Coherent; two bundles use Watson instead)")
       .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
-        "Distance over which the directions of neighbours are similar; 0: four times the fibres' mean shift between the faces")
+        "Lateral distance over which the directions of neighbours are similar; 0, with walls only: four times the fibres' mean "
+        "shift between the faces")
+      .where("DispersionModel", { 2 })
+      .where("NumberOfBundles", { 1 })
+      .add("Sinuosity", &Options::sinuosity, limits::sinuosity,
+        "Mean length of fibres over the distance of their ends; 1: they do not undulate")
+      .where("Border", { 0 })
+      .where("DispersionModel", { 2 })
+      .where("NumberOfBundles", { 1 })
+      .add("UndulationWavelength", &Options::undulationWavelength, limits::undulationWavelength,
+        "Wavelength of the undulation along the fibres")
+      .where("Border", { 0 })
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
@@ -46,7 +59,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .where("NumberOfBundles", { 2 })
       .add("Margin", &Options::margin, limits::bundleMarginOrAsNeeded,
         "Width by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides; -1: as wide as "
-        "needed for a domain that is cut from the middle of the bundle, without a border of its own")
+        "needed, 0 with walls")
       .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,
         "Distance between a fibre's control points as a multiple of its radius, within the two limits below")
       .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing, "Smallest distance between control points")
@@ -70,6 +83,10 @@ void BundleInitializerOptions::validate() const
       text("MinimumRadius ", radius.minimum, " µm makes capsules of less than ", limits::radius.lowest, " µm where they fill ",
         fibreVolumeFraction, " to be grown to ", grownFibreVolumeFraction, ": enlarge MinimumRadius or FibreVolumeFraction"));
   }
+  if (isStationary(*this) && correlationLength == 0.0)
+  {
+    throw InvalidInput("CorrelationLength is 0: give a length in µm (8 by default); 0 is for Border Walls");
+  }
   if (minimumSpacing > maximumSpacing)
   {
     throw InvalidInput(text("MaximumSpacing ", maximumSpacing, " is below MinimumSpacing ", minimumSpacing, ": exchange them"));
@@ -85,17 +102,30 @@ Surroundings surroundings(const BundleInitializerOptions& options)
 {
   if (!options.isCutOut())
   {
-    return { options.margin, 0.0 };
+    return { std::max(options.margin, 0.0), 0.0 };
   }
   constexpr double packed = 2.0;   // µm, within which a wall orders the packing
   constexpr double steepest = 2.0; // times the mean angle, which hardly any fibres exceed
   const double half = 0.5 * options.side + packed;
-  return { packed + half * std::tan(std::min(steepest * options.meanDispersion, 60.0) * degree), packed };
+  double shift = half * std::tan(std::min(steepest * options.meanDispersion, 60.0) * degree);
+  if (isStationary(options))
+  {
+    // A component of the displacement by undulation has this deviation.
+    const double slope = std::sqrt(options.sinuosity - 1.0);
+    constexpr double deviations = 3.0;
+    shift += deviations * std::min(half * slope, slope * options.undulationWavelength / (2.0 * pi));
+  }
+  return { options.margin < 0.0 ? packed + shift : options.margin, packed };
 }
 
 bool isCoherent(const BundleInitializerOptions& options)
 {
   return options.dispersionModel == DispersionModel::Coherent && options.numberOfBundles == 1;
+}
+
+bool isStationary(const BundleInitializerOptions& options)
+{
+  return isCoherent(options) && options.isCutOut();
 }
 
 } // namespace cactus
