@@ -26,8 +26,8 @@ struct StationaryFlowReport
 /// dense everywhere as on the plane where they were packed, since it preserves areas across z.
 ///
 /// It is the sum of two (see WaveField). The direction's has the lateral correlation length ℓ and changes along z over 8 ℓ; its
-/// stream function f(ψ) with f' = exp(bψ), b rising with the angle, gives the angles nearly Watson's distribution (within 0.014
-/// of it up to 20°, 0.03 at 25°, 0.04 at 45°). The undulation's has waves along z of a wavelength ± 15 %, and a lateral
+/// stream function f(ψ) with f' = exp(bψ), b rising with the angle from 15° on, gives the angles nearly Watson's distribution (within 0.05 of
+/// it). The undulation's has waves along z of a wavelength ± 15 %, and a lateral
 /// correlation length of 6 µm.
 ///
 /// Both are scaled until, in the domain, the mean angle and the sinuosity are those asked for. Where a domain holds few
@@ -71,6 +71,7 @@ private:
 
   Part Direction;
   Part Undulation;
+  double LocalUnevenness = 0.0; ///< of directions at all places, as Sample::unevenness
   StationaryFlowReport Reached;
 };
 
