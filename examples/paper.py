@@ -2,7 +2,7 @@
 """The substrates of the CACTUS paper by name, and what the paper reports of them (its sides are 500 µm, those of HISTOLOGY 300 µm).
 
 dispersion-D is one bundle with a mean dispersion of D degrees, each fibre's direction for itself, as in the paper; coherent-D one whose
-neighbouring fibres point alike, which is the default of BundleInitializer; crossing-A are two bundles, of 5° each, that cross at A degrees (the
+neighbouring fibres point alike; all lie between walls, as in the paper; crossing-A are two bundles, of 5° each, that cross at A degrees (the
 rows of the paper's table of maximum fibre volume fractions); histology-N is row N of its table of histological targets; radii-F is one
 bundle of 10° with a fibre volume fraction of F. Radii are the defaults, Γ(2.4, 0.25) cut to 0.2-2 µm, which the paper's tutorial has; of
 its own substrates the paper does not tell them. In histology-N and radii-F they are those that fibres end with. The others start with them and
@@ -26,7 +26,7 @@ def properties(name, side, seed=1, fraction=0.955, tolerance=0.0065):
     """The properties of BundleInitializer, FibreRadialGrowth and MyelinSurface for the substrate of that name, or None. `fraction` is the
     fibre volume fraction of those that are as dense as can be, `tolerance` their SurfaceTolerance (µm), which leaves room for it."""
     kind, _, number = name.partition("-")
-    bundle = {"Side": side, "Seed": seed}
+    bundle = {"Side": side, "Seed": seed, "Border": "Walls"}
     growth = {"TargetFibreVolumeFraction": fraction, "SurfaceTolerance": tolerance}
     myelin = {"GRatio": 0.7}
     if kind == "dispersion":
@@ -34,9 +34,9 @@ def properties(name, side, seed=1, fraction=0.955, tolerance=0.0065):
     elif kind == "coherent":
         bundle.update(MeanDispersion=float(number), GrownFibreVolumeFraction=0)
     elif kind == "crossing":
-        bundle.update(Preset="Crossing at 90 degrees", CrossingAngle=float(number))
+        bundle = {"Preset": "Crossing at 90 degrees", **bundle, "CrossingAngle": float(number)}
     elif kind == "histology":
-        bundle.update(Preset=f"Histological target {'abcd'[int(number) - 1]}")
+        bundle = {"Preset": f"Histological target {'abcd'[int(number) - 1]}", **bundle}
         growth, myelin = {}, {}  # theirs follow from the bundle's
     elif kind == "radii":
         bundle.update(MeanDispersion=10, GrownFibreVolumeFraction=float(number))

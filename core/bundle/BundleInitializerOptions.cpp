@@ -18,7 +18,8 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
     PropertyList<Options>()
       .add("Side", &Options::side, limits::side, "Side of the cubic domain, which is centred on the origin")
       .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
-        "Fraction of the end faces that the fibres' circles cover; with two bundles, fraction of the domain that the fibres fill")
+        "Fraction of the domain that the fibres fill before growth; with walls and one bundle, fraction of the end faces that "
+        "their circles cover")
       .add("GrownFibreVolumeFraction", &Options::grownFibreVolumeFraction, limits::fractionOrNone,
         "Fraction of the domain that FibreRadialGrowth will fill: fibres start thinner than their target radii and grow to them; "
         "0: they start with their target radii")
@@ -26,7 +27,8 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .add("Border", &Options::border, { "Cut", "Walls" },
         "What the domain's sides are to the fibres: cuts through a larger bundle, or walls that keep all fibres inside")
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
-        "Mean angle between fibres and their bundle's axis: anywhere along Coherent fibres (undulation left out), or from end to end")
+        "Mean angle between fibres and their bundle's axis: anywhere along Coherent fibres (undulation left out), or from end to "
+        "end")
       .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent" },
         "Distribution of the fibres' directions: independent of each other, about the axis (Watson) or uniform within a cone "
         "(Cone), or similar for neighbours (Coherent; two bundles use Watson instead)")

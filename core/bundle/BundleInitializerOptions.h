@@ -29,8 +29,8 @@ enum class Border
 struct BundleInitializerOptions
 {
   double side = 30.0; ///< side of the cubic domain [-side/2, side/2]³
-  /// In (0, 1). One bundle: area of the circles on the end faces over the area of the faces. Two bundles, whose faces lie outside
-  /// the domain: volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain.
+  /// In (0, 1). Volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain; one bundle between
+  /// walls: area of the circles on the end faces over the area of the faces.
   double fibreVolumeFraction = 0.7;
   RadiusDistributionOptions radius; ///< outer radii of the fibres
   /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules start thinner than the sampled
@@ -50,14 +50,15 @@ struct BundleInitializerOptions
   /// Mean length of fibres over the distance of their ends, with a stationary flow; 1: no undulation.
   double sinuosity = 1.03;
   double undulationWavelength = 25.0; ///< µm, along the fibres
-  int numberOfBundles = 1;     ///< 1 or 2
-  double crossingAngle = 90.0; ///< between the axes of two bundles, in (0, 90]
+  int numberOfBundles = 1;            ///< 1 or 2
+  double crossingAngle = 90.0;        ///< between the axes of two bundles, in (0, 90]
   CrossingStyle crossingStyle = CrossingStyle::Interwoven;
   /// Least thickness of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height, or the need of the largest
   /// radius.
   double sheetThickness = 0.0;
-  /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides). -1: as needed, that
-  /// is with Border::Cut as wide as the fibres' slants ask, and a little beyond the ends (see surroundings()), and 0 with walls.
+  /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides). -1: as needed,
+  /// that is with Border::Cut as wide as the fibres' slants ask, and a little beyond the ends (see surroundings()), and 0 with
+  /// walls.
   double margin = -1.0;
   /// Distance between the control points of a fibre, as a multiple of its radius, within the two limits below. A capsule chain
   /// bends once per control point, so the spacing limits how sharply a fibre can bend; longer capsules are cheaper.

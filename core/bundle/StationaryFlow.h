@@ -26,9 +26,8 @@ struct StationaryFlowReport
 /// dense everywhere as on the plane where they were packed, since it preserves areas across z.
 ///
 /// It is the sum of two (see WaveField). The direction's has the lateral correlation length ℓ and changes along z over 8 ℓ; its
-/// stream function f(ψ) with f' = exp(bψ), b rising with the angle from 15° on, gives the angles nearly Watson's distribution (within 0.05 of
-/// it). The undulation's has waves along z of a wavelength ± 15 %, and a lateral
-/// correlation length of 6 µm.
+/// stream function f(ψ) with f' = exp(bψ), b rising with the angle from 15° on, gives the angles nearly Watson's distribution
+/// (within 0.05 of it). The undulation's has waves along z of a wavelength ± 15 %, and a lateral correlation length of 6 µm.
 ///
 /// Both are scaled until, in the domain, the mean angle and the sinuosity are those asked for. Where a domain holds few
 /// independent places, several flows are drawn, and the first is taken in which the fibres' angles from end to end are Watson's,

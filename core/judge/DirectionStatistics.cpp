@@ -26,10 +26,25 @@ constexpr double neighbourhood = 10.0;
 struct BundleDirections
 {
   std::vector<FibrePlace> middles; ///< of the fibres that have one
+  std::size_t places = 0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< sum over places, then their mean
   // Sums of direction ⊗ direction over places, and weighted with the axons' areas there.
   Eigen::Matrix3d byLength = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d byVolume = Eigen::Matrix3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  // Sums for the twist.
+  double turned = 0.0;
+  double most = 0.0;
+
+  void addTwist(const FibrePlace& place)
+  {
+    const double along = place.direction.dot(this->axis);
+    const Eigen::Vector3d across = (along < 0.0 ? -1.0 : 1.0) * (place.direction - along * this->axis);
+    Eigen::Vector3d arm = place.point - this->centre;
+    arm -= arm.dot(this->axis) * this->axis;
+    this->turned += arm.cross(across).dot(this->axis);
+    this->most += arm.norm() * across.norm();
+  }
 };
 
 /// Means over places, each with a weight.
@@ -78,42 +93,6 @@ void addSpread(const std::vector<FibrePlace>& middles, WeightedMean& spread)
   }
 }
 
-/// Adds the twist and the evenness of azimuths of a bundle, weighted by its fibres.
-void addShape(const BundleDirections& bundle, WeightedMean& twist, WeightedMean& azimuths)
-{
-  const auto count = static_cast<double>(bundle.middles.size());
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector3d> across;
-  for (const FibrePlace& place : bundle.middles)
-  {
-    const double along = place.direction.dot(bundle.axis);
-    across.emplace_back((along < 0.0 ? -1.0 : 1.0) * (place.direction - along * bundle.axis));
-    middle += place.point / count;
-    mean += across.back() / count;
-  }
-  double turned = 0.0;
-  double most = 0.0;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < across.size(); ++i)
-  {
-    Eigen::Vector3d arm = bundle.middles[i].point - middle;
-    arm -= arm.dot(bundle.axis) * bundle.axis;
-    turned += arm.cross(across[i]).dot(bundle.axis);
-    most += arm.norm() * across[i].norm();
-    covariance += (across[i] - mean) * (across[i] - mean).transpose();
-  }
-  if (most > 0.0)
-  {
-    twist.add(turned / most, count);
-  }
-  const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
-  if (values[1] > 0.0)
-  {
-    azimuths.add(values[2] / values[1], count);
-  }
-}
-
 } // namespace
 
 double watsonConcentration(double meanSquaredCosine)
@@ -148,6 +127,8 @@ DirectionStatistics measureDirections(
     {
       const Eigen::Matrix3d dyad = place.direction * place.direction.transpose();
       bundle.byLength += dyad;
+      bundle.centre += place.point;
+      ++bundle.places;
       cut = std::find_if(cut, innerCuts[f]->end(), [&](const FibreCut& c) { return c.number >= place.number; });
       if (cut != innerCuts[f]->end() && cut->number == place.number)
       {
@@ -172,11 +153,32 @@ DirectionStatistics measureDirections(
   for (auto& entry : bundles)
   {
     BundleDirections& bundle = entry.second;
-    bundle.axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(bundle.byLength).eigenvectors().col(2);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(bundle.byLength);
+    bundle.axis = solver.eigenvectors().col(2);
+    bundle.centre /= static_cast<double>(std::max<std::size_t>(bundle.places, 1));
     add(bundle.byLength, bundle.axis, byLength);
     add(bundle.byVolume, bundle.axis, byVolume);
     addSpread(bundle.middles, spread);
-    addShape(bundle, twist, azimuths);
+    const Eigen::Vector3d moments = solver.eigenvalues();
+    if (moments[0] > 0.0)
+    {
+      azimuths.add(moments[1] / moments[0], static_cast<double>(bundle.places));
+    }
+  }
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (const FibrePlace& place : placesAlongFibre(fibres, f, spacing))
+    {
+      bundles[fibres.bundleIds[f]].addTwist(place);
+    }
+  }
+  for (const auto& entry : bundles)
+  {
+    const BundleDirections& bundle = entry.second;
+    if (bundle.most > 0.0)
+    {
+      twist.add(bundle.turned / bundle.most, static_cast<double>(bundle.places));
+    }
   }
   const auto p2 = [](const WeightedMean& mean) { return 0.5 * (3.0 * mean.value() - 1.0); };
   DirectionStatistics result;

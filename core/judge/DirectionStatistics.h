@@ -21,10 +21,11 @@ struct DirectionStatistics
   double kappa = 0.0;
   double odi = 0.0;         ///< orientation dispersion index, (2/π) arctan(1/κ) (Zhang et al. 2012, NeuroImage 61:1000)
   double localSpread = 0.0; ///< degrees, mean angle between two fibres of a bundle whose middles are at most 10 µm apart
-  /// How far a bundle is one twisted rope: the sum of r × t along its axis over the sum of |r| |t|, with the place r and the
-  /// direction t of each fibre's middle across the axis. ±1: a rope; a mean over bundles by their numbers of fibres.
+  /// How far a bundle is one twisted rope: the sum of r × t along its axis over the sum of |r| |t|, with r and t the place and
+  /// the direction across the axis, over all places of its fibres. ±1: a rope; a mean over bundles by their numbers of places.
   double twist = 0.0;
-  /// Larger over smaller eigenvalue of the covariance of directions across the axis: 1 if all azimuths are alike. Mean as above.
+  /// Larger over smaller mean square of directions across the axis, along their principal axes, over all places: 1 if all
+  /// azimuths are alike. Mean as above.
   double azimuthRatio = 0.0;
 };
 

@@ -189,6 +189,10 @@ private:
     {
       setProperty(options, name, value, true);
     }
+    if (textOf(record, "filter") == "BundleInitializer" && memberOf(memberOf(record, "properties"), "Border").is_null())
+    {
+      setProperty(options, "Border", Json("Walls"), true); // all there was before 0.3.0
+    }
     const Json& reached = memberOf(record, "reached");
     if (memberOf(reached, "IsResult") == Json(false))
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantee 5: if memory runs out, at any allocation and in any thread, a stage ends with an exception in the calling thread, and
 // the next run gives the right bits. Replaces operator new for the whole test program.
+#include "BundleBetweenWalls.h"
 #include "Sanitized.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
@@ -122,7 +123,7 @@ void append(Result& result, const std::vector<Eigen::Vector3d>& points)
 
 Fibres bundle(const Context& context)
 {
-  BundleInitializerOptions options;
+  BundleBetweenWalls options;
   options.side = 4.0;
   options.fibreVolumeFraction = 0.5;
   options.radius.maximum = 0.7;

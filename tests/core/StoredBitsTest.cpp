@@ -2,6 +2,7 @@
 // Guarantee: a seed has the same bits in every version unless its CHANGELOG says otherwise, with any compiler, vector unit and
 // number of threads. Only the elementary functions (std::log, std::sin, …) may differ between C libraries; if their last digits
 // differ from those below, results that depend on them are not compared.
+#include "BundleBetweenWalls.h"
 #include "ElementaryFunctions.h"
 #include "NumbersChecksum.h"
 #include "bundle/BundleInitializer.h"
@@ -74,7 +75,7 @@ TEST(StoredBits, DefaultChain)
   {
     GTEST_SKIP() << "this C library has other last digits in " << names;
   }
-  BundleInitializerOptions wanted;
+  BundleBetweenWalls wanted;
   wanted.side = 8.0;
   wanted.meanDispersion = 10.0;
   const Fibres initial = initialiseBundles(wanted);

@@ -47,7 +47,7 @@ class Blocks(CactusTestCase):
     expected = UNPARTED
 
     def bundle(self, **properties):
-        return BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
+        return BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
 
     def test_growth_of_grouped_bundles(self):
         one, two = self.bundle(), self.bundle(Seed=2)
@@ -90,7 +90,7 @@ class Blocks(CactusTestCase):
             FibreRadialGrowth(Input=AppendGeometry(Input=[one, two])).UpdatePipeline()
 
     def test_domains_that_differ(self):
-        group = GroupDatasets(Input=[self.bundle(), BundleInitializer(Side=7)])
+        group = GroupDatasets(Input=[self.bundle(), BundleInitializer(Border="Walls", Side=7)])
         with self.assertError("blocks of the input have different Domains"):
             FibreRadialGrowth(Input=group).UpdatePipeline()
 

@@ -25,7 +25,7 @@ def fetch_at(proxy, time):
 
 
 def bundle(**properties):
-    return BundleInitializer(Side=10, FibreVolumeFraction=0.6, MeanDispersion=8, **properties)
+    return BundleInitializer(Border="Walls", Side=10, FibreVolumeFraction=0.6, MeanDispersion=8, **properties)
 
 
 class Optimizer(CactusTestCase):
@@ -59,7 +59,7 @@ class Optimizer(CactusTestCase):
 
     def test_tangents_of_a_dense_bundle_stay_where_neighbours_point_alike(self):
         def tangents(**properties):
-            start = BundleInitializer(Side=20, FibreVolumeFraction=0.7, MeanDispersion=10, **properties)
+            start = BundleInitializer(Border="Walls", Side=20, FibreVolumeFraction=0.7, MeanDispersion=10, **properties)
             fibres = fetch(CapsuleOptimizer(Input=start), 0)
             self.assertEqual(number(fibres, "Converged"), 1)
             self.assertAlmostEqual(number(fibres, "MeanDispersion"), number(fibres, "InitialMeanDispersion"), delta=0.3)

@@ -15,7 +15,7 @@ COLUMNS = {"MaximumPenetration", "OverlappingPairs"}
 class ConvergenceChart(CactusTestCase):
     def setUp(self):
         super().setUp()
-        self.optimizer = simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=8, MeanDispersion=10))
+        self.optimizer = simple.CapsuleOptimizer(Input=simple.BundleInitializer(Border="Walls", Side=8, MeanDispersion=10))
         self.view = simple.CreateView("ConvergenceChartView", ViewSize=[500, 400])
         self.addCleanup(simple.Delete, self.view)
 

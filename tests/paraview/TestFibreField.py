@@ -46,7 +46,7 @@ class FibreFieldTest(CactusTestCase):
 
     @classmethod
     def setUpClass(cls):
-        fibres = BundleInitializer(Side=SIDE, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.8, MeanDispersion=5, NumberOfBundles=2, CrossingAngle=90)
+        fibres = BundleInitializer(Border="Walls", Side=SIDE, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.8, MeanDispersion=5, NumberOfBundles=2, CrossingAngle=90)
         growth = FibreRadialGrowth(Input=fibres, VoxelSize=0.15)
         cls.fibres, cls.image = fetch(fibres), fetch(growth)
 

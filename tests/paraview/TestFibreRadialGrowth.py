@@ -43,7 +43,7 @@ class FibreRadialGrowthTest(CactusTestCase):
 
     def test_takes_its_target_from_the_bundle(self):
         """Through the optimiser, of one bundle and of several; a warning names the difference where another one is given."""
-        one, two = (BundleInitializer(Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed) for seed in (1, 2))
+        one, two = (BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed) for seed in (1, 2))
         both, parted = CapsuleOptimizer(Input=[one, two]), CapsuleOptimizer(Input=one)
         self.assertAlmostEqual(fetch(both).GetFieldData().GetArray("GrownFibreVolumeFraction").GetValue(0), 0.7)
         for fibres, fraction in ((OutputPort(parted, 0), 0.35), (OutputPort(both, 0), 0.7)):
@@ -92,7 +92,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertAlmostEqual((inner > 0).mean(), 0.8, delta=0.003)
 
     def test_radii_end_on_target(self):
-        bundle = BundleInitializer(Side=10, MeanDispersion=3, GrownFibreVolumeFraction=0.85, Seed=1)
+        bundle = BundleInitializer(Border="Walls", Side=10, MeanDispersion=3, GrownFibreVolumeFraction=0.85, Seed=1)
         fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         image = fetch(FibreRadialGrowth(Input=fibres, VoxelSize=0.1, TargetFibreVolumeFraction=0.85))
         ids = arrays(image)[0].reshape(100, 100, 100)
@@ -107,7 +107,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertLess(max(ratios) - min(ratios), 0.1)
 
     def test_fibres_that_still_overlap_are_warned_of(self):
-        optimizer = CapsuleOptimizer(Input=BundleInitializer(Side=6, MeanDispersion=10, DispersionModel="Watson"), MaximumIterations=3)
+        optimizer = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=10, DispersionModel="Watson"), MaximumIterations=3)
         with self.assertError("overlaps remain"):
             fibres = fetch(optimizer, 0)
         self.assertEqual(fibres.GetFieldData().GetArray("Converged").GetValue(0), 0)
@@ -119,16 +119,16 @@ class FibreRadialGrowthTest(CactusTestCase):
 
     def test_fibres_that_were_never_parted_are_warned_of(self):
         """Once, by how far they overlap; not after the optimiser, and not where nothing overlaps."""
-        bundle = BundleInitializer(Side=6, MeanDispersion=10, DispersionModel="Watson")
+        bundle = BundleInitializer(Border="Walls", Side=6, MeanDispersion=10, DispersionModel="Watson")
         growth = FibreRadialGrowth(Input=bundle, VoxelSize=0.2)
         with self.assertError(r"[1-9]\d* pairs of capsules.*overlap, the worst by [1-9]\d* %.*Apply CapsuleOptimizer first"):
             fetch(growth)
         growth.Input = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         fetch(growth)
-        fetch(FibreRadialGrowth(Input=BundleInitializer(Side=6, MeanDispersion=0), VoxelSize=0.2))
+        fetch(FibreRadialGrowth(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=0), VoxelSize=0.2))
 
     def test_parted_fibres_that_were_changed_since_are_warned_of(self):
-        bundle = BundleInitializer(Side=6, MeanDispersion=10, DispersionModel="Watson", GrownFibreVolumeFraction=0)
+        bundle = BundleInitializer(Border="Walls", Side=6, MeanDispersion=10, DispersionModel="Watson", GrownFibreVolumeFraction=0)
         parted = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         thinner, thicker = (Calculator(Input=parted, ResultArrayName="Radius", Function=f"Radius*{factor}") for factor in (0.9, 1.3))
         fetch(FibreRadialGrowth(Input=thinner, VoxelSize=0.2, GrowthIterations=1))
@@ -136,7 +136,7 @@ class FibreRadialGrowthTest(CactusTestCase):
             fetch(FibreRadialGrowth(Input=thicker, VoxelSize=0.2, GrowthIterations=1))
 
     def test_bundles_that_were_parted_each_for_itself_are_warned_of(self):
-        parted = [OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed)), 0) for seed in (1, 2)]
+        parted = [OutputPort(CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed)), 0) for seed in (1, 2)]
         with self.assertError(r"pairs of capsules.*the optimiser has not parted these fibres"):
             fetch(FibreRadialGrowth(Input=GroupDatasets(Input=parted), VoxelSize=0.2))
 

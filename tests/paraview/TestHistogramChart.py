@@ -14,7 +14,7 @@ COLUMNS = ["InnerRadiusFibres", "OuterRadiusFibres", "TargetRadiusFibres"]
 class HistogramChart(CactusTestCase):
     def setUp(self):
         super().setUp()
-        fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=6)), 0)
+        fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Border="Walls", Side=6)), 0)
         surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
         self.statistics = simple.SubstrateStatistics(Fibres=simple.OutputPort(surfaces, 0), NumberOfBins=12)
         self.view = simple.CreateView("HistogramChartView", ViewSize=[500, 400])

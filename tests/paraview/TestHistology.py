@@ -94,7 +94,7 @@ class Histology(CactusTestCase):
 
     def test_a_substrate_has_the_fractions_of_its_cuts(self):
         self.expected = "has not parted"
-        bundle = BundleInitializer(Side=6, FibreVolumeFraction=0.5, MinimumRadius=0.4)
+        bundle = BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.5, MinimumRadius=0.4)
         fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
         sampled = fetch(SubstrateSampler(Outer=surfaces, VoxelSize=6))
@@ -151,25 +151,25 @@ class Histology(CactusTestCase):
         table = fetch(CSVReader(FileName=[path]))
         fibre = set(numpy.round(column(table, "FibreRadius_um"), 9))
         bundle = {"Side": 8, "FibreVolumeFraction": 0.5, "RadiusDistribution": "Table", "RadiusTableFile": path, "GrownFibreVolumeFraction": 0}
-        drawn = fetch(BundleInitializer(RadiusTableColumn="FibreRadius_um", **bundle))
+        drawn = fetch(BundleInitializer(Border="Walls", RadiusTableColumn="FibreRadius_um", **bundle))
         self.assertLessEqual(set(numpy.round(vtk_to_numpy(drawn.GetCellData().GetArray("TargetRadius")), 9)), fibre)
-        drawn = fetch(BundleInitializer(RadiusTableColumn="AxonRadius_um", RadiusTableFactor=1 / 0.7, **bundle))
+        drawn = fetch(BundleInitializer(Border="Walls", RadiusTableColumn="AxonRadius_um", RadiusTableFactor=1 / 0.7, **bundle))
         inner = set(numpy.round(column(table, "AxonRadius_um") / 0.7, 9))
         self.assertLessEqual(set(numpy.round(vtk_to_numpy(drawn.GetCellData().GetArray("TargetRadius")), 9)), inner)
         with self.assertError(r'no column "Radius".*FibreRadius_um'):
-            BundleInitializer(RadiusTableColumn="Radius", **bundle).UpdatePipeline()
+            BundleInitializer(Border="Walls", RadiusTableColumn="Radius", **bundle).UpdatePipeline()
 
     def test_tables_of_other_programs(self):
         """AxonDeepSeg's, with semicolons and decimal points, and one with a gap."""
         bundle = {"Side": 6, "FibreVolumeFraction": 0.4, "RadiusDistribution": "Table", "RadiusTableFile": self.path("axons.csv")}
         with open(self.path("axons.csv"), "w", encoding="utf-8-sig") as file:
             file.write('x0 (px);"axon_diam (um)";myelin\r\n1;1.0;a;b\r\n\r\n2; 1.4 ;"c;d"\r\n')
-        drawn = fetch(BundleInitializer(RadiusTableColumn="axon_diam (um)", RadiusTableFactor=0.5, GrownFibreVolumeFraction=0, **bundle))
+        drawn = fetch(BundleInitializer(Border="Walls", RadiusTableColumn="axon_diam (um)", RadiusTableFactor=0.5, GrownFibreVolumeFraction=0, **bundle))
         self.assertLessEqual(set(vtk_to_numpy(drawn.GetCellData().GetArray("TargetRadius"))), {0.5, 0.7})
         with open(self.path("axons.csv"), "a", encoding="utf-8") as file:
             file.write("3;nan;e\n")
         with self.assertError(r"line 5, has no number in column"):
-            BundleInitializer(RadiusTableColumn="axon_diam (um)", **bundle).UpdatePipeline()
+            BundleInitializer(Border="Walls", RadiusTableColumn="axon_diam (um)", **bundle).UpdatePipeline()
 
     def test_open_surfaces(self):
         leaking = surfaces({3: without(tube(-2, 0, 1, 10), [7]), 5: tube(2, 0, 1.5, 10)}, 0, 10)

@@ -24,7 +24,7 @@ def points(data):
 
 class LiveLook(CactusTestCase):
     def bundle(self, side=14):
-        return BundleInitializer(Side=side, MeanDispersion=12, Seed=3)
+        return BundleInitializer(Border="Walls", Side=side, MeanDispersion=12, Seed=3)
 
     def look(self, optimizer):
         """What its output is, as the window asks for it."""

@@ -45,7 +45,7 @@ class Locale(CactusTestCase):
         """A small substrate by way of a strand file and a folder; hashes of all files, and what the data say of their origin."""
         place = os.path.join(self.folder, name)
         os.mkdir(place)
-        bundle = BundleInitializer(Side=3, FibreVolumeFraction=0.4, RadiusDistribution="Table", RadiusTable="0.45 5e-1;.55", Seed=2)
+        bundle = BundleInitializer(Border="Walls", Side=3, FibreVolumeFraction=0.4, RadiusDistribution="Table", RadiusTable="0.45 5e-1;.55", Seed=2)
         optimizer = CapsuleOptimizer(Input=bundle, OverlapTolerance=0.0015)
         strands = os.path.join(place, "fibres.strands")
         SaveData(strands, proxy=OutputPort(optimizer, 0))

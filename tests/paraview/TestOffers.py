@@ -57,7 +57,7 @@ class Offers(CactusTestCase):
         self.assertEqual(formats(source), set(files))
 
     def bundle(self, seed=1):
-        return simple.BundleInitializer(Side=5, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.5, Seed=seed)
+        return simple.BundleInitializer(Border="Walls", Side=5, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.5, Seed=seed)
 
     def test_the_chain(self):
         bundle = self.bundle()

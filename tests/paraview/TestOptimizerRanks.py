@@ -55,7 +55,7 @@ def bits(optimizer):
     return f"{fibres.GetNumberOfCells()} fibres {found.hexdigest()}"
 
 def bundle():
-    return BundleInitializer(Side=10, MeanDispersion=15, DispersionModel="Watson", GrownFibreVolumeFraction=0)
+    return BundleInitializer(Border="Walls", Side=10, MeanDispersion=15, DispersionModel="Watson", GrownFibreVolumeFraction=0)
 """
 
 # What follows an update takes what is there.
@@ -253,7 +253,7 @@ class Ranks(CactusTestCase):
 
     def grown(self, first, **properties):
         """The provenance of each rank's part of an image of more fibres than are parted in a fifth of a second."""
-        bundle = BundleInitializer(Side=30, MeanDispersion=20, DispersionModel="Watson", FibreVolumeFraction=0.7)
+        bundle = BundleInitializer(Border="Walls", Side=30, MeanDispersion=20, DispersionModel="Watson", FibreVolumeFraction=0.7)
         optimizer = CapsuleOptimizer(Input=bundle, TimeBudget=0.2, OverlapTolerance=1e-9, MaximumIterations=1000000, **properties)
         growth = FibreRadialGrowth(Input=OutputPort(optimizer, 0), VoxelSize=2)
         if first:
@@ -279,7 +279,7 @@ class Ranks(CactusTestCase):
                     self.assertEqual(len(set(stages)), 1, stages)
 
     def test_release_input(self):
-        growth = FibreRadialGrowth(Input=BundleInitializer(Side=6, MeanDispersion=2, FibreVolumeFraction=0.2, GrownFibreVolumeFraction=0), VoxelSize=0.2)
+        growth = FibreRadialGrowth(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=2, FibreVolumeFraction=0.2, GrownFibreVolumeFraction=0), VoxelSize=0.2)
         for release in (0, 1):
             surface = MyelinSurface(Input=growth, ReleaseInput=release)
             table = fetch(ProgrammableFilter(Input=OutputPort(surface, 0), OutputDataSetType="vtkTable", Script=COUNT))

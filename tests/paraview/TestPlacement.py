@@ -109,7 +109,7 @@ class Placing(CactusTestCase):
     def test_colours_of_fibres_go_by_the_images_axes(self):
         from paraview.simple import BundleInitializer
 
-        bundle = BundleInitializer(Side=6, FibreVolumeFraction=0.2, MeanDispersion=0)
+        bundle = BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.2, MeanDispersion=0)
         placed = fetch(Placement(Input=bundle, RotationY=90))  # along x
         colours = vtk_to_numpy(placed.GetPointData().GetArray("Direction"))
         self.assertEqual([set(colours[:, axis]) for axis in range(3)], [{255}, {0}, {0}])

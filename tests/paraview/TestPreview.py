@@ -61,7 +61,7 @@ class Preview(CactusTestCase):
         cls.home = tempfile.mkdtemp(prefix="cactus-preview-test-")
         cls.addClassCleanup(shutil.rmtree, cls.home)
         cls.substrate = os.path.join(cls.home, "substrate")
-        bundle = simple.BundleInitializer(Side=6, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6, MinimumRadius=0.3)
+        bundle = simple.BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6, MinimumRadius=0.3)
         fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
         simple.SubstrateProduction(Input=fibres, FolderName=cls.substrate, Format="Surfaces alone", VoxelSize=0.15).UpdatePipeline()
 

@@ -13,7 +13,7 @@ from cactus_testing import CactusTestCase, environment_of_its_own, main
 SCRIPT = """
 import sys
 from paraview.simple import *
-fibres = CapsuleOptimizer(Input=BundleInitializer(Side=float(sys.argv[2]), GrownFibreVolumeFraction=0.9))
+fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=float(sys.argv[2]), GrownFibreVolumeFraction=0.9))
 made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=sys.argv[1], NumberOfThreads=1)
 made.UpdatePipeline()
 """

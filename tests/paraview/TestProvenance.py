@@ -21,7 +21,7 @@ def records(data):
 
 
 def bundle(**properties):
-    return BundleInitializer(Side=5, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
+    return BundleInitializer(Border="Walls", Side=5, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
 
 
 class Provenance(CactusTestCase):

@@ -23,7 +23,7 @@ class RandomWalk(CactusTestCase):
         return self.write(produce(outer), produce(inner), **properties)
 
     def test_nobody_leaves_a_grown_substrate(self):
-        bundle = BundleInitializer(Side=6, FibreVolumeFraction=0.6, MinimumRadius=0.4, MeanDispersion=10, Seed=5)
+        bundle = BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.6, MinimumRadius=0.4, MeanDispersion=10, Seed=5)
         grown = FibreRadialGrowth(Input=OutputPort(CapsuleOptimizer(Input=bundle), 0))
         myelin = MyelinSurface(Input=grown, GRatio=0.7)
         folder = self.write(OutputPort(myelin, 0), OutputPort(myelin, 1))

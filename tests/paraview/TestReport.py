@@ -73,7 +73,7 @@ class Report(CactusTestCase):
         cls.home = tempfile.mkdtemp(prefix="cactus-report-test-")
         cls.addClassCleanup(shutil.rmtree, cls.home)
         cls.substrate = os.path.join(cls.home, "substrate")
-        bundle = simple.BundleInitializer(Side=6, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6, MinimumRadius=0.3)
+        bundle = simple.BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6, MinimumRadius=0.3)
         fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
         surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
         simple.SubstrateWriter(Outer=simple.OutputPort(surfaces, 0), FolderName=cls.substrate).UpdatePipeline()
@@ -177,7 +177,7 @@ class Report(CactusTestCase):
     def test_bundles_have_axes_of_their_own(self):
         """Which a file of centre lines does not tell."""
         folder = os.path.join(self.folder, "crossing")
-        bundles = simple.BundleInitializer(Side=6, NumberOfBundles=2, CrossingAngle=90, FibreVolumeFraction=0.3, MaximumRadius=0.6, GrownFibreVolumeFraction=0.4)
+        bundles = simple.BundleInitializer(Border="Walls", Side=6, NumberOfBundles=2, CrossingAngle=90, FibreVolumeFraction=0.3, MaximumRadius=0.6, GrownFibreVolumeFraction=0.4)
         fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundles), 0)
         surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
         simple.SubstrateWriter(Outer=simple.OutputPort(surfaces, 0), FolderName=folder).UpdatePipeline()
@@ -209,7 +209,7 @@ class Report(CactusTestCase):
 
     def test_a_sample(self):
         folder = os.path.join(self.folder, "sample")
-        fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=5, MinimumRadius=0.3)), 0)
+        fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Border="Walls", Side=5, MinimumRadius=0.3)), 0)
         simple.SubstrateProduction(Input=fibres, FolderName=folder, Format="Surfaces alone", SampledFraction=0.5, VoxelSize=0.15).UpdatePipeline()
         page = Page(self.made(folder))
         self.assertRegex(page.verdict, r"^CERTIFIED.* This is a sample of \d+ fibres, the others of which have no surfaces here\.$")

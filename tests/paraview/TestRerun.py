@@ -19,7 +19,7 @@ SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "t
 
 def bundle(**properties):
     values = {"Side": 5, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0, **properties}
-    return BundleInitializer(**values)
+    return BundleInitializer(Border="Walls", **values)
 
 
 class Rerun(CactusTestCase):

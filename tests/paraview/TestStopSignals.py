@@ -22,7 +22,7 @@ from paraview.simple import *
 folder, number = sys.argv[1], int(sys.argv[2])
 if len(sys.argv) > 3:
     signal.signal(number, lambda *_: print("heard", flush=True))
-fibres = CapsuleOptimizer(Input=BundleInitializer(Side=6, GrownFibreVolumeFraction=0.85))
+fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=6, GrownFibreVolumeFraction=0.85))
 made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1)
 filter = made.GetClientSideObject()
 def stop(*_):
@@ -37,7 +37,7 @@ import os, signal, sys
 from paraview.simple import *
 if len(sys.argv) > 2:
     signal.signal(signal.SIGTERM, lambda *_: print("heard", flush=True))
-fibres = CapsuleOptimizer(Input=BundleInitializer(Side=10, MeanDispersion=15, DispersionModel="Watson"), CheckpointFile=sys.argv[1])
+fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=10, MeanDispersion=15, DispersionModel="Watson"), CheckpointFile=sys.argv[1])
 filter = fibres.GetClientSideObject()
 def stop(*_):
     if "iteration 20:" in str(filter.GetProgressText()):

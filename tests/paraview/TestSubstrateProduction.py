@@ -25,7 +25,7 @@ import os
 from paraview.simple import *
 print("process", os.getpid(), flush=True)
 side, folder, margin = float(sys.argv[1]), sys.argv[2], float(sys.argv[3])
-fibres = CapsuleOptimizer(Input=BundleInitializer(Side=side, GrownFibreVolumeFraction=0.85))
+fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=side, GrownFibreVolumeFraction=0.85))
 made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1, Margin=margin)
 made.TargetFibreVolumeFraction = 0.85
 made.GRatioModel, made.TargetAxonVolumeFraction = "TargetAxonVolumeFraction", 0.4 # inner surfaces after all outer ones
@@ -40,7 +40,7 @@ STOPPED = """
 import os, sys
 from paraview.simple import *
 folder = sys.argv[2]
-fibres = CapsuleOptimizer(Input=BundleInitializer(Side=float(sys.argv[1]), GrownFibreVolumeFraction=0.85))
+fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=float(sys.argv[1]), GrownFibreVolumeFraction=0.85))
 made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1)
 filter = made.GetClientSideObject()
 observer = filter.AddObserver("ProgressEvent", lambda *_: filter.SetAbortExecute(1) if 0.3 < filter.GetProgress() < 0.9 else None)
@@ -71,7 +71,7 @@ if IS_BAD and vtkMultiProcessController.GetGlobalController().GetLocalProcessId(
     output.Initialize()
     output.GetFieldData().AddArray(mark)
 '''
-fibres = CapsuleOptimizer(Input=BundleInitializer(Side=float(sys.argv[1]), GrownFibreVolumeFraction=0.85))
+fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=float(sys.argv[1]), GrownFibreVolumeFraction=0.85))
 changed = ProgrammableFilter(Input=OutputPort(fibres, 0), Script="IS_BAD = True" + CHANGE)
 changed.RequestUpdateExtentScript = '''
 self.GetInputInformation().Set(self.GetExecutive().UPDATE_PIECE_NUMBER(), 0)
@@ -99,7 +99,7 @@ def ranks():
 
 class SubstrateProductionTest(CactusTestCase):
     def fibres(self, side):
-        return OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=side, GrownFibreVolumeFraction=0.85)), 0)
+        return OutputPort(CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=side, GrownFibreVolumeFraction=0.85)), 0)
 
     def test_writes_what_the_filters_write(self):
         fibres = self.fibres(6.0)
@@ -136,7 +136,7 @@ class SubstrateProductionTest(CactusTestCase):
                     self.assertEqual(found.GetValue(row, column), expected.GetValue(row, column))
 
     def test_writes_a_file_for_each_bundle_as_the_writer_does(self):
-        crossing = BundleInitializer(Side=5.0, NumberOfBundles=2, FibreVolumeFraction=0.4, MaximumRadius=0.6, GrownFibreVolumeFraction=0.6)
+        crossing = BundleInitializer(Border="Walls", Side=5.0, NumberOfBundles=2, FibreVolumeFraction=0.4, MaximumRadius=0.6, GrownFibreVolumeFraction=0.6)
         growth = {**GROWTH, "TargetFibreVolumeFraction": 0.6}
         fibres = OutputPort(CapsuleOptimizer(Input=crossing), 0)
         surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, Seed=3, **growth), **SURFACES)
@@ -181,7 +181,7 @@ class SubstrateProductionTest(CactusTestCase):
         return subprocess.Popen(["pvpython", path, "6", folder, str(margin)], stdout=subprocess.PIPE, text=True)
 
     def test_keeps_the_folder_where_only_the_input_changes(self):
-        bundle = BundleInitializer(Side=4, GrownFibreVolumeFraction=0.85)
+        bundle = BundleInitializer(Border="Walls", Side=4, GrownFibreVolumeFraction=0.85)
         folder = os.path.join(self.folder, "kept")
         produced = SubstrateProduction(Input=OutputPort(CapsuleOptimizer(Input=bundle), 0), FolderName=folder, **GROWTH)
         produced.UpdatePipeline()

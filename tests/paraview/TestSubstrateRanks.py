@@ -22,7 +22,7 @@ CHAIN = """
 import sys
 from paraview import servermanager
 from paraview.simple import *
-fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=5, MeanDispersion=10, MaximumRadius=1, Seed=1)), 0)
+fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=5, MeanDispersion=10, MaximumRadius=1, Seed=1)), 0)
 grown = FibreRadialGrowth(Input=fibres, VoxelSize=0.12)
 """
 
@@ -130,7 +130,7 @@ class Ranks(CactusTestCase):
 
     def test_placement(self):
         """Where only the first rank has something, that is placed, and no other complains."""
-        bundle = BundleInitializer(Side=6, Seed=1)
+        bundle = BundleInitializer(Border="Walls", Side=6, Seed=1)
         placed = Placement(Input=bundle, PositionX=5)
         placed.UpdatePipeline()
         self.assertEqual(placed.GetDataInformation().GetNumberOfCells(), bundle.GetDataInformation().GetNumberOfCells())
@@ -138,7 +138,7 @@ class Ranks(CactusTestCase):
 
     def test_what_was_updated_by_itself_is_whole_for_the_next_stage(self):
         """An update asks each rank for a piece of its own, and all but the first get nothing: the next stage has to ask again."""
-        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Side=6, MeanDispersion=10, MaximumRadius=1, Seed=1)), 0)
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=10, MaximumRadius=1, Seed=1)), 0)
         fibres.UpdatePipeline()
         # A fibre fills the corner of the image: were that all that a rank sees of it, its surface would not be closed.
         grown = FibreRadialGrowth(Input=fibres, VoxelSize=0.1)

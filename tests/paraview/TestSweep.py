@@ -27,7 +27,7 @@ def make(folder, style, seed, angle):
         raise ValueError("no such seed")
     if seed == 4:
         sys.exit("as a script of its own ends")
-    bundle = simple.BundleInitializer(Side=6, MaximumRadius=0.8, NumberOfBundles=2, CrossingAngle=angle, CrossingStyle=style, Seed=seed, GrownFibreVolumeFraction=0.5, FibreVolumeFraction=0.4)
+    bundle = simple.BundleInitializer(Border="Walls", Side=6, MaximumRadius=0.8, NumberOfBundles=2, CrossingAngle=angle, CrossingStyle=style, Seed=seed, GrownFibreVolumeFraction=0.5, FibreVolumeFraction=0.4)
     fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
     grown = simple.FibreRadialGrowth(Input=fibres, VoxelSize=0.2)
     simple.SubstrateWriter(Outer=simple.OutputPort(simple.MyelinSurface(Input=grown), 0), FolderName=folder).UpdatePipeline()

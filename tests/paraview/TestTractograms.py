@@ -146,7 +146,7 @@ class Tractograms(CactusTestCase):
             TractogramReader(FileName=self.path("nowhere.tck")).UpdatePipeline()
 
     def fibres(self):
-        return BundleInitializer(Side=12, FibreVolumeFraction=0.3, MinimumRadius=0.4, NumberOfBundles=2)
+        return BundleInitializer(Border="Walls", Side=12, FibreVolumeFraction=0.3, MinimumRadius=0.4, NumberOfBundles=2)
 
     def many(self, name, count):
         """A file of so many streamlines of three points, in any order of the bytes that the format has."""

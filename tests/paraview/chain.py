@@ -17,7 +17,7 @@ class Chain:
         with open(self.strands, "w") as file:
             file.write(STRANDS)
         self.reader = StrandReader(FileName=self.strands)
-        self.bundle = BundleInitializer(Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0)
+        self.bundle = BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0)
         self.optimizer = CapsuleOptimizer(Input=self.bundle)
         self.growth = FibreRadialGrowth(Input=OutputPort(self.optimizer, 0), VoxelSize=0.15, GrowthIterations=1)
         self.surface = MyelinSurface(Input=self.growth)

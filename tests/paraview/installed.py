@@ -17,6 +17,6 @@ assert all(path.startswith(prefix) for path in loaded), f"not the installed copy
 window = {path for path in libraries if os.path.basename(path).startswith(("libQt", "libpqCore"))}
 assert not window, f"there is no window, but its libraries are loaded: {window}"
 
-bundle = simple.BundleInitializer(Side=10, FibreVolumeFraction=0.3)
+bundle = simple.BundleInitializer(Border="Walls", Side=10, FibreVolumeFraction=0.3)
 bundle.UpdatePipeline()
 assert servermanager.Fetch(bundle).GetNumberOfLines() > 10, "no fibres"

@@ -22,6 +22,8 @@ using namespace cactus;
 void makeMyelinSurfaces(benchmark::State& state)
 {
   BundleInitializerOptions wanted;
+  wanted.border = Border::Walls;
+  wanted.correlationLength = 0.0;
   wanted.side = 10.0;
   wanted.meanDispersion = static_cast<double>(state.range(0));
   wanted.dispersionModel = state.range(1) != 0 ? DispersionModel::Watson : DispersionModel::Coherent;

@@ -37,6 +37,8 @@ struct State
 BundleInitializerOptions bundle(double side, double density, double dispersion, std::uint64_t seed)
 {
   BundleInitializerOptions options;
+  options.border = Border::Walls;
+  options.correlationLength = 0.0;
   options.side = side;
   options.fibreVolumeFraction = density;
   options.meanDispersion = dispersion;

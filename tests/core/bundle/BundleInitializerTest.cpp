@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/BundleInitializer.h"
 
+#include "BundleBetweenWalls.h"
 #include "base/Constants.h"
 #include "base/Error.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -24,7 +26,7 @@ Eigen::Vector3d endPoint(const Fibres& fibres, std::size_t f, int end)
 }
 
 /// Options of fibres that start with the drawn radii, so that circles touch at these radii.
-struct DrawnRadii : BundleInitializerOptions
+struct DrawnRadii : BundleBetweenWalls
 {
   DrawnRadii() { this->grownFibreVolumeFraction = 0.0; }
 };
@@ -298,6 +300,33 @@ std::vector<double> densitiesAlong(const Fibres& fibres)
   return densities;
 }
 
+TEST(BundleInitializer, DefaultFibresUndulateAndRunOutThroughAllFaces)
+{
+  BundleInitializerOptions options;
+  options.side = 20.0;
+  BundleInitializerReport report;
+  const Fibres fibres = initialiseBundles(options, {}, &report);
+  EXPECT_NEAR(report.fibreVolumeFraction, 0.7, 0.01);
+  EXPECT_NEAR(capsuleVolumeInDomain(fibres) / fibres.domain.volume(), report.fibreVolumeFraction, 1e-9);
+  EXPECT_NEAR(report.meanDispersion, 5.0, 0.01);
+  EXPECT_NEAR(report.sinuosity, 1.03, 0.001);
+  std::array<int, 4> crossing{}; // fibres with points on both sides of each lateral face
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    EXPECT_LT(endPoint(fibres, f, 0)[2], -10.0);
+    EXPECT_GT(endPoint(fibres, f, 1)[2], 10.0);
+    for (std::size_t face = 0; face < 4; ++face)
+    {
+      const auto isBeyond = [&](const Eigen::Vector3d& p)
+      { return (face % 2 == 0 ? 1.0 : -1.0) * p[Eigen::Index(face / 2)] > 10.0; };
+      const auto begin = fibres.points.begin() + std::ptrdiff_t(fibres.offsets[f]);
+      const auto beyond = std::count_if(begin, begin + std::ptrdiff_t(fibres.pointCount(f)), isBeyond);
+      crossing[face] += beyond > 0 && beyond < std::ptrdiff_t(fibres.pointCount(f)) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(*std::min_element(crossing.begin(), crossing.end()), 10);
+}
+
 TEST(BundleInitializer, ADomainCutFromTheMiddleHasNoBorder)
 {
   BundleInitializerOptions options;
@@ -308,8 +337,10 @@ TEST(BundleInitializer, ADomainCutFromTheMiddleHasNoBorder)
   const auto ratio = [](const std::vector<double>& densities)
   { return *std::max_element(densities.begin(), densities.end()) / *std::min_element(densities.begin(), densities.end()); };
   // Fibres that start and end within the faces of a wider bundle crowd in the middle of it.
+  options.border = Border::Walls;
   options.margin = 10.0;
   EXPECT_GT(ratio(densitiesAlong(initialiseBundles(options))), 1.3);
+  options.border = Border::Cut;
   options.margin = -1.0;
   std::vector<double> mean(7, 0.0);
   for (const std::uint64_t seed : { 1, 2, 3 })
@@ -480,6 +511,14 @@ TEST(BundleInitializer, BadParametersAreNamed)
   sheets("SheetThickness", [](auto& o) { o.sheetThickness = -1.0; });
   names("DispersionModel", [](auto& o) { o.dispersionModel = static_cast<DispersionModel>(3); });
   names("CorrelationLength", [](auto& o) { o.correlationLength = -1.0; });
+  names("CorrelationLength is 0: give a length", [](auto& o) { o.border = Border::Cut; });
+  names("Sinuosity",
+    [](auto& o)
+    {
+      o.border = Border::Cut;
+      o.correlationLength = 8.0;
+      o.sinuosity = 0.9;
+    });
   names("CorrelationLength", [](auto& o) { o.correlationLength = 0.01; });
   names("RadiusDistribution", [](auto& o) { o.radius.model = static_cast<RadiusModel>(4); });
   const auto histogram = [&](const char* property, const std::function<void(RadiusDistributionOptions&)>& change)

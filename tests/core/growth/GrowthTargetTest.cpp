@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/GrowthTarget.h"
 
+#include "BundleBetweenWalls.h"
 #include "GrowthExamples.h"
 #include "base/Constants.h"
 #include "base/Error.h"
@@ -132,7 +133,7 @@ Radii measure(const Fibres& fibres, const LabelImage& image)
 /// Makes a bundle with the stages before growth.
 Fibres bundle(double grownFraction)
 {
-  BundleInitializerOptions options;
+  BundleBetweenWalls options;
   options.side = 12.0;
   options.radius.gammaShape = 2.4;
   options.radius.gammaScale = 0.15;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/CapsuleOptimizer.h"
+#include "BundleBetweenWalls.h"
 #include "ScratchPath.h"
 
 #include "RandomBundle.h"
@@ -166,7 +167,7 @@ TEST(CapsuleOptimizer, SameBitsOnAnyNumberOfThreads)
 // after the same iterations.
 TEST(CapsuleOptimizer, WholeRunHasTheSameBitsOnOneTwoAndFourThreads)
 {
-  cactus::BundleInitializerOptions bundle;
+  cactus::BundleBetweenWalls bundle;
   bundle.side = 12.0;
   bundle.meanDispersion = 10.0;
   const Fibres start = cactus::initialiseBundles(bundle);

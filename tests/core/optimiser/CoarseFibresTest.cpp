@@ -3,6 +3,7 @@
 // all control points alike, and without a move none changes; a run that begins with it continues from wherever it was stopped.
 #include "optimiser/CoarseFibres.h"
 
+#include "BundleBetweenWalls.h"
 #include "RandomBundle.h"
 #include "ScratchPath.h"
 #include "bundle/BundleInitializer.h"
@@ -23,7 +24,7 @@ using namespace cactus;
 
 Fibres smallBundle()
 {
-  BundleInitializerOptions options;
+  BundleBetweenWalls options;
   options.side = 6.0;
   options.meanDispersion = 20.0;
   options.dispersionModel = DispersionModel::Watson;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fibres whose control points lie much closer together than their radius, as other generators and microscopes give them.
+#include "BundleBetweenWalls.h"
 #include "bundle/BundleInitializer.h"
 #include "fibres/ResampledFibres.h"
 #include "optimiser/CapsuleOptimizer.h"
@@ -109,7 +110,7 @@ TEST(DenseFibres, OthersKeepTheirBits)
   EXPECT_EQ(fibres.points, given.points);
   EXPECT_EQ(fibres.radii, given.radii);
 
-  cactus::BundleInitializerOptions options;
+  cactus::BundleBetweenWalls options;
   options.side = 25.0;
   options.fibreVolumeFraction = 0.4;
   options.radius.minimum = 5.0; // with capsules of 2 µm

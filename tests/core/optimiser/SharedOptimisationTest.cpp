@@ -2,6 +2,7 @@
 // Guarantees: an optimisation that processes share ends with the bits of a single process, in all of them, on any number of
 // threads: fibres, table and checkpoint; a killed one continues, on another number of processes; it can be stopped in any of
 // them, and an error of one ends all.
+#include "BundleBetweenWalls.h"
 #include "optimiser/CapsuleOptimizer.h"
 
 #include "../ThreadTeam.h"
@@ -83,7 +84,7 @@ void expectTheSameOnAnyNumberOfProcesses(const Fibres& fibres, const CapsuleOpti
 
 Fibres smallBundle(double side)
 {
-  BundleInitializerOptions options;
+  BundleBetweenWalls options;
   options.side = side;
   options.meanDispersion = 10.0;
   return initialiseBundles(options);

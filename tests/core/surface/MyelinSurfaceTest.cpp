@@ -2,6 +2,7 @@
 // Guarantees: thin fibres keep their shape; models give the g-ratios that they state; fibres are the gap apart, and myelin as
 // thick, even if growth left less, voxels are coarse or nothing is coarsened; deviations are counted.
 #include "surface/MyelinSurface.h"
+#include "BundleBetweenWalls.h"
 #include "ThreadTeam.h"
 #include "base/Constants.h"
 #include "base/Error.h"
@@ -340,7 +341,7 @@ struct TightBundle
 
   explicit TightBundle(double side = 8.0)
   {
-    BundleInitializerOptions bundle;
+    BundleBetweenWalls bundle;
     bundle.side = side;
     bundle.meanDispersion = 10.0;
     fibres = initialiseBundles(bundle);
@@ -637,7 +638,7 @@ struct CoarseBundle
 
 std::vector<FibreSurfacePair> surfacesOf(const CoarseBundle& coarse, double gap)
 {
-  BundleInitializerOptions bundle;
+  BundleBetweenWalls bundle;
   bundle.side = coarse.side;
   bundle.seed = coarse.seed;
   bundle.fibreVolumeFraction = 0.5;

@@ -2,6 +2,7 @@
 // Voxels four times as wide as the fibres are thick: the rest of one disappears when it is moved.
 #pragma once
 
+#include "BundleBetweenWalls.h"
 #include "bundle/BundleInitializer.h"
 #include "fibres/TrimToDomain.h"
 #include "growth/FibreRadialGrowthOptions.h"
@@ -11,7 +12,7 @@ namespace example
 
 inline cactus::Fibres fibresOfWhichOneGoes()
 {
-  cactus::BundleInitializerOptions bundle;
+  cactus::BundleBetweenWalls bundle;
   bundle.side = 6.29273;
   bundle.seed = 1097183328;
   bundle.fibreVolumeFraction = 0.518059;
