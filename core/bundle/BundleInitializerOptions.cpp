@@ -38,7 +38,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("Sinuosity", &Options::sinuosity, limits::sinuosity,
-        "Mean length of fibres over the distance of their ends; 1: they do not undulate")
+        "Mean length of fibres over the distance of their ends, along two wavelengths; 1: they do not undulate")
       .where("Border", { 0 })
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })

@@ -32,8 +32,10 @@ constexpr int mostDraws = 64;
 
 /// Fibres that are followed to measure a flow start on a square grid with so many to a side.
 constexpr int gridSide = 24;
-/// Height (µm) over which they are followed, at most.
+/// Height (µm) over which they are followed through the domain, at most.
 constexpr double longestPath = 100.0;
+/// Height over which their sinuosity is measured, in wavelengths of undulation: in a shorter domain they would be less sinuous.
+constexpr double measuredWavelengths = 2.0;
 /// Planes on which angles are measured.
 constexpr int anglePlanes = 5;
 
@@ -149,7 +151,7 @@ StationaryFlow StationaryFlow::draw(const BundleInitializerOptions& options, con
     StationaryFlow flow(options, attempt);
     flow.scaleToAngle(options);
     flow.Undulation.scale = std::sqrt(options.sinuosity - 1.0); // roughly
-    const double unevenness = flow.followFibres(options, context).unevenness;
+    const double unevenness = flow.followFibres(options, std::min(options.side, longestPath), context).unevenness;
     if (!best || unevenness < least)
     {
       best = std::move(flow);
@@ -224,7 +226,8 @@ void StationaryFlow::scaleToAngle(const BundleInitializerOptions& options)
   this->Reached.meanAngle = mean / degree;
 }
 
-StationaryFlow::Sample StationaryFlow::followFibres(const BundleInitializerOptions& options, const Context& context) const
+StationaryFlow::Sample StationaryFlow::followFibres(
+  const BundleInitializerOptions& options, double height, const Context& context) const
 {
   struct Fibre
   {
@@ -232,7 +235,6 @@ StationaryFlow::Sample StationaryFlow::followFibres(const BundleInitializerOptio
     Eigen::Vector2d bottom;
     Eigen::Vector2d top;
   };
-  const double height = std::min(options.side, longestPath);
   const int steps = std::max(2, static_cast<int>(std::ceil(0.5 * height / std::min(2.5, 0.1 * options.undulationWavelength))));
   const std::vector<Eigen::Vector2d> grid = gridIn(options.side);
   std::vector<Fibre> fibres(grid.size());
@@ -285,14 +287,15 @@ StationaryFlow::Sample StationaryFlow::followFibres(const BundleInitializerOptio
   return sample;
 }
 
-/// Scales the undulation so that the sinuosity in the domain is the one asked for. Fibres whose directions alone make them longer
-/// do not undulate.
+/// Scales the undulation so that the sinuosity of fibres that pass the domain is the one asked for. Fibres whose directions alone
+/// make them longer do not undulate.
 StationaryFlow::Sample StationaryFlow::scaleToSinuosity(const BundleInitializerOptions& options, const Context& context)
 {
   constexpr double precision = 2e-4;
   constexpr int rounds = 8;
+  const double height = measuredWavelengths * options.undulationWavelength;
   this->Undulation.scale = 0.0;
-  Sample sample = this->followFibres(options, context);
+  Sample sample = this->followFibres(options, height, context);
   const double straight = sample.sinuosity;
   const double wanted = options.sinuosity - straight;
   if (wanted <= precision)
@@ -304,7 +307,7 @@ StationaryFlow::Sample StationaryFlow::scaleToSinuosity(const BundleInitializerO
   for (int round = 0; round < rounds; ++round)
   {
     this->Undulation.scale = std::sqrt(squared);
-    sample = this->followFibres(options, context);
+    sample = this->followFibres(options, height, context);
     const double excess = sample.sinuosity - straight;
     if (std::abs(excess - wanted) <= precision)
     {

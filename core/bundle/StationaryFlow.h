@@ -17,7 +17,7 @@ namespace cactus
 struct StationaryFlowReport
 {
   double meanAngle = 0.0; ///< degrees, of fibres to the axis at any place, without undulation
-  double sinuosity = 1.0; ///< mean length of fibres over the distance of their ends
+  double sinuosity = 1.0; ///< mean length of fibres over the distance of their ends, along two wavelengths of undulation
   double stretch = 1.0;   ///< mean length of fibres per height along the axis
 };
 
@@ -65,7 +65,7 @@ private:
   Planes planesAt(double z) const;
   Eigen::Vector2d slope(const Eigen::Vector2d& point, const Planes& planes, WaveField::Work& work) const;
   void scaleToAngle(const BundleInitializerOptions& options);
-  Sample followFibres(const BundleInitializerOptions& options, const Context& context) const;
+  Sample followFibres(const BundleInitializerOptions& options, double height, const Context& context) const;
   Sample scaleToSinuosity(const BundleInitializerOptions& options, const Context& context);
 
   Part Direction;
