@@ -347,7 +347,7 @@ struct TightBundle
     optimise(fibres, {}, {});
     growth.targetFibreVolumeFraction = 0.93;
     fibres = aimAtTargetRadii(trimToDomain(fibres), growth);
-    by = growthFor(fibres, growth);
+    by = growthFor(fibres, growth).growth;
   }
 };
 
@@ -652,7 +652,7 @@ std::vector<FibreSurfacePair> surfacesOf(const CoarseBundle& coarse, double gap)
   growth.minimumGap = gap;
   growth.surfaceTolerance = 0.02;
   fibres = aimAtTargetRadii(fibres, growth);
-  const LabelImage image = growFibres(fibres, growth, growthFor(fibres, growth), growthGrid(fibres.domain, growth));
+  const LabelImage image = growFibres(fibres, growth, growthFor(fibres, growth).growth, growthGrid(fibres.domain, growth));
   LabelImageFacts facts = labelImageFacts(fibres, growth);
   facts.minimumGap = gap;
   MyelinSurfaceOptions options;
@@ -707,7 +707,7 @@ TEST(MyelinSurfaces, AFibreThatGoesIsNoLongerTooNear)
   const Fibres fibres = example::fibresOfWhichOneGoes();
   const FibreRadialGrowthOptions growth = example::growthInWhichOneGoes();
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
-  const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(aimed.domain, growth));
+  const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth).growth, growthGrid(aimed.domain, growth));
   MyelinSurfaceOptions options;
   options.gRatio = 0.608349;
   options.decimationError = 0.00374472;
