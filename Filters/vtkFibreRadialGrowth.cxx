@@ -16,6 +16,7 @@
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
 #include "judge/SubstrateStatistics.h"
+#include "stages/StageWork.h"
 #include "stages/Stages.h"
 
 #include <vtkDataArray.h>
@@ -180,7 +181,8 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
 
       auto fibreId = cactus::makeArray<vtkIntArray>("FibreId", grid.size());
       auto depth = cactus::makeArray<vtkFloatArray>("Depth", grid.size());
-      cactus::growFibres(*this->Aimed, options, this->Growth, grid, fibreId->GetPointer(0), depth->GetPointer(0), context);
+      cactus::growFibres(
+        *this->Aimed, options, this->Growth->growth, grid, fibreId->GetPointer(0), depth->GetPointer(0), context);
 
       output->SetExtent(info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
       output->SetOrigin(grid.origin.data());
@@ -189,11 +191,9 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       output->GetPointData()->AddArray(depth);
       output->GetPointData()->SetActiveScalars("Depth");
 
-      addImageFacts(fibres, options, grid.spacing, this->Growth, output);
+      addImageFacts(fibres, options, grid.spacing, this->Growth->growth, output);
       cactus::setProvenance(output,
-        cactus::recordOf(
-          this, "FibreRadialGrowth", stage, { "Input" }, { { "Spacing", grid.spacing }, { "Growth", this->Growth } }),
-        0);
+        cactus::recordOf(this, "FibreRadialGrowth", stage, { "Input" }, cactus::growthReached(grid.spacing, *this->Growth)), 0);
     });
 }
 
@@ -204,19 +204,21 @@ void vtkFibreRadialGrowth::solve(vtkDataObject* input, const cactus::Fibres& fib
   {
     return;
   }
-  for (const std::string& remark :
-    { cactus::remarkOnOverlaps(input, fibres, context.threadCount()), cactus::remarkOnTarget(fibres, options) })
+  const auto say = [this](const std::string& remark)
   {
     if (!remark.empty())
     {
       vtkWarningMacro(<< remark);
     }
-  }
+  };
+  say(cactus::remarkOnOverlaps(input, fibres, context.threadCount()));
+  say(cactus::remarkOnTarget(fibres, options));
   // A search that fails leaves nothing behind.
   this->Aimed.reset();
   this->GrowthParameterTime = 0;
   auto aimed = std::make_unique<cactus::Fibres>(cactus::aimAtTargetRadii(fibres, options, context));
-  this->Growth = cactus::growthFor(*aimed, options, context);
+  this->Growth = std::make_unique<cactus::SolvedGrowth>(cactus::growthFor(*aimed, options, context));
+  say(cactus::remarkOnGrowth(fibres, options, *this->Growth));
   this->Aimed = std::move(aimed);
   this->GrowthParameterTime = this->GetMTime();
   this->GrowthInputTime = cactus::changeTime(input);

@@ -41,6 +41,7 @@ namespace cactus
 struct Context;
 struct FibreRadialGrowthOptions;
 struct Fibres;
+struct SolvedGrowth;
 } // namespace cactus
 
 class CACTUSFILTERS_EXPORT vtkFibreRadialGrowth : public vtkImageAlgorithm
@@ -87,7 +88,7 @@ private:
 
   // Results for the target, kept from one extent to the next: the fibres that grow, and how far.
   std::unique_ptr<cactus::Fibres> Aimed;
-  double Growth = 0.0;
+  std::unique_ptr<cactus::SolvedGrowth> Growth;
   vtkMTimeType GrowthParameterTime = 0;
   vtkMTimeType GrowthInputTime = 0;
 };

@@ -88,10 +88,9 @@ void vtkSubstrateProduction::Produce()
   const cactus::Context context = cactus::contextFor(this, stage.threads);
   cactus::Provenance records;
   const cactus::ProductionOrder order = cactus::productionOrder(stage,
-    [&](double spacing, double growth)
+    [&](double spacing, const cactus::SolvedGrowth& growth)
     {
-      records =
-        cactus::recordOf(this, "SubstrateProduction", stage, { "Input" }, { { "Spacing", spacing }, { "Growth", growth } });
+      records = cactus::recordOf(this, "SubstrateProduction", stage, { "Input" }, cactus::growthReached(spacing, growth));
       return records;
     });
   const auto say = [&](const std::string& remark)

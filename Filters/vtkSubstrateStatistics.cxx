@@ -171,6 +171,10 @@ void fillHistograms(vtkTable* table, const std::vector<cactus::FibreStatistics>&
   double largest = 0.0;
   for (const auto& fibre : fibres)
   {
+    if (!(fibre.length > 0.0))
+    {
+      continue; // of those that only graze the domain there are more the thicker they are
+    }
     target.push_back(fibre.targetRadius);
     outer.push_back(fibre.outerRadius.mean);
     inner.push_back(fibre.innerRadius.mean);

@@ -25,7 +25,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "0: they start with their target radii")
       .include(&Options::radius, RadiusDistributionOptions::properties())
       .add("Border", &Options::border, { "Cut", "Walls" },
-        "What the domain's sides are to the fibres: cuts through a larger bundle, or walls that keep all fibres inside")
+        "How fibres meet the sides of the domain: it is cut from a larger bundle, or its sides are walls that keep all fibres inside")
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
         "Mean angle between fibres and their bundle's axis: anywhere along Coherent fibres (undulation left out), or from end to "
         "end")

@@ -18,7 +18,7 @@ enum class CrossingStyle
   Sheets      ///< few layers of equal thickness
 };
 
-/// What the sides of the domain are to the fibres.
+/// How fibres meet the sides of the domain.
 enum class Border
 {
   Cut,  ///< the domain is cut from the middle of a larger bundle, so that fibres run out through all its faces

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace cactus
 {
@@ -39,8 +40,10 @@ constexpr double measuredWavelengths = 2.0;
 /// Planes on which angles are measured.
 constexpr int anglePlanes = 5;
 
-/// A flow is even with a distance to Watson's distribution, a twist and an anisotropy of azimuths up to these.
+/// A flow is even with a distance to Watson's distribution (from end to end, and of all its angles), a twist and an anisotropy of
+/// azimuths up to these.
 constexpr double evenDistance = 0.045;
+constexpr double evenDistanceOfAll = 0.055;
 constexpr double evenTwist = 0.07;
 constexpr double evenAzimuths = 1.28;
 
@@ -207,7 +210,6 @@ void StationaryFlow::scaleToAngle(const BundleInitializerOptions& options)
       turns.add(point, slope);
     }
   }
-  this->LocalUnevenness = turns.unevenness();
   // Newton's method from below, where the mean is a concave function of the scale.
   double scale = 0.0;
   double mean = 0.0;
@@ -222,6 +224,8 @@ void StationaryFlow::scaleToAngle(const BundleInitializerOptions& options)
     }
     scale += (asked - mean) / rise;
   }
+  std::transform(slopes.begin(), slopes.end(), slopes.begin(), [&](double s) { return std::atan(scale * s); });
+  this->LocalUnevenness = std::max(turns.unevenness(), distanceToWatson(std::move(slopes)) / evenDistanceOfAll);
   this->Direction.scale = scale;
   this->Reached.meanAngle = mean / degree;
 }

@@ -100,6 +100,12 @@ double growthAt(const Arrivals& arrivals, double target)
   return std::numeric_limits<double>::infinity();
 }
 
+double growthOfAll(const Arrivals& arrivals)
+{
+  const auto last = std::find_if(arrivals.counts.rbegin(), arrivals.counts.rend(), [](std::uint64_t count) { return count > 0; });
+  return arrivals.first + growthClass * static_cast<double>(arrivals.counts.rend() - last);
+}
+
 VoxelGrid sampleGrid(const Domain& domain, double samples)
 {
   const Eigen::Vector3d size = domain.size();

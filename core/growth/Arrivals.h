@@ -32,6 +32,9 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
 /// Returns the growth at which `target` of the samples lie in a fibre; infinite if the counts end before.
 double growthAt(const Arrivals& arrivals, double target);
 
+/// Returns the growth at which all samples that can be reached lie in a fibre. There has to be one.
+double growthOfAll(const Arrivals& arrivals);
+
 /// Number of samples that are counted to find the growth that meets a target.
 constexpr double samplesForTarget = 8e6;
 

@@ -12,14 +12,15 @@
 namespace cactus
 {
 
-double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
+SolvedGrowth growthFor(
+  const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
 {
   validate(fibres);
   const VoxelGrid whole = growthGrid(fibres.domain, options);
   const double target = targetFraction(fibres, options);
   if (target <= 0.0)
   {
-    return options.growthIterations * whole.spacing;
+    return { options.growthIterations * whole.spacing };
   }
 
   // Few samples give a rough estimate: the smaller the reach of the full count, the faster it is.
@@ -33,10 +34,12 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
   const double growth = growthAt(arrivals, target);
   if (!std::isfinite(growth))
   {
-    throw Infeasible(text("TargetFibreVolumeFraction ", target, " cannot be reached: growth fills at most ",
-      static_cast<double>(arrivals.reachable) / static_cast<double>(arrivals.samples), " of the domain with MinimumGap ",
-      options.minimumGap, " and SurfaceTolerance ", options.surfaceTolerance,
-      " µm. Ask for less, make the gap smaller, or start from more fibres"));
+    if (arrivals.reachable == 0)
+    {
+      throw Infeasible(text("TargetFibreVolumeFraction ", target, " cannot be reached: growth by ", largestGrowth,
+        " µm brings no fibre into the domain. Check its position"));
+    }
+    return { growthOfAll(arrivals), static_cast<double>(arrivals.reachable) / static_cast<double>(arrivals.samples) };
   }
   const auto thinnest = std::min_element(fibres.radii.begin(), fibres.radii.end());
   if (growth <= -*thinnest * Calibre({ options.surfaceRoughness, options.seed }).smallestFraction())
@@ -48,7 +51,18 @@ double growthFor(const Fibres& fibres, const FibreRadialGrowthOptions& options, 
       " µm, which severs fibre ", fibres.fibreIds[fibre], " of radius ", *thinnest,
       " µm: ask for more, choose a smaller SurfaceRoughness, or start from fewer fibres"));
   }
-  return growth;
+  return { growth };
+}
+
+std::string remarkOnGrowth(const Fibres& fibres, const FibreRadialGrowthOptions& options, const SolvedGrowth& solved)
+{
+  if (solved.fraction <= 0.0)
+  {
+    return "";
+  }
+  return text("TargetFibreVolumeFraction ", targetFraction(fibres, options), " cannot be reached: the fibres fill ",
+    solved.fraction, " of the domain, which is the most with MinimumGap ", options.minimumGap, " and SurfaceTolerance ",
+    options.surfaceTolerance, " µm. For more, make the gap smaller, or start from more fibres");
 }
 
 } // namespace cactus

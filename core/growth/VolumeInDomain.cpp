@@ -16,7 +16,7 @@ namespace
 {
 
 /// Returns the area (µm²) in the domain of the disc around `centre` across the unit vector `axis`.
-double discInDomain(const Domain& domain, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis, double radius)
+double discInDomain(const Domain& domain, const Eigen::Vector3d& centre, const Eigen::Vector3d& axis, double radius, int samples)
 {
   const double depth = domain.depth(centre);
   if (depth >= radius || depth <= -radius)
@@ -24,22 +24,21 @@ double discInDomain(const Domain& domain, const Eigen::Vector3d& centre, const E
     return depth > 0.0 ? pi * radius * radius : 0.0;
   }
   // A sunflower: each point stands for the same area, and no line of points is parallel to the domain's faces.
-  constexpr int points = 96;
   const Eigen::Vector3d side = axis.unitOrthogonal();
   const Eigen::Vector3d other = axis.cross(side);
   int inside = 0;
-  for (int n = 0; n < points; ++n)
+  for (int n = 0; n < samples; ++n)
   {
-    const double out = radius * std::sqrt((n + 0.5) / points);
+    const double out = radius * std::sqrt((n + 0.5) / samples);
     const double angle = n * goldenAngle;
     inside += domain.depth(centre + out * (std::cos(angle) * side + std::sin(angle) * other)) > 0.0;
   }
-  return pi * radius * radius * inside / points;
+  return pi * radius * radius * inside / samples;
 }
 
 } // namespace
 
-double volumeInDomain(const Fibres& fibres, std::size_t f, double factor)
+double volumeInDomain(const Fibres& fibres, std::size_t f, double factor, int samples)
 {
   double volume = 0.0;
   const std::size_t begin = fibres.offsets[f];
@@ -62,7 +61,7 @@ double volumeInDomain(const Fibres& fibres, std::size_t f, double factor)
       const double t = part[0] + share * ((n + 0.5) / steps);
       volume += share * length / steps *
                 discInDomain(fibres.domain, fibres.points[p] + t * along, along / length,
-                  factor * ((1.0 - t) * fibres.radii[p] + t * fibres.radii[p + 1]));
+                  factor * ((1.0 - t) * fibres.radii[p] + t * fibres.radii[p + 1]), samples);
     }
   }
   const auto halfBall = [&](std::size_t end, std::size_t next)
@@ -73,8 +72,8 @@ double volumeInDomain(const Fibres& fibres, std::size_t f, double factor)
     for (int n = 0; n < steps; ++n)
     {
       const double t = (n + 0.5) / steps;
-      volume +=
-        radius / steps * discInDomain(fibres.domain, fibres.points[end] + t * radius * out, out, radius * std::sqrt(1.0 - t * t));
+      volume += radius / steps *
+                discInDomain(fibres.domain, fibres.points[end] + t * radius * out, out, radius * std::sqrt(1.0 - t * t), samples);
     }
   };
   halfBall(begin, begin + 1);

@@ -30,6 +30,7 @@ struct FibreCertificate
   double gap = 0.0;              ///< µm, smallest distance to the outer surface of another fibre
   int nearestFibre = 0;          ///< the fibre at that distance; the smaller id of two at the same
   double myelinThickness = 0.0;  ///< µm, smallest distance of the inner surface to the outer one's wall, without its caps
+  double length = 0.0;           ///< µm, of the centre line in the domain; NaN without one, like the radii
   RadiusAlongFibre outerRadius;
   RadiusAlongFibre innerRadius;
   double gRatio = 0.0; ///< sqrt(inner volume / outer volume)

@@ -113,8 +113,11 @@ std::vector<CertificateColumn> fibreColumns(const SubstrateCertificate& certific
   columns.number("SmallestGap_um", [](const Fibre& f) { return f.gap; });
   columns.count("NearestFibre", [](const Fibre& f) { return f.nearestFibre; });
   columns.number("SmallestMyelin_um", [](const Fibre& f) { return f.myelinThickness; });
+  columns.number("Length_um", [](const Fibre& f) { return f.length; });
   columns.number("OuterRadius_um", [](const Fibre& f) { return f.outerRadius.mean; });
   columns.number("InnerRadius_um", [](const Fibre& f) { return f.innerRadius.mean; });
+  columns.count("OuterCuts", [](const Fibre& f) { return f.outerRadius.cuts; });
+  columns.count("InnerCuts", [](const Fibre& f) { return f.innerRadius.cuts; });
   columns.number("GRatio", [](const Fibre& f) { return f.gRatio; });
   columns.number("OuterVolume_um3", [](const Fibre& f) { return f.outer.volume; });
   columns.number("InnerVolume_um3", [](const Fibre& f) { return f.inner.volume; });

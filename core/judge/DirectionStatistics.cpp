@@ -114,26 +114,24 @@ double watsonConcentration(double meanSquaredCosine)
   return std::exp(0.5 * (low + high));
 }
 
-DirectionStatistics measureDirections(
-  const Fibres& fibres, const std::vector<const std::vector<FibreCut>*>& innerCuts, double spacing)
+DirectionStatistics measureDirections(const Fibres& fibres, const std::vector<AxonSections>& axons, double spacing)
 {
   std::map<int, BundleDirections> bundles;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     BundleDirections& bundle = bundles[fibres.bundleIds[f]];
     const std::vector<FibrePlace> places = placesAlongFibre(fibres, f, spacing);
-    auto cut = innerCuts[f]->begin();
+    const std::vector<FibreCut>& cuts = *axons[f].cuts;
+    const double usualArea = std::isfinite(axons[f].radius) ? pi * axons[f].radius * axons[f].radius : 0.0;
+    auto cut = cuts.begin();
     for (const FibrePlace& place : places)
     {
       const Eigen::Matrix3d dyad = place.direction * place.direction.transpose();
       bundle.byLength += dyad;
       bundle.centre += place.point;
       ++bundle.places;
-      cut = std::find_if(cut, innerCuts[f]->end(), [&](const FibreCut& c) { return c.number >= place.number; });
-      if (cut != innerCuts[f]->end() && cut->number == place.number)
-      {
-        bundle.byVolume += cut->area * dyad;
-      }
+      cut = std::find_if(cut, cuts.end(), [&](const FibreCut& c) { return c.number >= place.number; });
+      bundle.byVolume += (cut != cuts.end() && cut->number == place.number ? cut->area : usualArea) * dyad;
     }
     if (!places.empty())
     {

@@ -33,9 +33,15 @@ struct DirectionStatistics
 /// 1e14.
 double watsonConcentration(double meanSquaredCosine);
 
-/// Measures the directions at every `spacing` (µm) along each centre line, at the places of placesAlongFibre(). `innerCuts` has
-/// the axons' cuts of each fibre there, in the order of the fibres.
-DirectionStatistics measureDirections(
-  const Fibres& fibres, const std::vector<const std::vector<FibreCut>*>& innerCuts, double spacing);
+/// The cross-sections of a fibre's axon.
+struct AxonSections
+{
+  const std::vector<FibreCut>* cuts = nullptr; ///< see cutsAlongFibre()
+  double radius = 0.0;                         ///< µm, where there is no cut; NaN without an axon
+};
+
+/// Measures the directions at every `spacing` (µm) along each centre line, at the places of placesAlongFibre(). `axons` has one
+/// entry per fibre.
+DirectionStatistics measureDirections(const Fibres& fibres, const std::vector<AxonSections>& axons, double spacing);
 
 } // namespace cactus

@@ -82,6 +82,8 @@ std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre,
 {
   fibre.outerRadius = fibre.innerRadius = { 0, notANumber, notANumber };
   fibre.gap = fibre.myelinThickness = fibre.gRatio = notANumber;
+  const auto line = this->LineIndex.find(fibre.fibreId);
+  fibre.length = line != this->LineIndex.end() ? lengthInDomain(*this->Lines, line->second) : notANumber;
   std::unique_ptr<TreedSurface> outer;
   const auto outerEntry = this->OuterIndex.find(fibre.fibreId);
   if (outerEntry != this->OuterIndex.end())
@@ -138,7 +140,8 @@ std::unique_ptr<TreedSurface> FibreExamination::measure(
   const auto line = this->LineIndex.find(fibreId);
   if (line != this->LineIndex.end())
   {
-    findings.radius = radiusAlongFibre(*this->Lines, line->second, surface->mesh, this->CutSpacing);
+    const std::vector<FibreCut> cuts = cutsAlongFibre(*this->Lines, line->second, surface->mesh, this->CutSpacing);
+    findings.radius = radiusAlongFibre(*this->Lines, line->second, surface->mesh, cuts, findings.report.volume);
   }
   return surface;
 }

@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "growth/VolumeInDomain.h"
 #include "mesh/CrossSection.h"
 #include "mesh/SurfaceWall.h"
 
@@ -122,16 +123,92 @@ RadiusAlongFibre radiusAlong(const std::vector<FibreCut>& cuts)
   return result;
 }
 
-RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing)
+namespace
 {
-  return radiusAlong(cutsAlongFibre(fibres, fibre, surface, spacing));
+
+/// Appends a segment with points where it passes the planes of the domain's faces, so that the steps of volumeInDomain() end
+/// there.
+void addSegment(const Eigen::Vector3d& from, const Eigen::Vector3d& to, Fibres& tube)
+{
+  std::vector<double> parts;
+  for (const Eigen::Vector3d& corner : { tube.domain.lower, tube.domain.upper })
+  {
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+      const double part = (corner[axis] - from[axis]) / (to[axis] - from[axis]);
+      if (part > 0.001 && part < 0.999)
+      {
+        parts.push_back(part);
+      }
+    }
+  }
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end(), [](double a, double b) { return b - a < 0.001; }), parts.end());
+  parts.push_back(1.0);
+  for (const double part : parts)
+  {
+    tube.addPoint((1.0 - part) * from + part * to, 1.0);
+  }
 }
 
-void EffectiveRadius::add(const FibreCut& cut)
+} // namespace
+
+double radiusOfVolume(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double volume)
 {
-  const double square = cut.area / pi;
-  this->Squares += square;
-  this->SixthPowers += square * square * square;
+  if (!(volume > 0.0))
+  {
+    return notANumber;
+  }
+  Fibres tube;
+  tube.domain = betweenCaps(surface, fibres.domain, largestInset);
+  for (const Eigen::Vector3d& point : surface.points) // an unclipped surface ends beyond a face
+  {
+    tube.domain.lower = tube.domain.lower.cwiseMin(point);
+    tube.domain.upper = tube.domain.upper.cwiseMax(point);
+  }
+  tube.addFibre(1, 1, 1.0);
+  tube.addPoint(fibres.points[fibres.offsets[fibre]], 1.0);
+  for (std::size_t i = fibres.offsets[fibre] + 1; i < fibres.offsets[fibre + 1]; ++i)
+  {
+    addSegment(fibres.points[i - 1], fibres.points[i], tube);
+  }
+  constexpr int samples = 240; // a face may cut a straight fibre alike along its whole length
+  double low = 0.0;
+  double high = fibres.targetRadii[fibre];
+  while (volumeInDomain(tube, 0, high, samples) < volume)
+  {
+    if (high > limits::radius.highest)
+    {
+      return notANumber; // a surface that does not belong to this centre line
+    }
+    low = high;
+    high *= 2.0;
+  }
+  constexpr int halvings = 20;
+  for (int i = 0; i < halvings; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    (volumeInDomain(tube, 0, middle, samples) < volume ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+RadiusAlongFibre radiusAlongFibre(
+  const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, const std::vector<FibreCut>& cuts, double volume)
+{
+  RadiusAlongFibre radius = radiusAlong(cuts);
+  if (cuts.empty())
+  {
+    radius.mean = radiusOfVolume(fibres, fibre, surface, volume);
+  }
+  return radius;
+}
+
+void EffectiveRadius::add(double area, double count)
+{
+  const double square = area / pi;
+  this->Squares += count * square;
+  this->SixthPowers += count * square * square * square;
 }
 
 double EffectiveRadius::value() const
@@ -154,7 +231,7 @@ AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing)
   {
     area += cut.area / count;
     inverse += 1.0 / cut.area / count;
-    effective.add(cut);
+    effective.add(cut.area);
   }
   double variance = 0.0;
   std::complex<double> wave = 0.0;

@@ -44,23 +44,31 @@ double equivalentRadius(const FibreCut& cut);
 struct RadiusAlongFibre
 {
   std::size_t cuts = 0;     ///< number of cross-sections that lie wholly inside the domain; without any, the others are NaN
-  double mean = 0.0;        ///< µm, of the equivalent radius
+  double mean = 0.0;        ///< µm, of the equivalent radius; without a cut, see radiusAlongFibre()
   double deviation = 0.0;   ///< µm, standard deviation of the equivalent radius along the fibre
   double circularity = 0.0; ///< mean over the cuts
 };
 
 RadiusAlongFibre radiusAlong(const std::vector<FibreCut>& cuts);
 
-/// Returns radiusAlong() of the fibre's cutsAlongFibre().
-RadiusAlongFibre radiusAlongFibre(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double spacing);
+/// Returns the radius (µm) of the tube around fibre number `fibre`'s centre line that has the given volume (µm³) between the caps
+/// of the fibre's surface; NaN unless the volume is positive. The tube is cut by the domain's faces as the surface is, so the
+/// radius is that of the whole fibre, however much of it lies inside.
+double radiusOfVolume(const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, double volume);
+
+/// Returns radiusAlong() of the fibre's `cuts`, those of cutsAlongFibre(). Without a cut, the mean is radiusOfVolume() of the
+/// surface's volume.
+RadiusAlongFibre radiusAlongFibre(
+  const Fibres& fibres, std::size_t fibre, const TriangleMesh& surface, const std::vector<FibreCut>& cuts, double volume);
 
 /// Computes (⟨r⁶⟩ / ⟨r²⟩)^¼ over cross-sections of axons: the effective radius of wide-pulse diffusion MRI (Burcaw et al. 2015,
 /// NeuroImage 114:18; Veraart et al. 2020, eLife 9:e49855).
 class EffectiveRadius
 {
 public:
-  void add(const FibreCut& cut);
-  /// Returns µm; NaN without a cut.
+  /// Adds cross-sections of the given area (µm²).
+  void add(double area, double count = 1.0);
+  /// Returns µm; NaN without a cross-section.
   double value() const;
 
 private:

@@ -38,6 +38,7 @@ void visitFindings(Fibre& fibre, Visit&& visit)
   visit(fibre.gap);
   visit(fibre.nearestFibre);
   visit(fibre.myelinThickness);
+  visit(fibre.length);
   visitRadius(fibre.outerRadius, visit);
   visitRadius(fibre.innerRadius, visit);
   visit(fibre.gRatio);

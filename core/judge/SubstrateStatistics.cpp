@@ -59,21 +59,22 @@ void requireClipped(const TriangleMesh& mesh, const Domain& domain, double toler
   }
 }
 
-/// Returns the mean of the finite values, in order; NaN if there are none.
+/// Returns the mean of the finite values, weighted by the fibres' lengths in the domain; NaN if there are none. By number, thick
+/// fibres would count too often in a domain cut from a larger tissue: they reach into it from farther away.
 template <typename Value>
 double meanOver(const std::vector<FibreStatistics>& fibres, Value&& value)
 {
   double sum = 0.0;
-  std::size_t count = 0;
+  double length = 0.0;
   for (const FibreStatistics& fibre : fibres)
   {
     if (std::isfinite(value(fibre)))
     {
-      sum += value(fibre);
-      ++count;
+      sum += fibre.length * value(fibre);
+      length += fibre.length;
     }
   }
-  return count > 0 ? sum / static_cast<double>(count) : notANumber;
+  return length > 0.0 ? sum / length : notANumber;
 }
 
 } // namespace
@@ -130,7 +131,7 @@ void measureSurface(const Fibres& fibres, std::size_t fibre, const TriangleMesh&
   }
   requireClipped(mesh, fibres.domain, options.clipTolerance, what);
   measures.cuts = cutsAlongFibre(fibres, fibre, mesh, options.cutSpacing);
-  measures.radius = radiusAlong(measures.cuts);
+  measures.radius = radiusAlongFibre(fibres, fibre, mesh, measures.cuts, measures.report.volume);
   measures.wallArea = areaOf(mesh, wallTriangles(mesh, fibres.domain, largestInset));
 }
 
@@ -193,20 +194,27 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
   result.extraSurfaceToVolume = hasOuter && outside > 0.0 ? outerWall / outside : notANumber;
 }
 
-/// Combines the cuts of all axons.
+/// Combines the cuts of all axons. Those of an axon stand for its length in the domain.
 void sumUpCuts(SubstrateStatistics& result)
 {
   EffectiveRadius all;
   EffectiveRadius middle;
   for (const FibreStatistics& fibre : result.fibres)
   {
-    for (const FibreCut& cut : fibre.innerCuts)
+    const std::vector<FibreCut>& cuts = fibre.innerCuts;
+    for (const FibreCut& cut : cuts)
     {
-      all.add(cut);
+      all.add(cut.area, fibre.length / static_cast<double>(cuts.size()));
     }
-    if (!fibre.innerCuts.empty())
+    if (!cuts.empty())
     {
-      middle.add(fibre.innerCuts[fibre.innerCuts.size() / 2]);
+      middle.add(cuts[cuts.size() / 2].area, fibre.length);
+    }
+    else if (std::isfinite(fibre.innerRadius.mean))
+    {
+      const double area = pi * fibre.innerRadius.mean * fibre.innerRadius.mean;
+      all.add(area, fibre.length);
+      middle.add(area, fibre.length);
     }
   }
   result.effectiveRadius = all.value();
@@ -276,12 +284,12 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
   result.largestPenetration = measureOverlap(fibres, 0.0, context.threadCount()).largestPenetration;
   result.meanDispersion = meanDispersion(fibres);
   result.tangentDispersion = meanTangentDispersion(fibres);
-  std::vector<const std::vector<FibreCut>*> innerCuts;
+  std::vector<AxonSections> axons;
   for (const FibreStatistics& fibre : result.fibres)
   {
-    innerCuts.push_back(&fibre.innerCuts);
+    axons.push_back({ &fibre.innerCuts, fibre.innerRadius.mean });
   }
-  result.directions = measureDirections(fibres, innerCuts, options.cutSpacing);
+  result.directions = measureDirections(fibres, axons, options.cutSpacing);
   result.meanTargetRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.targetRadius; });
   result.meanOuterRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerRadius.mean; });
   result.meanInnerRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerRadius.mean; });

@@ -30,7 +30,7 @@ struct SubstrateStatisticsOptions
   void validate() const;
 };
 
-/// The measures of one fibre. A missing surface gives a report of zeros and NaN radii.
+/// The measures of one fibre. A missing surface gives a report of zeros and NaN radii. Radii are those of radiusAlongFibre().
 struct FibreStatistics
 {
   int fibreId = 0;
@@ -62,6 +62,10 @@ double gRatioOf(double innerVolume, double outerVolume);
 
 /// The measures of the whole substrate. Fractions are volumes of the surfaces, which have to be clipped to the domain, over the
 /// domain's. Values that need a set of surfaces that is not given (see FibreSurfaces) are NaN; for an empty set they are 0.
+///
+/// Means over fibres are weighted by the fibres' lengths in the domain: those of a sample cut from a larger tissue are then
+/// unbiased estimates of the tissue's, by fibre length (cf. Baddeley and Jensen 2005, Stereology for Statisticians). A fibre that
+/// only grazes the domain counts little, and not at all where its centre line stays outside.
 struct SubstrateStatistics
 {
   double fibreVolumeFraction = 0.0;   ///< outer surfaces
@@ -74,8 +78,8 @@ struct SubstrateStatistics
   double tangentDispersion = 0.0;     ///< degrees, by segment
   DirectionStatistics directions;
   double meanTargetRadius = 0.0; ///< µm, over fibres
-  double meanOuterRadius = 0.0;  ///< µm, over fibres with a cross-section
-  double meanInnerRadius = 0.0;  ///< µm, over fibres with a cross-section
+  double meanOuterRadius = 0.0;  ///< µm, over fibres with an outer surface, see radiusAlongFibre()
+  double meanInnerRadius = 0.0;  ///< µm, over fibres with an inner surface
   std::size_t outerClosed = 0;   ///< closed 2-manifolds that point outward
   std::size_t outerOpen = 0;     ///< the other outer surfaces
   std::size_t innerClosed = 0;
@@ -88,7 +92,7 @@ struct SubstrateStatistics
   double meanOuterCalibreVariation = 0.0;
   double meanInnerCalibreVariation = 0.0;
   double meanAreaFluctuation = 0.0;    ///< µm, AxonShape::areaFluctuation: an estimate of Γ(k → 0)
-  double effectiveRadius = 0.0;        ///< µm, over all cuts of all axons
+  double effectiveRadius = 0.0;        ///< µm, over all cuts of all axons; one without a cut counts with its radius
   double middleEffectiveRadius = 0.0;  ///< µm, over the middle cut of each axon, as in a section through the bundle
   double intraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the axons over their volume
   double extraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the outer surfaces over the rest of the domain

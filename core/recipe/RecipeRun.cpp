@@ -278,11 +278,12 @@ private:
     Fibres fibres = this->growingFibres(stage.options, context);
     const FibreRadialGrowthOptions options = forFibres(fibres, stage.options);
     const Fibres aimed = aimAtTargetRadii(fibres, options, context);
-    const double growth = growthFor(aimed, options, context);
+    const SolvedGrowth growth = growthFor(aimed, options, context);
+    this->say(remarkOnGrowth(fibres, options, growth));
     const VoxelGrid grid = growthGrid(fibres.domain, options);
-    LabelImage image = growFibres(aimed, options, growth, grid, context);
+    LabelImage image = growFibres(aimed, options, growth.growth, grid, context);
     this->RecordsOf[{ this->Now, 0 }] =
-      provenanceOfOutput(this->record(stage, { { "Spacing", grid.spacing }, { "Growth", growth } }), 0, dataChecksum(image));
+      provenanceOfOutput(this->record(stage, growthReached(grid.spacing, growth)), 0, dataChecksum(image));
     GrownImage grown{ std::move(image), grownImageFacts(fibres, options), options.gap(), {} };
     grown.fibres = std::move(fibres);
     this->Grown = std::move(grown);
@@ -328,10 +329,8 @@ private:
   void work(const SubstrateProductionStage& stage)
   {
     const Context context = this->contextFor(stage.threads);
-    const ProductionOrder order = productionOrder(stage,
-      [&](double spacing, double growth) {
-        return this->record(stage, { { "Spacing", spacing }, { "Growth", growth } });
-      });
+    const ProductionOrder order = productionOrder(
+      stage, [&](double spacing, const SolvedGrowth& growth) { return this->record(stage, growthReached(spacing, growth)); });
     const Fibres fibres = this->growingFibres(order.growth, context);
     ProducedSubstrate produced = produceSubstrate(fibres, order, this->Folder, context);
     this->say(produced.remarks);

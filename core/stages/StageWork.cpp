@@ -309,6 +309,16 @@ std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
     { "Ended", std::string(reasonName(reason)) }, { "IsResult", isResult } };
 }
 
+std::vector<std::pair<std::string, PropertyValue>> growthReached(double spacing, const SolvedGrowth& growth)
+{
+  std::vector<std::pair<std::string, PropertyValue>> reached{ { "Spacing", spacing }, { "Growth", growth.growth } };
+  if (growth.fraction > 0.0)
+  {
+    reached.emplace_back("FibreVolumeFraction", growth.fraction);
+  }
+  return reached;
+}
+
 Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vector<std::size_t>& kept)
 {
   kept.resize(fibres.points.size());
@@ -386,7 +396,7 @@ void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents
 }
 
 ProductionOrder productionOrder(
-  const SubstrateProductionStage& stage, std::function<Provenance(double spacing, double growth)> provenance)
+  const SubstrateProductionStage& stage, std::function<Provenance(double spacing, const SolvedGrowth& growth)> provenance)
 {
   ProductionOrder order;
   order.growth = stage.growth;

@@ -10,6 +10,7 @@
 #include "bundle/Streamlines.h"
 #include "bundle/TractFibres.h"
 #include "fibres/Fibres.h"
+#include "growth/GrowthTarget.h"
 #include "io/FibreFile.h"
 #include "io/SubstrateContents.h"
 #include "io/Tractogram.h"
@@ -62,6 +63,9 @@ StageRecord strandRecord(const StrandReaderStage& stage);
 std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
   int iterations, double penetration, StopReason reason, bool isResult);
 
+/// Returns the record of a growth on voxels of `spacing` µm: with the fraction filled, if that is less than the target.
+std::vector<std::pair<std::string, PropertyValue>> growthReached(double spacing, const SolvedGrowth& growth);
+
 /// Returns the fibres, trimmed to their domain if the stage says so; `kept` as in trimToDomain(). Throws InvalidInput if none is
 /// left.
 Fibres trimmedFibres(const CapsuleOptimizerStage& stage, Fibres fibres, std::vector<std::size_t>& kept);
@@ -82,6 +86,6 @@ void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents
 
 /// Returns the stage's properties as a ProductionOrder.
 ProductionOrder productionOrder(
-  const SubstrateProductionStage& stage, std::function<Provenance(double spacing, double growth)> provenance);
+  const SubstrateProductionStage& stage, std::function<Provenance(double spacing, const SolvedGrowth& growth)> provenance);
 
 } // namespace cactus

@@ -79,7 +79,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   sum.add(&fibres.grownFraction, sizeof(double));
   sum.add(fibres.domain.lower.data(), 3 * sizeof(double));
   sum.add(fibres.domain.upper.data(), 3 * sizeof(double));
-  const std::string values = "CACTUS " CACTUS_VERSION ", journal 9\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 10\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)
   {
@@ -163,35 +163,37 @@ std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
 }
 
 /// The quantities that are solved for before any surface is made.
-struct SolvedGrowth
+struct SolvedFibres
 {
   std::vector<double> factors; ///< on each fibre's radii, see factorsForTargetRadii()
-  double growth = 0.0;         ///< µm
+  SolvedGrowth growth;
 };
 
-SolvedGrowth solveGrowth(
+SolvedFibres solveGrowth(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
 {
-  SolvedGrowth solved;
+  SolvedFibres solved;
   solved.factors = factorsForTargetRadii(fibres, options, context, sharing);
   solved.growth = growthFor(scaledBy(solved.factors, fibres), options, context, sharing);
   return solved;
 }
 
-std::string bytesOfSolved(const SolvedGrowth& solved)
+std::string bytesOfSolved(const SolvedFibres& solved)
 {
   ByteWriter put;
   put(solved.factors);
-  put(solved.growth);
+  put(solved.growth.growth);
+  put(solved.growth.fraction);
   return put.bytes();
 }
 
-SolvedGrowth solvedFrom(const std::string& bytes)
+SolvedFibres solvedFrom(const std::string& bytes)
 {
-  SolvedGrowth solved;
+  SolvedFibres solved;
   ByteReader get(bytes);
   get(solved.factors);
-  get(solved.growth);
+  get(solved.growth.growth);
+  get(solved.growth.fraction);
   return solved;
 }
 
@@ -200,9 +202,9 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   ProducedSubstrate& result, const Context& context, const Sharing& sharing)
 {
   const Context solving = context.part(0.0, growthSolved);
-  const SolvedGrowth solved = spool.findings().part("growth").once(
+  const SolvedFibres solved = spool.findings().part("growth").once(
     sharing, [&] { return solveGrowth(fibres, order.growth, solving, sharing); }, bytesOfSolved, solvedFrom);
-  auto tiles = std::make_shared<GrownTiles>(scaledBy(solved.factors, fibres), order.growth, solved.growth,
+  auto tiles = std::make_shared<GrownTiles>(scaledBy(solved.factors, fibres), order.growth, solved.growth.growth,
     keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()), context.threadCount());
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
@@ -212,7 +214,11 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   maker.makeOuter(spool.outer(), spool.inner());
   maker.makeInner(spool.outer(), spool.inner());
   result.fibres = maker.fibres();
-  result.remarks = notAsAsked(maker.fibres(), spacing, facts);
+  for (const std::string& remark :
+    { remarkOnGrowth(fibres, order.growth, solved.growth), notAsAsked(maker.fibres(), spacing, facts) })
+  {
+    result.remarks += result.remarks.empty() || remark.empty() ? remark : ". " + remark;
+  }
 
   SubstrateFolderContents contents;
   addMadeSurfaces(maker.fibres(), spool.outer(), spool.inner(), order.growth.minimumGap, contents);

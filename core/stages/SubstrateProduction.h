@@ -6,6 +6,7 @@
 #include "base/Team.h"
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowthOptions.h"
+#include "growth/GrowthTarget.h"
 #include "io/SubstrateContents.h"
 #include "surface/FibreSurfacePair.h"
 #include "surface/MyelinSurfaceOptions.h"
@@ -29,8 +30,8 @@ struct ProductionOrder
   /// The fraction of all fibres whose surfaces are made, drawn at random by the surfaces' seed, each fibre independently: a
   /// larger fraction includes the fibres of a smaller one.
   double sampledFraction = 1.0;
-  /// Returns the records of the output, given the size of a voxel and the growth that was solved for (µm).
-  std::function<Provenance(double spacing, double growth)> provenance;
+  /// Returns the records of the output, given the size of a voxel (µm) and the growth that was solved for.
+  std::function<Provenance(double spacing, const SolvedGrowth& growth)> provenance;
 };
 
 /// Throws InvalidInput for options out of range, an encoding that the format's files do not have, and a sample that is to be
@@ -42,7 +43,7 @@ struct ProducedSubstrate
 {
   WrittenSubstrate written;
   std::vector<FibreSurfacePair> fibres; ///< without their meshes
-  std::string remarks;                  ///< see notAsAsked()
+  std::string remarks;                  ///< see remarkOnGrowth() and notAsAsked()
   std::size_t found = 0;                ///< number of surfaces that an earlier run had left
 };
 

@@ -24,11 +24,12 @@ canvas, axes = pyplot.subplots(2, len(PAPER), figsize=(9, 4.4), layout="constrai
 for i, (paper_side, paper_fibres) in enumerate(PAPER.items()):
     side = figure.options.side * SIZES[i]
     with figure.substrate("radii-0.9", side, MeanDispersion=1) as made:
-        radii = [radius for radius in made.fibre["OuterRadius_um"] if math.isfinite(radius)]
+        known = [(radius, length) for radius, length in zip(made.fibre["OuterRadius_um"], made.fibre["Length_um"]) if math.isfinite(radius) and length > 0]
+        radii = [radius for radius, _ in known]
         density = asked_radii(made.fibres)
         figure.row(
             paper_side_um=paper_side, paper_fibres=paper_fibres, side_um=side, fibres=int(made.whole["OuterSurfaces"]), FVF=made.whole["FVF"],
-            mean_radius_um=sum(radii) / len(radii), asked_mean_radius_um=sum(r * w for r, w in density) / sum(w for _, w in density),
+            mean_radius_um=sum(r * w for r, w in known) / sum(w for _, w in known), asked_mean_radius_um=sum(r * w for r, w in density) / sum(w for _, w in density),
             KS_distance=ks_distance(radii, density), certified="yes" if made.whole["Certified"] else "no",
         )
         place(axes[0, i], solid([(below(made.outer, 0.3 * side), [0.45] * 3), (made.inner, AXON)], side), f"{'abcd'[i]}) ({side:g} µm)³, {made.whole['OuterSurfaces']:.0f} fibres")

@@ -88,7 +88,7 @@ TEST(StoredBits, DefaultChain)
 
   const FibreRadialGrowthOptions growth;
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
-  const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(fibres.domain, growth));
+  const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth).growth, growthGrid(fibres.domain, growth));
   EXPECT_EQ(digest(image), "defb38069c59c073e52b637f8c39f855d7c01c84d511d43cadd96a0189936b8d");
 
   const LabelImageFacts facts = labelImageFacts(fibres, growth);

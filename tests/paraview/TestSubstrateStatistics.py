@@ -86,6 +86,17 @@ class Statistics(CactusTestCase):
         self.assertEqual(table["InnerRadiusFibres"], [0, 2, 0])
         self.assertEqual(sum(table["GRatioFibres"]), 2)
 
+    def test_a_fibre_that_only_grazes_the_domain_is_in_no_mean_or_histogram(self):
+        along = [z - 6 for z in range(13)]
+        lines = fibres({3: (1.0, [(-2, 0, z) for z in along]), 4: (2.0, [(5.5, 0, z) for z in along])}, 10)
+        outer = surfaces({3: tube(-2, 0, 1.0, 10), 4: tube(4.5, 0, 0.5, 10)}, 0, 10)  # what there is of it in the domain
+        statistics = SubstrateStatistics(Fibres=produce(lines), Outer=produce(outer))
+        table = columns(fetch(statistics, 1))
+        self.assertEqual((table["Length_um"][1], table["OuterCuts"][1]), (0, 0))
+        self.assertTrue(0.5 < table["OuterRadius_um"][1] < 2)
+        self.assertEqual(columns(fetch(statistics))["MeanTargetRadius_um"], [1.0])
+        self.assertEqual(sum(columns(fetch(statistics, 2))["OuterRadiusFibres"]), 1)
+
     def test_what_diffusion_reads(self):
         row = {name: values[0] for name, values in columns(fetch(self.measure())).items()}
         self.assertAlmostEqual(row["MeanTortuosity"], 1)

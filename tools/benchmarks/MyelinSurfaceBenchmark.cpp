@@ -35,7 +35,7 @@ void makeMyelinSurfaces(benchmark::State& state)
   const FibreRadialGrowthOptions growth;
   const Fibres aimed = aimAtTargetRadii(fibres, growth, context);
   const LabelImage image =
-    growFibres(aimed, growth, growthFor(aimed, growth, context), growthGrid(fibres.domain, growth), context);
+    growFibres(aimed, growth, growthFor(aimed, growth, context).growth, growthGrid(fibres.domain, growth), context);
   const LabelImageFacts facts = labelImageFacts(fibres, growth);
   const LabelImageView view{ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() };
   std::size_t triangles = 0;

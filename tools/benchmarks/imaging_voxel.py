@@ -16,7 +16,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path += [os.path.join(ROOT, "examples", "figures"), os.path.join(ROOT, "tools", "scripts")]
 from paper_figure import pyplot  # noqa: E402  (sets the look of all figures)
 from preview import drawn_cut  # noqa: E402
-from report_facts import AskedRadii, ks_distance, mean  # noqa: E402
+from report_facts import AskedRadii, in_domain, ks_distance, mean_radius  # noqa: E402
 from substrate_folder import ended, manifest_path, read_manifest, read_quantities, read_rows  # noqa: E402
 from paraview import simple  # noqa: E402
 from picture import flat_view  # noqa: E402  (after paper_figure, which names its folder)
@@ -41,13 +41,13 @@ def facts_of(folder, manifest):
     domain = manifest["domain"]
     fibres = read_rows(os.path.join(folder, "certificate_fibres.csv"))
     whole = read_quantities(os.path.join(folder, "certificate.csv"))
-    radii = [row["OuterRadius_um"] for row in fibres if math.isfinite(row["OuterRadius_um"])]
+    radii = [row["OuterRadius_um"] for row in in_domain(fibres) if math.isfinite(row["OuterRadius_um"])]
     density = AskedRadii(manifest).density
     return {
         "side (µm)": f"{domain[1] - domain[0]:g}",
         "fibres": f"{len(fibres):,}" + (f" of {manifest['sample_of_fibres']:,}" if "sample_of_fibres" in manifest else ""),
         "FVF": f"{whole['FVF']:.4f}",
-        "mean radius: target, reached (µm)": f"{AskedRadii(manifest).mean() or math.nan:.3f}, {mean(radii):.3f}",
+        "mean radius: target, reached (µm)": f"{AskedRadii(manifest).mean() or math.nan:.3f}, {mean_radius(fibres, 'OuterRadius_um'):.3f}",
         "KS distance": f"{ks_distance(radii, density):.3f}",
         "smallest gap (µm)": f"{whole['SmallestGap_um']:.4f}",
         "triangles": f"{manifest['triangles']:,}",

@@ -16,7 +16,7 @@ from paraview import servermanager, simple
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
 import report_charts
-from report_facts import AskedRadii, asked_and_reached, asked_g_ratio
+from report_facts import AskedRadii, asked_and_reached, asked_g_ratio, in_domain
 from preview import IN_ONE_FILE, SAYS_OF_FORMAT, drawn_cut, in_middle, middle_of, read_surface, surface_files, tubes, with_numbers
 from report_page import page
 from report_profiles import profiles
@@ -148,6 +148,7 @@ def data_uri(kind, content):
 
 def charts(manifest, fibres, lines):
     """SVG texts of the radii, the g-ratios and the directions, and what is to be said of them."""
+    fibres = in_domain(fibres)
     outer = [row["OuterRadius_um"] for row in fibres if math.isfinite(row["OuterRadius_um"])]
     inner = [row["InnerRadius_um"] for row in fibres if math.isfinite(row["InnerRadius_um"])]
     g_ratios = [row["GRatio"] for row in fibres if math.isfinite(row["GRatio"])]
@@ -158,7 +159,8 @@ def charts(manifest, fibres, lines):
         bins = 25
         curve = ("asked (outer)", [(r, weight * len(outer) * top / bins) for r, weight in density if r <= top], ASKED) if density else None
         drawn.append(report_charts.histograms("Radii", "radius (µm), number of fibres", [("outer", outer, OUTER), ("inner", inner, INNER)], 0.0, top, bins, curve))
-        notes.append(f"Radii are those of circles with the area of the cross-sections of the surfaces, of the {len(outer)} fibres that have one wholly in the domain.")
+        notes.append(f"Radii are those of circles with the area of the cross-sections of the surfaces, of the {len(outer)} fibres with a centre line in the domain. "
+                     "A fibre without a cross-section wholly in the domain has the radius of the tube with its volume.")
     if g_ratios:
         asked = asked_g_ratio(manifest)
         label = "g-ratio, number of fibres" + (f"; asked {asked:g}" if asked is not None else "")

@@ -18,9 +18,15 @@ def only(values):
     return next(iter(different.values())) if len(different) == 1 else None
 
 
-def mean(values):
-    known = [value for value in values if math.isfinite(value)]
-    return math.fsum(known) / len(known) if known else math.nan
+def in_domain(fibres):
+    """Of rows by fibre, those whose centre line enters the domain: of fibres that only graze it there are more the thicker they are."""
+    return [fibre for fibre in fibres if fibre.get("Length_um", 1.0) > 0.0]
+
+
+def mean_radius(fibres, name):
+    """Mean of a column of radii, weighted by the fibres' lengths in the domain; by number in folders without lengths."""
+    known = [(fibre[name], fibre.get("Length_um", 1.0)) for fibre in in_domain(fibres) if math.isfinite(fibre[name])]
+    return math.fsum(radius * length for radius, length in known) / math.fsum(length for _, length in known) if known else math.nan
 
 
 def source_of_all(manifest, names):
@@ -119,8 +125,8 @@ def asked_and_reached(manifest, certificate, fibres, dispersion):
         ("axon volume fraction (AVF)", axons, certificate.get("AVF")),
         ("myelin volume fraction (MVF)", fraction - axons if axons is not None and fraction is not None else None, certificate.get("MVF")),
         ("aggregate g-ratio", g, certificate.get("AggregateGRatio")),
-        ("mean outer radius (µm)", AskedRadii(manifest).mean(), mean(fibre["OuterRadius_um"] for fibre in fibres)),
-        ("mean inner radius (µm)", None, mean(fibre["InnerRadius_um"] for fibre in fibres if math.isfinite(fibre["OuterRadius_um"]))),
+        ("mean outer radius (µm)", AskedRadii(manifest).mean(), mean_radius(fibres, "OuterRadius_um")),
+        ("mean inner radius (µm)", None, mean_radius(fibres, "InnerRadius_um")),
         ("mean dispersion (degrees)", (source_of_all(manifest, ["MeanDispersion"]) or {}).get("MeanDispersion"), dispersion),
         ("smallest gap between fibres (µm)", certificate.get("MinimumGap_um"), certificate.get("SmallestGap_um")),
         ("thinnest myelin (µm)", None, certificate.get("SmallestMyelin_um")),

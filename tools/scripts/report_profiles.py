@@ -16,7 +16,7 @@ CUTS = 80  # along the side of the domain
 def candidates(fibres, parts=(0.1, 0.5, 0.9), count=5):
     """[ids of some thin fibres], of middle ones and of thick ones, by rows of the certificate's table, those at their place first; of as many as there
     are."""
-    measured = sorted((row["OuterRadius_um"], int(row["FibreId"])) for row in fibres if math.isfinite(row["OuterRadius_um"]))
+    measured = sorted((row["OuterRadius_um"], int(row["FibreId"])) for row in fibres if math.isfinite(row["OuterRadius_um"]) and row.get("OuterCuts", 1) > 0)
     places = sorted({round(part * (len(measured) - 1)) for part in parts}) if measured else []
 
     def around(place):

@@ -19,7 +19,7 @@ inline cactus::LabelImage grown(const cactus::Fibres& fibres, const cactus::Fibr
 {
   cactus::Context context;
   context.threads = threads;
-  return growFibres(fibres, options, growthFor(fibres, options, context), growthGrid(fibres.domain, options), context);
+  return growFibres(fibres, options, growthFor(fibres, options, context).growth, growthGrid(fibres.domain, options), context);
 }
 
 } // namespace cactus_testing

@@ -185,13 +185,13 @@ TEST(GrowthTarget, ComesFromTheFibresUnlessGiven)
   Fibres fibres = emptyFibres(4.0);
   addStraight(fibres, 0.0, 0.0, 4.0, 0.9, 1.0);
   FibreRadialGrowthOptions byIterations;
-  EXPECT_EQ(growthFor(fibres, byIterations), byIterations.growthIterations * byIterations.voxelSize);
+  EXPECT_EQ(growthFor(fibres, byIterations).growth, byIterations.growthIterations * byIterations.voxelSize);
   EXPECT_EQ(remarkOnTarget(fibres, byIterations), "");
 
   fibres.grownFraction = pi / 16.0;
   FibreRadialGrowthOptions given;
   given.targetFibreVolumeFraction = pi / 16.0;
-  EXPECT_EQ(growthFor(fibres, {}), growthFor(fibres, given));
+  EXPECT_EQ(growthFor(fibres, {}).growth, growthFor(fibres, given).growth);
   EXPECT_EQ(aimAtTargetRadii(fibres, {}).radii, aimAtTargetRadii(fibres, given).radii);
   EXPECT_EQ(trimToDomain(fibres).grownFraction, fibres.grownFraction);
 }
@@ -278,7 +278,7 @@ TEST(GrowthTarget, LoneFibresEndAtTheirTargetRadii)
   options.voxelSize = 0.02;
   options.targetFibreVolumeFraction = area / 16.0;
   const Fibres aimed = aimAtTargetRadii(fibres, options);
-  EXPECT_NEAR(growthFor(aimed, options), 0.0, 0.01);
+  EXPECT_NEAR(growthFor(aimed, options).growth, 0.0, 0.01);
   const std::vector<double> volumes = countedVolumes(fibres, grown(aimed, options));
   for (std::size_t f = 0; f < 4; ++f)
   {

@@ -34,15 +34,16 @@ struct StraightFibres
       this->fibres.addPoint(middle + along * half, 0.5);
     }
   }
-  DirectionStatistics measured(const std::vector<std::vector<FibreCut>>& cuts = {}) const
+  DirectionStatistics measured(
+    const std::vector<std::vector<FibreCut>>& cuts = {}, const std::vector<double>& innerRadii = {}) const
   {
     static const std::vector<FibreCut> none;
-    std::vector<const std::vector<FibreCut>*> ofFibres(this->fibres.size(), &none);
-    for (std::size_t f = 0; f < cuts.size(); ++f)
+    std::vector<AxonSections> axons;
+    for (std::size_t f = 0; f < this->fibres.size(); ++f)
     {
-      ofFibres[f] = &cuts[f];
+      axons.push_back({ f < cuts.size() ? &cuts[f] : &none, f < innerRadii.size() ? innerRadii[f] : notANumber });
     }
-    return measureDirections(this->fibres, ofFibres, 1.0);
+    return measureDirections(this->fibres, axons, 1.0);
   }
 };
 
@@ -134,6 +135,14 @@ TEST(DirectionStatistics, VolumesOfAxonsAreWeights)
   const DirectionStatistics found = fibres.measured(cuts);
   EXPECT_NEAR(found.p2, 0.5 * (p2 + 1.0), 1e-9);
   EXPECT_NEAR(found.p2ByAxonVolume, 0.25 * p2 + 0.75, 1e-9);
+  // Without a whole cut, an axon counts with its radius: 8 places of area 1 for each tilted one against 2 of area 3.
+  std::vector<double> radii(8, notANumber);
+  for (std::size_t f = 0; f < 8; f += 2)
+  {
+    cuts[f].clear();
+    radii[f] = std::sqrt(1.0 / pi);
+  }
+  EXPECT_NEAR(fibres.measured(cuts, radii).p2ByAxonVolume, (8.0 * p2 + 6.0) / 14.0, 1e-9);
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/Random.h"
+#include "base/RandomVariates.h"
 #include "mesh/CrossSection.h"
 
 #include <gtest/gtest.h>
@@ -30,6 +32,16 @@ cactus::TriangleMesh tube(double x, double y, double radius, double half, int si
 double polygonFactor(int sides)
 {
   return 0.5 * sides * std::sin(2.0 * pi / sides); // area of a regular polygon in the unit circle
+}
+
+/// Returns the surface of a fibre along z as the side faces of the domain cut it off: of a convex one, points beyond lie in them.
+cactus::TriangleMesh cutToFaces(cactus::TriangleMesh mesh, const cactus::Fibres& fibres)
+{
+  for (auto& point : mesh.points)
+  {
+    point.head<2>() = point.head<2>().cwiseMax(fibres.domain.lower.head<2>()).cwiseMin(fibres.domain.upper.head<2>());
+  }
+  return mesh;
 }
 
 /// Two straight fibres along z in a cube of side 10.
@@ -125,7 +137,8 @@ TEST(SubstrateStatistics, CircularityOfPrisms)
   for (const int sides : { 4, 6, 200 })
   {
     const double expected = (pi / sides) / std::tan(pi / sides);
-    EXPECT_NEAR(cactus::radiusAlongFibre(fibres, 0, tube(-2, 0, 1.0, 5.0, sides), 1.0).circularity, expected, 1e-9);
+    const auto cuts = cactus::cutsAlongFibre(fibres, 0, tube(-2, 0, 1.0, 5.0, sides), 1.0);
+    EXPECT_NEAR(cactus::radiusAlong(cuts).circularity, expected, 1e-9);
   }
 }
 
@@ -141,7 +154,7 @@ TEST(SubstrateStatistics, RadiusVaryingAlongTheFibre)
   {
     point.head<2>() *= 1.0 + 0.02 * point[2];
   }
-  const auto radius = cactus::radiusAlongFibre(fibres, 0, mesh, 1.0);
+  const auto radius = cactus::radiusAlong(cactus::cutsAlongFibre(fibres, 0, mesh, 1.0));
   const double equivalent = std::sqrt(polygonFactor(24) / pi);
   EXPECT_EQ(radius.cuts, 20u);
   EXPECT_NEAR(radius.mean, equivalent, 1e-9);
@@ -155,11 +168,95 @@ TEST(SubstrateStatistics, CutsAtTheBoundaryAreLeftOut)
   auto fibres = twoFibres();
   fibres.domain.lower[0] = -2.5; // runs through the first tube, whose surface is not clipped here
   const auto mesh = tube(-2, 0, 1.0, 5.0);
-  EXPECT_EQ(cactus::radiusAlongFibre(fibres, 0, mesh, 1.0).cuts, 0u);
-  EXPECT_TRUE(std::isnan(cactus::radiusAlongFibre(fibres, 0, mesh, 1.0).mean));
+  EXPECT_TRUE(cactus::cutsAlongFibre(fibres, 0, mesh, 1.0).empty());
+  EXPECT_TRUE(std::isnan(cactus::radiusAlong({}).mean));
   EXPECT_NEAR(cactus::lengthInDomain(fibres, 0), 10.0, 1e-12);
   fibres.domain.lower[0] = 0.0;
   EXPECT_EQ(cactus::lengthInDomain(fibres, 0), 0.0);
+}
+
+// A fibre that a face cuts off along its whole length has the radius of its whole tube, and counts by its length.
+TEST(SubstrateStatistics, FibresWithoutAWholeCutCountByTheirVolume)
+{
+  auto fibres = twoFibres();
+  fibres.domain.lower[0] = -2.5;
+  fibres.domain.upper[0] = 1.0; // the other one's centre line is outside
+  const auto outer =
+    surfacesOf({ 3, 5 }, { cutToFaces(tube(-2, 0, 1.0, 5.0, 360), fibres), cutToFaces(tube(2, 0, 1.5, 5.0, 360), fibres) });
+  const auto inner = surfacesOf({ 3 }, { cutToFaces(example::tube(-2, 0, 0.7, -4.9, 4.9, 360), fibres) });
+  const auto result = cactus::measureSubstrate(fibres, outer, inner);
+  const auto& half = result.fibres[0];
+  EXPECT_EQ(half.outerRadius.cuts + half.innerRadius.cuts, 0u);
+  EXPECT_LT(half.outer.volume, 0.85 * 10.0 * pi);
+  EXPECT_NEAR(half.outerRadius.mean, 1.0, 0.01);
+  EXPECT_NEAR(half.innerRadius.mean, 0.7, 0.01) << "between its caps";
+  EXPECT_NEAR(cactus::radiusOfVolume(fibres, 0, tube(-2, 0, 1.0, 5.0, 360), 10.0 * pi), 1.0, 0.01)
+    << "of one that is not clipped";
+  EXPECT_TRUE(std::isnan(half.outerRadius.deviation) && std::isnan(half.outerCalibreVariation()));
+  EXPECT_NEAR(result.fibres[1].outerRadius.mean, 1.5, 0.01);
+  EXPECT_EQ(result.fibres[1].length, 0.0);
+  EXPECT_EQ(result.meanTargetRadius, 1.0);
+  EXPECT_EQ(result.meanOuterRadius, half.outerRadius.mean);
+  EXPECT_EQ(result.effectiveRadius, result.middleEffectiveRadius);
+  EXPECT_NEAR(result.effectiveRadius, 0.7, 0.01);
+}
+
+TEST(SubstrateStatistics, MeansAreOverLengthsOfFibres)
+{
+  cactus::Fibres fibres = twoFibres();
+  fibres.points.resize(fibres.offsets[1] + 7); // fibre 5 ends at z = 0
+  fibres.radii.resize(fibres.points.size());
+  fibres.offsets[2] = fibres.points.size();
+  const auto outer = surfacesOf({ 3, 5 }, { tube(-2, 0, 1.0, 5.0), example::tube(2, 0, 1.4, -5.0, 0.0) });
+  const auto result = cactus::measureSubstrate(fibres, outer, {});
+  EXPECT_NEAR(result.meanTargetRadius, (2.0 * 1.0 + 1.5) / 3.0, 1e-12);
+  EXPECT_NEAR(result.meanOuterRadius, (2.0 * 1.0 + 1.4) / 3.0 * std::sqrt(polygonFactor(24) / pi), 1e-9);
+}
+
+// The sample that a box cuts from endless tissue: more thick fibres than thin ones reach into it, and hardly a thick one has a
+// whole cross-section there. The mean radius is the tissue's.
+TEST(SubstrateStatistics, RadiiOfASampleAreThoseOfItsTissue)
+{
+  constexpr double side = 8.0;
+  cactus::Fibres fibres;
+  fibres.domain = cactus::Domain::cube(side);
+  std::vector<int> ids;
+  std::vector<cactus::TriangleMesh> meshes;
+  double ofCentres = 0.0;
+  double count = 0.0;
+  cactus::RandomEngine engine = cactus::randomStream(5, cactus::RandomStage::Directions);
+  for (int id = 1; id <= 200; ++id)
+  {
+    const double radius = id % 2 == 0 ? 0.2 : 1.6;
+    const double x = 12.0 * cactus::uniform(engine) - 6.0;
+    const double y = 12.0 * cactus::uniform(engine) - 6.0;
+    const double away = std::hypot(std::max(0.0, std::abs(x) - 0.5 * side), std::max(0.0, std::abs(y) - 0.5 * side));
+    if (away > 0.99 * radius)
+    {
+      continue;
+    }
+    fibres.addFibre(id, 1, radius);
+    fibres.addPoint({ x, y, -side }, radius);
+    fibres.addPoint({ x, y, side }, radius);
+    ids.push_back(id);
+    meshes.push_back(cutToFaces(example::tube(x, y, radius, -0.5 * side, 0.5 * side, 120, 1), fibres));
+    ofCentres += away == 0.0 ? radius : 0.0;
+    count += away == 0.0 ? 1.0 : 0.0;
+  }
+  const auto result = cactus::measureSubstrate(fibres, surfacesOf(ids, meshes), {});
+  EXPECT_NEAR(result.meanOuterRadius, result.meanTargetRadius, 0.004 * result.meanTargetRadius);
+  EXPECT_NEAR(result.meanTargetRadius, ofCentres / count, 1e-9);
+  double byNumber = 0.0;
+  double whole = 0.0;
+  double wholes = 0.0;
+  for (const auto& fibre : result.fibres)
+  {
+    byNumber += fibre.targetRadius / double(result.fibres.size());
+    whole += fibre.outerRadius.cuts > 0 ? fibre.outerRadius.mean : 0.0;
+    wholes += fibre.outerRadius.cuts > 0 ? 1.0 : 0.0;
+  }
+  EXPECT_GT(byNumber, 1.1 * result.meanOuterRadius);
+  EXPECT_LT(whole / wholes, 0.9 * result.meanOuterRadius);
 }
 
 TEST(SubstrateStatistics, MissingAndOpenSurfaces)

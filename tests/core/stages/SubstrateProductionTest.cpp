@@ -139,7 +139,7 @@ protected:
   {
     const FibreRadialGrowthOptions& growth = this->Order.growth;
     const Fibres aimed = aimAtTargetRadii(this->Fibres_, growth);
-    const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth), growthGrid(aimed.domain, growth));
+    const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth).growth, growthGrid(aimed.domain, growth));
     const LabelImageFacts facts = labelImageFacts(aimed, growth);
     const auto pairs =
       myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, this->Order.surfaces);
@@ -309,6 +309,27 @@ TEST_F(Production, SolvesForNothingAgain)
 }
 
 // The solved growth is kept, too, even if no surface has been made yet; and a later run that fails leaves it.
+// The fraction that is filled instead is known to a run that goes on.
+TEST_F(Production, FillsWhatItCanAndSaysSoHoweverOftenItIsKilled)
+{
+  this->Order.growth.targetFibreVolumeFraction = 0.99;
+  double recorded = 0.0;
+  this->Order.provenance = [&](double, const SolvedGrowth& growth)
+  {
+    recorded = growth.fraction;
+    return Provenance();
+  };
+  const ProducedSubstrate whole = this->produce("whole");
+  const std::string words = text("TargetFibreVolumeFraction 0.99 cannot be reached: the fibres fill ", recorded);
+  EXPECT_GT(recorded, 0.8);
+  EXPECT_NE(whole.remarks.find(words), std::string::npos) << whole.remarks;
+  this->killAt("killed", 0.5);
+  const ProducedSubstrate resumed = this->produce("killed");
+  EXPECT_GT(resumed.found, 0u);
+  EXPECT_EQ(resumed.remarks, whole.remarks);
+  EXPECT_EQ(filesIn(this->folder("killed")), filesIn(this->folder("whole")));
+}
+
 TEST_F(Production, GoesOnWhereItWasStoppedBeforeAnySurface)
 {
   Context context;
