@@ -43,7 +43,7 @@ constexpr int anglePlanes = 5;
 /// A flow is even with a distance to Watson's distribution (from end to end, and of all its angles), a twist and an anisotropy of
 /// azimuths up to these.
 constexpr double evenDistance = 0.045;
-constexpr double evenDistanceOfAll = 0.055;
+constexpr double evenDistanceOfAll = 0.06;
 constexpr double evenTwist = 0.07;
 constexpr double evenAzimuths = 1.28;
 
@@ -65,11 +65,11 @@ RandomEngine streamOf(const BundleInitializerOptions& options, int part, int att
   return randomStream(options.seed, RandomStage::Directions, itemOf(static_cast<std::size_t>(part), 1, attempt));
 }
 
-/// Returns b of f' = exp(bψ) for angles of this mean (degrees): the least for which they are Watson's within 0.05, since steep
-/// fibres crowd. With twice as much at 20° the distance would be 0.014, but fibres would wind more.
+/// Returns b of f' = exp(bψ) for angles of this mean (degrees). In an endless flow they are then Watson's within 0.05, up to 45°.
+/// With twice as much at 20° the distance would be 0.014 instead of 0.035, but steep fibres would crowd, and fibres wind more.
 double skewnessFor(double meanAngle)
 {
-  return std::max(0.0, 0.03 * (meanAngle - 15.0));
+  return std::max(0.0, 0.02 * (meanAngle - 10.0));
 }
 
 std::vector<Eigen::Vector2d> gridIn(double side)

@@ -26,7 +26,7 @@ struct StationaryFlowReport
 /// dense everywhere as on the plane where they were packed, since it preserves areas across z.
 ///
 /// It is the sum of two (see WaveField). The direction's has the lateral correlation length ℓ and changes along z over 8 ℓ; its
-/// stream function f(ψ) with f' = exp(bψ), b rising with the angle from 15° on, gives the angles nearly Watson's distribution
+/// stream function f(ψ) with f' = exp(bψ), b rising with the angle from 10° on, gives the angles nearly Watson's distribution
 /// (within 0.05 of it). The undulation's has waves along z of a wavelength ± 15 %, and a lateral correlation length of 6 µm.
 ///
 /// Both are scaled until, in the domain, the mean angle and the sinuosity are those asked for. Where a domain holds few

@@ -50,6 +50,7 @@ std::vector<Eigen::Vector2d> gridOf(double side, int count)
 struct Found
 {
   std::vector<double> angles;
+  std::vector<double> ends; ///< angles from end to end
   double meanAngle = 0.0; ///< degrees
   double twist = 0.0;
   double sinuosity = 0.0;
@@ -79,7 +80,9 @@ Found follow(const StationaryFlow& flow, double side)
         most += place.norm() * shift.norm();
       }
     }
-    found.sinuosity += length / std::hypot((paths.places.back()[p] - paths.places.front()[p]).norm(), side) / 900.0;
+    const double shift = (paths.places.back()[p] - paths.places.front()[p]).norm();
+    found.ends.push_back(std::atan2(shift, side));
+    found.sinuosity += length / std::hypot(shift, side) / 900.0;
   }
   found.meanAngle /= static_cast<double>(found.angles.size());
   found.twist = turned / most;
@@ -98,7 +101,8 @@ TEST(StationaryFlow, HasTheAnglesOfWatsonAroundNoAxis)
       EXPECT_NEAR(flow.report().meanAngle, angle, 1e-6);
       const Found found = follow(flow, 30.0);
       EXPECT_NEAR(found.meanAngle, angle, 0.05 * angle);
-      EXPECT_LT(distanceToWatson(found.angles), 0.061) << angle << " " << seed;
+      EXPECT_LT(distanceToWatson(found.angles), 0.08) << angle << " " << seed;
+      EXPECT_LT(distanceToWatson(found.ends), 0.061) << angle << " " << seed; // significant for 500 fibres
       EXPECT_LT(std::abs(found.twist), 0.1) << angle << " " << seed;
     }
   }

@@ -101,8 +101,8 @@ TEST_F(RecipeRuns, TellsOfFibresThatStillOverlap)
   const auto remember = [&](const std::string& remark) { remarks += remark + '\n'; };
   // Two bundles in one place.
   const std::string dense = R"({
-    "BundleInitializer": [ { "Side": 3, "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0, "Border": "Walls" },
-                           { "Side": 3, "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0, "Border": "Walls",
+    "BundleInitializer": [ { "Side": 3, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0, "Border": "Walls" },
+                           { "Side": 3, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0, "Border": "Walls",
                              "CorrelationLength": 0, "Seed": 2 } ],
     "CapsuleOptimizer": OPTIMISER, "FibreRadialGrowth": { "VoxelSize": 0.2, "GrowthIterations": 0 } })";
   const auto with = [&](const char* optimiser) { return std::string(dense).replace(dense.find("OPTIMISER"), 9, optimiser); };
