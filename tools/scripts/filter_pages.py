@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes a page of documentation for every reader, source, filter and writer, out of what the panel has: xml/*.xml.
+"""Makes a page of documentation for every reader, source, filter and writer, out of xml/*.xml and docs/properties.md.
 
     python3 tools/scripts/filter_pages.py            writes docs/filters/NAME.md
     python3 tools/scripts/filter_pages.py --check    says which pages are not as they would be written, and writes nothing
     python3 tools/scripts/filter_pages.py --window FOLDER    adds pictures and outputs to ParaView's own help pages in FOLDER, as the build does
 
-What the XML cannot say stands in the page between two marks, and stays as it is. Defaults and ranges with their units are those of
-docs/properties.md, which a test compares with the XML.
+The part of a page between two marks is written by hand, and stays as it is.
 """
 
 import argparse
@@ -34,7 +33,6 @@ KINDS = {
 }
 TYPES = {"vtkPolyData": "polygons or lines", "vtkPointSet": "points with cells", "vtkImageData": "an image", "vtkTable": "a table"}
 PLACES = {"points": "point data", "cells": "cell data", "field": "field data", "rows": "column"}
-VALUES = ("DoubleVectorProperty", "IntVectorProperty", "StringVectorProperty")
 
 Array = collections.namedtuple("Array", "of name unit meaning")
 Output = collections.namedtuple("Output", "name data described arrays")
@@ -53,26 +51,16 @@ def spaced(name):
 
 
 def described_properties():
-    """{stage: {property: (default, allowed, where it has an effect)}} of docs/properties.md."""
+    """{stage: {property: (default, allowed, meaning in Markdown)}} of docs/properties.md."""
     found, stage = {}, None
     with open(os.path.join(ROOT, "docs", "properties.md"), encoding="utf-8") as file:
         for line in file:
-            cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+            cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip())[1:-1]]
             if line.startswith("## "):
                 stage = found.setdefault(line[3:].strip(), {})
-            elif line.startswith("| ") and len(cells) == 4 and cells[0] not in ("property", "preset"):
-                where = re.search(r"\*(Where .*)\*$", cells[3])
-                stage[cells[0]] = (cells[1], cells[2], where.group(1) if where else "")
+            elif len(cells) == 4 and cells[0] not in ("property", "preset"):
+                stage[cells[0]] = tuple(cells[1:])
     return found
-
-
-def xml_values(element):
-    """Default and allowed values of a property that docs/properties.md does not have: one of a writer, which has those of a filter."""
-    default = element.get("default_values", "")
-    if element.find("BooleanDomain") is not None:
-        return ("off", "on")[int(default)], "on, off"
-    limits = next((one for one in element if one.get("min") and one.get("max")), None)
-    return default, f"{limits.get('min')} to {limits.get('max')}" if limits is not None else "text"
 
 
 class Proxy:
@@ -95,7 +83,7 @@ class Proxy:
             Output(ports.get(one.get("port"), ""), one.get("data"), one.get("described"), [Array(*(array.get(key, "") for key in ("of", "name", "unit")), array.get("meaning")) for array in one])
             for one in hints.findall("Output")
         ]
-        self.properties = self._properties(element, described.get(self.name, {}))
+        self.properties = self._properties(element, described.get(element.get("class").removeprefix("vtk"), {}))
 
     @staticmethod
     def _input(element):
@@ -109,21 +97,22 @@ class Proxy:
 
     @staticmethod
     def _properties(element, described):
-        groups = {one.get("name"): group.get("label") for group in element.findall("PropertyGroup") for one in group.findall("Property")}
+        groups = {one.get("name"): group.get("label") for group in element.findall("PropertyGroup") for one in group}
         given = ["FileName"] if element.find("Hints/WriterFactory") is not None else []  # by the dialog, or SaveData's first argument
         found = []
-        for one in element:
-            name = one.get("name")
-            if one.tag not in (*VALUES, "Property") or one.get("information_only") == "1" or name in given:
+        for one in (one for part in element for one in (part if part.tag == "PropertyGroup" else [part])):
+            name, meaning = one.get("name"), plain(words(one.find("Documentation")))
+            if name in given:
                 continue
-            meaning = words(one.find("Documentation"))
-            if one.tag == "Property":
-                default, allowed, where = "", "a button", ""
+            if one.tag == "StageProperty":
+                default, allowed, meaning = described[name]
+            elif one.tag == "Property" and one.get("command"):
+                default, allowed = "", "a button"
             elif one.find("PresetDomain") is not None:
-                default, allowed, where = "None", "None or a [preset](../presets.md)", ""
+                default, allowed = "None", "None or a [preset](../presets.md)"
             else:
-                default, allowed, where = described.get(name) or (*xml_values(one), "")
-            found.append(Property(name, default, allowed, f"{plain(meaning)}{f' *{where}*' if where else ''}", groups.get(name, ""), one.get("panel_visibility") == "advanced"))
+                continue
+            found.append(Property(name, default, allowed, meaning, groups.get(name, ""), one.get("panel_visibility") == "advanced"))
         order = list(dict.fromkeys(["", *(one.group for one in found)]))  # as the panel has them: by their first property
         return sorted(found, key=lambda one: order.index(one.group))
 
