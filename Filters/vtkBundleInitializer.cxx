@@ -40,6 +40,11 @@ int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, v
       cactus::toPolyData(fibres, output);
       const cactus::StageRecord record = cactus::bundleRecord(stage, options, fibres.size(), report);
       cactus::setProvenance(output, cactus::provenanceOf(record), 0);
+      const std::string remarks = cactus::remarksOnBundle(options, report);
+      if (!remarks.empty())
+      {
+        vtkWarningMacro(<< remarks);
+      }
     });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkBundleInitializer
- * @brief Makes one bundle of straight fibres, or two crossing ones, with chosen radii, density and dispersion.
+ * @brief Makes one bundle of fibres, or two crossing ones, with chosen radii, density and dispersion.
  *
  * Output: one polyline per fibre with point data `Radius` (µm), cell data `FibreId`, `BundleId`, `TargetRadius` and field data
  * `Domain` and `Provenance`. The fibres' circles do not overlap on either end face of their bundle; between the faces fibres may
@@ -30,6 +30,11 @@ public:
     GAMMA = 0,
     LOGNORMAL = 1,
     TABLE = 2
+  };
+  enum Borders
+  {
+    CUT = 0,
+    WALLS = 1
   };
   enum DispersionModels
   {
@@ -60,9 +65,12 @@ public:
   CACTUS_NUMBER_PROPERTY(RadiusHistogramGRatio)
   CACTUS_NUMBER_PROPERTY(MinimumRadius)
   CACTUS_NUMBER_PROPERTY(MaximumRadius)
+  CACTUS_WHOLE_PROPERTY(Border)
   CACTUS_NUMBER_PROPERTY(MeanDispersion)
   CACTUS_WHOLE_PROPERTY(DispersionModel)
   CACTUS_NUMBER_PROPERTY(CorrelationLength)
+  CACTUS_NUMBER_PROPERTY(Sinuosity)
+  CACTUS_NUMBER_PROPERTY(UndulationWavelength)
   CACTUS_WHOLE_PROPERTY(NumberOfBundles)
   CACTUS_NUMBER_PROPERTY(CrossingAngle)
   CACTUS_WHOLE_PROPERTY(CrossingStyle)

@@ -100,6 +100,8 @@ inline constexpr Range histogramFactor{ 0.1, 10.0 };
 inline constexpr Range histogramGRatio{ 0.1, 1.0, "", 0.0 };
 /// Below the lowest value, a fibre's displacement from face to face would be only rounding; it has to be met within 2 %.
 inline constexpr Range meanDispersion{ 1e-3, 45.0, "°", 0.0 };
+inline constexpr Range sinuosity{ 1.0, 1.3 };
+inline constexpr Range undulationWavelength{ 5.0, 200.0, " µm" };
 inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", 0.0 };
 inline constexpr Range bundles{ 1.0, 2.0 };
 inline constexpr Range crossingAngle{ 0.1, 90.0, "°" };

@@ -7,6 +7,7 @@
 #include "base/Memory.h"
 #include "bundle/BundleLayout.h"
 #include "bundle/BundlePacking.h"
+#include "bundle/StationaryFlow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double
 }
 
 /// Returns the offset of a fibre that follows a flow, within its frame, from the straight line between its ends.
-Eigen::Vector2d bendOf(const Bundle& bundle, std::size_t fibre, double share)
+Eigen::Vector2d bendOf(const Bundle& bundle, const BundleInitializerOptions& options, std::size_t fibre, double share)
 {
   if (bundle.paths.places.empty())
   {
@@ -57,6 +58,10 @@ Eigen::Vector2d bendOf(const Bundle& bundle, std::size_t fibre, double share)
   const Eigen::Vector2d& from = bundle.bottom.centres[fibre];
   const Eigen::Vector2d straight = from + (bundle.top.centres[fibre] - from) * share;
   const Eigen::Vector2d bent = straight + bundle.paths.bend(fibre, share);
+  if (options.isCutOut())
+  {
+    return bent - straight;
+  }
   return bundle.top.frame(fibre).clampCentre(bent, bundle.bottom.radii[fibre]) - straight;
 }
 
@@ -81,7 +86,7 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
     for (int k = 1; k < segments; ++k)
     {
       const double share = static_cast<double>(k) / segments;
-      fibres.addPoint(first + (last - first) * share + place(bendOf(bundle, i, share), 0.0), radius);
+      fibres.addPoint(first + (last - first) * share + place(bendOf(bundle, options, i, share), 0.0), radius);
     }
     fibres.addPoint(last, radius);
   }
@@ -101,21 +106,32 @@ Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptio
 
 Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
 {
-  std::vector<Bundle> bundles = { layOutSingle(options, options.fibreVolumeFraction) };
-  packFaces(bundles, options, context);
-  report.fibreVolumeFraction = bundles.front().bottom.density();
-  report.meanDispersion = orientationOf(bundles.front()).meanAngle;
-  Fibres fibres = fibresOf(bundles, options);
+  std::optional<StationaryFlow> flow;
+  if (isStationary(options))
+  {
+    context.report(0.01, "Drawing the flow that fibres follow");
+    flow = StationaryFlow::draw(options, context);
+    report.sinuosity = flow->report().sinuosity;
+  }
+  const auto make = [&](double density)
+  {
+    std::vector<Bundle> bundles = { layOutSingle(options, density) };
+    packFaces(bundles, options, context, flow ? &*flow : nullptr);
+    report.fibreVolumeFraction = bundles.front().bottom.density();
+    report.meanDispersion = flow ? flow->report().meanAngle : orientationOf(bundles.front()).meanAngle;
+    return fibresOf(bundles, options);
+  };
   if (!options.isCutOut())
   {
-    return fibres;
+    return make(options.fibreVolumeFraction);
   }
   // Slanted fibres fill more of a volume than of a face.
   constexpr int rounds = 4;
   constexpr double tolerance = 0.01;
-  double density = options.fibreVolumeFraction;
+  double density = options.fibreVolumeFraction / (flow ? flow->report().stretch : 1.0);
   for (int round = 0;; ++round)
   {
+    Fibres fibres = make(density);
     report.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
     const double excess = report.fibreVolumeFraction / options.fibreVolumeFraction;
     const double next = excess > 0.0 ? std::min(density / excess, options.fibreVolumeFraction) : density;
@@ -124,10 +140,6 @@ Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& 
       return fibres;
     }
     density = next;
-    bundles = { layOutSingle(options, density) };
-    packFaces(bundles, options, context);
-    report.meanDispersion = orientationOf(bundles.front()).meanAngle;
-    fibres = fibresOf(bundles, options);
   }
 }
 

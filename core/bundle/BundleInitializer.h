@@ -12,7 +12,8 @@ namespace cactus
 struct BundleInitializerReport
 {
   double fibreVolumeFraction = 0.0; ///< measured as for the option of that name
-  double meanDispersion = 0.0;      ///< degrees, relative to the nominal axes
+  double meanDispersion = 0.0;      ///< degrees, measured as for the option of that name, relative to the nominal axes
+  double sinuosity = 0.0;           ///< of the fibres in the domain, with a stationary flow
 };
 
 /// Makes one bundle along +z, or two crossing in the x–z plane at ±crossingAngle/2 from +z: fibres, each with its sampled radius,

@@ -27,19 +27,37 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "to these radii. The fractions of several sources in one place add up. 0: fibres start with the radii drawn, and growth "
         "makes them thicker.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
+      .add("Border", &Options::border, { "Cut", "Walls" },
+        "What the sides of the domain are to the fibres. Cut: the domain is cut from the middle of a larger bundle. Fibres run "
+        "out through all six faces, and the tissue is as dense beside a face as in the middle. Walls: all fibres of a bundle "
+        "start and end within the domain's faces and lie flat along its sides, where they are less dense.")
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
-        "Mean angle in degrees between a fibre's end-to-end direction and its bundle's axis. About 35 can be reached if fibres "
-        "start and end within a cube's faces; a Margin allows more.")
+        "Mean angle in degrees between fibres and their bundle's axis. Coherent fibres of a domain that is cut: at any place "
+        "along them, without their undulation. All others: between their ends; with walls, about 35 can be reached if fibres "
+        "start and end within a cube's faces, and a Margin allows more.")
       .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent" },
         "Distribution of the fibres' directions. Coherent: neighbouring fibres have similar directions and follow a smooth "
-        "random flow from face to face. The flow preserves areas: fibres are as dense in the middle of the cube as at its faces, "
-        "and keep their directions in the optimiser. Watson (about the axis) and Cone (uniform within a cone about it): straight "
-        "fibres with independent directions, as in the paper. Dense fibres then have to wind around each other, and their final "
-        "tangents are more dispersed than asked for. Two crossing bundles use Watson instead of Coherent, because their layers "
-        "are too thin for a flow.")
+        "random flow that has the same statistics everywhere; angles to the axis have Watson's distribution. The flow preserves "
+        "areas: fibres are as dense everywhere as where they were packed, and keep their directions in the optimiser. Watson "
+        "(about the axis) and Cone (uniform within a cone about it): straight fibres with independent directions, as in the "
+        "paper. Dense fibres then have to wind around each other, and their final tangents are more dispersed than asked for. "
+        "Two crossing bundles use Watson instead of Coherent, because their layers are too thin for a flow.")
       .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
-        "Distance in µm over which directions are similar in the dispersion model Coherent. 0: four times the fibres' mean shift "
-        "between the faces. With a shorter length fibres wind more: their direction also changes along their length.")
+        "Lateral distance in µm over which the directions of neighbours are similar in the dispersion model Coherent. It does "
+        "not depend on the domain's size. With a shorter length, or a larger dispersion, fibres wind more. 0, with the border "
+        "Walls only: four times the fibres' mean shift between the faces.")
+      .where("DispersionModel", { 2 })
+      .where("NumberOfBundles", { 1 })
+      .add("Sinuosity", &Options::sinuosity, limits::sinuosity,
+        "Mean length of the fibres over the distance of their ends: they undulate together with their neighbours. 1: they do not "
+        "undulate, and only their change of direction makes them longer. Axons of the corpus callosum have 1.02 to 1.03 "
+        "(docs/presets.md). If directions alone make fibres more sinuous, a warning says so.")
+      .where("Border", { 0 })
+      .where("DispersionModel", { 2 })
+      .where("NumberOfBundles", { 1 })
+      .add("UndulationWavelength", &Options::undulationWavelength, limits::undulationWavelength,
+        "Wavelength in µm of the undulation along the fibres; single waves differ from it by 15 %.")
+      .where("Border", { 0 })
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
@@ -59,9 +77,8 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .where("CrossingStyle", { 1 })
       .where("NumberOfBundles", { 2 })
       .add("Margin", &Options::margin, limits::bundleMarginOrAsNeeded,
-        "Width by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides. -1: as wide as "
-        "needed for a domain that is cut from the middle of the bundle: fibres run out through all faces, and neither gaps nor "
-        "flat flanks show where the domain ends. The more the fibres are dispersed, the more of them this takes.")
+        "Width in µm by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides. -1: as "
+        "wide as the fibres' slants ask with the border Cut, and 0 with Walls.")
       .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,
         "Distance between a fibre's control points as a multiple of its radius, within the two limits below.")
       .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing,
@@ -88,6 +105,10 @@ void BundleInitializerOptions::validate() const
       text("MinimumRadius ", radius.minimum, " µm makes capsules of less than ", limits::radius.lowest, " µm where they fill ",
         fibreVolumeFraction, " to be grown to ", grownFibreVolumeFraction, ": enlarge MinimumRadius or FibreVolumeFraction"));
   }
+  if (isStationary(*this) && correlationLength == 0.0)
+  {
+    throw InvalidInput("CorrelationLength is 0: give a length in µm (8 by default); 0 is for Border Walls");
+  }
   if (minimumSpacing > maximumSpacing)
   {
     throw InvalidInput(text("MaximumSpacing ", maximumSpacing, " is below MinimumSpacing ", minimumSpacing, ": exchange them"));
@@ -103,17 +124,30 @@ Surroundings surroundings(const BundleInitializerOptions& options)
 {
   if (!options.isCutOut())
   {
-    return { options.margin, 0.0 };
+    return { std::max(options.margin, 0.0), 0.0 };
   }
   constexpr double packed = 2.0;   // µm, within which a wall orders the packing
   constexpr double steepest = 2.0; // times the mean angle, which hardly any fibres exceed
   const double half = 0.5 * options.side + packed;
-  return { packed + half * std::tan(std::min(steepest * options.meanDispersion, 60.0) * degree), packed };
+  double shift = half * std::tan(std::min(steepest * options.meanDispersion, 60.0) * degree);
+  if (isStationary(options))
+  {
+    // A component of the displacement by undulation has this deviation.
+    const double slope = std::sqrt(options.sinuosity - 1.0);
+    constexpr double deviations = 3.0;
+    shift += deviations * std::min(half * slope, slope * options.undulationWavelength / (2.0 * pi));
+  }
+  return { options.margin < 0.0 ? packed + shift : options.margin, packed };
 }
 
 bool isCoherent(const BundleInitializerOptions& options)
 {
   return options.dispersionModel == DispersionModel::Coherent && options.numberOfBundles == 1;
+}
+
+bool isStationary(const BundleInitializerOptions& options)
+{
+  return isCoherent(options) && options.isCutOut();
 }
 
 } // namespace cactus

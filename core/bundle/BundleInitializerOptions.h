@@ -18,6 +18,13 @@ enum class CrossingStyle
   Sheets      ///< few layers of equal thickness
 };
 
+/// What the sides of the domain are to the fibres.
+enum class Border
+{
+  Cut,  ///< the domain is cut from the middle of a larger bundle, so that fibres run out through all its faces
+  Walls ///< all fibres of a bundle start and end within the domain's faces, as between walls
+};
+
 /// Options of initialiseBundles(). Lengths in µm, angles in degrees.
 struct BundleInitializerOptions
 {
@@ -30,23 +37,28 @@ struct BundleInitializerOptions
   /// target radii by sqrt(fibreVolumeFraction / this), so that grown fibres have the target radii; 0: capsules have the target
   /// radii.
   double grownFibreVolumeFraction = 0.9;
-  double meanDispersion = 5.0; ///< mean angle between end-to-end direction and bundle axis, in [0, 45]
+  Border border = Border::Cut;
+  /// Mean angle between fibres and the bundle's axis, in [0, 45]. Where fibres follow a stationary flow, it is that of their
+  /// directions at any place, without undulation; otherwise that of their directions from end to end.
+  double meanDispersion = 5.0;
   /// With Coherent, fibres follow a flow; with the others they are straight. Coherent is for one bundle: the layers of two
   /// crossing bundles are too thin for a flow, so their fibres are drawn as with Watson.
   DispersionModel dispersionModel = DispersionModel::Coherent;
-  /// Distance over which the directions of DispersionModel::Coherent are alike (see CoherentFlow); 0: four times the mean shift
-  /// of the fibres from face to face, at least a 32nd of the face.
-  double correlationLength = 0.0;
+  /// Lateral distance over which the directions of DispersionModel::Coherent are alike (see StationaryFlow). Between walls it may
+  /// be 0: four times the mean shift of the fibres from face to face, at least a 32nd of the face (see CoherentFlow).
+  double correlationLength = 8.0;
+  /// Mean length of fibres over the distance of their ends, with a stationary flow; 1: no undulation.
+  double sinuosity = 1.03;
+  double undulationWavelength = 25.0; ///< µm, along the fibres
   int numberOfBundles = 1;     ///< 1 or 2
   double crossingAngle = 90.0; ///< between the axes of two bundles, in (0, 90]
   CrossingStyle crossingStyle = CrossingStyle::Interwoven;
   /// Least thickness of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height, or the need of the largest
   /// radius.
   double sheetThickness = 0.0;
-  /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides), so that the domain
-  /// can be cut from the middle after the optimiser has spread the fibres. -1: as wide as the fibres' slants ask, and a little
-  /// beyond the ends, so that the domain has no border (see surroundings()).
-  double margin = 0.0;
+  /// Width by which the fibres extend laterally beyond each side of the domain (for two bundles on all sides). -1: as needed, that
+  /// is with Border::Cut as wide as the fibres' slants ask, and a little beyond the ends (see surroundings()), and 0 with walls.
+  double margin = -1.0;
   /// Distance between the control points of a fibre, as a multiple of its radius, within the two limits below. A capsule chain
   /// bends once per control point, so the spacing limits how sharply a fibre can bend; longer capsules are cheaper.
   double spacingFactor = 1.25;
@@ -57,8 +69,7 @@ struct BundleInitializerOptions
   static const PropertyList<BundleInitializerOptions>& properties();
   /// Throws InvalidInput, naming the property, unless every value that has an effect is within its range.
   void validate() const;
-  /// Tells whether the domain is cut from the middle of a bundle that is as much larger as needed.
-  bool isCutOut() const { return this->margin < 0.0; }
+  bool isCutOut() const { return this->border == Border::Cut; }
   /// Returns the radius of the capsules over the sampled target radius.
   double thinning() const;
 };
@@ -71,10 +82,13 @@ struct Surroundings
 };
 
 /// Returns the margin, or, where it is to be as wide as needed, the width within which the bundle's own border still shows: as
-/// far as slanted fibres get sideways in half its length, and beside its walls, where circles lie in rows.
+/// far as fibres get sideways in half its length, and beside its walls, where circles lie in rows.
 Surroundings surroundings(const BundleInitializerOptions& options);
 
 /// Tells whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
 bool isCoherent(const BundleInitializerOptions& options);
+
+/// Tells whether that flow is a stationary one, which does not end at the domain's faces.
+bool isStationary(const BundleInitializerOptions& options);
 
 } // namespace cactus

@@ -8,6 +8,7 @@
 #include "bundle/CircleRelaxation.h"
 #include "bundle/CoherentFlow.h"
 #include "bundle/DirectionDistribution.h"
+#include "bundle/StationaryFlow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -160,6 +161,15 @@ void placeThroughMiddle(Bundle& bundle, const BundleInitializerOptions& options,
   }
 }
 
+/// Lets each fibre follow the flow both ways from its circle, which was packed on the bottom face, in the middle of the bundle.
+void followBothWays(Bundle& bundle, const StationaryFlow& flow, const Context& context)
+{
+  bundle.paths = flow.carry(bundle.bottom.centres, bundle.length, context);
+  bundle.top = bundle.bottom;
+  bundle.bottom.centres = bundle.paths.places.front();
+  bundle.top.centres = bundle.paths.places.back();
+}
+
 /// Carries the circles of the bottom face to the top in one flow; false if the flow does not reach the requested angle.
 bool carryAlong(Bundle& bundle, const BundleInitializerOptions& options, int attempt, const Context& context)
 {
@@ -253,7 +263,8 @@ TopFace packTop(Bundle& bundle, const BundleInitializerOptions& options, int att
 }
 
 /// Packs both faces of a bundle whose bottom holds radii and frames.
-void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const Context& context, double begin, double end)
+void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const StationaryFlow* flow, const Context& context,
+  double begin, double end)
 {
   TextStream what;
   what << "Packing the faces of bundle " << bundle.id << " (" << bundle.bottom.size() << " fibres)";
@@ -270,7 +281,12 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const C
       continue;
     }
     context.report(0.5 * (begin + end), what.str());
-    if (options.isCutOut() && options.numberOfBundles == 1 && !isCoherent(options) && options.meanDispersion > 0.0)
+    if (flow != nullptr)
+    {
+      followBothWays(bundle, *flow, context);
+      return;
+    }
+    if (options.isCutOut() && options.numberOfBundles == 1 && options.meanDispersion > 0.0)
     {
       placeThroughMiddle(bundle, options, attempt);
       return;
@@ -354,14 +370,15 @@ Orientation orientationOf(const Bundle& bundle)
   return orientation;
 }
 
-void packFaces(std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context)
+void packFaces(
+  std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context, const StationaryFlow* flow)
 {
   requireDensity(bundles, options);
   const double share = 0.9 / static_cast<double>(bundles.size());
   for (std::size_t b = 0; b < bundles.size(); ++b)
   {
     const double begin = 0.05 + share * static_cast<double>(b);
-    packBundle(bundles[b], options, context, begin, begin + share);
+    packBundle(bundles[b], options, flow, context, begin, begin + share);
   }
 }
 

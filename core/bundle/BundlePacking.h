@@ -4,6 +4,7 @@
 #include "base/Context.h"
 #include "bundle/BundleInitializerOptions.h"
 #include "bundle/BundleLayout.h"
+#include "bundle/StationaryFlow.h"
 
 #include <Eigen/Core>
 
@@ -25,7 +26,9 @@ struct Orientation
 Orientation orientationOf(const Bundle& bundle);
 
 /// Places the circles on both faces of laid-out bundles, so that none overlap and the fibres between them have the requested
-/// dispersion (see initialiseBundles()). Throws Infeasible if density or dispersion cannot be met, and Cancelled.
-void packFaces(std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context);
+/// dispersion (see initialiseBundles()). With a stationary flow, circles are placed in the middle of the bundle instead, and
+/// follow it both ways. Throws Infeasible if density or dispersion cannot be met, and Cancelled.
+void packFaces(std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context,
+  const StationaryFlow* flow = nullptr);
 
 } // namespace cactus

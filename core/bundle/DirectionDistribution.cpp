@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 
 namespace cactus
 {
@@ -70,10 +72,42 @@ DirectionDistribution::DirectionDistribution(DispersionModel model, double meanA
   for (int i = 0; i < 200; ++i)
   {
     const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high)
+    {
+      break;
+    }
     const bool tooWide = watson ? meanWatsonAngle(std::exp(middle)) > wanted : meanConeAngle(middle) > wanted;
     (tooWide == watson ? low : high) = middle;
   }
   Parameter = watson ? std::exp(0.5 * (low + high)) : 0.5 * (low + high);
+}
+
+double distanceToWatson(std::vector<double> angles)
+{
+  std::sort(angles.begin(), angles.end());
+  const auto count = static_cast<double>(angles.size());
+  const double mean = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
+  const double kappa = DirectionDistribution(DispersionModel::Watson, mean / degree).parameter();
+  constexpr int intervals = 2000;
+  std::vector<double> distribution = { 0.0 }; // by the trapezoidal rule
+  double before = 0.0;
+  for (int i = 1; i <= intervals; ++i)
+  {
+    const double sine = std::sin(0.5 * pi * i / intervals);
+    const double weight = std::exp(-kappa * sine * sine) * sine;
+    distribution.push_back(distribution.back() + before + weight);
+    before = weight;
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+  {
+    const double place = std::min(angles[i] / (0.5 * pi), 1.0) * intervals;
+    const auto k = static_cast<std::size_t>(std::min(place, intervals - 1.0));
+    const double share = place - static_cast<double>(k);
+    const double expected = (distribution[k] + share * (distribution[k + 1] - distribution[k])) / distribution.back();
+    largest = std::max({ largest, expected - static_cast<double>(i) / count, static_cast<double>(i + 1) / count - expected });
+  }
+  return largest;
 }
 
 double DirectionDistribution::sampleAngle(RandomEngine& engine) const

@@ -3,6 +3,8 @@
 
 #include "base/Random.h"
 
+#include <vector>
+
 namespace cactus
 {
 
@@ -11,11 +13,15 @@ enum class DispersionModel
 {
   Watson,  ///< independent, from a Watson distribution about the axis: density of directions ∝ exp(κ cos²θ), κ ≥ 0
   Cone,    ///< independent, uniform in the cap of a cone around the axis
-  Coherent ///< similar for neighbours: fibres follow a smooth random flow from face to face (see CoherentFlow)
+  Coherent ///< similar for neighbours: fibres follow a smooth random flow (see StationaryFlow, and CoherentFlow between walls)
 };
 
 /// Returns the mean of a quantity of the angle to the axis (radians) over a Watson distribution of concentration κ > 0.
 double watsonMean(double kappa, double (*quantity)(double angle));
+
+/// Returns the largest difference between the distribution function of angles to the axis (radians; their mean above 0 and at
+/// most 45°) and that of the Watson distribution with the same mean.
+double distanceToWatson(std::vector<double> angles);
 
 /// Draws angles to an axis from a model, Watson or Cone, with a given mean angle; the azimuth is uniform in both.
 class DirectionDistribution

@@ -142,8 +142,9 @@ ConvergenceRow Descent::sumUp(const std::vector<std::string>& told, Moment& mome
   return row;
 }
 
-void Descent::step()
+void Descent::step(bool isRising)
 {
+  this->Momentum = isRising && this->OverlappingShare < fewOverlaps ? 0.0 : this->Options.momentum;
   const bool momentum = this->Options.method == DescentMethod::Momentum;
   std::vector<char> exceeded(this->State.fibres.size());
   parallelForInBlocks(exceeded.size(), fibresTogether, this->Threads,
@@ -293,7 +294,7 @@ void Descent::accelerate(std::size_t f)
   for (std::size_t i = begin; i < end; ++i)
   {
     Eigen::Vector3d& velocity = this->State.velocity[i];
-    velocity = this->Options.momentum * velocity - this->Options.stepSize * this->Gradient[i];
+    velocity = this->Momentum * velocity - this->Options.stepSize * this->Gradient[i];
     const double speed = velocity.norm();
     const double limit = largestStep * this->State.fibres.radii[i];
     if (speed > limit)
@@ -308,7 +309,7 @@ double Descent::changeRadiusWithMomentum(std::size_t i)
 {
   double& velocity = this->State.radiusVelocity[i];
   const double stiffness = this->stiffnessOfPoint(i) + 2.0 * this->Options.weights.radius;
-  velocity = this->Options.momentum * velocity - this->Options.stepSize / stiffness * this->RadiusGradient[i];
+  velocity = this->Momentum * velocity - this->Options.stepSize / stiffness * this->RadiusGradient[i];
   return this->changeRadius(i, velocity);
 }
 

@@ -270,22 +270,21 @@ void addLength(const FibreColumns& fibre, double weight, double& total, const Fi
   for (std::size_t i = 0; i + 1 < count; i += width)
   {
     const Doubles length = load(segments.length + i);
-    const Doubles stretch = length - loadSome(fibre.referenceLengths + i, count - i);
-    const DoubleMask isStretched = stretch > zero;
+    const Doubles change = length - loadSome(fibre.referenceLengths + i, count - i);
     const Doubles first = load(radii + i);
     const Doubles last = load(radii + i + 1);
     const Doubles inverseRadii = one / first + one / last;
     const Doubles k = (zero + weight * 20.0) / inverseRadii;
-    store(cost + i, select(isStretched, 0.5 * k * stretch * stretch, zero));
-    const Doubles byLength = select(isStretched, k * stretch / length, zero);
+    store(cost + i, 0.5 * k * change * change);
+    const Doubles byLength = k * change / length;
     for (int axis = 0; axis < 3; ++axis)
     {
-      store(pull.axis[axis] + i, select(isStretched, byLength * load(segments.along.axis[axis] + i), zero));
+      store(pull.axis[axis] + i, byLength * load(segments.along.axis[axis] + i));
     }
-    const Doubles byInverse = -0.5 * k * stretch * stretch / inverseRadii;
-    store(byFirstRadius + i, select(isStretched, byInverse / (first * first), zero));
-    store(byLastRadius + i, select(isStretched, byInverse / (last * last), zero));
-    store(stiffness + i, select(isStretched, 2.0 * k, zero));
+    const Doubles byInverse = -0.5 * k * change * change / inverseRadii;
+    store(byFirstRadius + i, byInverse / (first * first));
+    store(byLastRadius + i, byInverse / (last * last));
+    store(stiffness + i, 2.0 * k);
   }
   const auto end = static_cast<std::ptrdiff_t>(count);
   for (double* column : { pull.axis[0], pull.axis[1], pull.axis[2], byFirstRadius, byLastRadius, stiffness })

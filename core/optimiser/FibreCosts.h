@@ -40,7 +40,8 @@ struct FibreGradients
 
 /// The terms that involve one fibre alone (the paper names them; the supplement that defines them is not published):
 ///  - curvature, per triple of control points: 3 / (r1 + r2 + r3) · (1 − cos θ)², θ the angle between the two segments;
-///  - length, per segment: k/2 · max(0, ℓ − L)², k = 20 / (1/r1 + 1/r2), L the segment's length before optimisation;
+///  - length, per segment: k/2 · (ℓ − L)², k = 20 / (1/r1 + 1/r2), L the segment's length before optimisation, so that fibres
+///    stay as sinuous as they come;
 ///  - radius, per control point: (r − r_target)²;
 ///  - compactness, per control point: ½ ℓ² e², e the distance by which the fibre's surface leaves its bundle's cuboid sideways, ℓ
 ///    the mean length of the segments at the point (it replaces an attraction to the axis, which would compress the core of an

@@ -191,6 +191,8 @@ private:
     const BundleInitializerOptions options = bundleOptions(stage);
     BundleInitializerReport report;
     Fibres fibres = initialiseBundles(options, this->contextFor(0), &report);
+    const std::string remarks = remarksOnBundle(options, report);
+    this->say(remarks.empty() ? "" : "BundleInitializer: " + remarks);
     const Provenance records = provenanceOf(bundleRecord(stage, options, fibres.size(), report));
     this->giveFibres(std::move(fibres), records, false);
   }

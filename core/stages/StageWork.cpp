@@ -170,7 +170,23 @@ StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitia
   keepRadiusTable(options.radius, stage.radiusTableFile, record);
   record.reached = { { "Fibres", static_cast<std::int64_t>(fibres) }, { "FibreVolumeFraction", report.fibreVolumeFraction },
     { "MeanDispersion", report.meanDispersion } };
+  if (isStationary(options))
+  {
+    record.reached.push_back({ "Sinuosity", report.sinuosity });
+  }
   return record;
+}
+
+std::string remarksOnBundle(const BundleInitializerOptions& options, const BundleInitializerReport& report)
+{
+  constexpr double tolerance = 0.005;
+  if (!isStationary(options) || std::abs(report.sinuosity - options.sinuosity) <= tolerance)
+  {
+    return {};
+  }
+  return text("Sinuosity is ", std::round(1000.0 * report.sinuosity) / 1000.0, " where ", options.sinuosity,
+    " was asked for: fibres of so large a MeanDispersion that run alike with neighbours over so short a CorrelationLength wind "
+    "more. Lower MeanDispersion, or enlarge CorrelationLength or Sinuosity");
 }
 
 TractFibresOptions tractOptions(const TractFibresStage& stage)

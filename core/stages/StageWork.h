@@ -35,7 +35,10 @@ BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage);
 StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitializerOptions& options, std::size_t fibres,
   const BundleInitializerReport& report);
 
-/// Do the same two for fibres along a tract.
+/// Returns a remark on the undulation that the fibres do not have as asked for; empty if they have.
+std::string remarksOnBundle(const BundleInitializerOptions& options, const BundleInitializerReport& report);
+
+/// Do the same as the first two for fibres along a tract.
 TractFibresOptions tractOptions(const TractFibresStage& stage);
 StageRecord tractRecord(
   const TractFibresStage& stage, const TractFibresOptions& options, std::size_t fibres, const TractFibresReport& report);

@@ -66,7 +66,7 @@ def described_properties():
 class Proxy:
     """What the XML says of one proxy."""
 
-    def __init__(self, group, element, described):
+    def __init__(self, group, element):
         self.group, self.name = group, element.get("name")
         self.label = element.get("label")
         documentation = element.find("Documentation")
@@ -83,7 +83,7 @@ class Proxy:
             Output(ports.get(one.get("port"), ""), one.get("data"), one.get("described"), [Array(*(array.get(key, "") for key in ("of", "name", "unit")), array.get("meaning")) for array in one])
             for one in hints.findall("Output")
         ]
-        self.properties = self._properties(element, described.get(element.get("class").removeprefix("vtk"), {}))
+        self.element = element
 
     @staticmethod
     def _input(element):
@@ -95,8 +95,9 @@ class Proxy:
         takes += ["several of them"] if element.get("multiple_input") == "1" else []
         return Input(element.get("name"), "; ".join(takes), element.find("Hints/Optional") is not None, words(element.find("Documentation")))
 
-    @staticmethod
-    def _properties(element, described):
+    def properties(self, described):
+        """Those that users set, in the panel's order, with what docs/properties.md says of them."""
+        element, described = self.element, described.get(self.element.get("class").removeprefix("vtk"), {})
         groups = {one.get("name"): group.get("label") for group in element.findall("PropertyGroup") for one in group}
         given = ["FileName"] if element.find("Hints/WriterFactory") is not None else []  # by the dialog, or SaveData's first argument
         found = []
@@ -105,6 +106,8 @@ class Proxy:
             if name in given:
                 continue
             if one.tag == "StageProperty":
+                if name not in described:
+                    sys.exit(f"filter_pages: docs/properties.md lacks {self.name}.{name}: build/release/bin/cactus_property_table > docs/properties.md")
                 default, allowed, meaning = described[name]
             elif one.tag == "Property" and one.get("command"):
                 default, allowed = "", "a button"
@@ -141,12 +144,12 @@ def plain(text):
 
 def proxies():
     """All proxies of xml/*.xml, by the name of their file, with the meaning of each array."""
-    described, found = described_properties(), {}
+    found = {}
     for path in sorted(glob.glob(os.path.join(ROOT, "xml", "*.xml"))):
         file = os.path.splitext(os.path.basename(path))[0]
         for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
             for element in group:
-                found.setdefault(file, []).append(Proxy(group.get("name"), element, described))
+                found.setdefault(file, []).append(Proxy(group.get("name"), element))
     # An array that several filters make is described at one of them.
     known = collections.defaultdict(dict)
     every = [output for all_of_file in found.values() for proxy in all_of_file for output in proxy.outputs]
@@ -191,9 +194,9 @@ def output_part(proxy):
     return text
 
 
-def property_part(proxy, title):
+def property_part(proxy, title, described):
     text, group = f"\n## {title}\n", None
-    for one in proxy.properties:
+    for one in proxy.properties(described):
         if one.group != group or group is None:
             group = one.group
             text += f"\n{f'**{group}**' + chr(10) * 2 if group else ''}" + table(["property", "default", "allowed", "what"], [])
@@ -205,7 +208,7 @@ def picture_of(name):
     return f"![{{}}](../images/filters/{name}.png)\n\n" if os.path.exists(os.path.join(PICTURES, name + ".png")) else ""
 
 
-def page(name, of_file, by_hand):
+def page(name, of_file, by_hand, described):
     """The page of xml/NAME.xml, which has one proxy, or two that do the same in two ways."""
     main = of_file[0]
     text = f"# {main.label}\n\n{plain(main.short)}\n\n{picture_of(name).format(plain(main.short))}{BEGIN}{by_hand}{END}\n"
@@ -214,7 +217,7 @@ def page(name, of_file, by_hand):
         text += f"- {'In the window' if one is main else 'Or'}: {one.reached()}; in a script: `{one.call()}`\n"
     text += input_part(main) + output_part(main)
     for one in of_file:
-        text += property_part(one, "Properties" if one is main else f"Properties of {one.file_description}")
+        text += property_part(one, "Properties" if one is main else f"Properties of {one.file_description}", described)
     return text + "\nThe panel shows names in words (*Minimum Gap* is `MinimumGap`) and hides properties without effect. ⚙: advanced property.\n"
 
 
@@ -232,10 +235,10 @@ def by_hand(path):
 
 def pages():
     """{path: (text as it is, or None; text as it is to be)}."""
-    found = {}
+    found, described = {}, described_properties()
     for name, of_file in proxies().items():
         path = os.path.join(PAGES, name + ".md")
-        wanted = page(name, of_file, by_hand(path))
+        wanted = page(name, of_file, by_hand(path), described)
         now = None
         if os.path.exists(path):
             with open(path, encoding="utf-8") as file:

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "base/Random.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace cactus
+{
+
+/// A random function of the place in space that has the same statistics everywhere: a sum of plane waves. On every plane across z
+/// it repeats with a period, and holds each wave of its spectrum once, so that its mean squares over a period do not depend on
+/// chance. As the stream function of a flow across z it gives velocities whose components have a mean square of 1.
+///
+/// The wave of the lateral wave vector k has the amplitude exp(−k²ℓ²/8), ℓ being the lateral correlation length: the function's
+/// correlation at a lateral distance d is exp(−d²/ℓ²). Its wave number along z is drawn from a normal distribution.
+class WaveField
+{
+public:
+  /// How the waves go along z.
+  struct Along
+  {
+    double waveNumber = 0.0; ///< mean (1/µm), of either sign
+    double deviation = 0.0;  ///< (1/µm)
+  };
+
+  /// The field on a plane across z.
+  struct Plane
+  {
+    std::vector<double> real; ///< by wave
+    std::vector<double> imaginary;
+  };
+
+  /// The function at a point, over its standard deviation, and its curl (∂/∂y, −∂/∂x).
+  struct Value
+  {
+    double stream = 0.0;
+    Eigen::Vector2d curl = Eigen::Vector2d::Zero();
+  };
+
+  /// Room for the work of at(), one for each thread.
+  using Work = std::vector<double>;
+
+  /// Draws the field. Lengths in µm; a correlation length beyond a quarter of the period leaves few waves.
+  WaveField(double period, double correlationLength, const Along& along, RandomEngine& engine);
+
+  std::size_t waves() const { return this->Waves.size(); }
+  Plane plane(double z) const;
+  Value at(const Eigen::Vector2d& point, const Plane& plane, Work& work) const;
+
+private:
+  struct Wave
+  {
+    double amplitude;
+    double along; ///< wave number along z
+    double phase;
+  };
+  /// Waves of the same number of periods along x, by their periods along y, which follow one another.
+  struct Row
+  {
+    int x;
+    int firstY;
+    int count;
+    std::size_t begin; ///< among all waves
+  };
+
+  double WaveNumber; ///< of one period
+  int Most = 0;      ///< periods of any wave along x or y
+  double Deviation = 1.0;
+  std::vector<Wave> Waves;
+  std::vector<Row> Rows;
+};
+
+} // namespace cactus
