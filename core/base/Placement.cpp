@@ -77,14 +77,20 @@ const PropertyList<PlacementOptions>& PlacementOptions::properties()
   using Options = PlacementOptions;
   static const auto list =
     PropertyList<Options>()
-      .add("PositionX", &Options::positionX, placedPosition, "Position of the substrate's origin along x")
-      .add("PositionY", &Options::positionY, placedPosition, "Position of the substrate's origin along y")
-      .add("PositionZ", &Options::positionZ, placedPosition, "Position of the substrate's origin along z")
-      .add("RotationX", &Options::rotationX, rotation, "Rotation about x, after that about y")
-      .add("RotationY", &Options::rotationY, rotation, "Rotation about y, the first")
-      .add("RotationZ", &Options::rotationZ, rotation, "Rotation about z, the last")
+      .add("PositionX", &Options::positionX, placedPosition,
+        "Position of the substrate's origin (the middle of its domain) along x, in mm.")
+      .add("PositionY", &Options::positionY, placedPosition,
+        "Position of the substrate's origin (the middle of its domain) along y, in mm.")
+      .add("PositionZ", &Options::positionZ, placedPosition,
+        "Position of the substrate's origin (the middle of its domain) along z, in mm.")
+      .add("RotationX", &Options::rotationX, rotation,
+        "Rotation in degrees about x. It follows that about y, as in ParaView's own Transform.")
+      .add("RotationY", &Options::rotationY, rotation,
+        "Rotation in degrees about y. It comes first, as in ParaView's own Transform.")
+      .add(
+        "RotationZ", &Options::rotationZ, rotation, "Rotation in degrees about z. It comes last, as in ParaView's own Transform.")
       .add("ScaleFactor", &Options::scaleFactor, placedScale,
-        "Length in the image's space over the same length in the substrate; 1: true size, 1000 shows 1 µm as 1 mm");
+        "Length in the image's space over the same length in the substrate. 1: true size; 1000 shows 1 µm as 1 mm.");
   return list;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One description of each parameter, which gives its checks, its printed form, its record and its row in the docs' table.
+// One description of each parameter, which gives its checks, its printed form, its record, its panel and its row in the docs'
+// table.
 #pragma once
 
 #include "base/Limits.h"
@@ -41,7 +42,7 @@ struct PropertyCondition
 struct PropertyFacts
 {
   std::string name;    ///< the property's name in ParaView
-  std::string meaning; ///< one sentence, with the unit where `range` has none
+  std::string meaning; ///< its help in panels and docs: sentences, with the unit
   std::optional<Range> range;
   std::vector<std::string> choices;
   std::string advice; ///< ends the message for a value out of range

@@ -16,57 +16,77 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
   using Options = BundleInitializerOptions;
   static const auto list =
     PropertyList<Options>()
-      .add("Side", &Options::side, limits::side, "Side of the cubic domain, which is centred on the origin")
+      .add("Side", &Options::side, limits::side, "Side of the cubic domain in µm. The cube is centred on the origin.")
       .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
-        "Fraction of the domain that the fibres fill before growth; with walls and one bundle, fraction of the end faces that "
-        "their circles cover")
+        "Fraction of the cube that the fibres fill before growth, from 0 to 1. With walls and one bundle: fraction of the end "
+        "faces that the fibres' circles cover. Random circles with a wide spread of radii can be packed to about 0.84. If the "
+        "fraction cannot be reached, an error says which one can.")
       .add("GrownFibreVolumeFraction", &Options::grownFibreVolumeFraction, limits::fractionOrNone,
-        "Fraction of the domain that FibreRadialGrowth will fill: fibres start thinner than their target radii and grow to them; "
-        "0: they start with their target radii")
+        "Fraction of the domain that the fibres fill once FibreRadialGrowth has grown them; that filter takes it from here. "
+        "Fibres start thinner than the radii drawn (TargetRadius), by the square root of FibreVolumeFraction over this, and grow "
+        "to these radii. The fractions of several sources in one place add up. 0: fibres start with the radii drawn, and growth "
+        "makes them thicker.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
       .add("Border", &Options::border, { "Cut", "Walls" },
-        "How fibres meet the sides of the domain: it is cut from a larger bundle, or its sides are walls that keep all fibres inside")
+        "How the fibres meet the sides of the domain. Cut: the domain is cut from the middle of a larger bundle. Fibres run out "
+        "through all six faces, and the tissue is as dense beside a face as in the middle. Walls: all fibres of a bundle start "
+        "and end within the domain's faces and lie flat along its sides, where they are less dense.")
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
-        "Mean angle between fibres and their bundle's axis: anywhere along Coherent fibres (undulation left out), or from end to "
-        "end")
+        "Mean angle in degrees between fibres and their bundle's axis. Coherent fibres of a domain that is cut: at any place "
+        "along them, without their undulation. All others: between their ends; with walls, about 35 can be reached if fibres "
+        "start and end within a cube's faces, and a Margin allows more.")
       .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent" },
-        "Distribution of the fibres' directions: independent of each other, about the axis (Watson) or uniform within a cone "
-        "(Cone), or similar for neighbours (Coherent; two bundles use Watson instead)")
+        "Distribution of the fibres' directions. Coherent: neighbouring fibres have similar directions and follow a smooth "
+        "random flow that has the same statistics everywhere; angles to the axis have Watson's distribution. The flow preserves "
+        "areas: fibres are as dense everywhere as where they were packed, and keep their directions in the optimiser. Watson "
+        "(about the axis) and Cone (uniform within a cone about it): straight fibres with independent directions, as in the "
+        "paper. Dense fibres then have to wind around each other, and their final tangents are more dispersed than asked for. "
+        "Two crossing bundles use Watson instead of Coherent, because their layers are too thin for a flow.")
       .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
-        "Lateral distance over which the directions of neighbours are similar; 0, with walls only: four times the fibres' mean "
-        "shift between the faces")
+        "Lateral distance in µm over which the directions of neighbours are similar in the dispersion model Coherent. It does "
+        "not depend on the domain's size. With a shorter length, or a larger dispersion, fibres wind more. 0, with the border "
+        "Walls only: four times the fibres' mean shift between the faces.")
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("Sinuosity", &Options::sinuosity, limits::sinuosity,
-        "Mean length of fibres over the distance of their ends, along two wavelengths; 1: they do not undulate")
+        "Mean length of the fibres over the distance of their ends, along two wavelengths: they undulate together with their "
+        "neighbours. 1: they do not undulate, and only their change of direction makes them longer. Axons of the corpus callosum "
+        "have 1.02 to 1.03 (docs/presets.md). If directions alone make fibres more sinuous, a warning says so.")
       .where("Border", { 0 })
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("UndulationWavelength", &Options::undulationWavelength, limits::undulationWavelength,
-        "Wavelength of the undulation along the fibres")
+        "Wavelength in µm of the undulation along the fibres; single waves differ from it by 15 %.")
       .where("Border", { 0 })
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
-        "One bundle along z, or two that cross in the x-z plane, symmetric about z")
+        "One bundle along z, or two that cross in the x-z plane, symmetric about z. For more bundles or other directions, append "
+        "several sources.")
       .advise("; append several sources for more bundles or other directions")
-      .add("CrossingAngle", &Options::crossingAngle, limits::crossingAngle, "Angle between the axes of two bundles")
+      .add(
+        "CrossingAngle", &Options::crossingAngle, limits::crossingAngle, "Angle in degrees between the axes of the two bundles.")
       .where("NumberOfBundles", { 2 })
       .add("CrossingStyle", &Options::crossingStyle, { "Interwoven", "Sheets" },
-        "How two bundles share the space: in thin layers of random thickness, or in few thick sheets")
+        "How two bundles share the space: in thin layers of random thickness, one or two fibres thick (Interwoven), or in a few "
+        "thick sheets (Sheets). Layers alternate along y. Fibres stay in their layer.")
       .where("NumberOfBundles", { 2 })
       .add("SheetThickness", &Options::sheetThickness, limits::sheetThickness,
-        "Smallest thickness of each sheet; 0: a sixth of the height, or what the largest radius needs")
+        "Minimum thickness in µm of each layer of the crossing style Sheets. A whole number of layers fills the height. 0: a "
+        "sixth of the height, or more if the largest radius needs it.")
       .where("CrossingStyle", { 1 })
       .where("NumberOfBundles", { 2 })
       .add("Margin", &Options::margin, limits::bundleMarginOrAsNeeded,
-        "Width by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides; -1: as wide as "
-        "needed, 0 with walls")
+        "Width in µm by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides. -1: as "
+        "wide as the fibres' slants ask with the border Cut, and 0 with Walls.")
       .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,
-        "Distance between a fibre's control points as a multiple of its radius, within the two limits below")
-      .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing, "Smallest distance between control points")
-      .add("MaximumSpacing", &Options::maximumSpacing, limits::spacing, "Largest distance between control points")
-      .add("Seed", &Options::seed, limits::seed, "Seed of all random numbers: the same seed gives the same fibres");
+        "Distance between a fibre's control points as a multiple of its radius, within the two limits below.")
+      .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing,
+        "Smallest distance between control points in µm. A larger one makes large substrates cheaper; a smaller one lets thin "
+        "fibres bend more sharply.")
+      .add("MaximumSpacing", &Options::maximumSpacing, limits::spacing, "Largest distance between control points in µm.")
+      .add("Seed", &Options::seed, limits::seed,
+        "Seed of all random numbers. The same seed and parameters give the same fibres, bit for bit.");
   return list;
 }
 

@@ -65,30 +65,35 @@ const PropertyList<RadiusDistributionOptions>& RadiusDistributionOptions::proper
   static const auto list =
     PropertyList<Options>()
       .add("RadiusDistribution", &Options::model, { "Gamma", "Lognormal", "Table", "Histogram" },
-        "Distribution of the fibres' outer radius")
-      .add("GammaShape", &Options::gammaShape, limits::gammaShape, "Shape of the gamma distribution")
+        "Distribution of the fibres' outer radii.")
+      .add("GammaShape", &Options::gammaShape, limits::gammaShape, "Shape of the gamma distribution.")
       .where("RadiusDistribution", { 0 })
-      .add("GammaScale", &Options::gammaScale, limits::gammaScale, "Scale of the gamma distribution")
+      .add("GammaScale", &Options::gammaScale, limits::gammaScale,
+        "Scale of the gamma distribution in µm. Shape times scale is the mean radius before truncation to the limits.")
       .where("RadiusDistribution", { 0 })
-      .add("LognormalMean", &Options::lognormalMean, limits::lognormalMean, "Mean radius before truncation to the limits")
+      .add("LognormalMean", &Options::lognormalMean, limits::lognormalMean,
+        "Mean outer radius in µm, before truncation to the limits.")
       .where("RadiusDistribution", { 1 })
       .add("LognormalDeviation", &Options::lognormalDeviation, limits::lognormalDeviation,
-        "Standard deviation of the radius before truncation to the limits")
+        "Standard deviation of the outer radius in µm, before truncation to the limits.")
       .where("RadiusDistribution", { 1 })
-      .add("RadiusTable", &Options::table, "Outer radii in µm; each fibre gets one at random, all equally likely")
+      .add("RadiusTable", &Options::table,
+        "Outer radii in µm, separated by blanks or commas, for example \"0.4 0.5 0.7\". Each fibre gets one of them at random; "
+        "all entries are equally likely.")
       .where("RadiusDistribution", { 2 })
       .add("RadiusHistogram", &Options::histogram, radiusHistogramNames(),
-        "Published histogram of the axons' diameters without myelin")
+        "Published histogram of axon diameters, from which the fibres' radii are drawn. All are of inner diameters in fixed "
+        "tissue; docs/histology.md gives their sources.")
       .where("RadiusDistribution", { 3 })
       .add("RadiusHistogramFactor", &Options::histogramFactor, limits::histogramFactor,
-        "Factor for the histogram's diameters; 1: as in the fixed tissue, a larger one corrects for its shrinkage")
+        "Factor for the histogram's diameters. 1: as in the fixed tissue; a larger factor corrects for its shrinkage.")
       .where("RadiusDistribution", { 3 })
       .add("RadiusHistogramGRatio", &Options::histogramGRatio, limits::histogramGRatio,
-        "g-ratio that turns the histogram's inner radii into outer ones; 0: myelin by the axon's diameter, as in MyelinSurface's "
-        "LogLinear")
+        "g-ratio that turns the histogram's inner radii into outer radii. Give MyelinSurface the same value. 0: the axon's "
+        "diameter sets the myelin, as in the GRatioModel LogLinear. 1: the diameters are taken as outer ones.")
       .where("RadiusDistribution", { 3 })
-      .add("MinimumRadius", &Options::minimum, limits::radius, "Smallest outer radius; smaller ones are drawn again")
-      .add("MaximumRadius", &Options::maximum, limits::radius, "Largest outer radius; larger ones are drawn again");
+      .add("MinimumRadius", &Options::minimum, limits::radius, "Smallest outer radius in µm. Smaller radii are drawn again.")
+      .add("MaximumRadius", &Options::maximum, limits::radius, "Largest outer radius in µm. Larger radii are drawn again.");
   return list;
 }
 

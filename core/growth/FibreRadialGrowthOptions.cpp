@@ -22,23 +22,30 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
   static const auto list =
     PropertyList<Options>()
       .add("VoxelSize", &Options::voxelSize, limits::voxelSize,
-        "Edge of a voxel; if it does not divide the domain, the nearest size that does is used")
+        "Edge of a voxel in µm. At most half the radius of the thinnest fibre is a good choice. If it does not divide the domain "
+        "into whole voxels, the nearest size that does is used.")
       .add("TargetFibreVolumeFraction", &Options::targetFibreVolumeFraction, limits::targetFraction,
-        "Fraction of the domain that the grown fibres should fill, with their radii on target; -1: the fraction that the fibres "
-        "were made for (GrownFibreVolumeFraction) or, if that is unknown and GrowthIterations is 0, the fraction that they fill "
-        "in the input; 0: no target, they grow by GrowthIterations")
+        "Fraction of the domain that the grown fibres should fill, for instance 0.9. -1: the fraction that the fibres were made "
+        "for (GrownFibreVolumeFraction of BundleInitializer); fibres without one, such as those of a file, keep their volume "
+        "unless GrowthIterations is above 0. 0: no target; fibres grow by GrowthIterations voxels. Fibres packed for this "
+        "fraction end at their TargetRadius. Otherwise all radii end larger by the same amount, or smaller by the same factor. "
+        "If the fibres were made for another fraction, a warning names the difference. If the gaps between fibres do not allow "
+        "the fraction, an error gives the largest one that they do.")
       .advise(" (-1: what the fibres were made for; 0: no target)")
       .add("GrowthIterations", &Options::growthIterations, limits::growthIterations,
-        "Number of voxels by which an unhindered fibre grows if there is no target")
+        "Number of voxels by which an unhindered fibre grows outwards from its capsules. It has an effect only without a target: "
+        "if TargetFibreVolumeFraction is 0, or -1 and it is not known what fraction the fibres were made for.")
       .where("TargetFibreVolumeFraction", { -1, 0 })
-      .add("MinimumGap", &Options::minimumGap, limits::gap, "Smallest distance between the surfaces of two fibres")
+      .add("MinimumGap", &Options::minimumGap, limits::gap, "Smallest distance in µm between the surfaces of two fibres.")
       .add("SurfaceTolerance", &Options::surfaceTolerance, limits::surfaceTolerance,
-        "Room on either side of the gap, within which smoothing and decimation may later move surfaces")
+        "Room in µm on either side of the gap, within which smoothing and decimation may later move the surfaces.")
       .add("SurfaceRoughness", &Options::surfaceRoughness, limits::surfaceRoughness,
-        "Fraction of its radius by which a fibre may be thinner than its capsules before it grows, at random along it")
+        "Unevenness of the fibres' calibre: the fraction of its radius by which a fibre may be thinner than its capsules before "
+        "it grows, at random and smoothly along it. 0: the capsules themselves grow.")
       .add("Margin", &Options::margin, limits::imageMargin,
-        "Width by which the image extends beyond the domain on every side, rounded up to whole voxels")
-      .add("Seed", &Options::seed, limits::seed, "Seed of the random calibre that SurfaceRoughness gives the fibres");
+        "Width in µm by which the image extends beyond the domain on every side, rounded up to whole voxels.")
+      .add("Seed", &Options::seed, limits::seed,
+        "Seed of the random calibre that SurfaceRoughness gives the fibres. The same seed gives the same image.");
   return list;
 }
 

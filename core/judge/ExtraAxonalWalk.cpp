@@ -345,14 +345,18 @@ const PropertyList<ExtraAxonalWalkOptions>& ExtraAxonalWalkOptions::properties()
   static const auto list =
     PropertyList<Options>()
       .add("ExtraAxonalWalkers", &Options::walkers, limits::walkers,
-        "Number of random walkers outside the fibres, which measure the long-time diffusivity there; 0: none")
+        "Number of random walkers outside the fibres. They measure the long-time diffusivity of water there along x, y and z, "
+        "over that without fibres (the tortuosity limit). 1000 walkers give it to a few per cent, and take most of the time. 0: "
+        "none.")
       .add("WalkDistance", &Options::distance, limits::walkDistance,
-        "Distance that a walker would cover along each axis without fibres (root mean square); use several fibre diameters")
+        "Distance in µm that a walker would cover along each axis without fibres (root mean square). Use several fibre "
+        "diameters. Twice the distance is four times the work.")
       .whereGiven("ExtraAxonalWalkers")
       .add("WalkStep", &Options::step, limits::walkStep,
-        "Length of a walker's step, which should be smaller than the width of the pores between fibres")
+        "Length of a walker's step in µm. It should be smaller than the width of the pores between fibres. Half the length is "
+        "four times the work.")
       .whereGiven("ExtraAxonalWalkers")
-      .add("WalkSeed", &Options::seed, limits::seed, "Seed of the walks")
+      .add("WalkSeed", &Options::seed, limits::seed, "Seed of the walks. The same seed gives the same walks.")
       .whereGiven("ExtraAxonalWalkers");
   return list;
 }

@@ -156,10 +156,12 @@ void drawRuns(const std::vector<PixelRun>& runs, Tissue tissue, int fibreId, His
 const PropertyList<HistologyMaskOptions>& HistologyMaskOptions::properties()
 {
   using Options = HistologyMaskOptions;
-  static const auto list = PropertyList<Options>()
-                             .add("Normal", &Options::normal, { "X", "Y", "Z" }, "Axis perpendicular to the cut")
-                             .add("Position", &Options::position, limits::coordinate, "Position of the cut along that axis")
-                             .add("PixelSize", &Options::pixelSize, maskPixel, "Edge of a pixel");
+  static const auto list =
+    PropertyList<Options>()
+      .add("Normal", &Options::normal, { "X", "Y", "Z" },
+        "Axis perpendicular to the cut. Columns and rows of the image follow the two other axes, in their order.")
+      .add("Position", &Options::position, limits::coordinate, "Position of the cut along that axis in µm.")
+      .add("PixelSize", &Options::pixelSize, maskPixel, "Edge of a pixel in µm.");
   return list;
 }
 

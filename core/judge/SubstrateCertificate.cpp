@@ -74,9 +74,11 @@ const PropertyList<SubstrateCertificateOptions>& SubstrateCertificateOptions::pr
   static const auto list =
     PropertyList<Options>()
       .add("MinimumGap", &Options::minimumGap, limits::judgedGap,
-        "Smallest distance that the outer surfaces of two fibres must keep; -1: MinimumGap of their growth; 0, or -1 if that is "
-        "unknown: they only must not meet")
-      .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing, "Distance between two cross-sections along a fibre");
+        "Smallest distance in µm that the outer surfaces of two fibres must keep. -1: the distance that they promise, which is "
+        "the MinimumGap of their FibreRadialGrowth. 0: they only must not meet; -1 means the same for surfaces that promise "
+        "nothing, such as those of a file. MinimumGap_um in the table is the distance used.")
+      .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing,
+        "Distance in µm between two cross-sections along a fibre, 0.01 to 1000.");
   return list;
 }
 

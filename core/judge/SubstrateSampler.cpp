@@ -338,12 +338,13 @@ const PropertyList<SubstrateSamplerOptions>& SubstrateSamplerOptions::properties
 {
   static const auto list =
     PropertyList<SubstrateSamplerOptions>()
-      .add("VoxelSize", &SubstrateSamplerOptions::voxelSize, sampledVoxel, "Edge of a voxel, which is a cube")
+      .add("VoxelSize", &SubstrateSamplerOptions::voxelSize, sampledVoxel, "Edge of a voxel in µm.")
       .add("HarmonicsOrder", &SubstrateSamplerOptions::harmonics, { "None", "2", "4", "6", "8", "10", "12" },
-        "Maximum order of the spherical harmonics of the fibre orientation distribution (FOD)")
+        "Maximum order (lmax) of the spherical harmonics of the fibre orientation distribution, in MRtrix's basis and order: "
+        "array FOD. Its integral over the sphere is the fibre volume fraction.")
       .add("Peaks", &SubstrateSamplerOptions::peaks,
-        "Add the axes of the three bundles that fill most of a voxel; the length of an axis is the fraction that its bundle "
-        "fills");
+        "Add the array Peaks: the axes of the three bundles that fill most of each voxel, in MRtrix's format. The length of an "
+        "axis is the fraction that its bundle fills.");
   return list;
 }
 

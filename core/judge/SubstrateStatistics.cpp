@@ -94,8 +94,9 @@ const PropertyList<SubstrateStatisticsOptions>& SubstrateStatisticsOptions::prop
   using Options = SubstrateStatisticsOptions;
   static const auto list =
     PropertyList<Options>()
-      .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing, "Distance between two cross-sections along a fibre")
-      .add("ClipTolerance", &Options::clipTolerance, limits::clipTolerance, "What a surface may reach out of the domain")
+      .add("CutSpacing", &Options::cutSpacing, limits::cutSpacing,
+        "Distance in µm between two cross-sections along a fibre, 0.01 to 1000.")
+      .add("ClipTolerance", &Options::clipTolerance, limits::clipTolerance, "What a surface may reach out of the domain.")
       .use(PropertyUse::Code)
       .include(&Options::walk, ExtraAxonalWalkOptions::properties());
   return list;

@@ -12,16 +12,23 @@ namespace cactus
 namespace
 {
 
-constexpr char threadsMeaning[] = "Number of threads; 0 uses all. Results do not depend on it";
+constexpr char threadsMeaning[] = "Number of threads; 0 uses all. Results do not depend on it.";
 
 // Properties of writers.
 const std::vector<std::string> formats(std::begin(formatNames), std::end(formatNames));
-constexpr char formatMeaning[] = "Simulator that will read the folder, or none";
+constexpr char formatMeaning[] =
+  "Simulator that will read the folder. Reference program: the folder that dmipy-sim loads; Substrate Writer needs Inner and "
+  "Fibres for it. RMS: voxel labels; those of Substrate Production are as large as the voxels of growth. SpinDoctor, or other "
+  "finite elements: one complex of triangles, which tetgen fills with tetrahedra. MCMRSimulator: its geometry file, with "
+  "reflecting walls at the faces of the domain. For no simulator: Surfaces alone has one PLY file for each surface; Surfaces by "
+  "bundle has one for all outer and one for all inner surfaces of each bundle.";
 const std::vector<std::string> encodingNames{ "ASCII", "Binary" };
-constexpr char encodingMeaning[] = "Encoding of PLY files; Binary takes half the space. Binary is for Format RMS, Surfaces "
-                                   "alone, SpinDoctor, Surfaces by bundle and MCMRSimulator, and refused for others";
-constexpr char fileUnit[] =
-  "Unit of the file's lengths. Readers take them for millimetres, whatever the header says; placed data need millimetres";
+constexpr char encodingMeaning[] =
+  "Encoding of PLY files. Binary takes 19 bytes per triangle, half of ASCII, in single precision; the certificate judges the "
+  "surfaces with that rounding. Binary is for Format RMS, Surfaces alone, Surfaces by bundle, SpinDoctor and MCMRSimulator. The "
+  "other simulators read only ASCII, and Binary is refused for them.";
+constexpr char fileUnit[] = "Unit of the file's lengths. Most readers take them for millimetres, whatever the file says, so "
+                            "micrometres give a warning. For data that Placement has placed, micrometres are refused.";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };
 constexpr Range tableFactor{ 1e-6, 1e6 };
 constexpr Range partOfHits{ 0.0, 1.0 };
@@ -35,16 +42,20 @@ PropertyList<Stage> withRadiusTable()
   return PropertyList<Stage>()
     .include(&Stage::options, Options::properties())
     .add("RadiusTable", &Stage::radiusTable,
-      "Outer radii in µm, separated by blanks or commas; each fibre gets one at random, all equally likely")
+      "Outer radii in µm, separated by blanks or commas, for example \"0.4 0.5 0.7\". Each fibre gets one of them at random; all "
+      "entries are equally likely.")
     .where("RadiusDistribution", { 2 })
-    .add("RadiusTableFile", &Stage::radiusTableFile, "Text file of outer radii in µm, which replaces RadiusTable")
+    .add("RadiusTableFile", &Stage::radiusTableFile,
+      "Text file of outer radii in µm, separated by blanks, commas or line ends. It replaces RadiusTable.")
     .where("RadiusDistribution", { 2 })
     .add("RadiusTableColumn", &Stage::radiusTableColumn,
-      "Column of RadiusTableFile with the radii, if its first line names the columns (.csv); none: a plain list")
+      "Column of RadiusTableFile with the radii, if the file is a table whose first line names the columns (.csv), such as "
+      "FibreRadius_um of HistologyRadii. Leave it empty for a plain list.")
     .where("RadiusDistribution", { 2 })
     .whereGiven("RadiusTableFile")
     .add("RadiusTableFactor", &Stage::radiusTableFactor, tableFactor,
-      "Factor that turns the numbers of RadiusTableFile into outer radii in µm: 0.5 for diameters, 1/g for inner radii")
+      "Factor that turns the numbers of RadiusTableFile into outer radii in µm: 0.5 for diameters, 1/g for radii of axons "
+      "without their myelin.")
     .where("RadiusDistribution", { 2 })
     .whereGiven("RadiusTableFile");
 }
@@ -88,15 +99,24 @@ const PropertyList<CapsuleOptimizerStage>& CapsuleOptimizerStage::properties()
       .whereGiven("RadiusTolerance")
       .at("CheckpointInterval")
       .whereGiven("CheckpointFile")
-      .add("TrimToDomain", &Stage::trimToDomain, "Cut away what lies outside the domain, except what growth could bring back in")
-      .add("KeepHistory", &Stage::keepHistory, "Keep states of the run and offer them as time steps")
+      .add("TrimToDomain", &Stage::trimToDomain,
+        "Cut away what lies outside the domain. Fibres are kept as far as growth by up to their radius could bring them back in. "
+        "A fibre that leaves the domain and comes back becomes several fibres.")
+      .add("KeepHistory", &Stage::keepHistory,
+        "Keep states of the run and offer them as time steps, so that you can play the run as an animation. The time is the "
+        "iteration; the last one shows the result. The times are known after the run, which starts as soon as they are "
+        "requested. Each state takes 12 bytes per control point (16 if RadiusTolerance is above 0). Filters that follow see the "
+        "state of the current time. The input is taken at its last time.")
       .use(PropertyUse::Run)
       .add("HistoryInterval", &Stage::historyInterval, limits::historyInterval,
-        "Number of iterations between two states that are kept")
+        "Number of iterations between two states that are kept.")
       .where("KeepHistory", { 1.0 })
       .use(PropertyUse::Run)
       .add("ShowEvery", &Stage::showEvery, shownInterval,
-        "Number of iterations between two states that the window shows during the run; 0: the window waits for the result")
+        "Number of iterations between two states that the window shows during the run. The window stays responsive, and Stop "
+        "ends the run with its best state; the result is the same. 0: the window waits for the result. Filters that follow see "
+        "the state that is shown, so apply this filter first. Leave it at 0 in scripts: they get the state reached so far, with "
+        "Converged 0.")
       .where("KeepHistory", { 0.0 })
       .use(PropertyUse::Run)
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
@@ -131,8 +151,10 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
       .at("Seed")
       .where("GRatioModel", { 2 })
       .add("Meshing", &Stage::meshing, { "CACTUS", "VTK filters" },
-        "Method that makes the surfaces: contouring, coarsening and spacing with guarantees, or VTK's filters, which guarantee "
-        "nothing")
+        "Method that makes the surfaces. CACTUS: its own contouring, coarsening and spacing, which keep surfaces closed, apart "
+        "and free of self-intersections. VTK filters: Flying Edges on each fibre's field, Windowed Sinc smoothing and Quadric "
+        "Decimation, as in ParaView's filters. They guarantee none of this, take longer and give more triangles. The column "
+        "Flawed then marks faults, and Substrate Certificate judges as usual.")
       .include(&Stage::vtkMeshing, VtkMeshingOptions::properties())
       .at("SincIterations")
       .where("Meshing", { 1 })
@@ -140,7 +162,9 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
       .where("Meshing", { 1 })
       .at("TargetReduction")
       .where("Meshing", { 1 })
-      .add("ReleaseInput", &Stage::releaseInput, "Free the label image's memory as soon as the surfaces are made")
+      .add("ReleaseInput", &Stage::releaseInput,
+        "Free the label image's memory (8 bytes per voxel) as soon as the surfaces are made. This is for large substrates in "
+        "scripts that need the image for nothing else. If another filter asks for the image, it is grown again.")
       .use(PropertyUse::Run)
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
@@ -150,17 +174,21 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
 const PropertyList<FibreFieldStage>& FibreFieldStage::properties()
 {
   using Stage = FibreFieldStage;
-  static const auto list =
-    PropertyList<Stage>()
-      .add("Select", &Stage::select, { "One fibre", "One bundle", "All fibres" }, "Fibres whose fields are made")
-      .add("FibreId", &Stage::fibreId, limits::id, "Number of the fibre")
-      .where("Select", { 0 })
-      .add("BundleId", &Stage::bundleId, limits::id, "Number of the bundle")
-      .where("Select", { 1 })
-      .add("Level", &Stage::level, limits::level, "Depth at which the field will be contoured; caps are made for it")
-      .add("ClipToDomain", &Stage::clipToDomain, "Cut fibres off at the faces of the domain; if off, at the end of the image")
-      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
-      .use(PropertyUse::Run);
+  static const auto list = PropertyList<Stage>()
+                             .add("Select", &Stage::select, { "One fibre", "One bundle", "All fibres" },
+                               "Fibres whose fields are made. All fibres of a large substrate take much memory: 4 bytes for each "
+                               "voxel of the box around each fibre.")
+                             .add("FibreId", &Stage::fibreId, limits::id, "FibreId of the fibre.")
+                             .where("Select", { 0 })
+                             .add("BundleId", &Stage::bundleId, limits::id, "BundleId of the bundle.")
+                             .where("Select", { 1 })
+                             .add("Level", &Stage::level, limits::level,
+                               "Value in µm at which the field will be contoured: 0 for outer surfaces, a depth inside the fibre "
+                               "for the surface of an axon. The caps on the faces of the domain are made for it.")
+                             .add("ClipToDomain", &Stage::clipToDomain,
+                               "Cut fibres off at the faces of the domain. If off, they reach to the end of the image.")
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
   return list;
 }
 
@@ -169,7 +197,7 @@ const PropertyList<SubstrateStatisticsStage>& SubstrateStatisticsStage::properti
   using Stage = SubstrateStatisticsStage;
   static const auto list = PropertyList<Stage>()
                              .include(&Stage::options, SubstrateStatisticsOptions::properties())
-                             .add("NumberOfBins", &Stage::bins, limits::bins, "Number of bins of each histogram")
+                             .add("NumberOfBins", &Stage::bins, limits::bins, "Number of bins of each histogram.")
                              .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
                              .use(PropertyUse::Run);
   return list;
@@ -210,10 +238,12 @@ const PropertyList<HistologyRadiiStage>& HistologyRadiiStage::properties()
   using Stage = HistologyRadiiStage;
   static const auto list =
     PropertyList<Stage>()
-      .add("PixelSize", &Stage::pixelSize, maskPixel, "Edge of a pixel")
-      .add("SmallestRadius", &Stage::smallestRadius, leastRadius, "Smallest radius of an axon; thinner ones are left out")
-      .add(
-        "LeaveOutBorder", &Stage::leaveOutBorder, "Leave out fibres that reach the border of the image, where they are cut off");
+      .add("PixelSize", &Stage::pixelSize, maskPixel,
+        "Edge of a pixel in µm. A mask that comes directly from HistologyMask has its own pixel size; another value is an error.")
+      .add("SmallestRadius", &Stage::smallestRadius, leastRadius,
+        "Smallest radius in µm. Smaller axons, such as specks of a few pixels, are left out.")
+      .add("LeaveOutBorder", &Stage::leaveOutBorder,
+        "Leave out fibres that touch the border of the image, because they are cut off there.");
   return list;
 }
 
@@ -222,26 +252,33 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
   using Stage = SubstrateWriterStage;
   static const auto list =
     PropertyList<Stage>()
-      .add("FolderName", &Stage::folderName, "Folder to write; its parent folder has to exist")
+      .add("FolderName", &Stage::folderName,
+        "Folder to write. Its parent folder has to exist; links are followed and kept. It cannot be the folder that ParaView "
+        "runs in.")
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
       .add("Permeability", &Stage::permeability, partOfHits,
-        "Fraction of the hits on a surface after which a walker passes through it")
+        "Fraction of the hits on a surface after which a walker passes through it, 0 to 1, as MC/DC defines it. "
+        "mcdc/*_ply_list.txt lists it for each surface, so that you can edit it. 0: no walker passes.")
       .where("Format", { 0 })
-      .add("VoxelSize", &Stage::voxelSize, sampledVoxel, "Edge of a label's voxel; it has to divide the domain's sides")
+      .add("VoxelSize", &Stage::voxelSize, sampledVoxel,
+        "Edge of a label's voxel in µm. It has to divide the domain's sides, and to be smaller than the myelin between two "
+        "axons. If it is wider than the gaps between fibres, extra/ may be left out, with a warning.")
       .where("Format", { 4 })
       .add("StartPositions", &Stage::startPositions, startCount,
-        "Number of random points in each compartment at which walkers start")
+        "Number of random points in each compartment at which walkers start (start/intra.txt, myelin.txt, extra.txt). 0: none; "
+        "for MC/DC with Permeability, one for each of its 1,000 walkers.")
       .where("Format", { 0, 1, 2, 3, 5, 7, 8 })
-      .add("Seed", &Stage::seed, limits::seed, "Seed of the random points")
+      .add("Seed", &Stage::seed, limits::seed, "Seed of the random points. The same seed gives the same points.")
       .where("Format", { 0, 1, 2, 3, 5, 7, 8 })
       .whereGiven("StartPositions")
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
-        "Also write surfaces that are not closed, outward 2-manifolds, instead of refusing them")
+        "Also write surfaces that are not closed, outward 2-manifolds. Walkers leak through them.")
       .add("MinimumGap", &Stage::minimumGap, limits::judgedGap,
-        "Smallest distance that the certificate requires between the outer surfaces of two fibres; -1: MinimumGap of their "
-        "growth; 0, or -1 if that is unknown: they only must not meet")
+        "Smallest distance in µm that the certificate requires between the outer surfaces of two fibres. -1: the distance that "
+        "they promise, which is the MinimumGap of their FibreRadialGrowth. 0: they only must not meet; -1 means the same for "
+        "surfaces that promise nothing, such as those of a file. MinimumGap_um in certificate.csv is the distance used.")
       .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
       .use(PropertyUse::Run);
   return list;
@@ -250,39 +287,44 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
 const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properties()
 {
   using Stage = SubstrateProductionStage;
-  static const auto list = PropertyList<Stage>()
-                             .include(&Stage::growth, FibreRadialGrowthOptions::properties())
-                             .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // its Seed replaces the other one
-                             .at("Seed")
-                             .means("Seed of the calibre that SurfaceRoughness gives the fibres, of their g-ratios if "
-                                    "GRatioModel is Distributed, and of the sample if SampledFraction is below 1")
-                             .add("FolderName", &Stage::folderName, "Folder to write; its parent folder has to exist")
-                             .use(PropertyUse::Run)
-                             .add("Format", &Stage::format, formats, formatMeaning)
-                             .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
-                             .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
-                               "Also write surfaces that are not closed, outward 2-manifolds, instead of refusing them")
-                             .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
-                               "Fraction of the fibres whose surfaces are made, drawn at random by Seed, each in its place among "
-                               "all the others; 1: all. Less is only for Format Surfaces alone and Surfaces by bundle, and not "
-                               "for GRatioModel TargetAxonVolumeFraction; otherwise it is refused")
-                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
-                             .use(PropertyUse::Run);
+  static const auto list =
+    PropertyList<Stage>()
+      .include(&Stage::growth, FibreRadialGrowthOptions::properties())
+      .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // its Seed replaces the other one
+      .at("Seed")
+      .means("Seed of the random calibre that SurfaceRoughness gives the fibres, of their g-ratios if GRatioModel is "
+             "Distributed, and of the sample if SampledFraction is below 1.")
+      .add("FolderName", &Stage::folderName,
+        "Folder to write. Its parent folder has to exist; links are followed and kept. It cannot be the folder that ParaView "
+        "runs in.")
+      .use(PropertyUse::Run)
+      .add("Format", &Stage::format, formats, formatMeaning)
+      .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
+      .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
+        "Also write surfaces that are not closed, outward 2-manifolds. Walkers leak through them.")
+      .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,
+        "Fraction of the fibres whose surfaces are made, drawn at random by Seed, each in its place among all the others. 1 "
+        "makes all. A sample shows what a large substrate will be like, and what it will take, before all of it is made. A "
+        "larger sample contains the fibres of a smaller one. Less than 1 is only for Format Surfaces alone and Surfaces by "
+        "bundle, since the space between the surfaces of a sample is not extra-axonal, and only if GRatioModel is not "
+        "TargetAxonVolumeFraction, which depends on all fibres. Otherwise it is refused.")
+      .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+      .use(PropertyUse::Run);
   return list;
 }
 
 const PropertyList<StrandReaderStage>& StrandReaderStage::properties()
 {
   using Stage = StrandReaderStage;
-  static const auto list = PropertyList<Stage>().add(
-    "FileName", &Stage::fileName, "File to read: strands, CATERPillar's table of spheres, or JSON of the White Matter Generator");
+  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName,
+    "File to read: strands, CATERPillar's table of spheres, or JSON of the White Matter Generator.");
   return list;
 }
 
 const PropertyList<StrandWriterStage>& StrandWriterStage::properties()
 {
   using Stage = StrandWriterStage;
-  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName, "Strand file to write").use(PropertyUse::Run);
+  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName, "Strand file to write.").use(PropertyUse::Run);
   return list;
 }
 
@@ -291,9 +333,11 @@ const PropertyList<TractogramReaderStage>& TractogramReaderStage::properties()
   using Stage = TractogramReaderStage;
   static const auto list =
     PropertyList<Stage>()
-      .add("FileName", &Stage::fileName, "Tractogram to read: .tck, .trk, or .trx (an archive or a folder)")
-      .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, "Unit of the output's lengths; files have mm")
-      .add("Radius", &Stage::radius, limits::radiusOrNone, "Radius of every point if the file has none; 0: no radius");
+      .add("FileName", &Stage::fileName, "Tractogram to read. A .trx may be a folder.")
+      .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" },
+        "Unit of the output's lengths: micrometres, as in all stages of CACTUS, or millimetres, as in images.")
+      .add("Radius", &Stage::radius, limits::radiusOrNone,
+        "Radius in µm, 0.001 to 1000, of every point if the file has no Radius. 0: the points get none.");
   return list;
 }
 
@@ -301,7 +345,7 @@ const PropertyList<TractogramWriterStage>& TractogramWriterStage::properties()
 {
   using Stage = TractogramWriterStage;
   static const auto list = PropertyList<Stage>()
-                             .add("FileName", &Stage::fileName, "File to write: .tck or .trx")
+                             .add("FileName", &Stage::fileName, "File to write: .tck or .trx.")
                              .use(PropertyUse::Run)
                              .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
   return list;
@@ -316,11 +360,12 @@ const PropertyList<PlacementStage>& PlacementStage::properties()
 const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
 {
   using Stage = NiftiWriterStage;
-  static const auto list = PropertyList<Stage>()
-                             .add("FileName", &Stage::fileName, "File to write: .nii or .nii.gz")
-                             .use(PropertyUse::Run)
-                             .add("Array", &Stage::array, "Name of the point data to write; empty: the active scalars")
-                             .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
+  static const auto list =
+    PropertyList<Stage>()
+      .add("FileName", &Stage::fileName, "File to write: .nii or .nii.gz.")
+      .use(PropertyUse::Run)
+      .add("Array", &Stage::array, "Name of the point data to write, such as AVF or Compartment. Empty: the active scalars.")
+      .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
   return list;
 }
 

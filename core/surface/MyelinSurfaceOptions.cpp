@@ -23,26 +23,40 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
   static const auto list =
     PropertyList<Options>()
       .add("GRatioModel", &Options::model, { "Constant", "LogLinear", "Distributed", "TargetAxonVolumeFraction" },
-        "Model of the myelin's thickness: one g-ratio for all fibres, a thickness by the axon's diameter (Lee 2019), a g-ratio "
-        "drawn for each fibre, or one g-ratio by the fraction that the axons fill")
+        "Model of the myelin's thickness. Constant: the same g-ratio (diameter of the axon over that of the fibre) for all "
+        "fibres. LogLinear: myelin of 0.35 + 0.006 D + 0.024 ln D µm for an axon of diameter D (Lee 2019), with g-ratios limited "
+        "to 0.3 to 0.95. Distributed: a g-ratio for each fibre from a normal distribution, truncated at 0.3 and 0.95. "
+        "TargetAxonVolumeFraction: one g-ratio for all fibres, chosen so that the axons fill the fraction asked for. A fibre "
+        "that has a g-ratio of its own (cell data TargetGRatio of the fibres) gets that one.")
       .add("GRatio", &Options::gRatio, limits::gRatio,
-        "Diameter of the axon over that of the fibre, or its mean (Distributed, from 0.3 to 0.95)")
+        "g-ratio of all fibres (GRatioModel Constant), or its mean (Distributed, from 0.3 to 0.95). It has no effect in the "
+        "other models.")
       .where("GRatioModel", { 0, 2 })
-      .add("GRatioDeviation", &Options::gRatioDeviation, limits::gRatioDeviation, "Standard deviation of the g-ratio over fibres")
+      .add("GRatioDeviation", &Options::gRatioDeviation, limits::gRatioDeviation,
+        "Standard deviation of the g-ratio from fibre to fibre. It has no effect unless GRatioModel is Distributed.")
       .where("GRatioModel", { 2 })
       .add("TargetAxonVolumeFraction", &Options::targetAxonVolumeFraction, limits::fractionOrNone,
-        "Fraction of the domain that the axons should fill")
+        "Fraction of the domain that the axons should fill, for instance 0.4. It has no effect unless GRatioModel is "
+        "TargetAxonVolumeFraction.")
       .where("GRatioModel", { 3 })
       .add("SmoothingIterations", &Options::smoothingIterations, limits::smoothingIterations,
-        "Number of times that a fibre's depth is averaged over neighbouring voxels before its surface is contoured")
+        "Number of times that a fibre's depth is averaged over neighbouring voxels before its surface is contoured, at most 20. "
+        "Smoothing rounds creases and keeps the gap between fibres; n steps blur by about the square root of n / 2 voxels. "
+        "Fibres with a radius of two to four voxels are smoothed less, thinner ones not at all.")
       .advise("; more would blur fibres of few voxels away")
       .add("DecimationError", &Options::decimationError, limits::surfaceTolerance,
-        "Distance by which coarsening may move a surface (an aim, not a strict bound); 0 keeps all triangles")
+        "Distance in µm by which a surface may move to save triangles, judged by the field at points spread over it. "
+        "LargestMove_um in the table is the largest error of the surface; it can be larger where the voxels do not resolve a "
+        "crease. 0 keeps all triangles. It must not exceed the SurfaceTolerance of growth, which leaves room for it.")
       .add("MinimumAngle", &Options::minimumAngle, smallestAngles,
-        "Smallest angle of nearly all triangles, for finite elements; 0: no smallest angle, and as few triangles as possible")
+        "Smallest angle in degrees, 5 to 25, of nearly all triangles, for finite elements; 20 is usual. Surfaces then have even "
+        "triangles, several times as many, which keep to DecimationError. 0: no smallest angle, and as few triangles as "
+        "possible.")
       .add("ClipToDomain", &Options::clipToDomain,
-        "Cut fibres off at the faces of the domain, and close them; if off, they reach to the end of the image")
-      .add("Seed", &Options::seed, limits::seed, "Seed of the fibres' g-ratios if GRatioModel is Distributed");
+        "Cut fibres off at the faces of the domain, and close them. If off, they reach to the end of the image, which is larger "
+        "than the domain if growth was given a Margin.")
+      .add("Seed", &Options::seed, limits::seed,
+        "Seed of the fibres' g-ratios if GRatioModel is Distributed. The same seed gives the same g-ratios.");
   return list;
 }
 

@@ -24,6 +24,8 @@ from vtkmodules.vtkCommonCore import VTK_STRING, vtkLogger, vtkOutputWindow
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 _ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+# Where the programs are that the build has made: CTest says it; by hand, they are where ./cactus test has built them.
+_TOOLS = os.environ.get("CACTUS_TOOLS") or os.path.join(_ROOT, "build", "release", "bin")
 _REPORT = re.compile(r"(ERROR|Warning|Generic Warning): In ")
 # The pipeline's own remark after a filter has reported what is wrong.
 _FOLLOW_UP = re.compile(r"returned failure for request|Failed to execute|Could not create writer")
@@ -145,8 +147,8 @@ def switches_of(one):
 
 
 def proxies():
-    """(group, XML element) of each proxy that the plugin describes."""
-    for path in sorted(glob.glob(os.path.join(_ROOT, "xml", "*.xml"))):
+    """(group, XML element) of each proxy that the plugin describes, as ParaView reads it."""
+    for path in sorted(glob.glob(os.path.join(_TOOLS, os.pardir, "xml", "*.xml"))):
         for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
             yield from ((group.get("name"), element) for element in group if element.tag.endswith("Proxy"))
 
@@ -162,9 +164,8 @@ def make(element, data):
 
 
 def judged(program, *arguments):
-    """The JSON that one of the programs in tests/tools prints. CTest says in CACTUS_TOOLS where they are; by hand, they are where
-    ./cactus test has built them."""
-    path = os.path.join(os.environ.get("CACTUS_TOOLS") or os.path.join(_ROOT, "build", "release", "bin"), program)
+    """The JSON that one of the programs in tests/tools prints."""
+    path = os.path.join(_TOOLS, program)
     done = subprocess.run([path, *arguments], capture_output=True, text=True)
     if done.returncode != 0:
         raise AssertionError(f"{program} failed on {arguments[-1]}: {done.stderr}")

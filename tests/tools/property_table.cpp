@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints the stages' descriptions of their properties: docs/properties.md or, with --json, the same for programs.
+// Prints docs/properties.md from the stages' descriptions of their properties.
 #include "base/Numbers.h"
 #include "bundle/RadiusHistogram.h"
 #include "stages/Presets.h"
 #include "stages/Stages.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cmath>
-#include <cstring>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -19,39 +16,6 @@ namespace
 
 using cactus::PropertyFacts;
 using cactus::PropertyState;
-using Json = nlohmann::ordered_json;
-
-Json jsonOf(const PropertyState& state)
-{
-  const PropertyFacts& facts = *state.facts;
-  Json json = { { "name", facts.name }, { "meaning", facts.meaning }, { "run", facts.use == cactus::PropertyUse::Run } };
-  std::visit([&](const auto& value) { json["default"] = value; }, state.value);
-  if (facts.range)
-  {
-    json["lowest"] = facts.range->smallest();
-    json["highest"] = facts.range->highest;
-  }
-  json["choices"] = facts.choices;
-  json["conditions"] = Json::object();
-  for (const cactus::PropertyCondition& condition : facts.conditions)
-  {
-    json["conditions"][condition.property] = condition.values;
-  }
-  return json;
-}
-
-void printJson()
-{
-  Json all = Json::object();
-  for (const cactus::StageDescription& stage : cactus::describeStages())
-  {
-    for (const PropertyState& state : stage.properties)
-    {
-      all[stage.name].push_back(jsonOf(state));
-    }
-  }
-  std::cout << all.dump(1) << '\n';
-}
 
 /// Returns a number in its most readable form: a hundred thousand is not 1e+05.
 std::string shortText(double value)
@@ -104,6 +68,21 @@ std::string conditionText(const cactus::PropertyCondition& condition, const cact
     }
   }
   return condition.property + (text.empty() ? any : " is " + text);
+}
+
+/// Escapes what Markdown reads as its own.
+std::string plainText(const std::string& text)
+{
+  std::string safe;
+  for (const char letter : text)
+  {
+    safe += letter == '&'                    ? "&amp;"
+            : letter == '<'                  ? "&lt;"
+            : letter == '>'                  ? "&gt;"
+            : letter == '*' || letter == '|' ? std::string{ '\\', letter }
+                                             : std::string(1, letter);
+  }
+  return safe;
 }
 
 const PropertyFacts& factsOf(const cactus::PresetValue& value)
@@ -181,7 +160,7 @@ void printTables()
         where += (where.empty() ? " *Where " : " and ") + conditionText(condition, stage);
       }
       std::cout << "| " << state.facts->name << " | " << cactus::valueText(*state.facts, state.value) << " | " << allowed(state)
-                << " | " << state.facts->meaning << "." << where << (where.empty() ? "" : ".*") << " |\n";
+                << " | " << plainText(state.facts->meaning) << where << (where.empty() ? "" : ".*") << " |\n";
     }
   }
   printPresets();
@@ -190,13 +169,8 @@ void printTables()
 
 } // namespace
 
-int main(int count, char** arguments)
+int main()
 {
-  if (count == 2 && std::strcmp(arguments[1], "--json") == 0)
-  {
-    printJson();
-    return 0;
-  }
   printTables();
   return 0;
 }

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes a page of documentation for every reader, source, filter and writer, out of what the panel has: xml/*.xml.
+"""Makes a page of documentation for every reader, source, filter and writer, out of xml/*.xml and docs/properties.md.
 
     python3 tools/scripts/filter_pages.py            writes docs/filters/NAME.md
     python3 tools/scripts/filter_pages.py --check    says which pages are not as they would be written, and writes nothing
     python3 tools/scripts/filter_pages.py --window FOLDER    adds pictures and outputs to ParaView's own help pages in FOLDER, as the build does
 
-What the XML cannot say stands in the page between two marks, and stays as it is. Defaults and ranges with their units are those of
-docs/properties.md, which a test compares with the XML.
+The part of a page between two marks is written by hand, and stays as it is.
 """
 
 import argparse
@@ -34,7 +33,6 @@ KINDS = {
 }
 TYPES = {"vtkPolyData": "polygons or lines", "vtkPointSet": "points with cells", "vtkImageData": "an image", "vtkTable": "a table"}
 PLACES = {"points": "point data", "cells": "cell data", "field": "field data", "rows": "column"}
-VALUES = ("DoubleVectorProperty", "IntVectorProperty", "StringVectorProperty")
 
 Array = collections.namedtuple("Array", "of name unit meaning")
 Output = collections.namedtuple("Output", "name data described arrays")
@@ -53,32 +51,22 @@ def spaced(name):
 
 
 def described_properties():
-    """{stage: {property: (default, allowed, where it has an effect)}} of docs/properties.md."""
+    """{stage: {property: (default, allowed, meaning in Markdown)}} of docs/properties.md."""
     found, stage = {}, None
     with open(os.path.join(ROOT, "docs", "properties.md"), encoding="utf-8") as file:
         for line in file:
-            cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+            cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip())[1:-1]]
             if line.startswith("## "):
                 stage = found.setdefault(line[3:].strip(), {})
-            elif line.startswith("| ") and len(cells) == 4 and cells[0] not in ("property", "preset"):
-                where = re.search(r"\*(Where .*)\*$", cells[3])
-                stage[cells[0]] = (cells[1], cells[2], where.group(1) if where else "")
+            elif len(cells) == 4 and cells[0] not in ("property", "preset"):
+                stage[cells[0]] = tuple(cells[1:])
     return found
-
-
-def xml_values(element):
-    """Default and allowed values of a property that docs/properties.md does not have: one of a writer, which has those of a filter."""
-    default = element.get("default_values", "")
-    if element.find("BooleanDomain") is not None:
-        return ("off", "on")[int(default)], "on, off"
-    limits = next((one for one in element if one.get("min") and one.get("max")), None)
-    return default, f"{limits.get('min')} to {limits.get('max')}" if limits is not None else "text"
 
 
 class Proxy:
     """What the XML says of one proxy."""
 
-    def __init__(self, group, element, described):
+    def __init__(self, group, element):
         self.group, self.name = group, element.get("name")
         self.label = element.get("label")
         documentation = element.find("Documentation")
@@ -95,7 +83,7 @@ class Proxy:
             Output(ports.get(one.get("port"), ""), one.get("data"), one.get("described"), [Array(*(array.get(key, "") for key in ("of", "name", "unit")), array.get("meaning")) for array in one])
             for one in hints.findall("Output")
         ]
-        self.properties = self._properties(element, described.get(self.name, {}))
+        self.element = element
 
     @staticmethod
     def _input(element):
@@ -107,23 +95,27 @@ class Proxy:
         takes += ["several of them"] if element.get("multiple_input") == "1" else []
         return Input(element.get("name"), "; ".join(takes), element.find("Hints/Optional") is not None, words(element.find("Documentation")))
 
-    @staticmethod
-    def _properties(element, described):
-        groups = {one.get("name"): group.get("label") for group in element.findall("PropertyGroup") for one in group.findall("Property")}
+    def properties(self, described):
+        """Those that users set, in the panel's order, with what docs/properties.md says of them."""
+        element, described = self.element, described.get(self.element.get("class").removeprefix("vtk"), {})
+        groups = {one.get("name"): group.get("label") for group in element.findall("PropertyGroup") for one in group}
         given = ["FileName"] if element.find("Hints/WriterFactory") is not None else []  # by the dialog, or SaveData's first argument
         found = []
-        for one in element:
-            name = one.get("name")
-            if one.tag not in (*VALUES, "Property") or one.get("information_only") == "1" or name in given:
+        for one in (one for part in element for one in (part if part.tag == "PropertyGroup" else [part])):
+            name, meaning = one.get("name"), plain(words(one.find("Documentation")))
+            if name in given:
                 continue
-            meaning = words(one.find("Documentation"))
-            if one.tag == "Property":
-                default, allowed, where = "", "a button", ""
+            if one.tag == "StageProperty":
+                if name not in described:
+                    sys.exit(f"filter_pages: docs/properties.md lacks {self.name}.{name}: build/release/bin/cactus_property_table > docs/properties.md")
+                default, allowed, meaning = described[name]
+            elif one.tag == "Property" and one.get("command"):
+                default, allowed = "", "a button"
             elif one.find("PresetDomain") is not None:
-                default, allowed, where = "None", "None or a [preset](../presets.md)", ""
+                default, allowed = "None", "None or a [preset](../presets.md)"
             else:
-                default, allowed, where = described.get(name) or (*xml_values(one), "")
-            found.append(Property(name, default, allowed, f"{plain(meaning)}{f' *{where}*' if where else ''}", groups.get(name, ""), one.get("panel_visibility") == "advanced"))
+                continue
+            found.append(Property(name, default, allowed, meaning, groups.get(name, ""), one.get("panel_visibility") == "advanced"))
         order = list(dict.fromkeys(["", *(one.group for one in found)]))  # as the panel has them: by their first property
         return sorted(found, key=lambda one: order.index(one.group))
 
@@ -152,12 +144,12 @@ def plain(text):
 
 def proxies():
     """All proxies of xml/*.xml, by the name of their file, with the meaning of each array."""
-    described, found = described_properties(), {}
+    found = {}
     for path in sorted(glob.glob(os.path.join(ROOT, "xml", "*.xml"))):
         file = os.path.splitext(os.path.basename(path))[0]
         for group in ElementTree.parse(path).getroot().findall("ProxyGroup"):
             for element in group:
-                found.setdefault(file, []).append(Proxy(group.get("name"), element, described))
+                found.setdefault(file, []).append(Proxy(group.get("name"), element))
     # An array that several filters make is described at one of them.
     known = collections.defaultdict(dict)
     every = [output for all_of_file in found.values() for proxy in all_of_file for output in proxy.outputs]
@@ -202,9 +194,9 @@ def output_part(proxy):
     return text
 
 
-def property_part(proxy, title):
+def property_part(proxy, title, described):
     text, group = f"\n## {title}\n", None
-    for one in proxy.properties:
+    for one in proxy.properties(described):
         if one.group != group or group is None:
             group = one.group
             text += f"\n{f'**{group}**' + chr(10) * 2 if group else ''}" + table(["property", "default", "allowed", "what"], [])
@@ -216,7 +208,7 @@ def picture_of(name):
     return f"![{{}}](../images/filters/{name}.png)\n\n" if os.path.exists(os.path.join(PICTURES, name + ".png")) else ""
 
 
-def page(name, of_file, by_hand):
+def page(name, of_file, by_hand, described):
     """The page of xml/NAME.xml, which has one proxy, or two that do the same in two ways."""
     main = of_file[0]
     text = f"# {main.label}\n\n{plain(main.short)}\n\n{picture_of(name).format(plain(main.short))}{BEGIN}{by_hand}{END}\n"
@@ -225,7 +217,7 @@ def page(name, of_file, by_hand):
         text += f"- {'In the window' if one is main else 'Or'}: {one.reached()}; in a script: `{one.call()}`\n"
     text += input_part(main) + output_part(main)
     for one in of_file:
-        text += property_part(one, "Properties" if one is main else f"Properties of {one.file_description}")
+        text += property_part(one, "Properties" if one is main else f"Properties of {one.file_description}", described)
     return text + "\nThe panel shows names in words (*Minimum Gap* is `MinimumGap`) and hides properties without effect. ⚙: advanced property.\n"
 
 
@@ -243,10 +235,10 @@ def by_hand(path):
 
 def pages():
     """{path: (text as it is, or None; text as it is to be)}."""
-    found = {}
+    found, described = {}, described_properties()
     for name, of_file in proxies().items():
         path = os.path.join(PAGES, name + ".md")
-        wanted = page(name, of_file, by_hand(path))
+        wanted = page(name, of_file, by_hand(path), described)
         now = None
         if os.path.exists(path):
             with open(path, encoding="utf-8") as file:

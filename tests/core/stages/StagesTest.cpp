@@ -23,6 +23,7 @@ TEST(Stages, DescribeTheirProperties)
       const std::string what = stage.name + "." + facts->name;
       EXPECT_TRUE(names.insert(facts->name).second) << what;
       EXPECT_GT(facts->meaning.size(), 8u) << what;
+      EXPECT_EQ(facts->meaning.back(), '.') << what;
       EXPECT_NE(facts->use, cactus::PropertyUse::Code) << what;
       const bool isNumber = facts->choices.empty() && value.index() >= 1 && value.index() <= 2;
       EXPECT_EQ(facts->range.has_value(), isNumber) << what;
