@@ -125,22 +125,35 @@ Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& 
   {
     return make(options.fibreVolumeFraction);
   }
-  // Slanted fibres fill more of a volume than of a face.
-  constexpr int rounds = 4;
+  // Slanted fibres fill more of a volume than of a face, and the domain holds more or less of the bundle by chance.
+  constexpr int rounds = 5;
   constexpr double tolerance = 0.01;
+  constexpr double surelyPacked = 0.78; // by circles of nearly any radii
+  const double densest = std::max(options.fibreVolumeFraction, std::min(1.1 * options.fibreVolumeFraction, surelyPacked));
   double density = options.fibreVolumeFraction / (flow ? flow->report().stretch : 1.0);
-  for (int round = 0;; ++round)
+  std::optional<Fibres> best;
+  double nearest = 0.0;
+  double reached = 0.0;
+  for (int round = 0; round < rounds; ++round)
   {
     Fibres fibres = make(density);
-    report.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
-    const double excess = report.fibreVolumeFraction / options.fibreVolumeFraction;
-    const double next = excess > 0.0 ? std::min(density / excess, options.fibreVolumeFraction) : density;
-    if (std::abs(excess - 1.0) <= tolerance || round == rounds || next == density)
+    const double filled = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+    const double miss = std::abs(filled / options.fibreVolumeFraction - 1.0);
+    if (!best || miss < nearest)
     {
-      return fibres;
+      best = std::move(fibres);
+      nearest = miss;
+      reached = filled;
+    }
+    const double next = filled > 0.0 ? std::min(density * options.fibreVolumeFraction / filled, densest) : density;
+    if (nearest <= tolerance || next == density)
+    {
+      break;
     }
     density = next;
   }
+  report.fibreVolumeFraction = reached;
+  return std::move(*best);
 }
 
 /// Makes crossing bundles whose capsules fill the requested fraction of the domain. Their faces lie outside the domain, and

@@ -373,7 +373,10 @@ Orientation orientationOf(const Bundle& bundle)
 void packFaces(
   std::vector<Bundle>& bundles, const BundleInitializerOptions& options, const Context& context, const StationaryFlow* flow)
 {
-  requireDensity(bundles, options);
+  if (!options.isCutOut())
+  {
+    requireDensity(bundles, options);
+  }
   const double share = 0.9 / static_cast<double>(bundles.size());
   for (std::size_t b = 0; b < bundles.size(); ++b)
   {

@@ -31,6 +31,26 @@ double meanConeAngle(double a)
   return (std::sin(a) - a * std::cos(a)) / (1.0 - std::cos(a));
 }
 
+/// Returns the parameter of a model, Watson or Cone, with this mean angle (radians). Both means are monotonic: bisection over log
+/// κ (falling) or over the half angle (rising).
+double parameterFor(DispersionModel model, double wanted)
+{
+  const bool watson = model == DispersionModel::Watson;
+  double low = watson ? std::log(1e-3) : 0.0;
+  double high = watson ? std::log(1e14) : 0.5 * pi;
+  for (int i = 0; i < 200; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high)
+    {
+      break;
+    }
+    const bool tooWide = watson ? meanWatsonAngle(std::exp(middle)) > wanted : meanConeAngle(middle) > wanted;
+    (tooWide == watson ? low : high) = middle;
+  }
+  return watson ? std::exp(0.5 * (low + high)) : 0.5 * (low + high);
+}
+
 } // namespace
 
 /// It is ∫q w / ∫w with w = exp(-κ sin²θ) sin θ on [0, π/2], by Simpson's rule.
@@ -64,22 +84,7 @@ DirectionDistribution::DirectionDistribution(DispersionModel model, double meanA
   {
     throw InvalidInput("angles are drawn from DispersionModel Watson (0) or Cone (1) only");
   }
-  const double wanted = meanAngle * pi / 180.0;
-  const bool watson = model == DispersionModel::Watson;
-  // Both means are monotonic: bisection over log κ (falling) or over the half angle (rising).
-  double low = watson ? std::log(1e-3) : 0.0;
-  double high = watson ? std::log(1e14) : 0.5 * pi;
-  for (int i = 0; i < 200; ++i)
-  {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high)
-    {
-      break;
-    }
-    const bool tooWide = watson ? meanWatsonAngle(std::exp(middle)) > wanted : meanConeAngle(middle) > wanted;
-    (tooWide == watson ? low : high) = middle;
-  }
-  Parameter = watson ? std::exp(0.5 * (low + high)) : 0.5 * (low + high);
+  this->Parameter = parameterFor(model, meanAngle * pi / 180.0);
 }
 
 double distanceToWatson(std::vector<double> angles)
@@ -87,7 +92,7 @@ double distanceToWatson(std::vector<double> angles)
   std::sort(angles.begin(), angles.end());
   const auto count = static_cast<double>(angles.size());
   const double mean = std::accumulate(angles.begin(), angles.end(), 0.0) / count;
-  const double kappa = DirectionDistribution(DispersionModel::Watson, mean / degree).parameter();
+  const double kappa = parameterFor(DispersionModel::Watson, mean);
   constexpr int intervals = 2000;
   std::vector<double> distribution = { 0.0 }; // by the trapezoidal rule
   double before = 0.0;

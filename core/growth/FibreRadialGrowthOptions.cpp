@@ -30,7 +30,7 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
         "unless GrowthIterations is above 0. 0: no target; fibres grow by GrowthIterations voxels. Fibres packed for this "
         "fraction end at their TargetRadius. Otherwise all radii end larger by the same amount, or smaller by the same factor. "
         "If the fibres were made for another fraction, a warning names the difference. If the gaps between fibres do not allow "
-        "the fraction, an error gives the largest one that they do.")
+        "the fraction, they fill as much as they can, and a warning names both.")
       .advise(" (-1: what the fibres were made for; 0: no target)")
       .add("GrowthIterations", &Options::growthIterations, limits::growthIterations,
         "Number of voxels by which an unhindered fibre grows outwards from its capsules. It has an effect only without a target: "

@@ -180,13 +180,21 @@ StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitia
 std::string remarksOnBundle(const BundleInitializerOptions& options, const BundleInitializerReport& report)
 {
   constexpr double tolerance = 0.005;
-  if (!isStationary(options) || std::abs(report.sinuosity - options.sinuosity) <= tolerance)
+  constexpr double relativeTolerance = 0.05;
+  const auto rounded = [](double value) { return std::round(1000.0 * value) / 1000.0; };
+  std::string told;
+  if (std::abs(report.fibreVolumeFraction - options.fibreVolumeFraction) > relativeTolerance * options.fibreVolumeFraction)
   {
-    return {};
+    told = text("FibreVolumeFraction is ", rounded(report.fibreVolumeFraction), " where ", options.fibreVolumeFraction,
+      " was asked for: so small a domain holds more or less by chance. Enlarge Side, lower MaximumRadius, or try another Seed");
   }
-  return text("Sinuosity is ", std::round(1000.0 * report.sinuosity) / 1000.0, " where ", options.sinuosity,
-    " was asked for: fibres of so large a MeanDispersion that run alike with neighbours over so short a CorrelationLength wind "
-    "more. Lower MeanDispersion, or enlarge CorrelationLength or Sinuosity");
+  if (isStationary(options) && std::abs(report.sinuosity - options.sinuosity) > tolerance)
+  {
+    told += text(told.empty() ? "" : "; ", "Sinuosity is ", rounded(report.sinuosity), " where ", options.sinuosity,
+      " was asked for: fibres of so large a MeanDispersion that run alike with neighbours over so short a CorrelationLength wind "
+      "more. Lower MeanDispersion, or enlarge CorrelationLength or Sinuosity");
+  }
+  return told;
 }
 
 TractFibresOptions tractOptions(const TractFibresStage& stage)

@@ -36,7 +36,7 @@ BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage);
 StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitializerOptions& options, std::size_t fibres,
   const BundleInitializerReport& report);
 
-/// Returns a remark on the undulation that the fibres do not have as asked for; empty if they have.
+/// Returns a remark on the density or the undulation that the fibres do not have as asked for; empty if they have both.
 std::string remarksOnBundle(const BundleInitializerOptions& options, const BundleInitializerReport& report);
 
 /// Do the same as the first two for fibres along a tract.

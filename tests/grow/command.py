@@ -228,8 +228,8 @@ class Command(unittest.TestCase):
         self.assertRegex(self.run_it("--version").stdout, r"^cactus-grow \d+\.\d+\.\d+\n$")
 
     def test_a_run_that_fails_and_one_that_is_not_certified(self):
-        infeasible = {**SMALL, "FibreRadialGrowth": {"VoxelSize": 0.2, "TargetFibreVolumeFraction": 0.99, "MinimumGap": 0.3}}
-        self.assertRefused(infeasible, "TargetFibreVolumeFraction", status=1)
+        infeasible = {"BundleInitializer": {**SMALL["BundleInitializer"], "FibreVolumeFraction": 0.97}}
+        self.assertRefused(infeasible, "FibreVolumeFraction 0.97 cannot be reached", status=1)
         strict = {**SMALL, "SubstrateWriter": {"MinimumGap": 2}}
         done = self.run_it(self.recipe(strict, "strict.json"))
         self.assertEqual(done.returncode, 3, done.stderr)

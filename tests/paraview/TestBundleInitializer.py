@@ -11,8 +11,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
 def drawn_radii(**properties):
-    """A bundle that starts with the radii drawn, so that these say where its circles touch."""
-    return BundleInitializer(**{"GrownFibreVolumeFraction": 0, **properties})
+    """A bundle between walls that starts with the radii drawn, so that these say where its circles touch."""
+    return BundleInitializer(**{"GrownFibreVolumeFraction": 0, "Border": "Walls", **properties})
 
 
 def ends(data):
@@ -61,7 +61,7 @@ class BundleInitializerTest(CactusTestCase):
 
     def test_is_made_for_growth_by_default(self):
         """Capsules that fill 0.7 of the faces, thinner than the radii drawn, by as much as these would fill 0.9 with."""
-        data = fetch(BundleInitializer(Side=20))
+        data = fetch(BundleInitializer(Side=20, Border="Walls"))
         first = vtk_to_numpy(data.GetLines().GetOffsetsArray())[:-1]
         radii, targets = vtk_to_numpy(data.GetPointData().GetArray("Radius"))[first], ends(data)[2]
         np.testing.assert_allclose(radii, targets * np.sqrt(0.7 / 0.9))

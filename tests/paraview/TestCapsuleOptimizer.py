@@ -127,12 +127,12 @@ class Optimizer(CactusTestCase):
 
     def test_time_steps_show_the_way_from_the_first_state_to_the_result(self):
         plain = fetch(CapsuleOptimizer(Input=bundle()), 0)
-        optimizer = CapsuleOptimizer(Input=bundle(), KeepHistory=1, HistoryInterval=20)
+        optimizer = CapsuleOptimizer(Input=bundle(), KeepHistory=1, HistoryInterval=10)
         optimizer.UpdatePipeline()
         optimizer.UpdatePipelineInformation()
         times = list(optimizer.TimestepValues)
         self.assertGreater(len(times), 4)
-        self.assertEqual(times[:3], [0, 20, 40])
+        self.assertEqual(times[:3], [0, 10, 20])
         largest = []
         for time in times:
             state = fetch_at(optimizer, time)

@@ -164,13 +164,13 @@ class ChainTest(CactusTestCase):
         return data, reached
 
     def test_single_bundle(self):
-        data, reached = self.run_chain(12, 0.9, most_triangles=(10, 12.5), MeanDispersion=10)
+        data, reached = self.run_chain(12, 0.9, most_triangles=(15, 18), MeanDispersion=10)
         self.assertGreater(data.GetNumberOfCells(), 30)
         self.assertAlmostEqual(reached["MeanDispersion_deg"], 10, delta=1)
 
     def test_crossing(self):
         data, _ = self.run_chain(
-            12, 0.7, most_triangles=(12.5, 15), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5
+            12, 0.7, most_triangles=(17, 20), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5
         )
         points = vtk_to_numpy(data.GetPoints().GetData())
         offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
