@@ -127,6 +127,8 @@ Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& 
   }
   // Slanted fibres fill more of a volume than of a face, and the domain holds more or less of the bundle by chance.
   constexpr int rounds = 5;
+  constexpr int roundsOfFew = 24; // which take no time
+  constexpr std::size_t few = 1000;
   constexpr double tolerance = 0.01;
   constexpr double surelyPacked = 0.78; // by circles of nearly any radii
   const double densest = std::max(options.fibreVolumeFraction, std::min(1.1 * options.fibreVolumeFraction, surelyPacked));
@@ -134,7 +136,7 @@ Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& 
   std::optional<Fibres> best;
   double nearest = 0.0;
   double reached = 0.0;
-  for (int round = 0; round < rounds; ++round)
+  for (int round = 0; round < (best && best->size() <= few ? roundsOfFew : rounds); ++round)
   {
     Fibres fibres = make(density);
     const double filled = capsuleVolumeInDomain(fibres) / fibres.domain.volume();

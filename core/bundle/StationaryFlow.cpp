@@ -29,10 +29,10 @@ constexpr double lengthAlong = 8.0;
 
 /// Domains of more correlation lengths hold so many independent places that the first flow is even.
 constexpr double manyLengths = 12.0;
-constexpr int mostDraws = 64;
+constexpr int mostDraws = 32;
 
 /// Fibres that are followed to measure a flow start on a square grid with so many to a side.
-constexpr int gridSide = 24;
+constexpr int gridSide = 20;
 /// Height (µm) over which they are followed through the domain, at most.
 constexpr double longestPath = 100.0;
 /// Height over which their sinuosity is measured, in wavelengths of undulation: in a shorter domain they would be less sinuous.

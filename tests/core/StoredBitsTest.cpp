@@ -77,7 +77,7 @@ TEST(StoredBits, DefaultChain)
   }
   BundleInitializerOptions cut;
   cut.side = 8.0;
-  EXPECT_EQ(digest(initialiseBundles(cut)), "ff85becdeb63fb6b42177d68f498d5ab4601f06061a53c78020fb9cc4fee3386");
+  EXPECT_EQ(digest(initialiseBundles(cut)), "b0cb2f5b27a6d10a4a017914287d29799df9c83a4db8c51d711dd5c75eb93bf9");
 
   BundleBetweenWalls wanted;
   wanted.side = 8.0;

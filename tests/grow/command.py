@@ -24,7 +24,7 @@ REFERENCE = os.path.join(RECIPES, "..", "reference")
 
 # A second of work.
 SMALL = {
-    "BundleInitializer": {"Side": 4, "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0},
+    "BundleInitializer": {"Side": 4, "Border": "Walls", "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0},
     "FibreRadialGrowth": {"VoxelSize": 0.2, "GrowthIterations": 1},
 }
 

@@ -12,7 +12,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 def drawn_radii(**properties):
     """A bundle between walls that starts with the radii drawn, so that these say where its circles touch."""
-    return BundleInitializer(**{"GrownFibreVolumeFraction": 0, "Border": "Walls", **properties})
+    return BundleInitializer(**{"GrownFibreVolumeFraction": 0, "Border": "Walls", "CorrelationLength": 0, **properties})
 
 
 def ends(data):

@@ -15,7 +15,7 @@ from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGro
                              SubstrateProduction, SubstrateWriter, TractFibres, TractogramReader)
 
 PROGRAM = os.path.join(os.environ["CACTUS_TOOLS"], "cactus-grow")
-BUNDLE = {"Side": 4, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0}
+BUNDLE = {"Side": 4, "Border": "Walls", "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0}
 OTHER = {**BUNDLE, "RadiusDistribution": "Lognormal", "Seed": 2}
 TABLE = {**BUNDLE, "RadiusDistribution": "Table", "DispersionModel": "Watson"}
 GROWTH = {"VoxelSize": 0.2, "GrowthIterations": 1, "Seed": 3}

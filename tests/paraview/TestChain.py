@@ -130,7 +130,7 @@ class ChainTest(CactusTestCase):
         # And none of them a sliver.
         certificate = row(SubstrateCertificate(Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1)))
         self.assertEqual(certificate["Certified"], 1)
-        self.assertLess(certificate["LargestAspect"], 100)
+        self.assertLess(certificate["LargestAspect"], 150)
         self.assertLess(certificate["LargestSquaredEdgeRatio"], 1000)
         self.assertGreater(certificate["SmallestFeature_um"], 0.001)
 

@@ -41,7 +41,7 @@ class FilterPages(CactusTestCase):
 
     def made(self):
         """One of every stage, on a small substrate."""
-        bundle = simple.BundleInitializer(Side=5, MinimumRadius=0.4, MeanDispersion=1)
+        bundle = simple.BundleInitializer(Border="Walls", Side=5, MinimumRadius=0.4, MeanDispersion=1)
         optimiser = simple.CapsuleOptimizer(Input=bundle)
         fibres = OutputPort(optimiser, 0)
         grown = simple.FibreRadialGrowth(Input=fibres)

@@ -5,6 +5,7 @@
 #include "ScratchPath.h"
 #include "base/Error.h"
 #include "recipe/RecipeReader.h"
+#include "stages/StageWork.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,8 @@ using namespace cactus_testing;
 namespace fs = std::filesystem;
 
 const char* const small = R"({
-  "BundleInitializer": { "Side": 3, "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0 },
+  "BundleInitializer": { "Side": 3, "Border": "Walls", "FibreVolumeFraction": 0.3, "MinimumRadius": 0.4,
+                         "GrownFibreVolumeFraction": 0 },
   "FibreRadialGrowth": { "VoxelSize": 0.2, "GrowthIterations": 1 } })";
 
 class RecipeRuns : public testing::Test
@@ -109,8 +111,17 @@ TEST_F(RecipeRuns, TellsOfFibresThatStillOverlap)
   runRecipe(readRecipe(with(R"({"MaximumIterations": 1})"), ""), this->place("few"), {}, remember);
   EXPECT_NE(remarks.find("overlaps remain: MaximumIterations were used up after 1 iterations"), std::string::npos) << remarks;
   remarks.clear();
-  runRecipe(readRecipe(with(R"({"Method": "Adagrad", "StepSize": 8})"), ""), this->place("leaps"), {}, remember);
-  EXPECT_NE(remarks.find("StepSize 8 is the first step in µm with Adagrad"), std::string::npos) << remarks;
+  OptimisationResult leapt;
+  leapt.reason = StopReason::Stagnated;
+  leapt.maximumPenetration = 0.5;
+  leapt.convergence.emplace_back();
+  CapsuleOptimizerOptions leaps;
+  leaps.method = DescentMethod::Adagrad;
+  for (const std::string& remark : remarksOnOptimisation(leapt, leaps))
+  {
+    remember(remark);
+  }
+  EXPECT_NE(remarks.find("StepSize 1.7 is the first step in µm with Adagrad"), std::string::npos) << remarks;
   remarks.clear();
   runRecipe(readRecipe(with("false"), ""), this->place("none"), {}, remember);
   EXPECT_NE(remarks.find("the optimiser has not parted these fibres"), std::string::npos) << remarks;
