@@ -49,7 +49,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .where("DispersionModel", { 2 })
       .where("NumberOfBundles", { 1 })
       .add("Sinuosity", &Options::sinuosity, limits::sinuosity,
-        "Mean length of the fibres over the distance of their ends, along two wavelengths: they undulate together with their "
+        "Mean length of the fibres over the distance of their ends, along one wavelength: they undulate together with their "
         "neighbours. 1: they do not undulate, and only their change of direction makes them longer. Axons of the corpus callosum "
         "have 1.02 to 1.03 (docs/presets.md). If directions alone make fibres more sinuous, a warning says so.")
       .where("Border", { 0 })

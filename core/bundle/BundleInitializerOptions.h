@@ -47,7 +47,7 @@ struct BundleInitializerOptions
   /// Lateral distance over which the directions of DispersionModel::Coherent are alike (see StationaryFlow). Between walls it may
   /// be 0: four times the mean shift of the fibres from face to face, at least a 32nd of the face (see CoherentFlow).
   double correlationLength = 8.0;
-  /// Mean length of fibres over the distance of their ends along two wavelengths, with a stationary flow; 1: no undulation.
+  /// Mean length of fibres over the distance of their ends along one wavelength, with a stationary flow; 1: no undulation.
   double sinuosity = 1.03;
   double undulationWavelength = 25.0; ///< µm, along the fibres
   int numberOfBundles = 1;            ///< 1 or 2

@@ -36,7 +36,7 @@ constexpr int gridSide = 20;
 /// Height (µm) over which they are followed through the domain, at most.
 constexpr double longestPath = 100.0;
 /// Height over which their sinuosity is measured, in wavelengths of undulation: in a shorter domain they would be less sinuous.
-constexpr double measuredWavelengths = 2.0;
+constexpr double measuredWavelengths = 1.0;
 /// Planes on which angles are measured.
 constexpr int anglePlanes = 5;
 

@@ -17,7 +17,7 @@ namespace cactus
 struct StationaryFlowReport
 {
   double meanAngle = 0.0; ///< degrees, of fibres to the axis at any place, without undulation
-  double sinuosity = 1.0; ///< mean length of fibres over the distance of their ends, along two wavelengths of undulation
+  double sinuosity = 1.0; ///< mean length of fibres over the distance of their ends, along one wavelength of undulation
   double stretch = 1.0;   ///< mean length of fibres per height along the axis
 };
 

@@ -77,7 +77,7 @@ TEST(StoredBits, DefaultChain)
   }
   BundleInitializerOptions cut;
   cut.side = 8.0;
-  EXPECT_EQ(digest(initialiseBundles(cut)), "b0cb2f5b27a6d10a4a017914287d29799df9c83a4db8c51d711dd5c75eb93bf9");
+  EXPECT_EQ(digest(initialiseBundles(cut)), "db4dc5dc44f817275e34e86ae811cc73053ee547fa9125d615b557b46b5ba681");
 
   BundleBetweenWalls wanted;
   wanted.side = 8.0;

@@ -104,10 +104,10 @@ class Presets(CactusTestCase):
             self.assertEqual(one.Preset, ALIVE)
 
     def test_one_preset_after_the_other_leaves_nothing_of_the_first(self):
-        initial, growth, myelin = self.chain(Side=8)
+        initial, growth, myelin = self.chain(Side=8, Border="Walls")
         for name in initial.GetProperty("Preset").Available[1:]:
             initial.Preset = name
-            fresh = self.chain(Preset=name, Side=8)
+            fresh = self.chain(Preset=name, Side=8, Border="Walls")
             for one, other in zip((initial, growth, myelin), fresh):
                 self.assertEqual(one.Preset, name)
                 for each in one.ListProperties():
@@ -189,7 +189,7 @@ class Presets(CactusTestCase):
 
     def test_several_bundles_have_one_preset_or_none(self):
         for second, expected in ((ALIVE, ALIVE), (FIXED, "None"), ("None", "None")):
-            sources = [simple.BundleInitializer(Preset=preset, Side=6) for preset in (ALIVE, second)]
+            sources = [simple.BundleInitializer(Preset=preset, Side=6, Border="Walls") for preset in (ALIVE, second)]
             self.assertEqual(simple.FibreRadialGrowth(Input=simple.GroupDatasets(Input=sources)).Preset, expected)
 
     def test_histological_targets_are_those_of_the_paper(self):
