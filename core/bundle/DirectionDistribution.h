@@ -19,7 +19,8 @@ enum class DispersionModel
 /// Returns the mean of a quantity of the angle to the axis (radians) over a Watson distribution of concentration κ > 0.
 double watsonMean(double kappa, double (*quantity)(double angle));
 
-/// Returns the largest difference between the distribution function of angles to the axis (radians; their mean above 0) and that of the Watson distribution with the same mean.
+/// Returns the largest difference between the distribution function of angles to the axis (radians; their mean above 0) and that
+/// of the Watson distribution with the same mean.
 double distanceToWatson(std::vector<double> angles);
 
 /// Draws angles to an axis from a model, Watson or Cone, with a given mean angle; the azimuth is uniform in both.

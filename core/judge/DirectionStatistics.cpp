@@ -157,7 +157,7 @@ DirectionStatistics measureDirections(const Fibres& fibres, const std::vector<Ax
     add(bundle.byLength, bundle.axis, byLength);
     add(bundle.byVolume, bundle.axis, byVolume);
     addSpread(bundle.middles, spread);
-    const Eigen::Vector3d moments = solver.eigenvalues();
+    const auto& moments = solver.eigenvalues();
     if (moments[0] > 0.0)
     {
       azimuths.add(moments[1] / moments[0], static_cast<double>(bundle.places));

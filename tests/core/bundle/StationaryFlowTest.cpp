@@ -51,7 +51,7 @@ struct Found
 {
   std::vector<double> angles;
   std::vector<double> ends; ///< angles from end to end
-  double meanAngle = 0.0; ///< degrees
+  double meanAngle = 0.0;   ///< degrees
   double twist = 0.0;
   double sinuosity = 0.0;
 };
