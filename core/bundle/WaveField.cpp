@@ -122,8 +122,8 @@ WaveField::Value WaveField::at(const Eigen::Vector2d& point, const Plane& plane,
     double sumImaginary = 0.0;
     double slopeReal = 0.0; // weighted by the periods along y
     double slopeImaginary = 0.0;
-    const double* factorReal = real + static_cast<std::ptrdiff_t>(row.firstY) + this->Most;
-    const double* factorImaginary = imaginary + static_cast<std::ptrdiff_t>(row.firstY) + this->Most;
+    const double* factorReal = real + (row.firstY + this->Most);
+    const double* factorImaginary = imaginary + (row.firstY + this->Most);
     for (int i = 0; i < row.count; ++i)
     {
       const double a = plane.real[row.begin + static_cast<std::size_t>(i)];
