@@ -210,7 +210,7 @@ class Presets(CactusTestCase):
 
     def test_substrates_are_as_their_presets_say(self):
         for preset, fraction, gap in ((ALIVE, 0.80, 0.04), (TUTORIAL, 0.90, 0.02)):
-            _, growth, myelin = self.chain(Preset=preset, Side=7)
+            _, growth, myelin = self.chain(Preset=preset, Side=7, Border="Walls")
             growth.VoxelSize = 0.08
             table = fetch(simple.SubstrateCertificate(Outer=simple.OutputPort(myelin, 0)), 0)
             whole = {table.GetColumnName(i): table.GetValue(0, i).ToDouble() for i in range(table.GetNumberOfColumns())}
