@@ -79,7 +79,7 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
     const double radius = bundle.bottom.radii[i];
     const Eigen::Vector3d first = place(bundle.bottom.centres[i], -0.5 * bundle.length);
     const Eigen::Vector3d last = place(bundle.top.centres[i], 0.5 * bundle.length);
-    const double spacing = std::clamp(options.spacingFactor * radius, options.minimumSpacing, options.maximumSpacing);
+    const double spacing = options.spacing.of(radius);
     const int segments = std::max(2, static_cast<int>(std::lround((last - first).norm() / spacing)));
     fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle.id, radius);
     fibres.addPoint(first, radius);
@@ -221,7 +221,7 @@ void requireMemoryFor(const BundleInitializerOptions& options)
   const double side = regionSide(options);
   const double turned = options.numberOfBundles == 2 ? std::sqrt(2.0) : 1.0;
   const double fibreCount = options.fibreVolumeFraction * side * side * turned / meanCircleArea(options.radius);
-  const double points = fibreCount * (2.0 + side * turned / options.minimumSpacing);
+  const double points = fibreCount * (2.0 + side * turned / options.spacing.minimum);
   TextStream what;
   what.precision(3);
   what << "Side " << options.side << " µm with " << fibreCount << " fibres";

@@ -79,12 +79,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .add("Margin", &Options::margin, limits::bundleMarginOrAsNeeded,
         "Width in µm by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides. -1: as "
         "wide as the fibres' slants ask with the border Cut, and 0 with Walls.")
-      .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,
-        "Distance between a fibre's control points as a multiple of its radius, within the two limits below.")
-      .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing,
-        "Smallest distance between control points in µm. A larger one makes large substrates cheaper; a smaller one lets thin "
-        "fibres bend more sharply.")
-      .add("MaximumSpacing", &Options::maximumSpacing, limits::spacing, "Largest distance between control points in µm.")
+      .include(&Options::spacing, ControlPointSpacing::properties())
       .add("Seed", &Options::seed, limits::seed,
         "Seed of all random numbers. The same seed and parameters give the same fibres, bit for bit.");
   return list;
@@ -109,10 +104,7 @@ void BundleInitializerOptions::validate() const
   {
     throw InvalidInput("CorrelationLength is 0: give a length in µm (8 by default); 0 is for Border Walls");
   }
-  if (minimumSpacing > maximumSpacing)
-  {
-    throw InvalidInput(text("MaximumSpacing ", maximumSpacing, " is below MinimumSpacing ", minimumSpacing, ": exchange them"));
-  }
+  spacing.validate();
 }
 
 double BundleInitializerOptions::thinning() const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/Properties.h"
+#include "bundle/ControlPointSpacing.h"
 #include "bundle/DirectionDistribution.h"
 #include "bundle/RadiusDistribution.h"
 
@@ -60,11 +61,7 @@ struct BundleInitializerOptions
   /// that is with Border::Cut as wide as the fibres' slants ask, and a little beyond the ends (see surroundings()), and 0 with
   /// walls.
   double margin = -1.0;
-  /// Distance between the control points of a fibre, as a multiple of its radius, within the two limits below. A capsule chain
-  /// bends once per control point, so the spacing limits how sharply a fibre can bend; longer capsules are cheaper.
-  double spacingFactor = 1.25;
-  double minimumSpacing = 0.8; ///< µm
-  double maximumSpacing = 2.0; ///< µm
+  ControlPointSpacing spacing;
   std::uint64_t seed = 1;
 
   static const PropertyList<BundleInitializerOptions>& properties();

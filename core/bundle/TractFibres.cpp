@@ -85,7 +85,7 @@ void requireMemoryForTract(const TractFibresOptions& options, const TractSizes& 
   const double each = meanCircleArea(sizes.straight.radius);
   const double circles = fewestCircles + options.fibreVolumeFraction * 4.0 * radius * radius / each;
   const double width = options.side + 2.0 * (options.margin + options.radius.maximum);
-  const double points = options.fibreVolumeFraction * std::pow(width, 3) / (each * options.minimumSpacing);
+  const double points = options.fibreVolumeFraction * std::pow(width, 3) / (each * options.spacing.minimum);
   requireMemory(circles * 600.0 + points * 160.0, text("Side ", options.side, " µm with ", circles, " fibres"),
     "choose a smaller Side, a smaller Margin or larger radii");
 }
@@ -205,7 +205,7 @@ void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, 
     // A shorter piece cuts a corner of the grown domain, too far outside for the fibre to touch the domain.
     if (length > 0.8 * target)
     {
-      const double spacing = std::clamp(options.spacingFactor * circle.radius, options.minimumSpacing, options.maximumSpacing);
+      const double spacing = options.spacing.of(circle.radius);
       addAlong(kept, length, bundleId, circle.radius, spacing, fibres);
       fibres.targetRadii.back() = target;
     }

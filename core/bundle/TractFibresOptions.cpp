@@ -52,12 +52,7 @@ const PropertyList<TractFibresOptions>& TractFibresOptions::properties()
         "so thin bundles follow their streamlines more closely.")
       .add("Margin", &Options::margin, limits::bundleMargin, "Width in µm by which fibres extend beyond all sides of the domain.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
-      .add("SpacingFactor", &Options::spacingFactor, limits::spacingFactor,
-        "Distance between a fibre's control points as a multiple of its radius, within the two limits below.")
-      .add("MinimumSpacing", &Options::minimumSpacing, limits::spacing,
-        "Smallest distance between control points in µm. A larger one makes large substrates cheaper; a smaller one lets thin "
-        "fibres bend more sharply.")
-      .add("MaximumSpacing", &Options::maximumSpacing, limits::spacing, "Largest distance between control points in µm.")
+      .include(&Options::spacing, ControlPointSpacing::properties())
       .add("Seed", &Options::seed, limits::seed,
         "Seed of all random numbers. The same seed and parameters give the same fibres, bit for bit.");
   return list;
@@ -77,14 +72,13 @@ BundleInitializerOptions TractFibresOptions::straightBundle() const
 {
   BundleInitializerOptions straight;
   straight.side = side;
+  straight.border = Border::Walls;
   straight.margin = margin;
   straight.fibreVolumeFraction = fibreVolumeFraction;
   straight.grownFibreVolumeFraction = grownFibreVolumeFraction;
   straight.radius = radius;
   straight.meanDispersion = 0.0;
-  straight.spacingFactor = spacingFactor;
-  straight.minimumSpacing = minimumSpacing;
-  straight.maximumSpacing = maximumSpacing;
+  straight.spacing = spacing;
   straight.seed = seed;
   return straight;
 }

@@ -48,12 +48,10 @@ struct TractFibresOptions
   /// Diameter of the bundle around each streamline; 0: a single bundle covers the domain, several are together as large as the
   /// domain.
   double bundleDiameter = 0.0;
-  double margin = 0.0;                                             ///< width by which the fibres extend beyond the domain on all
-                                                                   ///< sides
-  RadiusDistributionOptions radius;                                ///< outer radii of the fibres
-  double spacingFactor = BundleInitializerOptions().spacingFactor; ///< as in BundleInitializerOptions, like the next two
-  double minimumSpacing = BundleInitializerOptions().minimumSpacing;
-  double maximumSpacing = BundleInitializerOptions().maximumSpacing;
+  double margin = 0.0;              ///< width by which the fibres extend beyond the domain on all
+                                    ///< sides
+  RadiusDistributionOptions radius; ///< outer radii of the fibres
+  ControlPointSpacing spacing;
   std::uint64_t seed = 1;
 
   static const PropertyList<TractFibresOptions>& properties();

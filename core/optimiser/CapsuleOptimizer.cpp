@@ -148,9 +148,8 @@ std::optional<StopReason> descend(
       run.rows.push_back(row);
       return reason;
     }
-    const bool isRising = !run.rows.empty() && row.overlapCost > run.rows.back().overlapCost;
     run.rows.push_back(row);
-    run.descent.step(isRising);
+    run.descent.step();
   }
 }
 

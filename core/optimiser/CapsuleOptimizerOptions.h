@@ -26,7 +26,8 @@ struct CapsuleOptimizerOptions
   /// Weights of the cost terms, by priority: overlap first.
   double overlapWeight = 1.0;
   FibreCostWeights weights;
-  /// Momentum: fraction of the Newton step along each coordinate; above 1.9 contacts swing up. Adagrad: first step in µm.
+  /// Momentum: fraction of the Newton step along each coordinate; above 1.9 contacts swing up; shorter by the
+  /// factor 0.6 once few pairs overlap. Adagrad: first step in µm.
   double stepSize = 1.7;
   /// Fraction of the last step that is added to the next one (Momentum only), in [0, 1).
   double momentum = 0.95;

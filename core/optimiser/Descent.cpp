@@ -24,8 +24,10 @@ namespace
 constexpr double largestStep = 0.065;
 
 /// Once there are fewer overlapping pairs than this fraction of the capsules, fibres are in place, and the costs that shape them
-/// fade 2.5 times as fast.
+/// fade 2.5 times as fast. Steps become shorter by this factor: once the costs that shape fibres have faded, nothing but contacts
+/// holds them, and long steps let those in contact swing into others again.
 constexpr double fewOverlaps = 0.05;
+constexpr double settlingStep = 0.6;
 
 /// Fewer control points suffice until then, or until the costs that shape fibres have faded to this. With 0.001, some fibres that
 /// cross at 25° stayed overlapping, since too little of these costs was left to lay out all control points.
@@ -142,9 +144,8 @@ ConvergenceRow Descent::sumUp(const std::vector<std::string>& told, Moment& mome
   return row;
 }
 
-void Descent::step(bool isRising)
+void Descent::step()
 {
-  this->Momentum = isRising && this->OverlappingShare < fewOverlaps ? 0.0 : this->Options.momentum;
   const bool momentum = this->Options.method == DescentMethod::Momentum;
   std::vector<char> exceeded(this->State.fibres.size());
   parallelForInBlocks(exceeded.size(), fibresTogether, this->Threads,
@@ -280,7 +281,7 @@ bool Descent::stepMomentum(std::size_t f)
   bool exceeded = false;
   for (std::size_t i = this->State.fibres.offsets[f]; i < this->State.fibres.offsets[f + 1]; ++i)
   {
-    this->State.push[i] = static_cast<float>(this->Options.stepSize * this->Gradient[i].norm());
+    this->State.push[i] = static_cast<float>(this->stepSize() * this->Gradient[i].norm());
     const double growth = this->Options.radiusTolerance > 0.0 ? this->changeRadiusWithMomentum(i) : 0.0;
     exceeded |= this->move(i, this->State.velocity[i], growth);
   }
@@ -294,7 +295,7 @@ void Descent::accelerate(std::size_t f)
   for (std::size_t i = begin; i < end; ++i)
   {
     Eigen::Vector3d& velocity = this->State.velocity[i];
-    velocity = this->Momentum * velocity - this->Options.stepSize * this->Gradient[i];
+    velocity = this->Options.momentum * velocity - this->stepSize() * this->Gradient[i];
     const double speed = velocity.norm();
     const double limit = largestStep * this->State.fibres.radii[i];
     if (speed > limit)
@@ -309,7 +310,7 @@ double Descent::changeRadiusWithMomentum(std::size_t i)
 {
   double& velocity = this->State.radiusVelocity[i];
   const double stiffness = this->stiffnessOfPoint(i) + 2.0 * this->Options.weights.radius;
-  velocity = this->Momentum * velocity - this->Options.stepSize / stiffness * this->RadiusGradient[i];
+  velocity = this->Options.momentum * velocity - this->stepSize() / stiffness * this->RadiusGradient[i];
   return this->changeRadius(i, velocity);
 }
 
@@ -337,6 +338,11 @@ void Descent::smoothGradient(std::size_t f)
   {
     this->Gradient[i - 1] -= upper[i - 1 - begin] * this->Gradient[i];
   }
+}
+
+double Descent::stepSize() const
+{
+  return (this->OverlappingShare < fewOverlaps ? settlingStep : 1.0) * this->Options.stepSize;
 }
 
 /// Never zero, so that a point that no other fibre touches stays in place.

@@ -35,10 +35,7 @@ public:
   /// seconds of the row.
   ConvergenceRow evaluate(const std::function<Moment()>& now, Moment& moment);
 
-  /// Moves the fibres by one step. `isRising`: their overlap cost is larger than before the last step; if few pairs overlap, they
-  /// then lose their momentum (an adaptive restart, O'Donoghue and Candès 2015, Found Comput Math 15:715): once the costs that
-  /// shape fibres have faded, momentum alone could drive those in contact apart and into others again.
-  void step(bool isRising = false);
+  void step();
 
   const DescentState& state() const { return this->State; }
 
@@ -72,6 +69,7 @@ private:
   double changeRadiusWithAdagrad(std::size_t i);
   void constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector3d& last) const;
   double changeRadius(std::size_t i, double change);
+  double stepSize() const;
   double stiffnessOfPoint(std::size_t i) const;
   double stiffnessOfThread(std::size_t i) const;
   bool isSound() const;
@@ -84,7 +82,6 @@ private:
   SharedCapsules Bodies;
   std::vector<double> ReferenceRadii;
   std::vector<CapsuleOverlap> Overlaps;
-  double Momentum = 0.0;         ///< share of the last step that is kept in this one
   double OverlappingShare = 1.0; ///< overlapping pairs per capsule at the last evaluation
   std::vector<Eigen::Vector3d> Gradient;
   std::vector<double> RadiusGradient;

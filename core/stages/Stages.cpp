@@ -15,6 +15,8 @@ namespace
 constexpr char threadsMeaning[] = "Number of threads; 0 uses all. Results do not depend on it.";
 
 // Properties of writers.
+constexpr char folderMeaning[] =
+  "Folder to write. Its parent folder has to exist; links are followed and kept. It cannot be the folder that ParaView runs in.";
 const std::vector<std::string> formats(std::begin(formatNames), std::end(formatNames));
 constexpr char formatMeaning[] =
   "Simulator that will read the folder. Reference program: the folder that dmipy-sim loads; Substrate Writer needs Inner and "
@@ -252,9 +254,7 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
   using Stage = SubstrateWriterStage;
   static const auto list =
     PropertyList<Stage>()
-      .add("FolderName", &Stage::folderName,
-        "Folder to write. Its parent folder has to exist; links are followed and kept. It cannot be the folder that ParaView "
-        "runs in.")
+      .add("FolderName", &Stage::folderName, folderMeaning)
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
@@ -294,9 +294,7 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .at("Seed")
       .means("Seed of the random calibre that SurfaceRoughness gives the fibres, of their g-ratios if GRatioModel is "
              "Distributed, and of the sample if SampledFraction is below 1.")
-      .add("FolderName", &Stage::folderName,
-        "Folder to write. Its parent folder has to exist; links are followed and kept. It cannot be the folder that ParaView "
-        "runs in.")
+      .add("FolderName", &Stage::folderName, folderMeaning)
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)

@@ -88,12 +88,12 @@ TEST(StoredBits, DefaultChain)
   Fibres fibres = initial;
   optimise(fibres, CapsuleOptimizerOptions{}, {});
   fibres = trimToDomain(fibres);
-  EXPECT_EQ(digest(fibres), "7b46b2948254eb099cf18e1f1e8170a074861315e9c38051939dfe711cfb794e");
+  EXPECT_EQ(digest(fibres), "7c2acbb23ccdb02b4673ff3057b4921b0f7171236a3142a10cf4c2efd0863711");
 
   const FibreRadialGrowthOptions growth;
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
   const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth).growth, growthGrid(fibres.domain, growth));
-  EXPECT_EQ(digest(image), "4c704233c0d760f561a6d6ce73f3296856b7d7195a519a46a3861c47cb4bfaf4");
+  EXPECT_EQ(digest(image), "14b7050cdb823fef885868a979b478007a2e4c507379044a7646b8dc8e8a7eec");
 
   const LabelImageFacts facts = labelImageFacts(fibres, growth);
   const auto surfaces = myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, {});
@@ -105,12 +105,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "d1274c4b10f27dba0712dfdd80d31f92007636f9da6ac3f2bd03635cd24024e2",
-           "2c976301f24363a83df6e6eed702472130bb13cc2f0c76042a05d6583ec85ab7" },
-         Known{ 20, "307e43b08e8dda1c8b6b306df844464d71a3702e8e3cdbaea67937c4bf3c3688",
-           "f460176089b30ac7f6a1afb52e5700a37c3015d410f149dfd1f20b811ce2eafd" },
-         Known{ 38, "4e2a7effbe19dcd0dc08b16db0c9997bed302916eecbfc1ad5355c11bdebe230",
-           "70ce8162ed8dd044855e4d67de46f860d4246b56fedd3ab21a76913814108376" },
+         Known{ 1, "d324e18763b81996b4b8bd88b07099cc5139c7d36d7cdaf85ac741e2d4ec4819",
+           "5513e92e8d2e30360ac1b6efed676e0ac068cfdf2ceeb6d444f681d9db502a75" },
+         Known{ 20, "8db1af8c7c7561b8426afa55c2a3904f9936ae3c2ac2338700b7ca4d33543914",
+           "62ad7ac3ba410f17711a80cb0ebd512c4c531dded9fa4c9fc817b6d1fdcbb83b" },
+         Known{ 38, "b26053456983f69fb4966751afb91b9b72a3545ad00b84abffd42b29af176836",
+           "5db4cae763419b0ce543c12dc187021d680a4a284d64137259d7050a943dcdee" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

@@ -258,7 +258,7 @@ TEST(BundleInitializer, FibresThatFollowAFlowAreAsDenseAmidAsAtTheFaces)
   DrawnRadii options;
   options.side = 80.0;
   options.meanDispersion = 12.0;
-  options.minimumSpacing = options.maximumSpacing = 40.0;
+  options.spacing.minimum = options.spacing.maximum = 40.0;
   for (const std::uint64_t seed : { 1, 2 })
   {
     options.seed = seed;
@@ -333,7 +333,7 @@ TEST(BundleInitializer, ADomainCutFromTheMiddleHasNoBorder)
   options.side = 40.0;
   options.meanDispersion = 25.0;
   options.dispersionModel = DispersionModel::Watson;
-  options.minimumSpacing = options.maximumSpacing = 40.0;
+  options.spacing.minimum = options.spacing.maximum = 40.0;
   const auto ratio = [](const std::vector<double>& densities)
   { return *std::max_element(densities.begin(), densities.end()) / *std::min_element(densities.begin(), densities.end()); };
   // Fibres that start and end within the faces of a wider bundle crowd in the middle of it.
@@ -423,8 +423,8 @@ TEST(BundleInitializer, SameSeedSameBitsOnAnyNumberOfThreads)
 {
   DrawnRadii options;
   options.side = 130.0; // more circles than the relaxation treats serially
-  options.minimumSpacing = options.maximumSpacing = 65.0;
-  options.spacingFactor = 100.0;
+  options.spacing.minimum = options.spacing.maximum = 65.0;
+  options.spacing.factor = 100.0;
   Context context;
   context.threads = 1;
   const Fibres one = initialiseBundles(options, context);
@@ -497,9 +497,9 @@ TEST(BundleInitializer, BadParametersAreNamed)
     names("FibreVolumeFraction", [&](auto& o) { o.fibreVolumeFraction = bad; });
     names("GammaScale", [&](auto& o) { o.radius.gammaScale = bad; });
     sheets("CrossingAngle", [&](auto& o) { o.crossingAngle = bad; });
-    names("SpacingFactor", [&](auto& o) { o.spacingFactor = bad; });
-    names("MinimumSpacing", [&](auto& o) { o.minimumSpacing = bad; });
-    names("MaximumSpacing", [&](auto& o) { o.maximumSpacing = bad; });
+    names("SpacingFactor", [&](auto& o) { o.spacing.factor = bad; });
+    names("MinimumSpacing", [&](auto& o) { o.spacing.minimum = bad; });
+    names("MaximumSpacing", [&](auto& o) { o.spacing.maximum = bad; });
   }
   names("FibreVolumeFraction", [](auto& o) { o.fibreVolumeFraction = 1.0; });
   names("MeanDispersion", [](auto& o) { o.meanDispersion = -1.0; });
@@ -548,8 +548,8 @@ TEST(BundleInitializer, BadParametersAreNamed)
     names("GammaScale is", [&](auto& o) { o.radius.gammaScale = large; });
     names("CorrelationLength is", [&](auto& o) { o.correlationLength = large; });
     sheets("SheetThickness is", [&](auto& o) { o.sheetThickness = large; });
-    names("SpacingFactor is", [&](auto& o) { o.spacingFactor = large; });
-    names("MaximumSpacing is", [&](auto& o) { o.maximumSpacing = large; });
+    names("SpacingFactor is", [&](auto& o) { o.spacing.factor = large; });
+    names("MaximumSpacing is", [&](auto& o) { o.spacing.maximum = large; });
   }
   for (const double small : { 1e-300, 1e-6 })
   {
@@ -561,7 +561,7 @@ TEST(BundleInitializer, BadParametersAreNamed)
     names("CorrelationLength is", [&](auto& o) { o.correlationLength = small; });
     sheets("CrossingAngle is", [&](auto& o) { o.crossingAngle = small; });
     sheets("SheetThickness is", [&](auto& o) { o.sheetThickness = small; });
-    names("MinimumSpacing is", [&](auto& o) { o.minimumSpacing = small; });
+    names("MinimumSpacing is", [&](auto& o) { o.spacing.minimum = small; });
   }
   names("MinimumRadius 0.001 µm makes capsules",
     [](auto& o)

@@ -170,8 +170,8 @@ TEST(TractFibres, RoundsOffWhatABundleCannotFollow)
 {
   TractFibresOptions options = optionsOf(30.0);
   options.bundleDiameter = 8.0;
-  options.minimumSpacing = 0.2;
-  options.maximumSpacing = 0.2;
+  options.spacing.minimum = 0.2;
+  options.spacing.maximum = 0.2;
   TractFibresReport report;
   const Fibres fibres = layTractFibres(rightAngle(100.0), options, {}, &report);
   EXPECT_GT(report.smoothing, 1.0);

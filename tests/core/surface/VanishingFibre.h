@@ -20,9 +20,9 @@ inline cactus::Fibres fibresOfWhichOneGoes()
   bundle.radius.model = cactus::RadiusModel::Lognormal;
   bundle.radius.minimum = 0.113802;
   bundle.radius.maximum = 0.113802;
-  bundle.spacingFactor = 2.77719;
-  bundle.minimumSpacing = 0.23601;
-  bundle.maximumSpacing = 0.7139;
+  bundle.spacing.factor = 2.77719;
+  bundle.spacing.minimum = 0.23601;
+  bundle.spacing.maximum = 0.7139;
   bundle.meanDispersion = 0.0;
   return trimToDomain(initialiseBundles(bundle));
 }
