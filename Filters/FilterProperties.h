@@ -26,11 +26,13 @@ public:
   virtual bool changeWhole(const char* name, int value) = 0; ///< also a choice
   virtual bool changeSwitch(const char* name, bool value) = 0;
   virtual bool changeText(const char* name, const char* value) = 0;
+  virtual bool changeVector(const char* name, const double value[3]) = 0;
   virtual double number(const char* name) const = 0;
   virtual int whole(const char* name) const = 0;
   virtual bool isOn(const char* name) const = 0;
   /// Returns null for an empty text, as in VTK; valid until the next call for the same name.
   virtual const char* text(const char* name) const = 0;
+  virtual void getVector(const char* name, double value[3]) const = 0;
   /// Prints all of them, a line each.
   virtual void print(std::ostream& out, vtkIndent indent) const = 0;
 };
@@ -117,4 +119,22 @@ public:
   virtual VTK_FILEPATH const char* Get##name()                                                                                   \
   {                                                                                                                              \
     return this->Properties->text(#name);                                                                                        \
+  }
+
+#define CACTUS_VECTOR_PROPERTY(name)                                                                                             \
+  virtual void Set##name(double x, double y, double z)                                                                           \
+  {                                                                                                                              \
+    const double value[3] = { x, y, z };                                                                                         \
+    if (this->Properties->changeVector(#name, value))                                                                            \
+    {                                                                                                                            \
+      this->Modified();                                                                                                          \
+    }                                                                                                                            \
+  }                                                                                                                              \
+  void Set##name(const double value[3])                                                                                          \
+  {                                                                                                                              \
+    this->Set##name(value[0], value[1], value[2]);                                                                               \
+  }                                                                                                                              \
+  virtual void Get##name(double value[3])                                                                                        \
+  {                                                                                                                              \
+    this->Properties->getVector(#name, value);                                                                                   \
   }

@@ -5,7 +5,7 @@
 #include "FibreData.h"
 #include "InputBlocks.h"
 #include "base/Error.h"
-#include "judge/SphericalHarmonics.h"
+#include "base/SphericalHarmonics.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>

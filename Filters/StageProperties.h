@@ -5,6 +5,7 @@
 #include "FilterProperties.h"
 #include "base/Properties.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cactus
 {
@@ -27,6 +29,10 @@ public:
   {
     return this->change(name, std::string(value != nullptr ? value : ""));
   }
+  bool changeVector(const char* name, const double value[3]) override
+  {
+    return this->change(name, std::vector<double>(value, value + 3));
+  }
   double number(const char* name) const override { return std::get<double>(this->value(name)); }
   int whole(const char* name) const override { return static_cast<int>(std::get<std::int64_t>(this->value(name))); }
   bool isOn(const char* name) const override { return std::get<bool>(this->value(name)); }
@@ -35,6 +41,11 @@ public:
     std::string& shown = this->Shown[name];
     shown = std::get<std::string>(this->value(name));
     return shown.empty() ? nullptr : shown.c_str();
+  }
+  void getVector(const char* name, double value[3]) const override
+  {
+    const auto vector = std::get<std::vector<double>>(this->value(name));
+    std::copy_n(vector.begin(), 3, value);
   }
   void print(std::ostream& out, vtkIndent indent) const override
   {

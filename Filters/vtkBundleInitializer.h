@@ -4,7 +4,7 @@
  * @brief Makes one bundle of fibres, or two crossing ones, with chosen radii, density and dispersion.
  *
  * Output: one polyline per fibre with point data `Radius` (µm), cell data `FibreId`, `BundleId`, `TargetRadius` and field data
- * `Domain` and `Provenance`. The fibres' circles do not overlap on either end face of their bundle; between the faces fibres may
+ * `Domain` and `Provenance`. The fibres' circles do not overlap on the plane where they were packed; elsewhere fibres may
  * overlap, and vtkCapsuleOptimizer parts them. The method and its guarantees are documented in cactus::initialiseBundles. A
  * density or dispersion that cannot be reached gives one error with the value that was reached, and no output.
  *
@@ -40,7 +40,13 @@ public:
   {
     WATSON = 0,
     CONE = 1,
-    COHERENT = 2
+    COHERENT = 2,
+    HARMONICS = 3
+  };
+  enum Mixings
+  {
+    INTERPENETRATING = 0,
+    LAYERS = 1
   };
   enum CrossingStyles
   {
@@ -49,6 +55,7 @@ public:
   };
 
   CACTUS_NUMBER_PROPERTY(Side)
+  CACTUS_NUMBER_PROPERTY(Length)
   CACTUS_NUMBER_PROPERTY(FibreVolumeFraction)
   CACTUS_NUMBER_PROPERTY(GrownFibreVolumeFraction)
   CACTUS_WHOLE_PROPERTY(RadiusDistribution)
@@ -67,12 +74,17 @@ public:
   CACTUS_NUMBER_PROPERTY(MaximumRadius)
   CACTUS_WHOLE_PROPERTY(Border)
   CACTUS_NUMBER_PROPERTY(MeanDispersion)
+  CACTUS_NUMBER_PROPERTY(WatsonKappa)
+  CACTUS_NUMBER_PROPERTY(ODI)
   CACTUS_WHOLE_PROPERTY(DispersionModel)
+  CACTUS_TEXT_PROPERTY(OrientationHarmonics)
   CACTUS_NUMBER_PROPERTY(CorrelationLength)
   CACTUS_NUMBER_PROPERTY(Sinuosity)
   CACTUS_NUMBER_PROPERTY(UndulationWavelength)
   CACTUS_WHOLE_PROPERTY(NumberOfBundles)
+  CACTUS_VECTOR_PROPERTY(Direction)
   CACTUS_NUMBER_PROPERTY(CrossingAngle)
+  CACTUS_WHOLE_PROPERTY(Mixing)
   CACTUS_WHOLE_PROPERTY(CrossingStyle)
   CACTUS_NUMBER_PROPERTY(SheetThickness)
   CACTUS_NUMBER_PROPERTY(Margin)

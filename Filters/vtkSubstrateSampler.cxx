@@ -10,7 +10,7 @@
 #include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Error.h"
-#include "judge/SphericalHarmonics.h"
+#include "base/SphericalHarmonics.h"
 #include "judge/SubstrateSampler.h"
 #include "stages/Stages.h"
 

@@ -41,7 +41,8 @@ std::string numberText(double value)
 /// What ParaView calls the type of a property.
 std::string typeName(const PropertyValue& value)
 {
-  return std::holds_alternative<double>(value) ? "Double" : std::holds_alternative<std::string>(value) ? "String" : "Int";
+  const bool isReal = std::holds_alternative<double>(value) || std::holds_alternative<std::vector<double>>(value);
+  return isReal ? "Double" : std::holds_alternative<std::string>(value) ? "String" : "Int";
 }
 
 std::string defaultText(const PropertyValue& value)
@@ -53,6 +54,15 @@ std::string defaultText(const PropertyValue& value)
   if (const auto* whole = std::get_if<std::int64_t>(&value))
   {
     return std::to_string(*whole);
+  }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+  {
+    std::string all;
+    for (const double number : *numbers)
+    {
+      all += (all.empty() ? "" : " ") + numberText(number);
+    }
+    return all;
   }
   const auto* number = std::get_if<double>(&value);
   return number != nullptr ? numberText(*number) : escaped(std::get<std::string>(value));
@@ -142,9 +152,11 @@ std::string element(const PropertyState& state, const StageDescription& stage, s
     children.insert(children.find(hints) + hints.size(), shown);
   }
   const std::string tag = typeName(state.value) + "VectorProperty";
-  return "<" + tag + " name=\"" + facts.name + "\" command=\"Set" + facts.name + "\" number_of_elements=\"1\" default_values=\"" +
-         defaultText(state.value) + "\"" + attributes + ">" + domains(state, asked != std::string::npos) + "<Documentation>" +
-         escaped(facts.meaning) + "</Documentation>" + children + "</" + tag + ">";
+  const auto* numbers = std::get_if<std::vector<double>>(&state.value);
+  return "<" + tag + " name=\"" + facts.name + "\" command=\"Set" + facts.name + "\" number_of_elements=\"" +
+         std::to_string(numbers != nullptr ? numbers->size() : 1) + "\" default_values=\"" + defaultText(state.value) + "\"" +
+         attributes + ">" + domains(state, asked != std::string::npos) + "<Documentation>" + escaped(facts.meaning) +
+         "</Documentation>" + children + "</" + tag + ">";
 }
 
 /// Returns null for a class that belongs to no stage.

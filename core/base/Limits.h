@@ -64,6 +64,8 @@ inline constexpr Range coordinate{ -1e5, 1e5, " µm" };
 inline constexpr Range scannerCoordinate{ -1e6, 1e6, " mm" };
 /// The domain's size along each axis.
 inline constexpr Range side{ 0.1, 1e5, " µm" };
+/// The same, where 0 stands for a cube.
+inline constexpr Range length{ side.lowest, side.highest, " µm", 0.0 };
 /// FibreId and BundleId, whole numbers.
 inline constexpr Range id{ 1.0, 2147483647.0 };
 /// The largest number of control points: they are counted in 32 bits, of which the neighbour search needs one.
@@ -104,6 +106,8 @@ inline constexpr Range sinuosity{ 1.0, 1.3 };
 inline constexpr Range undulationWavelength{ 5.0, 200.0, " µm" };
 inline constexpr Range correlationLength{ 1e-3, 1e5, " µm", 0.0 };
 inline constexpr Range bundles{ 1.0, 2.0 };
+/// A vector shorter than this has no direction.
+inline constexpr double shortestDirection = 1e-9;
 inline constexpr Range crossingAngle{ 0.1, 90.0, "°" };
 inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", 0.0 };
 /// The margin on each side of the domain.

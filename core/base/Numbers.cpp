@@ -166,6 +166,27 @@ bool isControl(unsigned char letter)
 
 } // namespace
 
+bool takeNumbers(std::string_view& text, std::vector<double>& numbers)
+{
+  constexpr std::string_view separators = " \t\r\n\v\f,;";
+  for (;;)
+  {
+    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+    if (text.empty())
+    {
+      return true;
+    }
+    const std::string_view word = text;
+    double value = 0.0;
+    if (!takeNumber(text, value) || (!text.empty() && separators.find(text.front()) == std::string_view::npos))
+    {
+      text = word.substr(0, word.find_first_of(separators));
+      return false;
+    }
+    numbers.push_back(value);
+  }
+}
+
 std::string onOneLine(std::string text)
 {
   std::replace_if(text.begin(), text.end(), isControl, ' ');

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cactus
 {
@@ -30,6 +31,10 @@ void skipBlanks(std::string_view& text);
 /// a number too small for a double is 0. Returns false, and changes neither argument, if there is no number or if it is infinite,
 /// NaN or too large for a double.
 bool takeNumber(std::string_view& text, double& value);
+
+/// Appends the numbers of a text, separated by white space, commas or semicolons, and takes them from it. At a word that is no
+/// number it returns false and leaves that word in `text`.
+bool takeNumbers(std::string_view& text, std::vector<double>& numbers);
 
 /// Replaces control characters, such as line ends, that would move a terminal's cursor: a message may quote a user's file.
 std::string onOneLine(std::string text);

@@ -5,6 +5,8 @@
 
 #include "base/Limits.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -103,6 +105,17 @@ public:
     static_assert(
       std::is_same_v<Value, bool> || std::is_same_v<Value, std::string> || std::is_same_v<Value, std::vector<double>>);
     return this->insert<Value>({ name, meaning, {}, {}, {}, {}, {} }, member);
+  }
+
+  /// Adds a vector of three numbers, which have no range.
+  PropertyList& add(const char* name, Eigen::Vector3d Options::*member, const char* meaning)
+  {
+    this->place({ { name, meaning, {}, {}, {}, {}, {} },
+      [member](const Options& options) -> PropertyValue
+      { return std::vector<double>((options.*member).data(), (options.*member).data() + 3); },
+      [member](Options& options, const PropertyValue& value)
+      { options.*member = Eigen::Map<const Eigen::Vector3d>(std::get<std::vector<double>>(value).data()); } });
+    return *this;
   }
 
   /// Adds all properties of options that are a member of these.

@@ -3,15 +3,21 @@
 
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "base/Hash64.h"
 #include "base/Limits.h"
 #include "base/Memory.h"
 #include "bundle/BundleLayout.h"
 #include "bundle/BundlePacking.h"
+#include "bundle/LinesInSpace.h"
 #include "bundle/StationaryFlow.h"
+#include "fibres/JoinFibres.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace cactus
 {
@@ -19,8 +25,8 @@ namespace cactus
 namespace
 {
 
-/// Makes two bundles with both their faces packed to a density.
-std::vector<Bundle> packCrossing(const BundleInitializerOptions& options, double density, const Context& context)
+/// Makes two bundles in layers with both their faces packed to a density.
+std::vector<Bundle> packLayers(const BundleInitializerOptions& options, double density, const Context& context)
 {
   if (options.crossingStyle == CrossingStyle::Interwoven)
   {
@@ -67,13 +73,9 @@ Eigen::Vector2d bendOf(const Bundle& bundle, const BundleInitializerOptions& opt
 
 void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options, Fibres& fibres)
 {
-  const double sine = std::sin(bundle.angle);
-  const double cosine = std::cos(bundle.angle);
-  const auto place = [&](const Eigen::Vector2d& face, double w)
-  {
-    // Exact for an axis along z: the first and last control points lie on the domain's faces.
-    return Eigen::Vector3d(face.x() * cosine + w * sine, face.y(), w * cosine - face.x() * sine);
-  };
+  // Exact for an axis along z: between walls, the first and last control points lie on the domain's faces.
+  const auto place = [&](const Eigen::Vector2d& face, double w) -> Eigen::Vector3d
+  { return bundle.turn * Eigen::Vector3d(face.x(), face.y(), w); };
   for (std::size_t i = 0; i < bundle.bottom.size(); ++i)
   {
     const double radius = bundle.bottom.radii[i];
@@ -95,7 +97,7 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
 Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptions& options)
 {
   Fibres fibres;
-  fibres.domain = Domain::cube(options.side);
+  fibres.domain = options.domain();
   fibres.grownFraction = options.grownFibreVolumeFraction;
   for (const Bundle& bundle : bundles)
   {
@@ -104,8 +106,34 @@ Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptio
   return fibres;
 }
 
-Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+/// Throws OutOfMemory if the fibres would not fit into memory.
+void requireMemoryFor(const BundleInitializerOptions& options)
 {
+  const Eigen::Vector3d region = regionSize(options);
+  const double turned = options.isLayered() ? std::sqrt(2.0) : 1.0;
+  const double fibreCount = options.fibreVolumeFraction * region.x() * region.y() * turned / meanCircleArea(options.radius);
+  const double points = fibreCount * (2.0 + region.z() * turned / options.spacing.minimum);
+  TextStream what;
+  what.precision(3);
+  what << "Side " << options.side << " µm with " << fibreCount << " fibres";
+  requireMemory(fibreCount * 600.0 + points * 160.0, what.str(), "choose a smaller Side, a smaller Margin or larger radii");
+}
+
+/// Returns the options with a seed of their own for each direction but z.
+BundleInitializerOptions withOwnSeed(BundleInitializerOptions options)
+{
+  const Eigen::Vector3d axis = options.turn().col(2);
+  if (axis != Eigen::Vector3d::UnitZ())
+  {
+    options.seed = hash64(axis.data(), sizeof(axis), options.seed);
+  }
+  return options;
+}
+
+Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& context, BundleInitializerReport& report)
+{
+  requireMemoryFor(asked);
+  const BundleInitializerOptions options = withOwnSeed(asked);
   std::optional<StationaryFlow> flow;
   if (isStationary(options))
   {
@@ -158,11 +186,12 @@ Fibres initialiseSingle(const BundleInitializerOptions& options, const Context& 
   return std::move(*best);
 }
 
-/// Makes crossing bundles whose capsules fill the requested fraction of the domain. Their faces lie outside the domain, and
-/// dispersed fibres that start and end within the faces crowd between them. So the density of the faces is a little lower; it is
-/// found by iteration, scaled each time by the requested over the reached fraction.
-Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+/// Makes crossing bundles in layers whose capsules fill the requested fraction of the domain. Their faces lie outside the domain,
+/// and dispersed fibres that start and end within the faces crowd between them. So the density of the faces is a little lower; it
+/// is found by iteration, scaled each time by the requested over the reached fraction.
+Fibres initialiseLayers(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
 {
+  requireMemoryFor(options);
   const double asked = options.fibreVolumeFraction;
   const double tilt = options.meanDispersion * degree;
   double density = asked * std::cos(tilt) * (1.0 - 0.5 * std::tan(tilt));
@@ -174,7 +203,7 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
     std::vector<Bundle> bundles;
     try
     {
-      bundles = packCrossing(options, density, context.part(0.5 * round / rounds, 0.5 * (round + 1) / rounds));
+      bundles = packLayers(options, density, context.part(0.5 * round / rounds, 0.5 * (round + 1) / rounds));
     }
     catch (const Infeasible&)
     {
@@ -215,17 +244,56 @@ Fibres initialiseCrossing(const BundleInitializerOptions& options, const Context
   return std::move(*best);
 }
 
-/// Throws OutOfMemory if the fibres would not fit into memory.
-void requireMemoryFor(const BundleInitializerOptions& options)
+Fibres initialiseByHarmonics(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
 {
-  const double side = regionSide(options);
-  const double turned = options.numberOfBundles == 2 ? std::sqrt(2.0) : 1.0;
-  const double fibreCount = options.fibreVolumeFraction * side * side * turned / meanCircleArea(options.radius);
-  const double points = fibreCount * (2.0 + side * turned / options.spacing.minimum);
-  TextStream what;
-  what.precision(3);
-  what << "Side " << options.side << " µm with " << fibreCount << " fibres";
-  requireMemory(fibreCount * 600.0 + points * 160.0, what.str(), "choose a smaller Side, a smaller Margin or larger radii");
+  requireMemoryFor(options);
+  Fibres fibres = layLinesInSpace(options, context);
+  report.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+  report.meanDispersion = meanDispersion(fibres);
+  return fibres;
+}
+
+/// Makes two crossing bundles, each in the whole domain with half of the fractions.
+Fibres initialiseInterpenetrating(
+  const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+{
+  std::vector<Fibres> bundles;
+  const double half = 0.5 * options.crossingAngle * degree;
+  double angles = 0.0;
+  double sinuosities = 0.0;
+  for (const double tilt : { half, -half })
+  {
+    BundleInitializerOptions one = options;
+    one.numberOfBundles = 1;
+    one.direction = Eigen::Vector3d(std::sin(tilt), 0.0, std::cos(tilt));
+    one.fibreVolumeFraction *= 0.5;
+    one.grownFibreVolumeFraction *= 0.5;
+    BundleInitializerReport reached;
+    const double begin = 0.5 * static_cast<double>(bundles.size());
+    bundles.push_back(initialiseSingle(one, context.part(begin, begin + 0.5), reached));
+    const auto count = static_cast<double>(bundles.back().size());
+    angles += reached.meanDispersion * count;
+    sinuosities += reached.sinuosity * count;
+    report.fibreVolumeFraction += reached.fibreVolumeFraction;
+  }
+  Fibres fibres = joinFibres(std::move(bundles));
+  report.meanDispersion = angles / static_cast<double>(fibres.size());
+  report.sinuosity = sinuosities / static_cast<double>(fibres.size());
+  return fibres;
+}
+
+Fibres initialiseAny(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+{
+  if (options.dispersionModel == DispersionModel::Harmonics)
+  {
+    return initialiseByHarmonics(options, context, report);
+  }
+  if (options.isLayered())
+  {
+    return initialiseLayers(options, context, report);
+  }
+  return options.numberOfBundles == 2 ? initialiseInterpenetrating(options, context, report)
+                                      : initialiseSingle(options, context, report);
 }
 
 } // namespace
@@ -239,11 +307,9 @@ Fibres initialiseBundles(const BundleInitializerOptions& options, const Context&
   {
     thinner.radius = options.radius.scaled(thinning);
   }
-  requireMemoryFor(thinner);
   context.report(0.0, "Drawing radii");
   BundleInitializerReport reached;
-  Fibres fibres =
-    thinner.numberOfBundles == 2 ? initialiseCrossing(thinner, context, reached) : initialiseSingle(thinner, context, reached);
+  Fibres fibres = initialiseAny(thinner, context, reached);
   if (options.grownFibreVolumeFraction > 0.0)
   {
     for (double& radius : fibres.targetRadii)

@@ -16,9 +16,11 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
   using Options = BundleInitializerOptions;
   static const auto list =
     PropertyList<Options>()
-      .add("Side", &Options::side, limits::side, "Side of the cubic domain in µm. The cube is centred on the origin.")
+      .add("Side", &Options::side, limits::side,
+        "Side of the domain along x and y in µm. The domain is centred on the origin, and a cube if Length is 0.")
+      .add("Length", &Options::length, limits::length, "Length of the domain along z in µm; 0: as Side.")
       .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
-        "Fraction of the cube that the fibres fill before growth, from 0 to 1. With walls and one bundle: fraction of the end "
+        "Fraction of the domain that the fibres fill before growth, from 0 to 1. With walls and one bundle: fraction of the end "
         "faces that the fibres' circles cover. Random circles with a wide spread of radii can be packed to about 0.84. If the "
         "fraction cannot be reached, an error says which one can.")
       .add("GrownFibreVolumeFraction", &Options::grownFibreVolumeFraction, limits::fractionOrNone,
@@ -35,41 +37,53 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "Mean angle in degrees between fibres and their bundle's axis. Coherent fibres of a domain that is cut: at any place "
         "along them, without their undulation. All others: between their ends; with walls, about 35 can be reached if fibres "
         "start and end within a cube's faces, and a Margin allows more.")
-      .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent" },
+      .where("DispersionModel", { 0, 1, 2 })
+      .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent", "Harmonics" },
         "Distribution of the fibres' directions. Coherent: neighbouring fibres have similar directions and follow a smooth "
         "random flow that has the same statistics everywhere; angles to the axis have Watson's distribution. The flow preserves "
         "areas: fibres are as dense everywhere as where they were packed, and keep their directions in the optimiser. Watson "
         "(about the axis) and Cone (uniform within a cone about it): straight fibres with independent directions, as in the "
         "paper. Dense fibres then have to wind around each other, and their final tangents are more dispersed than asked for. "
-        "Two crossing bundles use Watson instead of Coherent, because their layers are too thin for a flow.")
+        "Layers of two crossing bundles use Watson instead of Coherent, because they are too thin for a flow. Harmonics: "
+        "straight "
+        "fibres with directions from any distribution (OrientationHarmonics), such as one measured in a voxel, laid evenly in "
+        "space; needs the border Cut.")
       .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
         "Lateral distance in µm over which the directions of neighbours are similar in the dispersion model Coherent. It does "
         "not depend on the domain's size. With a shorter length, or a larger dispersion, fibres wind more. 0, with the border "
         "Walls only: four times the fibres' mean shift between the faces.")
       .where("DispersionModel", { 2 })
-      .where("NumberOfBundles", { 1 })
       .add("Sinuosity", &Options::sinuosity, limits::sinuosity,
         "Mean length of the fibres over the distance of their ends, along one wavelength: they undulate together with their "
         "neighbours. 1: they do not undulate, and only their change of direction makes them longer. Axons of the corpus callosum "
         "have 1.02 to 1.03 (docs/presets.md). If directions alone make fibres more sinuous, a warning says so.")
       .where("Border", { 0 })
       .where("DispersionModel", { 2 })
-      .where("NumberOfBundles", { 1 })
       .add("UndulationWavelength", &Options::undulationWavelength, limits::undulationWavelength,
         "Wavelength in µm of the undulation along the fibres; single waves differ from it by 15 %.")
       .where("Border", { 0 })
       .where("DispersionModel", { 2 })
-      .where("NumberOfBundles", { 1 })
       .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
-        "One bundle along z, or two that cross in the x-z plane, symmetric about z. For more bundles or other directions, append "
-        "several sources.")
-      .advise("; append several sources for more bundles or other directions")
+        "One bundle, or two that cross in the x-z plane, symmetric about z. For more bundles, connect several sources to one "
+        "CapsuleOptimizer, each with its Direction and its share of the volume fractions.")
+      .advise("; for more bundles connect several sources, each with its Direction, to one CapsuleOptimizer")
+      .add("Direction", &Options::direction,
+        "Axis of the bundle: x, y and z of a vector of any length. A direction and its opposite are the same. Another one than "
+        "z needs the border Cut. Sources with the same Seed and other directions give bundles that are independent.")
+      .where("NumberOfBundles", { 1 })
+      .where("DispersionModel", { 0, 1, 2 })
       .add(
         "CrossingAngle", &Options::crossingAngle, limits::crossingAngle, "Angle in degrees between the axes of the two bundles.")
       .where("NumberOfBundles", { 2 })
+      .add("Mixing", &Options::mixing, { "Interpenetrating", "Layers" },
+        "How two bundles share the space. Interpenetrating: each fills the whole domain, and CapsuleOptimizer bends their fibres "
+        "around each other, as in the paper. Layers: each has layers of its own, as always with the border Walls. Straight "
+        "fibres then never meet those of the other bundle, but hardly leave the plane of their layer.")
+      .where("Border", { 0 })
+      .where("NumberOfBundles", { 2 })
       .add("CrossingStyle", &Options::crossingStyle, { "Interwoven", "Sheets" },
-        "How two bundles share the space: in thin layers of random thickness, one or two fibres thick (Interwoven), or in a few "
-        "thick sheets (Sheets). Layers alternate along y. Fibres stay in their layer.")
+        "The layers of two bundles: thin ones of random thickness, one or two fibres thick (Interwoven), or a few thick sheets "
+        "(Sheets). They alternate along y. Fibres stay in their layer. It counts where bundles lie in layers (see Mixing).")
       .where("NumberOfBundles", { 2 })
       .add("SheetThickness", &Options::sheetThickness, limits::sheetThickness,
         "Minimum thickness in µm of each layer of the crossing style Sheets. A whole number of layers fills the height. 0: a "
@@ -77,7 +91,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .where("CrossingStyle", { 1 })
       .where("NumberOfBundles", { 2 })
       .add("Margin", &Options::margin, limits::bundleMarginOrAsNeeded,
-        "Width in µm by which fibres extend beyond each lateral side of the domain; with two bundles beyond all sides. -1: as "
+        "Width in µm by which fibres extend beyond each lateral side of the domain; with layers beyond all sides. -1: as "
         "wide as the fibres' slants ask with the border Cut, and 0 with Walls.")
       .include(&Options::spacing, ControlPointSpacing::properties())
       .add("Seed", &Options::seed, limits::seed,
@@ -100,6 +114,25 @@ void BundleInitializerOptions::validate() const
       text("MinimumRadius ", radius.minimum, " µm makes capsules of less than ", limits::radius.lowest, " µm where they fill ",
         fibreVolumeFraction, " to be grown to ", grownFibreVolumeFraction, ": enlarge MinimumRadius or FibreVolumeFraction"));
   }
+  if (dispersionModel == DispersionModel::Harmonics && (!isCutOut() || numberOfBundles != 1))
+  {
+    throw InvalidInput(isCutOut()
+                         ? "NumberOfBundles is 2: give 1 with DispersionModel Harmonics, which has the directions of all fibres"
+                         : "DispersionModel Harmonics needs Border Cut: walls bound bundles along z");
+  }
+  if (numberOfBundles == 1 && dispersionModel != DispersionModel::Harmonics)
+  {
+    const double norm = direction.norm();
+    if (!std::isfinite(norm) || norm < limits::shortestDirection)
+    {
+      throw InvalidInput(
+        "Direction is " + text(direction.x(), ' ', direction.y(), ' ', direction.z()) + ": give a vector, of any length but 0");
+    }
+    if (!isCutOut() && (direction.x() != 0.0 || direction.y() != 0.0))
+    {
+      throw InvalidInput("Direction is not along z: use Border Cut, since walls bound bundles along z");
+    }
+  }
   if (isStationary(*this) && correlationLength == 0.0)
   {
     throw InvalidInput("CorrelationLength is 0: give a length in µm (8 by default); 0 is for Border Walls");
@@ -112,15 +145,59 @@ double BundleInitializerOptions::thinning() const
   return grownFibreVolumeFraction > 0.0 ? std::sqrt(fibreVolumeFraction / grownFibreVolumeFraction) : 1.0;
 }
 
+Domain BundleInitializerOptions::domain() const
+{
+  const double along = length > 0.0 ? length : side;
+  Domain box;
+  box.upper = Eigen::Vector3d(0.5 * side, 0.5 * side, 0.5 * along);
+  box.lower = -box.upper;
+  return box;
+}
+
+Eigen::Matrix3d turnTo(const Eigen::Vector3d& direction)
+{
+  if (direction.x() == 0.0 && direction.y() == 0.0)
+  {
+    return Eigen::Matrix3d::Identity();
+  }
+  Eigen::Vector3d axis = direction.normalized();
+  const Eigen::Index last = axis.z() != 0.0 ? 2 : axis.y() != 0.0 ? 1 : 0;
+  axis = (axis[last] < 0.0 ? -axis : axis).array() + 0.0; // no zero is negative, so that equal axes have equal bits
+  const double x = axis.x();
+  const double y = axis.y();
+  const double z = axis.z();
+  Eigen::Matrix3d turn;                                   // the smallest rotation of z to the axis
+  turn << 1.0 - x * x / (1.0 + z), -x * y / (1.0 + z), x, //
+    -x * y / (1.0 + z), 1.0 - y * y / (1.0 + z), y,       //
+    -x, -y, z;
+  return turn;
+}
+
+Eigen::Matrix3d BundleInitializerOptions::turn() const
+{
+  const bool hasDirection = numberOfBundles == 1 && dispersionModel != DispersionModel::Harmonics;
+  return hasDirection ? turnTo(direction) : Eigen::Matrix3d::Identity();
+}
+
+Eigen::Vector3d BundleInitializerOptions::extent() const
+{
+  return this->turn().transpose().cwiseAbs() * this->domain().size();
+}
+
 Surroundings surroundings(const BundleInitializerOptions& options)
 {
+  if (options.dispersionModel == DispersionModel::Harmonics)
+  {
+    constexpr double around = 4.0; // µm, for fibres of all directions that part
+    return { options.margin < 0.0 ? around : options.margin, 0.0 };
+  }
   if (!options.isCutOut())
   {
     return { std::max(options.margin, 0.0), 0.0 };
   }
   constexpr double packed = 2.0;   // µm, within which a wall orders the packing
   constexpr double steepest = 2.0; // times the mean angle, which hardly any fibres exceed
-  const double half = 0.5 * options.side + packed;
+  const double half = 0.5 * options.extent().z() + packed;
   double shift = half * std::tan(std::min(steepest * options.meanDispersion, 60.0) * degree);
   if (isStationary(options))
   {
@@ -134,7 +211,7 @@ Surroundings surroundings(const BundleInitializerOptions& options)
 
 bool isCoherent(const BundleInitializerOptions& options)
 {
-  return options.dispersionModel == DispersionModel::Coherent && options.numberOfBundles == 1;
+  return options.dispersionModel == DispersionModel::Coherent && !options.isLayered();
 }
 
 bool isStationary(const BundleInitializerOptions& options)

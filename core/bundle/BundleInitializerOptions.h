@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Domain.h"
 #include "base/Properties.h"
 #include "bundle/ControlPointSpacing.h"
 #include "bundle/DirectionDistribution.h"
 #include "bundle/RadiusDistribution.h"
 
+#include <Eigen/Core>
+
 #include <cstdint>
+#include <vector>
 
 namespace cactus
 {
 
-/// How two crossing bundles share the space. In both styles a fibre stays within its layer from end to end, so straight fibres of
-/// different bundles never meet.
+/// How two crossing bundles share the space.
+enum class Mixing
+{
+  Interpenetrating, ///< each fills the whole domain; where their fibres meet, the optimiser bends them around each other
+  Layers            ///< each has layers of its own
+};
+
+/// The layers of two crossing bundles. A fibre stays within its layer from end to end, so straight fibres of different bundles
+/// never meet.
 enum class CrossingStyle
 {
   Interwoven, ///< thin layers of random thickness, one or two fibres thick, alternating in y
@@ -29,7 +40,8 @@ enum class Border
 /// Options of initialiseBundles(). Lengths in µm, angles in degrees.
 struct BundleInitializerOptions
 {
-  double side = 30.0; ///< side of the cubic domain [-side/2, side/2]³
+  double side = 30.0;  ///< of the domain along x and y
+  double length = 0.0; ///< of the domain along z; 0: side
   /// In (0, 1). Volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain; one bundle between
   /// walls: area of the circles on the end faces over the area of the faces.
   double fibreVolumeFraction = 0.7;
@@ -42,17 +54,23 @@ struct BundleInitializerOptions
   /// Mean angle between fibres and the bundle's axis, in [0, 45]. Where fibres follow a stationary flow, it is that of their
   /// directions at any place, without undulation; otherwise that of their directions from end to end.
   double meanDispersion = 5.0;
-  /// With Coherent, fibres follow a flow; with the others they are straight. Coherent is for one bundle: the layers of two
-  /// crossing bundles are too thin for a flow, so their fibres are drawn as with Watson.
+  /// With Coherent, fibres follow a flow; with the others they are straight. Layers of two crossing bundles are too thin for a
+  /// flow, so that their fibres are drawn as with Watson.
   DispersionModel dispersionModel = DispersionModel::Coherent;
+  /// With DispersionModel::Harmonics, coefficients of the distribution of directions, see OrientationDistribution. Needs
+  /// Border::Cut and one bundle.
+  std::vector<double> harmonics;
   /// Lateral distance over which the directions of DispersionModel::Coherent are alike (see StationaryFlow). Between walls it may
   /// be 0: four times the mean shift of the fibres from face to face, at least a 32nd of the face (see CoherentFlow).
   double correlationLength = 8.0;
   /// Mean length of fibres over the distance of their ends along one wavelength, with a stationary flow; 1: no undulation.
   double sinuosity = 1.03;
   double undulationWavelength = 25.0; ///< µm, along the fibres
-  int numberOfBundles = 1;            ///< 1 or 2
-  double crossingAngle = 90.0;        ///< between the axes of two bundles, in (0, 90]
+  /// Axis of a single bundle, of any length. Another one than ±z needs Border::Cut.
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  int numberOfBundles = 1;                  ///< 1 or 2
+  double crossingAngle = 90.0;              ///< between the axes of two bundles, in (0, 90]
+  Mixing mixing = Mixing::Interpenetrating; ///< with Border::Cut; between walls bundles have layers
   CrossingStyle crossingStyle = CrossingStyle::Interwoven;
   /// Least thickness of each layer of CrossingStyle::Sheets; 0: a sixth of the region's height, or the need of the largest
   /// radius.
@@ -68,14 +86,25 @@ struct BundleInitializerOptions
   /// Throws InvalidInput, naming the property, unless every value that has an effect is within its range.
   void validate() const;
   bool isCutOut() const { return this->border == Border::Cut; }
+  /// Tells whether two bundles have layers of their own.
+  bool isLayered() const { return this->numberOfBundles == 2 && (this->mixing == Mixing::Layers || !this->isCutOut()); }
+  /// Returns the box around the origin in which the fibres are asked for.
+  Domain domain() const;
+  /// Returns the rotation of a single bundle from z to its direction, see turnTo().
+  Eigen::Matrix3d turn() const;
+  /// Returns the size of the box along the axes of a single bundle that just holds the domain.
+  Eigen::Vector3d extent() const;
   /// Returns the radius of the capsules over the sampled target radius.
   double thinning() const;
 };
 
+/// Returns the smallest rotation that turns z to a direction (of any length) or the opposite one: the same for both.
+Eigen::Matrix3d turnTo(const Eigen::Vector3d& direction);
+
 /// How far the fibres extend beyond the domain, in µm.
 struct Surroundings
 {
-  double sides = 0.0; ///< beyond each lateral face; with two bundles beyond all faces
+  double sides = 0.0; ///< beyond each lateral face; with layers and with DispersionModel::Harmonics beyond all faces
   double ends = 0.0;  ///< beyond the faces that the fibres of a single bundle run to
 };
 
@@ -83,7 +112,7 @@ struct Surroundings
 /// far as fibres get sideways in half its length, and beside its walls, where circles lie in rows.
 Surroundings surroundings(const BundleInitializerOptions& options);
 
-/// Tells whether fibres follow a flow: the layers of two crossing bundles are too thin for one.
+/// Tells whether fibres follow a flow: layers of two crossing bundles are too thin for one.
 bool isCoherent(const BundleInitializerOptions& options);
 
 /// Tells whether that flow is a stationary one, which does not end at the domain's faces.

@@ -39,24 +39,32 @@ void requireFit(const Circles& circles, const char* property)
 std::vector<Bundle> crossingBundles(const BundleInitializerOptions& options, double density)
 {
   const double half = 0.5 * options.crossingAngle * degree;
+  const Eigen::Vector3d region = regionSize(options);
+  const double square = std::min(region.x(), region.z());
   std::vector<Bundle> bundles(2);
   for (int b = 0; b < 2; ++b)
   {
-    bundles[static_cast<std::size_t>(b)].id = b + 1;
-    bundles[static_cast<std::size_t>(b)].angle = b == 0 ? half : -half;
-    bundles[static_cast<std::size_t>(b)].density = density;
-    // A square rotated by the half angle fits into a square of this side, and the bundle has this size in both directions.
-    bundles[static_cast<std::size_t>(b)].length = regionSide(options) * (std::cos(half) + std::sin(half));
+    Bundle& bundle = bundles[static_cast<std::size_t>(b)];
+    bundle.id = b + 1;
+    bundle.density = density;
+    const double cosine = std::cos(half);
+    const double sine = std::sin(half);
+    const double tilt = b == 0 ? sine : -sine;
+    bundle.turn << cosine, 0.0, tilt, 0.0, 1.0, 0.0, -tilt, 0.0, cosine;
+    // The region's rectangle rotated by the half angle fits into one of this length and width.
+    const Eigen::Vector2d rest(region.x() - square, region.z() - square);
+    bundle.length = square * (cosine + sine) + rest.x() * sine + rest.y() * cosine;
+    bundle.width = square * (cosine + sine) + rest.x() * cosine + rest.y() * sine;
   }
   return bundles;
 }
 
-/// Returns a layer of a crossing bundle, as wide as the bundle is long.
+/// Returns a layer of a crossing bundle.
 Rectangle layerFrame(const Bundle& bundle, double low, double high)
 {
   Rectangle frame;
-  frame.lower = Eigen::Vector2d(-0.5 * bundle.length, low);
-  frame.upper = Eigen::Vector2d(0.5 * bundle.length, high);
+  frame.lower = Eigen::Vector2d(-0.5 * bundle.width, low);
+  frame.upper = Eigen::Vector2d(0.5 * bundle.width, high);
   return frame;
 }
 
@@ -67,7 +75,7 @@ std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& option
 {
   Circles& circles = bundle.bottom;
   circles.frameOf.assign(circles.size(), -1);
-  const double areaPerThickness = bundle.density * bundle.length;
+  const double areaPerThickness = bundle.density * bundle.width;
   double left = 0.0;
   for (const double r : circles.radii)
   {
@@ -132,13 +140,14 @@ std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& option
 
 Bundle layOutSingle(const BundleInitializerOptions& options, double density)
 {
-  const double face = regionSide(options);
+  const Eigen::Vector3d region = regionSize(options);
   Bundle bundle;
-  bundle.length = options.side + 2.0 * surroundings(options).ends;
+  bundle.length = region.z();
+  bundle.turn = options.turn();
   bundle.density = density;
   Rectangle frame;
-  frame.lower.setConstant(-0.5 * face);
-  frame.upper.setConstant(0.5 * face);
+  frame.upper = 0.5 * region.head<2>();
+  frame.lower = -frame.upper;
   bundle.bottom.frames = { frame };
   bundle.bottom.radii = drawRadii(options.radius, options.seed, density * frame.area(), itemOf(0, bundle.id));
   bundle.bottom.frameOf.assign(bundle.bottom.radii.size(), 0);
@@ -148,7 +157,7 @@ Bundle layOutSingle(const BundleInitializerOptions& options, double density)
 
 std::vector<Bundle> layOutSheets(const BundleInitializerOptions& options, double density)
 {
-  const double height = regionSide(options);
+  const double height = regionSize(options).y();
   // By default every possible fibre has room.
   const double wanted =
     options.sheetThickness > 0.0 ? options.sheetThickness : std::max(height / 6.0, 1.05 * 2.0 * options.radius.maximum);
@@ -180,13 +189,13 @@ std::vector<Bundle> layOutSheets(const BundleInitializerOptions& options, double
 
 std::vector<Bundle> layOutInterwoven(const BundleInitializerOptions& options, double density, double thicknessInDiameters)
 {
-  const double height = regionSide(options);
+  const double height = regionSize(options).y();
   std::vector<Bundle> bundles = crossingBundles(options, density);
   double radiusSum = 0.0;
   std::size_t count = 0;
   for (Bundle& bundle : bundles)
   {
-    bundle.bottom.radii = drawRadii(options.radius, options.seed, 0.5 * density * bundle.length * height, itemOf(0, bundle.id));
+    bundle.bottom.radii = drawRadii(options.radius, options.seed, 0.5 * density * bundle.width * height, itemOf(0, bundle.id));
     radiusSum = std::accumulate(bundle.bottom.radii.begin(), bundle.bottom.radii.end(), radiusSum);
     count += bundle.bottom.size();
   }

@@ -5,6 +5,8 @@
 #include "bundle/Circles.h"
 #include "bundle/CoherentFlow.h"
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,13 +14,14 @@
 namespace cactus
 {
 
-/// One bundle before it is rotated into place: faces in (u, v) at w = ±length/2, with v along the domain's y.
+/// One bundle before it is rotated into place: faces in (u, v) at w = ±length/2.
 struct Bundle
 {
   int id = 1;
   double length = 0.0;
-  double angle = 0.0;   ///< from +z towards +x to the axis (radians)
-  double density = 0.0; ///< requested density of the circles on each face
+  double width = 0.0;                                 ///< of layers, along u
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); ///< from (u, v, w) to the domain's axes
+  double density = 0.0;                               ///< requested density of the circles on each face
   Circles bottom;
   Circles top;
   FlowPaths paths; ///< paths of the circles' centres from bottom to top, in the flow; without places if fibres are straight
@@ -30,16 +33,18 @@ inline std::uint64_t itemOf(std::size_t circle, int bundle, int attempt = 0)
   return circle + (static_cast<std::uint64_t>(bundle) << 40) + (static_cast<std::uint64_t>(attempt) << 48);
 }
 
-/// Returns the side of the cube that the fibres cover (µm).
-inline double regionSide(const BundleInitializerOptions& options)
+/// Returns the size of the box that the fibres cover (µm), along the axes of a single bundle.
+inline Eigen::Vector3d regionSize(const BundleInitializerOptions& options)
 {
-  return options.side + 2.0 * surroundings(options).sides;
+  const Surroundings around = surroundings(options);
+  const double ends = options.isLayered() ? around.sides : around.ends;
+  return options.extent() + 2.0 * Eigen::Vector3d(around.sides, around.sides, ends);
 }
 
 // The functions below return bundles with radii and, for each circle, its rectangle on the faces; nothing is placed yet. All
 // throw InvalidInput if the largest fibre has no room.
 
-/// Makes a single bundle whose circles fill `density` of each face: one square frame on each.
+/// Makes a single bundle whose circles fill `density` of each face: one frame on each.
 Bundle layOutSingle(const BundleInitializerOptions& options, double density);
 
 /// Makes two crossing bundles in alternating layers of equal thickness; each circle, largest first, goes to the layer with most

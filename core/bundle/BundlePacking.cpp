@@ -51,7 +51,7 @@ double reachableDensity(Circles circles, const Context& context)
   message << "FibreVolumeFraction " << options.fibreVolumeFraction << " cannot be reached: the circles on the " << face
           << " face of bundle " << bundle.id << " come apart only at " << reachable
           << ". Lower FibreVolumeFraction, or spread the radii more widely";
-  if (options.numberOfBundles == 2)
+  if (options.isLayered())
   {
     message << ", or use thicker layers (CrossingStyle Sheets, SheetThickness)";
   }
@@ -286,7 +286,7 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const S
       followBothWays(bundle, *flow, context);
       return;
     }
-    if (options.isCutOut() && options.numberOfBundles == 1 && options.meanDispersion > 0.0)
+    if (options.isCutOut() && !options.isLayered() && options.meanDispersion > 0.0)
     {
       placeThroughMiddle(bundle, options, attempt);
       return;

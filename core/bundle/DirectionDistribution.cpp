@@ -87,6 +87,26 @@ DirectionDistribution::DirectionDistribution(DispersionModel model, double meanA
   this->Parameter = parameterFor(model, meanAngle * pi / 180.0);
 }
 
+double watsonMeanAngle(double kappa)
+{
+  return meanWatsonAngle(kappa) / degree;
+}
+
+double watsonKappa(double meanAngle)
+{
+  return parameterFor(DispersionModel::Watson, meanAngle * degree);
+}
+
+double odiOfKappa(double kappa)
+{
+  return 2.0 / pi * std::atan2(1.0, kappa);
+}
+
+double kappaOfOdi(double odi)
+{
+  return 1.0 / std::tan(0.5 * pi * odi);
+}
+
 double distanceToWatson(std::vector<double> angles)
 {
   std::sort(angles.begin(), angles.end());

@@ -230,28 +230,6 @@ void requireShareWithinLimits(const RadiusDistributionOptions& options)
 namespace
 {
 
-/// Appends the numbers of a text. At a word that is no number it returns false and leaves `text` there.
-bool appendRadii(std::string_view& text, std::vector<double>& table)
-{
-  constexpr std::string_view separators = " \t\r\n\v\f,;";
-  for (;;)
-  {
-    text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
-    if (text.empty())
-    {
-      return true;
-    }
-    const std::string_view word = text;
-    double value = 0.0;
-    if (!takeNumber(text, value) || (!text.empty() && separators.find(text.front()) == std::string_view::npos))
-    {
-      text = word.substr(0, word.find_first_of(separators));
-      return false;
-    }
-    table.push_back(value);
-  }
-}
-
 const std::string hint = ", which is no number: list radii in µm, for example \"0.4 0.5 0.7\"";
 
 } // namespace
@@ -260,7 +238,7 @@ std::vector<double> parseRadiusTable(const std::string& text)
 {
   std::vector<double> table;
   std::string_view rest = text;
-  if (!appendRadii(rest, table))
+  if (!takeNumbers(rest, table))
   {
     throw InvalidInput("RadiusTable holds \"" + excerpt(rest) + "\"" + hint);
   }
@@ -296,7 +274,7 @@ std::vector<double> readRadiusTable(std::istream& stream, const std::string& nam
     rest.remove_prefix(3); // byte-order mark of UTF-8
   }
   std::vector<double> table;
-  if (!appendRadii(rest, table))
+  if (!takeNumbers(rest, table))
   {
     const auto line = 1 + std::count(std::as_const(text).data(), rest.data(), '\n');
     throw FileError("RadiusTableFile " + name + ", line " + std::to_string(line) + ", holds \"" + excerpt(rest) + "\"" + hint);

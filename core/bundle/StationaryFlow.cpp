@@ -53,10 +53,16 @@ constexpr double planeDistance = 1.0;
 /// Points that are carried together by a thread.
 constexpr std::size_t together = 64;
 
-/// Returns the period of the waves: the domain's side, but never so short that few waves are left.
-double periodOf(double side, double correlationLength)
+/// Returns the width of the domain across the bundle.
+double widthOf(const BundleInitializerOptions& options)
 {
-  return std::max(side, 3.0 * correlationLength);
+  return options.extent().head<2>().maxCoeff();
+}
+
+/// Returns the period of the waves: the domain's width, but never so short that few waves are left.
+double periodOf(const BundleInitializerOptions& options, double correlationLength)
+{
+  return std::max(widthOf(options), 3.0 * correlationLength);
 }
 
 /// The streams of the two parts of an attempt.
@@ -72,13 +78,14 @@ double skewnessFor(double meanAngle)
   return std::max(0.0, 0.02 * (meanAngle - 10.0));
 }
 
-std::vector<Eigen::Vector2d> gridIn(double side)
+std::vector<Eigen::Vector2d> gridIn(const BundleInitializerOptions& options)
 {
+  const Eigen::Array2d size = options.extent().head<2>();
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < gridSide * gridSide; ++i)
   {
     const Eigen::Vector2d cell(i % gridSide, i / gridSide); // NOLINT(bugprone-integer-division): row and column
-    points.emplace_back(((cell.array() + 0.5) / gridSide - 0.5) * side);
+    points.emplace_back(((cell.array() + 0.5) / gridSide - 0.5) * size);
   }
   return points;
 }
@@ -123,14 +130,14 @@ StationaryFlow::StationaryFlow(const BundleInitializerOptions& options, int atte
     {
       RandomEngine engine = streamOf(options, 0, attempt);
       const WaveField::Along along = { 0.0, std::sqrt(2.0) / (lengthAlong * options.correlationLength) };
-      return WaveField(periodOf(options.side, options.correlationLength), options.correlationLength, along, engine);
+      return WaveField(periodOf(options, options.correlationLength), options.correlationLength, along, engine);
     }() }
   , Undulation{ [&]
     {
       RandomEngine engine = streamOf(options, 1, attempt);
       const double waveNumber = 2.0 * pi / options.undulationWavelength;
       const WaveField::Along along = { waveNumber, undulationBandwidth * waveNumber };
-      return WaveField(periodOf(options.side, undulationTogether), undulationTogether, along, engine);
+      return WaveField(periodOf(options, undulationTogether), undulationTogether, along, engine);
     }() }
 {
   this->Direction.skewness = skewnessFor(options.meanDispersion);
@@ -138,13 +145,14 @@ StationaryFlow::StationaryFlow(const BundleInitializerOptions& options, int atte
 
 StationaryFlow StationaryFlow::draw(const BundleInitializerOptions& options, const Context& context)
 {
-  const double shortest = CoherentFlow::smallestLength * options.side;
+  const double width = widthOf(options);
+  const double shortest = CoherentFlow::smallestLength * width;
   if (!(options.correlationLength >= shortest))
   {
     throw InvalidInput(text("CorrelationLength is ", options.correlationLength, " µm: give at least ", shortest,
-      " µm in a domain of this side, or DispersionModel Watson for directions that do not depend on each other"));
+      " µm in a domain of this width, or DispersionModel Watson for directions that do not depend on each other"));
   }
-  const bool isLarge = options.side > manyLengths * options.correlationLength;
+  const bool isLarge = width > manyLengths * options.correlationLength;
   const int draws = isLarge || options.meanDispersion == 0.0 ? 1 : mostDraws;
   std::optional<StationaryFlow> best;
   double least = 0.0;
@@ -154,7 +162,7 @@ StationaryFlow StationaryFlow::draw(const BundleInitializerOptions& options, con
     StationaryFlow flow(options, attempt);
     flow.scaleToAngle(options);
     flow.Undulation.scale = std::sqrt(options.sinuosity - 1.0); // roughly
-    const double unevenness = flow.followFibres(options, std::min(options.side, longestPath), context).unevenness;
+    const double unevenness = flow.followFibres(options, std::min(options.extent().z(), longestPath), context).unevenness;
     if (!best || unevenness < least)
     {
       best = std::move(flow);
@@ -198,10 +206,11 @@ void StationaryFlow::scaleToAngle(const BundleInitializerOptions& options)
   std::vector<double> slopes;
   Turns turns;
   WaveField::Work work;
-  const std::vector<Eigen::Vector2d> grid = gridIn(options.side);
+  const double height = options.extent().z();
+  const std::vector<Eigen::Vector2d> grid = gridIn(options);
   for (int k = 0; k < anglePlanes; ++k)
   {
-    const WaveField::Plane plane = this->Direction.field.plane(((k + 0.5) / anglePlanes - 0.5) * options.side);
+    const WaveField::Plane plane = this->Direction.field.plane(((k + 0.5) / anglePlanes - 0.5) * height);
     for (const Eigen::Vector2d& point : grid)
     {
       const WaveField::Value value = this->Direction.field.at(point, plane, work);
@@ -240,7 +249,7 @@ StationaryFlow::Sample StationaryFlow::followFibres(
     Eigen::Vector2d top;
   };
   const int steps = std::max(2, static_cast<int>(std::ceil(0.5 * height / std::min(2.5, 0.1 * options.undulationWavelength))));
-  const std::vector<Eigen::Vector2d> grid = gridIn(options.side);
+  const std::vector<Eigen::Vector2d> grid = gridIn(options);
   std::vector<Fibre> fibres(grid.size());
   for (const double sense : { 1.0, -1.0 })
   {

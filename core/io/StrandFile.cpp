@@ -49,6 +49,20 @@ public:
     return static_cast<std::size_t>(value);
   }
 
+  /// Reads the only number of the next line, or three numbers.
+  Eigen::Vector3d oneOrThree(const std::string& meaning)
+  {
+    this->begin(meaning);
+    Eigen::Vector3d values = Eigen::Vector3d::Constant(this->number(meaning));
+    if (!this->Rest.empty())
+    {
+      values[1] = this->number(meaning);
+      values[2] = this->number(meaning);
+    }
+    this->end(meaning + " and nothing else");
+    return values;
+  }
+
   /// Reads the four numbers of the next line.
   void four(const std::string& meaning, double (&values)[4])
   {
@@ -206,12 +220,13 @@ Fibres readStrandFile(std::istream& stream, const std::string& name)
 {
   LineReader reader(stream, name);
   Fibres fibres;
-  const double side = reader.only("the side of the cube");
-  if (side <= 0.0)
+  const Eigen::Vector3d size = reader.oneOrThree("the side of the cube, or the size of the domain along x, y and z");
+  if (size.minCoeff() <= 0.0)
   {
-    reader.fail(text("the side of the cube is ", side, ", not a positive length"));
+    reader.fail(text("the side of the domain is ", size.minCoeff(), ", not a positive length"));
   }
-  fibres.domain = Domain::cube(side);
+  fibres.domain.upper = 0.5 * size;
+  fibres.domain.lower = -fibres.domain.upper;
   const std::size_t strands = reader.count("the number of strands");
   if (strands == 0)
   {
@@ -251,22 +266,26 @@ Fibres readStrandFile(const std::string& path)
 
 bool fitsStrandFile(const Domain& domain)
 {
-  const double side = domain.size()[0];
-  const Domain cube = Domain::cube(side);
-  return (domain.lower - cube.lower).cwiseAbs().maxCoeff() <= 1e-9 * side &&
-         (domain.upper - cube.upper).cwiseAbs().maxCoeff() <= 1e-9 * side;
+  return (domain.lower + domain.upper).cwiseAbs().maxCoeff() <= 1e-9 * domain.size().maxCoeff();
+}
+
+bool isCube(const Domain& domain)
+{
+  return domain.size().maxCoeff() - domain.size().minCoeff() <= 1e-9 * domain.size().maxCoeff();
 }
 
 void writeStrandFile(const Fibres& fibres, const std::string& path)
 {
   validate(fibres);
-  require(fitsStrandFile(fibres.domain),
-    "a strand file can only hold a cube centred on the origin, and the Domain is something else: write .vtp instead");
-  const double side = fibres.domain.size()[0];
+  require(fitsStrandFile(fibres.domain), "a strand file can only hold a Domain centred on the origin: write .vtp instead");
   constexpr int digits = 9;
   AtomicFile file(path);
   std::string part;
-  appendNumber(part, side, digits);
+  for (int axis = 0; axis < (isCube(fibres.domain) ? 1 : 3); ++axis)
+  {
+    part += axis > 0 ? " " : "";
+    appendNumber(part, fibres.domain.size()[axis], digits);
+  }
   part += '\n' + std::to_string(fibres.size()) + '\n';
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {

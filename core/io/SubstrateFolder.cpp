@@ -435,8 +435,8 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
   if (contents.fibres != nullptr && !hasStrandFile(contents))
   {
     substrate.remarks.push_back(
-      "the centre lines are not in the folder: a strand file can only hold a cube centred on the origin, "
-      "and the Domain is something else; save the fibres as .vtp");
+      "the centre lines are not in the folder: a strand file can only hold a Domain centred on the origin; save the fibres as "
+      ".vtp");
   }
   writeTexts(contents, substrate, writer);
   replacement.commit(context);
@@ -453,8 +453,9 @@ void requireEncoding(SubstrateFormat format, PlyEncoding encoding)
 
 void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
 {
-  require(format != SubstrateFormat::Reference || fitsStrandFile(domain),
-    "Format Reference program has the fibres in a strand file, which can only hold a cube centred on the origin, and the Domain "
+  require(format != SubstrateFormat::Reference || (fitsStrandFile(domain) && isCube(domain)),
+    "Format Reference program has the fibres in a strand file, of which that program reads only those of a cube centred on the "
+    "origin, and the Domain "
     "is something else: choose another Format");
   if (format == SubstrateFormat::Rms)
   {

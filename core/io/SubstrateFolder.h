@@ -23,8 +23,8 @@ void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
 ///                                    outer/00000/fibre_00001.ply, where the ids from 0 to 999 are, and so on;
 ///                                    with an id above 99,999 all have six digits or more, as many as the largest
 ///   mcdc/intra.conf, mcdc/extra.conf MC/DC configurations that run as written, with lists of the surfaces and a PGSE scheme
-///   fibres.strands                   the centre lines, where given, by increasing id, of a domain that is a cube centred
-///                                    on the origin
+///   fibres.strands                   the centre lines, where given, by increasing id, of a domain centred on the
+///                                    origin
 ///   certificate.csv, certificate_fibres.csv   what certify() found on the surfaces as written
 ///   manifest.json, README.txt
 ///

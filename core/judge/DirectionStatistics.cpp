@@ -183,7 +183,7 @@ DirectionStatistics measureDirections(const Fibres& fibres, const std::vector<Ax
   result.p2 = p2(byLength);
   result.p2ByAxonVolume = p2(byVolume);
   result.kappa = byLength.weights > 0.0 ? watsonConcentration(byLength.value()) : notANumber;
-  result.odi = 2.0 / pi * std::atan2(1.0, result.kappa);
+  result.odi = odiOfKappa(result.kappa);
   result.localSpread = spread.value();
   result.twist = twist.value();
   result.azimuthRatio = azimuths.value();

@@ -5,7 +5,7 @@
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Parallel.h"
-#include "judge/SphericalHarmonics.h"
+#include "base/SphericalHarmonics.h"
 #include "judge/VoxelDirections.h"
 #include "mesh/SurfaceCheck.h"
 

@@ -2,7 +2,7 @@
 #include "judge/VoxelDirections.h"
 
 #include "base/Domain.h"
-#include "judge/SphericalHarmonics.h"
+#include "base/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <cmath>

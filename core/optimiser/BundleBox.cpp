@@ -35,6 +35,68 @@ struct BundleContent
   }
 };
 
+/// How a bundle's volume is spread along a lateral direction.
+class Spread
+{
+public:
+  void add(double place, double volume)
+  {
+    this->Weight += volume;
+    this->First += volume * place;
+    this->Second += volume * place * place;
+  }
+
+  /// Narrows limits that lie outside the domain to those of an even distribution with the same variance, and a little room, but
+  /// not into the domain. Returns whether that changed them.
+  bool narrow(double domainLower, double domainUpper, double& lower, double& upper) const
+  {
+    constexpr double room = 1.045;
+    constexpr double beyond = 1.0; // µm
+    if (lower > domainLower - beyond || upper < domainUpper + beyond)
+    {
+      return false;
+    }
+    const double mean = this->First / this->Weight;
+    const double half = room * std::sqrt(3.0 * std::max(0.0, this->Second / this->Weight - mean * mean));
+    const double low = std::max(lower, std::min(mean - half, domainLower - beyond));
+    const double high = std::min(upper, std::max(mean + half, domainUpper + beyond));
+    const bool isNarrower = low > lower || high < upper;
+    lower = low;
+    upper = high;
+    return isNarrower;
+  }
+
+private:
+  double Weight = 0.0;
+  double First = 0.0;
+  double Second = 0.0;
+};
+
+/// Cuts the box of a bundle that frays to its bulk.
+void cutToBulk(const Fibres& fibres, int bundle, BundleBox& box)
+{
+  Spread alongU;
+  Spread alongV;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    for (std::size_t i = fibres.offsets[f]; fibres.bundleIds[f] == bundle && i + 1 < fibres.offsets[f + 1]; ++i)
+    {
+      const double volume = fibres.radii[i] * fibres.radii[i] * (fibres.points[i + 1] - fibres.points[i]).norm();
+      alongU.add(fibres.points[i].dot(box.u), volume);
+      alongV.add(fibres.points[i].dot(box.v), volume);
+    }
+  }
+  const Eigen::Vector3d half = 0.5 * fibres.domain.size();
+  const Eigen::Vector3d centre = 0.5 * (fibres.domain.lower + fibres.domain.upper);
+  const auto narrow = [&](const Spread& spread, const Eigen::Vector3d& direction, double& lower, double& upper)
+  {
+    const double side = half.dot(direction.cwiseAbs());
+    return spread.narrow(centre.dot(direction) - side, centre.dot(direction) + side, lower, upper);
+  };
+  box.holds = narrow(alongU, box.u, box.lowerU, box.upperU);
+  box.holds = narrow(alongV, box.v, box.lowerV, box.upperV) || box.holds;
+}
+
 /// Widens the box laterally until the bundle's capsules fill no more of it than `packingLimit`.
 void expandToDensity(const BundleContent& content, double packingLimit, BundleBox& box)
 {
@@ -88,6 +150,10 @@ std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
   }
   for (auto& entry : boxes)
   {
+    if (boxes.size() > 1)
+    {
+      cutToBulk(fibres, entry.first, entry.second);
+    }
     expandToDensity(contents.at(entry.first), packingLimit, entry.second);
   }
   std::vector<BundleBox> perFibre;

@@ -18,10 +18,14 @@ struct BundleBox
   Eigen::Vector3d v = Eigen::Vector3d::UnitY();    ///< second lateral direction
   double lowerU = 0.0, upperU = 0.0;               ///< µm, limits of the fibres' surfaces along u
   double lowerV = 0.0, upperV = 0.0;
+  bool holds = false; ///< whether its confinement does not fade
 };
 
 /// Returns the cuboid of each fibre's bundle: laterally the extent of the input fibres, widened if they would fill more than
 /// `packingLimit` of it. One lateral direction is the domain axis that is most perpendicular to the bundle.
+///
+/// Cuts to its bulk, and holds, each of several bundles that is larger than the domain and frays: where bundles part that lie in
+/// one place, they would otherwise spread into their thin rims, and leave the domain less dense than it came.
 std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit);
 
 /// Moves apart the fibres of each bundle that fills more than `packingLimit` of its cuboid, each as a whole and across the

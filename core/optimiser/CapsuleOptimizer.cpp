@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -81,6 +82,22 @@ void requireSegmentsToSearch(const Fibres& fibres)
       throw InvalidInput(text("fibre ", fibres.fibreIds[f], " (cell ", f, ") has ", fibres.pointCount(f), " control points, ",
         spacing, " µm apart with a Radius of up to ", radius, " µm: resample it to a spacing of about its radius"));
     }
+  }
+}
+
+/// Throws InvalidInput for several bundles that together fill more than the domain holds.
+void requireShares(const Fibres& fibres)
+{
+  const auto isOther = [&](int bundle) { return bundle != fibres.bundleIds.front(); };
+  if (std::none_of(fibres.bundleIds.begin(), fibres.bundleIds.end(), isOther))
+  {
+    return;
+  }
+  const double filled = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+  if (filled > 1.0)
+  {
+    throw InvalidInput(text("the fibres of all bundles together have ", std::round(100.0 * filled) / 100.0,
+      " times the domain's volume: give each bundle a smaller share (FibreVolumeFraction of its source), about 0.7 in all"));
   }
 }
 
@@ -282,6 +299,7 @@ OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOption
 {
   validate(options);
   validate(fibres);
+  requireShares(fibres);
   OptimisationResult result;
   const double givenLength = totalLength(fibres);
   result.resampling = resampleDenseFibres(fibres);

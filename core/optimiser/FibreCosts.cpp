@@ -89,7 +89,9 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
   this->addRadius(fibres, f, totals, gradients);
   if (this->Weights.compactness > 0.0)
   {
-    this->addConfinement(fibres, f, relaxation * this->Weights.compactness, totals, gradients);
+    constexpr double held = 0.3; // of the weight, at least
+    const double share = this->Boxes[f].holds ? std::max(relaxation, held) : relaxation;
+    this->addConfinement(fibres, f, share * this->Weights.compactness, totals, gradients);
   }
   return totals;
 }

@@ -45,8 +45,8 @@ struct FibreGradients
 ///  - radius, per control point: (r − r_target)²;
 ///  - compactness, per control point: ½ ℓ² e², e the distance by which the fibre's surface leaves its bundle's cuboid sideways, ℓ
 ///    the mean length of the segments at the point (it replaces an attraction to the axis, which would compress the core of an
-///    already dense bundle); and per fibre 50 L1² |c − C|², c its chord from end to end, C that before optimisation, L1 its first
-///    segment's length.
+///    already dense bundle; the cuboid of a bundle that is held keeps 0.3 of its weight); and per fibre 50 L1² |c − C|², c its
+///    chord from end to end, C that before optimisation, L1 its first segment's length.
 /// Two limits do not fade, since a fibre that folds up cannot unfold: they belong to curvature and length, and share their
 /// weights.
 ///  - bends, per triple: ¼ (L1 L2)² · max(0, cos θ_max − cos θ)², θ_max the angle at which the radius of curvature is 1.2 fibre

@@ -47,17 +47,20 @@ std::int64_t wholeFrom(const PropertyFacts& facts, const Json& value)
   return static_cast<std::int64_t>(number);
 }
 
-/// Returns a text or, for a table of radii, its numbers as text.
+bool isNumbers(const Json& value)
+{
+  return value.is_array() && std::all_of(value.begin(), value.end(), [](const Json& one) { return one.is_number(); });
+}
+
+/// Returns a text or, for one of numbers, its numbers as text.
 std::string textFrom(const PropertyFacts& facts, const Json& value)
 {
   if (value.is_string())
   {
     return value.get<std::string>();
   }
-  const bool isTable = facts.name == "RadiusTable";
-  const bool isNumbers =
-    value.is_array() && std::all_of(value.begin(), value.end(), [](const Json& one) { return one.is_number(); });
-  if (!isTable || !isNumbers)
+  const bool isTable = facts.name == "RadiusTable" || facts.name == "OrientationHarmonics";
+  if (!isTable || !isNumbers(value))
   {
     failValue(facts, value, isTable ? "a text or a list of numbers" : "a text");
   }
@@ -154,6 +157,14 @@ PropertyValue propertyValue(const PropertyFacts& facts, const PropertyValue& lik
   if (std::holds_alternative<std::string>(like))
   {
     return textFrom(facts, value);
+  }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&like))
+  {
+    if (!isNumbers(value) || value.size() != numbers->size())
+    {
+      failValue(facts, value, "a list of " + std::to_string(numbers->size()) + " numbers");
+    }
+    return value.get<std::vector<double>>();
   }
   if (!value.is_number())
   {

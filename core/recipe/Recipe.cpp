@@ -270,7 +270,7 @@ void checkTogether(const Recipe& recipe, const RecipeStage& stage)
   const auto* writer = std::get_if<SubstrateWriterStage>(&stage.options);
   if (writer != nullptr && bundle != nullptr)
   {
-    requireRoom(writer->format, Domain::cube(bundle->options.side), writer->voxelSize);
+    requireRoom(writer->format, bundle->options.domain(), writer->voxelSize);
   }
 }
 

@@ -62,10 +62,9 @@ Preset crossing(double angle, const std::string& reached)
 {
   const std::string degrees = text(angle);
   return { "Crossing at " + degrees + " degrees",
-    "Two bundles of 5° each, interwoven, that cross at " + degrees + "°, as dense as possible",
+    "Two bundles of 5° each that interpenetrate and cross at " + degrees + "°, as dense as possible",
     paper + "Table 1, where " + reached + " % are reached",
     { { bundle, "NumberOfBundles", std::int64_t(2) }, { bundle, "CrossingAngle", angle },
-      { bundle, "CrossingStyle", static_cast<std::int64_t>(CrossingStyle::Interwoven) },
       { bundle, "GrownFibreVolumeFraction", 0.0 }, { growth, "TargetFibreVolumeFraction", densest },
       { growth, "SurfaceTolerance", densestTolerance } } };
 }

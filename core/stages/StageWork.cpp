@@ -3,6 +3,7 @@
 
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/Numbers.h"
 #include "bundle/RadiusColumn.h"
 #include "fibres/TrimToDomain.h"
 #include "io/FileCollection.h"
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <numeric>
+#include <string_view>
 
 namespace cactus
 {
@@ -152,12 +154,46 @@ RadiusDistributionOptions withTableOf(const Stage& stage)
   return radius;
 }
 
+/// Tells whether angles have Watson's distribution.
+bool hasKappa(DispersionModel model)
+{
+  return model == DispersionModel::Watson || model == DispersionModel::Coherent;
+}
+
+/// Returns the mean angle (degrees) that a stage asks for, as an angle, κ or ODI.
+double meanDispersionOf(const BundleInitializerStage& stage)
+{
+  const bool isGiven = stage.watsonKappa != 0.0 || stage.odi != 0.0;
+  if (!isGiven || !hasKappa(stage.options.dispersionModel))
+  {
+    return stage.options.meanDispersion;
+  }
+  validateProperties(stage);
+  if (stage.watsonKappa != 0.0 && stage.odi != 0.0)
+  {
+    throw InvalidInput("WatsonKappa and ODI are both given: set one of them to 0");
+  }
+  const double angle = watsonMeanAngle(stage.odi != 0.0 ? kappaOfOdi(stage.odi) : stage.watsonKappa);
+  if (angle > limits::meanDispersion.highest)
+  {
+    throw InvalidInput(text(stage.odi != 0.0 ? "ODI" : "WatsonKappa", " gives a mean angle of ", angle, "°: it can be at most ",
+      limits::meanDispersion.highest, "°; for more, use DispersionModel Harmonics"));
+  }
+  return angle;
+}
+
 } // namespace
 
 BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage)
 {
   BundleInitializerOptions options = stage.options;
   options.radius = withTableOf(stage);
+  options.meanDispersion = meanDispersionOf(stage);
+  std::string_view harmonics = stage.orientationHarmonics;
+  if (options.dispersionModel == DispersionModel::Harmonics && !takeNumbers(harmonics, options.harmonics))
+  {
+    throw InvalidInput("OrientationHarmonics holds \"" + excerpt(harmonics) + "\", which is no number");
+  }
   return options;
 }
 
@@ -170,6 +206,12 @@ StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitia
   keepRadiusTable(options.radius, stage.radiusTableFile, record);
   record.reached = { { "Fibres", static_cast<std::int64_t>(fibres) }, { "FibreVolumeFraction", report.fibreVolumeFraction },
     { "MeanDispersion", report.meanDispersion } };
+  if (hasKappa(options.dispersionModel) && report.meanDispersion > 0.0)
+  {
+    const double kappa = watsonKappa(report.meanDispersion);
+    record.reached.push_back({ "WatsonKappa", kappa });
+    record.reached.push_back({ "ODI", odiOfKappa(kappa) });
+  }
   if (isStationary(options))
   {
     record.reached.push_back({ "Sinuosity", report.sinuosity });

@@ -33,6 +33,8 @@ constexpr char fileUnit[] = "Unit of the file's lengths. Most readers take them 
                             "micrometres give a warning. For data that Placement has placed, micrometres are refused.";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };
 constexpr Range tableFactor{ 1e-6, 1e6 };
+constexpr Range concentration{ 0.1, 1e9, "", 0.0 };
+constexpr Range dispersionIndex{ 1e-9, 0.99, "", 0.0 };
 constexpr Range partOfHits{ 0.0, 1.0 };
 constexpr Range startCount{ 0.0, 1e7 };
 constexpr Range shownInterval{ 0.0, 1e7 };
@@ -81,7 +83,22 @@ StageDescription description(const char* name)
 
 const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
 {
-  static const auto list = withRadiusTable<BundleInitializerStage, BundleInitializerOptions>();
+  static const auto list =
+    withRadiusTable<BundleInitializerStage, BundleInitializerOptions>()
+      .add("WatsonKappa", &BundleInitializerStage::watsonKappa, concentration,
+        "Concentration κ of Watson's distribution of angles, in place of MeanDispersion: 104 for 5°, 26.8 for 10°, 7.8 for 20°. "
+        "0: MeanDispersion or ODI says it.")
+      .where("DispersionModel", { 0, 2 })
+      .add("ODI", &BundleInitializerStage::odi, dispersionIndex,
+        "Orientation dispersion index (2/π) arctan(1/κ) in place of MeanDispersion: 0.006 for 5°, 0.024 for 10°, 0.081 for 20°. "
+        "0: "
+        "MeanDispersion or WatsonKappa says it.")
+      .where("DispersionModel", { 0, 2 })
+      .add("OrientationHarmonics", &BundleInitializerStage::orientationHarmonics,
+        "Coefficients of the distribution of directions in real spherical harmonics of even degrees, in the basis and order of "
+        "MRtrix: 1, 6, 15, 28 or 45 numbers (degrees up to 0, 2, 4, 6 or 8; at most 16), separated by blanks or commas. The axes "
+        "are those of the domain; the scale does not matter, and negative values count as 0. One number: all directions alike.")
+      .where("DispersionModel", { 3 });
   return list;
 }
 

@@ -27,10 +27,13 @@ namespace cactus
 struct BundleInitializerStage
 {
   BundleInitializerOptions options;
-  std::string radiusTable;        ///< radii (µm) as text, see parseRadiusTable(); they replace those of `options`
-  std::string radiusTableFile;    ///< the same as a file
-  std::string radiusTableColumn;  ///< for a file with a named column; empty for a plain list
-  double radiusTableFactor = 1.0; ///< factor on the file's numbers
+  std::string radiusTable;          ///< radii (µm) as text, see parseRadiusTable(); they replace those of `options`
+  std::string radiusTableFile;      ///< the same as a file
+  std::string radiusTableColumn;    ///< for a file with a named column; empty for a plain list
+  double radiusTableFactor = 1.0;   ///< factor on the file's numbers
+  double watsonKappa = 0.0;         ///< in place of MeanDispersion, where it is above 0
+  double odi = 0.0;                 ///< the same as an orientation dispersion index
+  std::string orientationHarmonics; ///< coefficients as text, for DispersionModel::Harmonics
 
   static const PropertyList<BundleInitializerStage>& properties();
 };

@@ -15,11 +15,12 @@ const PropertyFacts size{ "Size", "Size in µm & \"more\".", cactus::Range{ 0.5,
 const PropertyFacts kind{ "Kind", "Kind.", {}, { "A", "B<C" }, {}, {}, { { "Size", {} } } };
 const PropertyFacts file{ "File", "File.", {}, {}, {}, {}, { { "Kind", { 0, 1 } }, { "IsOn", { 1 } } } };
 const PropertyFacts isOn{ "IsOn", "Switch.", {}, {}, {}, {}, { { "File", {} } } };
+const PropertyFacts way{ "Way", "Way.", {}, {}, {}, {}, {} };
 const PropertyFacts count{ "Count", "Count.", cactus::Range{ 0.0, 1e7 }, {}, {}, {}, {} };
 
 const std::vector<cactus::StageDescription> stages{ { "Thing",
   { { &size, 1e-6 }, { &kind, std::int64_t(1) }, { &file, std::string() }, { &isOn, true },
-    { &count, std::int64_t(10000000) } } } };
+    { &way, std::vector<double>{ 0.0, 0.5, 1.0 } }, { &count, std::int64_t(10000000) } } } };
 
 std::string inProxy(const std::string& properties, const std::string& name = "Thing")
 {
@@ -42,6 +43,14 @@ TEST(PanelXml, NumbersHaveTheirRangeAndASliderOnlyIfAsked)
     inProxy("<IntVectorProperty name=\"Count\" command=\"SetCount\" number_of_elements=\"1\" default_values=\"10000000\" "
             "panel_visibility=\"advanced\"><IntRangeDomain name=\"range\" min=\"0\" max=\"10000000\"/>"
             "<Documentation>Count.</Documentation></IntVectorProperty>",
+      "Saving"));
+}
+
+TEST(PanelXml, VectorsHaveAsManyFieldsAsTheirDefault)
+{
+  EXPECT_EQ(panel("<StageProperty name=\"Way\"/>"),
+    inProxy("<DoubleVectorProperty name=\"Way\" command=\"SetWay\" number_of_elements=\"3\" default_values=\"0 0.5 1\">"
+            "<Documentation>Way.</Documentation></DoubleVectorProperty>",
       "Saving"));
 }
 
@@ -99,8 +108,9 @@ void expectError(const std::string& xml, const std::string& words)
 
 TEST(PanelXml, EveryPropertyIsThereOnceAndUnderstood)
 {
-  const std::string all = "<StageProperty name=\"Size\"/><StageProperty name=\"Kind\"/><StageProperty name=\"File\"/>"
-                          "<StageProperty name=\"IsOn\"/>";
+  const std::string all =
+    "<StageProperty name=\"Size\"/><StageProperty name=\"Kind\"/><StageProperty name=\"Way\"/><StageProperty name=\"File\"/>"
+    "<StageProperty name=\"IsOn\"/>";
   const std::string last = "<StageProperty name=\"Count\"/>";
   EXPECT_NO_THROW(cactus::panelXml(inProxy(all + last), stages));
   expectError(inProxy(all), "Thing lacks <StageProperty name=\"Count\"/>");

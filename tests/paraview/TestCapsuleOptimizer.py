@@ -73,6 +73,9 @@ class Optimizer(CactusTestCase):
         lying = Transform(Input=bundle(Seed=2))
         lying.Transform.Rotate = [90, 0, 0]
         lying.TransformAllInputVectors = 0
+        with self.assertError("together have 1.[0-9]+ times the domain's volume"):
+            fetch(CapsuleOptimizer(Input=[upright, lying]), 0)
+        upright.FibreVolumeFraction = lying.Input.FibreVolumeFraction = 0.4
         optimizer = CapsuleOptimizer(Input=[upright, lying])
         with self.assertError("the fibres have become [0-9]+ % longer"):  # of two in one place
             fibres = fetch(optimizer, 0)

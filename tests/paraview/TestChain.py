@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 600
-"""The whole chain through ParaView, on a small bundle and on a small crossing, judged by brute force and by the mesh oracle."""
+"""The whole chain through ParaView, on small bundles and crossings, judged by brute force and by the mesh oracle."""
 
 import os
 
@@ -95,9 +95,9 @@ def enclosed_volume(data):
 
 
 class ChainTest(CactusTestCase):
-    def run_chain(self, side, fraction, most_triangles, largest_aspect=100, **bundle):
-        source = BundleInitializer(Side=side, Seed=3, GrownFibreVolumeFraction=0, **bundle)
-        optimised = CapsuleOptimizer(Input=source)
+    def run_chain(self, side, fraction, most_triangles, largest_aspect=100, directions=((0, 0, 1),), **bundle):
+        sources = [BundleInitializer(Side=side, Seed=3, GrownFibreVolumeFraction=0, Direction=way, **bundle) for way in directions]
+        optimised = CapsuleOptimizer(Input=sources)
         data = fetch(optimised)
         self.assertEqual(data.GetFieldData().GetArray("Converged").GetValue(0), 1)
         # Guarantee 1, by brute force.
@@ -118,7 +118,8 @@ class ChainTest(CactusTestCase):
         ids = vtk_to_numpy(data.GetCellData().GetArray("FibreId"))
         p, q, r, s, fibre = capsules(data)
         centre = 0.5 * (p + q)
-        inside = np.all(np.abs(centre) < side / 2 - 0.2, axis=1)
+        half = 0.5 * np.array([side, side, bundle.get("Length") or side])
+        inside = np.all(np.abs(centre) < half - 0.2, axis=1)
         expected = set(ids[np.unique(fibre[inside])])
         present = set(vtk_to_numpy(outer.GetCellData().GetArray("FibreId")))
         self.assertLessEqual(expected, present)
@@ -135,7 +136,7 @@ class ChainTest(CactusTestCase):
         self.assertGreater(certificate["SmallestFeature_um"], 0.001)
 
         # Guarantee 3: fractions of the meshes, measured here once more.
-        volume = side**3
+        volume = side**2 * (bundle.get("Length") or side)
         outer_volume, inner_volume = enclosed_volume(outer), enclosed_volume(inner)
         fvf, avf = outer_volume.sum() / volume, inner_volume.sum() / volume
         self.assertAlmostEqual(fvf, fraction, delta=0.005)
@@ -173,6 +174,25 @@ class ChainTest(CactusTestCase):
         data, reached = self.run_chain(8, 0.9, most_triangles=(18, 22), largest_aspect=150)
         self.assertGreater(data.GetNumberOfCells(), 30)
         self.assertGreater(reached["OuterClosed"], 30)
+
+    def test_three_bundles_in_a_long_domain(self):
+        """Three bundles at right angles, each in the whole domain: as many fibres of each, along the axes asked for."""
+        directions = np.eye(3)
+        data, reached = self.run_chain(
+            10, 0.8, most_triangles=(36, 42), largest_aspect=150, directions=directions, FibreVolumeFraction=0.15, MaximumRadius=1, Length=12
+        )
+        self.assertEqual(vtk_to_numpy(data.GetFieldData().GetArray("Domain")).ravel().tolist(), [-5, 5, -5, 5, -6, 6])
+        p, q, r, _, fibre = capsules(data)
+        bundle = vtk_to_numpy(data.GetCellData().GetArray("BundleId"))[fibre]
+        steps = q - p
+        lengths = np.linalg.norm(steps, axis=1)
+        for number, way in enumerate(directions, start=1):
+            mine = bundle == number
+            tensor = (steps[mine].T / lengths[mine]) @ steps[mine]
+            _, axes = np.linalg.eigh(tensor)
+            self.assertLess(np.degrees(np.arccos(abs(axes[:, 2] @ way))), 6)
+            share = (r[mine] ** 2 * lengths[mine]).sum() / (r**2 * lengths).sum()
+            self.assertAlmostEqual(share, 1 / 3, delta=0.05)
 
     def test_crossing(self):
         data, _ = self.run_chain(

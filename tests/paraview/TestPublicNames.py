@@ -18,6 +18,10 @@ NAMES = {
         "DispersionModel": "Coherent",
         "NumberOfBundles": 1,
         "CrossingAngle": 90,
+        "Border": "Cut",
+        "Length": 0,
+        "Direction": [0, 0, 1],
+        "Mixing": "Interpenetrating",
         "CrossingStyle": "Interwoven",
         "GrownFibreVolumeFraction": 0.9,
         "Seed": 1,
@@ -51,7 +55,9 @@ NAMES = {
 }
 CHOICES = {
     ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table", "Histogram"],
-    ("BundleInitializer", "DispersionModel"): ["Watson", "Cone", "Coherent"],
+    ("BundleInitializer", "DispersionModel"): ["Watson", "Cone", "Coherent", "Harmonics"],
+    ("BundleInitializer", "Border"): ["Cut", "Walls"],
+    ("BundleInitializer", "Mixing"): ["Interpenetrating", "Layers"],
     ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],
 }
 PORTS = {
@@ -73,7 +79,7 @@ class PublicNames(CactusTestCase):
                 with self.subTest(proxy=name, property=one):
                     value = getattr(proxy, one)
                     if default is not None:
-                        self.assertEqual(value, default)
+                        self.assertEqual(list(value) if isinstance(default, list) else value, default)
 
     def test_choices(self):
         for (name, one), choices in CHOICES.items():

@@ -96,6 +96,15 @@ def parameters(seed, index):
         "MaximumSpacing": Draw.rounded(spacing * draw.log(1, 6)),
         "Seed": draw.whole(0, 2**31 - 1),
     }
+    place = Draw(f"{seed}/{index}/place")
+    bundle["Border"] = place.choice("Cut", "Walls")
+    bundle["Length"] = place.seldom(0.7, 0.0, place.log(0.5 * side, 1.5 * side))
+    if bundle["Border"] == "Cut":
+        bundle["Direction"] = place.seldom(0.5, [0, 0, 1], [place.uniform(-1, 1) for _ in range(3)])
+        bundle["Mixing"] = place.choice("Interpenetrating", "Layers")
+        bundle["CorrelationLength"] = bundle["CorrelationLength"] or 8
+        if place.seldom(0.2, True, False):
+            bundle.update(DispersionModel="Harmonics", NumberOfBundles=1, OrientationHarmonics=f"1 0 0 {place.uniform(-0.5, 2)} 0 0")
     adagrad = draw.seldom(0.15, True, False)
     optimiser = {
         "MaximumIterations": draw.seldom(0.25, draw.whole(0, 300), 1500),

@@ -127,7 +127,7 @@ class Chain:
         for name, value in values.items():
             if name not in names:
                 raise Refusal(f"{stage['filter']} has no property {name} in this CACTUS")
-            if isinstance(value, list):
+            if isinstance(value, list) and isinstance(getattr(proxy, name), str):
                 value = " ".join(repr(number) for number in value)
             setattr(proxy, name, int(value) if isinstance(value, bool) else value)
         if stage is self.last:

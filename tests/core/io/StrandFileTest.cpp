@@ -3,11 +3,13 @@
 #include "ScratchPath.h"
 
 #include "base/Error.h"
+#include "fibres/JoinFibres.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <sys/stat.h>
 
 namespace
@@ -57,6 +59,31 @@ TEST(StrandFile, RoundTrip)
   }
   EXPECT_DOUBLE_EQ(back.targetRadii[0], 0.5);
   EXPECT_DOUBLE_EQ(back.domain.upper[2], 6.25);
+}
+
+TEST(StrandFile, HoldsABoxByItsThreeSides)
+{
+  cactus::Fibres fibres;
+  fibres.domain.upper = Eigen::Vector3d(2.0, 2.5, 9.0);
+  fibres.domain.lower = -fibres.domain.upper;
+  fibres.addFibre(1, 1, 0.5);
+  fibres.addPoint({ 0.0, 0.0, -9.0 }, 0.5);
+  fibres.addPoint({ 0.0, 0.0, 9.0 }, 0.5);
+  const std::string path = scratch("box.strands");
+  cactus::writeStrandFile(fibres, path);
+  std::ifstream file(path);
+  std::string first;
+  std::getline(file, first);
+  EXPECT_EQ(first, "4 5 18");
+  EXPECT_TRUE(cactus::isSame(cactus::readStrandFile(path).domain, fibres.domain));
+  std::filesystem::remove(path);
+  fibres.domain.upper[0] = 3.0;
+  EXPECT_THROW(cactus::writeStrandFile(fibres, path), cactus::InvalidInput);
+  for (const char* wrong : { "4 5\n", "4 5 0\n", "4 5 6 7\n", "4 -5 6\n" })
+  {
+    std::istringstream text(std::string(wrong) + "1\n2\n0 0 0 1\n0 0 1 1\n");
+    EXPECT_THROW(cactus::readStrandFile(text, "box"), cactus::FileError) << wrong;
+  }
 }
 
 // Guarantee: a folder or a pipe is refused, and never waited for.

@@ -6,6 +6,7 @@
 #include "RandomBundle.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
+#include "fibres/JoinFibres.h"
 #include "fibres/SegmentDistance.h"
 #include "fibres/TrimToDomain.h"
 #include "optimiser/BundleBox.h"
@@ -308,6 +309,89 @@ TEST(BundleBox, SpreadsWhatIsTooDense)
 namespace
 {
 
+/// Bundles along z and x of straight fibres on a lattice 1 µm apart, which reaches as far as `half` sideways; and fibres of the
+/// first bundle that run from there, in its middle, to 1.5 times that at its ends.
+Fibres bundlesThatFray(double half)
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  const auto add = [&](int bundle, double u, double v)
+  {
+    fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle, 0.2);
+    for (int k = -2; k <= 2; ++k)
+    {
+      const double w = 0.5 * half * k;
+      fibres.addPoint(bundle == 1 ? Eigen::Vector3d(u, v, w) : Eigen::Vector3d(w, v, u), 0.2);
+    }
+  };
+  for (double u = -half; u <= half; u += 1.0)
+  {
+    for (double v = -half; v <= half; v += 1.0)
+    {
+      add(1, u, v);
+      add(2, u, v);
+    }
+  }
+  for (double v = -half; v <= half; v += 1.0)
+  {
+    add(1, half, v);
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      fibres.points[fibres.points.size() - 5 + k].x() *= 1.0 + 0.25 * std::abs(static_cast<double>(k) - 2.0);
+    }
+  }
+  return fibres;
+}
+
+} // namespace
+
+// Guarantee: a bundle that frays is held at its bulk if it is larger than the domain and not the only one.
+TEST(BundleBox, CutsABundleThatFraysToItsBulk)
+{
+  Fibres fibres = bundlesThatFray(10.0);
+  const std::vector<cactus::BundleBox> boxes = cactus::bundleBoxes(fibres, 0.7);
+  EXPECT_GT(boxes[0].upperV, 10.2); // along x
+  EXPECT_LT(boxes[0].upperV, 13.0);
+  EXPECT_NEAR(boxes[0].lowerV, -10.2, 1e-9);
+  EXPECT_NEAR(boxes[0].upperU - boxes[0].lowerU, 20.4, 1e-9);
+  EXPECT_TRUE(boxes[0].holds);
+  EXPECT_FALSE(boxes[1].holds);
+  EXPECT_NEAR(boxes[1].upperU, 10.2, 1e-9); // a bundle that does not fray has its own limits
+  // Alone it does not have to make room for another.
+  fibres.bundleIds.assign(fibres.size(), 1);
+  EXPECT_FALSE(cactus::bundleBoxes(fibres, 0.7)[0].holds);
+  // Nor is it cut where the domain reaches farther.
+  Fibres inside = bundlesThatFray(10.0);
+  inside.domain = cactus::Domain::cube(22.0);
+  EXPECT_FALSE(cactus::bundleBoxes(inside, 0.7)[0].holds);
+}
+
+// Guarantee: bundles that part in one place keep their density in the domain, so that growth to a fraction gives their radii.
+TEST(CapsuleOptimizer, InterpenetratingBundlesKeepTheirDensity)
+{
+  std::vector<Fibres> bundles;
+  for (const Eigen::Vector3d& direction : { Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, 0, 1) })
+  {
+    cactus::BundleInitializerOptions options;
+    options.side = 12.0;
+    options.direction = direction;
+    options.fibreVolumeFraction = 0.2;
+    options.grownFibreVolumeFraction = 0.3;
+    bundles.push_back(cactus::initialiseBundles(options));
+  }
+  Fibres fibres = cactus::joinFibres(bundles);
+  const auto density = [](const Fibres& of) { return cactus::capsuleVolumeInDomain(of) / of.domain.volume(); };
+  const double before = density(fibres);
+  EXPECT_NEAR(before, 0.6, 0.03);
+  const cactus::OptimisationResult result = cactus::optimise(fibres, {}, {});
+  EXPECT_EQ(result.overlappingPairs, 0u);
+  EXPECT_LE(largestPenetration(fibres), 1e-3);
+  EXPECT_NEAR(density(fibres) / before, 1.0, 0.04); // without a hold it is 0.93
+}
+
+namespace
+{
+
 /// A file in the test's temporary folder, gone when the test is.
 struct TemporaryFile
 {
@@ -506,6 +590,33 @@ TEST(CapsuleOptimizer, NamesTheParameterThatIsOutOfRange)
       cactus::optimise(none, {}, {});
     },
     cactus::InvalidInput);
+}
+
+TEST(CapsuleOptimizer, RefusesBundlesThatTogetherOverfillTheDomain)
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  for (const int bundle : { 1, 2 })
+  {
+    fibres.addFibre(bundle, bundle, 4.5);
+    for (int i = 0; i <= 4; ++i)
+    {
+      fibres.addPoint({ 0.0, 0.0, 2.5 * i - 5.0 }, 4.5);
+    }
+  }
+  try
+  {
+    cactus::optimise(fibres, {}, {});
+    FAIL() << "nothing was said";
+  }
+  catch (const cactus::InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("together have 1.27 times the domain's volume"), std::string::npos) << error.what();
+  }
+  fibres.bundleIds = { 1, 1 };
+  cactus::CapsuleOptimizerOptions few;
+  few.maximumIterations = 1;
+  EXPECT_NO_THROW(cactus::optimise(fibres, few, {})); // one bundle is spread
 }
 
 // Such a fibre has so many capsules within reach of each other that the search for neighbours would take hours, and runs back the

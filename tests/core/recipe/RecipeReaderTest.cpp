@@ -65,7 +65,8 @@ TEST(RecipeReader, NothingIsTheDefaultChain)
 TEST(RecipeReader, ValuesArriveAsTheyStand)
 {
   const Recipe recipe = readRecipe(R"({ // a remark
-    "BundleInitializer": { "Side": 20, "Seed": 2147483647, "RadiusDistribution": "Table", "RadiusTable": [0.5, 0.1e1] },
+    "BundleInitializer": { "Side": 20, "Seed": 2147483647, "RadiusDistribution": "Table", "RadiusTable": [0.5, 0.1e1],
+                           "DispersionModel": "Harmonics", "OrientationHarmonics": [1, 0, 0, 0.25, 0, 0] },
     "CapsuleOptimizer": { "TrimToDomain": false, "MaximumIterations": 7.0, "CheckpointFile": "run.checkpoint" },
     "MyelinSurface": { "GRatioModel": 2, "GRatio": 0.65 },
     "SubstrateWriter": { "Format": "Disimpy", "FolderName": "/out/here" } })",
@@ -74,6 +75,7 @@ TEST(RecipeReader, ValuesArriveAsTheyStand)
   EXPECT_EQ(bundle.options.side, 20.0);
   EXPECT_EQ(bundle.options.seed, 2147483647u);
   EXPECT_EQ(bundle.radiusTable, "0.5 1");
+  EXPECT_EQ(bundle.orientationHarmonics, "1 0 0 0.25 0 0");
   const auto& optimiser = stageIn<CapsuleOptimizerStage>(recipe, 1);
   EXPECT_FALSE(optimiser.trimToDomain);
   EXPECT_EQ(optimiser.options.maximumIterations, 7);
@@ -85,11 +87,13 @@ TEST(RecipeReader, ValuesArriveAsTheyStand)
 
 TEST(RecipeReader, SeveralSourcesGoToOneOptimiser)
 {
-  const Recipe recipe =
-    readRecipe(R"({ "BundleInitializer": [ {"Seed": 1}, {"Seed": 2} ], "SubstrateProduction": {"Seed": 5} })", "");
+  const Recipe recipe = readRecipe(R"({ "BundleInitializer": [ {"Seed": 1}, {"Seed": 2, "Direction": [1, 0, 0.5]} ],
+                    "SubstrateProduction": {"Seed": 5} })",
+    "");
   EXPECT_EQ(stageNames(recipe),
     (std::vector<std::string>{ "BundleInitializer", "BundleInitializer", "CapsuleOptimizer", "SubstrateProduction" }));
   EXPECT_EQ(stageIn<BundleInitializerStage>(recipe, 1).options.seed, 2u);
+  EXPECT_EQ(stageIn<BundleInitializerStage>(recipe, 1).options.direction, Eigen::Vector3d(1.0, 0.0, 0.5));
   EXPECT_EQ(recipe.stages[2].input("Input").size(), 2u);
   EXPECT_EQ(stageIn<SubstrateProductionStage>(recipe, 3).surfaces.seed, 5u);
 }
@@ -107,7 +111,13 @@ TEST(RecipeReader, WithoutOptimiserSeveralSourcesAreBlocks)
 TEST(RecipeReader, NumbersThatAMemberCannotHoldAreRefused)
 {
   EXPECT_EQ(refusal(R"({"BundleInitializer": {"NumberOfBundles": 4294967297}})"),
-    "BundleInitializer: NumberOfBundles is 4294967297: give 1 to 2; append several sources for more bundles or other directions");
+    "BundleInitializer: NumberOfBundles is 4294967297: give 1 to 2; for more bundles connect several sources, each with its "
+    "Direction, to one CapsuleOptimizer");
+  for (const char* wrong : { "1", "[1, 0]", "[1, 0, 0, 0]", "[1, 0, \"0\"]" })
+  {
+    EXPECT_EQ(refusal(R"({"BundleInitializer": {"Direction": )" + std::string(wrong) + "}}"),
+      "BundleInitializer: Direction is " + std::string(wrong) + ": give a list of 3 numbers");
+  }
   EXPECT_EQ(refusal(R"({"SubstrateWriter": {"Format": 99}})").substr(0, 46), "SubstrateWriter: Format is 99: give \"MC/DC\", \"");
   EXPECT_EQ(refusal(R"({"SubstrateWriter": {"Format": -1}})").substr(0, 36), "SubstrateWriter: Format is -1: give ");
   EXPECT_EQ(refusal(R"({"BundleInitializer": {"Seed": true}})"), "BundleInitializer: Seed is true: give a number");

@@ -2,10 +2,16 @@
 // Guarantee: all stages describe all of their properties, and start from values that they accept.
 #include "stages/Stages.h"
 
+#include "base/Error.h"
+#include "stages/StageWork.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -40,6 +46,59 @@ TEST(Stages, DescribeTheirProperties)
       }
     }
   }
+}
+
+TEST(Stages, DispersionMayBeGivenAsKappaOrIndex)
+{
+  cactus::BundleInitializerStage stage;
+  EXPECT_EQ(cactus::bundleOptions(stage).meanDispersion, 5.0);
+  // κ for 5, 10, 15, 20 and 25° as tabled by numerical integration elsewhere, and (2/π) arctan(1/κ).
+  const double kappas[] = { 104.0, 26.8, 12.6, 7.8, 5.6 };
+  for (int i = 0; i < 5; ++i)
+  {
+    stage.watsonKappa = kappas[i];
+    stage.odi = 0.0;
+    EXPECT_NEAR(cactus::bundleOptions(stage).meanDispersion, 5.0 * (i + 1), 0.01 * 5.0 * (i + 1));
+    stage.watsonKappa = 0.0;
+    stage.odi = 2.0 / 3.14159265358979 * std::atan(1.0 / kappas[i]);
+    EXPECT_NEAR(cactus::bundleOptions(stage).meanDispersion, 5.0 * (i + 1), 0.01 * 5.0 * (i + 1));
+  }
+  const auto messageFor = [](const cactus::BundleInitializerStage& wrong) -> std::string
+  {
+    try
+    {
+      cactus::bundleOptions(wrong);
+    }
+    catch (const cactus::InvalidInput& error)
+    {
+      return error.what();
+    }
+    return "no error";
+  };
+  stage.watsonKappa = 10.0;
+  EXPECT_NE(messageFor(stage).find("both given"), std::string::npos);
+  stage.options.dispersionModel = cactus::DispersionModel::Cone; // has neither
+  EXPECT_EQ(messageFor(stage), "no error");
+  EXPECT_EQ(cactus::bundleOptions(stage).meanDispersion, 5.0);
+  stage.options.dispersionModel = cactus::DispersionModel::Watson;
+  stage.odi = 0.0;
+  stage.watsonKappa = 1.0;
+  EXPECT_NE(messageFor(stage).find("WatsonKappa gives a mean angle of "), std::string::npos);
+  stage.watsonKappa = 0.0;
+  stage.odi = 1.5;
+  EXPECT_EQ(messageFor(stage).find("ODI is 1.5"), 0U);
+}
+
+TEST(Stages, HarmonicsAreReadFromText)
+{
+  cactus::BundleInitializerStage stage;
+  stage.options.dispersionModel = cactus::DispersionModel::Harmonics;
+  stage.orientationHarmonics = "1, 0;0 0.5\n0\t-1e-3";
+  EXPECT_EQ(cactus::bundleOptions(stage).harmonics, (std::vector<double>{ 1.0, 0.0, 0.0, 0.5, 0.0, -1e-3 }));
+  stage.orientationHarmonics = "1 two 3";
+  EXPECT_THROW(cactus::bundleOptions(stage), cactus::InvalidInput);
+  stage.options.dispersionModel = cactus::DispersionModel::Watson;
+  EXPECT_TRUE(cactus::bundleOptions(stage).harmonics.empty());
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "judge/SphericalHarmonics.h"
+#include "base/SphericalHarmonics.h"
 
 #include "base/Constants.h"
 

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/LinesInSpace.h"
+
+#include "base/Constants.h"
+#include "base/Random.h"
+#include "bundle/OrientationDistribution.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Halton's sequence in four dimensions, all shifted by random numbers (modulo 1).
+class ShiftedHalton
+{
+public:
+  explicit ShiftedHalton(std::uint64_t seed)
+  {
+    RandomEngine engine = randomStream(seed, RandomStage::Directions);
+    for (double& shift : this->Shifts)
+    {
+      shift = uniform(engine);
+    }
+  }
+
+  std::array<double, 4> at(std::uint64_t index) const
+  {
+    static constexpr std::array<std::uint64_t, 4> bases = { 2, 3, 5, 7 };
+    std::array<double, 4> point = this->Shifts;
+    for (std::size_t i = 0; i < bases.size(); ++i)
+    {
+      double digit = 1.0;
+      for (std::uint64_t rest = index + 1; rest > 0; rest /= bases[i])
+      {
+        digit /= static_cast<double>(bases[i]);
+        point[i] += digit * static_cast<double>(rest % bases[i]);
+      }
+      point[i] -= std::floor(point[i]);
+    }
+    return point;
+  }
+
+private:
+  std::array<double, 4> Shifts{};
+};
+
+/// A straight fibre, without its radius.
+struct Line
+{
+  Eigen::Vector3d first;
+  Eigen::Vector3d last;
+  double lengthInDomain;
+};
+
+/// Lines of a sequence, which are made as far as they are asked for.
+class LineSequence
+{
+public:
+  explicit LineSequence(const BundleInitializerOptions& options)
+    : Distribution(options.harmonics)
+    , Points(options.seed)
+    , Box(options.domain())
+    , Around(surroundings(options).sides)
+    , Shortest(2.0 * options.radius.minimum)
+  {
+  }
+
+  const Line& operator[](std::size_t place)
+  {
+    while (this->Lines.size() <= place)
+    {
+      this->addNext();
+    }
+    return this->Lines[place];
+  }
+
+private:
+  /// Adds the next line that comes near the domain, if this one does.
+  void addNext()
+  {
+    // Lines through this ball around the domain and its surroundings are laid evenly on the disc across each direction.
+    const double reach = 0.5 * this->Box.size().norm() + std::sqrt(3.0) * this->Around;
+    const std::array<double, 4> point = this->Points.at(this->Next++);
+    const Eigen::Vector3d direction = this->Distribution.at(point[0], point[1]);
+    const double distance = reach * std::sqrt(point[2]);
+    const double azimuth = 2.0 * pi * point[3];
+    const double half = std::sqrt(reach * reach - distance * distance);
+    const Eigen::Vector3d middle =
+      turnTo(direction) * Eigen::Vector3d(distance * std::cos(azimuth), distance * std::sin(azimuth), 0.0);
+    const Eigen::Vector3d begin = middle - half * direction;
+    const Eigen::Vector3d end = middle + half * direction;
+    const std::array<double, 2> part = this->Box.clip(begin, end, this->Around);
+    if (2.0 * half * (part[1] - part[0]) > this->Shortest)
+    {
+      const std::array<double, 2> inside = this->Box.clip(begin, end);
+      this->Lines.push_back(
+        { begin + (end - begin) * part[0], begin + (end - begin) * part[1], 2.0 * half * std::max(0.0, inside[1] - inside[0]) });
+    }
+  }
+
+  OrientationDistribution Distribution;
+  ShiftedHalton Points;
+  Domain Box;
+  double Around;
+  double Shortest;
+  std::uint64_t Next = 0;
+  std::vector<Line> Lines;
+};
+
+/// Returns the radii of the first fibres, the largest first: those of any size then have successive lines, which are spread
+/// evenly.
+std::vector<double> radiiOf(const BundleInitializerOptions& options, std::size_t count)
+{
+  std::vector<double> radii(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    radii[i] = sampleRadius(options.radius, options.seed, i);
+  }
+  std::sort(radii.begin(), radii.end(), std::greater<>());
+  return radii;
+}
+
+} // namespace
+
+Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& context)
+{
+  LineSequence lines(options);
+  const double wanted = options.fibreVolumeFraction * options.domain().volume();
+  const auto volumeOf = [&](std::size_t count)
+  {
+    context.checkpoint();
+    const std::vector<double> radii = radiiOf(options, count);
+    double volume = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      volume += pi * radii[i] * radii[i] * lines[i].lengthInDomain;
+    }
+    return volume;
+  };
+  std::size_t enough = 1;
+  while (volumeOf(enough) < wanted)
+  {
+    enough *= 2;
+  }
+  std::size_t few = enough / 2;
+  while (enough - few > 1)
+  {
+    const std::size_t between = few + (enough - few) / 2;
+    (volumeOf(between) < wanted ? few : enough) = between;
+  }
+  Fibres fibres;
+  fibres.domain = options.domain();
+  fibres.grownFraction = options.grownFibreVolumeFraction;
+  for (const double radius : radiiOf(options, enough))
+  {
+    const Line& line = lines[fibres.size()];
+    const Eigen::Vector3d whole = line.last - line.first;
+    const int segments = std::max(2, static_cast<int>(std::lround(whole.norm() / options.spacing.of(radius))));
+    fibres.addFibre(static_cast<int>(fibres.size()) + 1, 1, radius);
+    for (int k = 0; k <= segments; ++k)
+    {
+      fibres.addPoint(line.first + whole * (static_cast<double>(k) / segments), radius);
+    }
+  }
+  return fibres;
+}
+
+} // namespace cactus
