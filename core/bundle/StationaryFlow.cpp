@@ -255,6 +255,7 @@ StationaryFlow::Sample StationaryFlow::followFibres(
   {
     const double step = sense * 0.5 * height / steps;
     std::vector<Planes> planes; // at starts of steps and between
+    planes.reserve(2 * static_cast<std::size_t>(steps));
     for (int i = 0; i < 2 * steps; ++i)
     {
       planes.push_back(this->planesAt(0.5 * i * step));
