@@ -164,11 +164,15 @@ bool hasKappa(DispersionModel model)
 double meanDispersionOf(const BundleInitializerStage& stage)
 {
   const bool isGiven = stage.watsonKappa != 0.0 || stage.odi != 0.0;
-  if (!isGiven || !hasKappa(stage.options.dispersionModel))
+  if (!isGiven)
   {
     return stage.options.meanDispersion;
   }
   validateProperties(stage);
+  if (!hasKappa(stage.options.dispersionModel))
+  {
+    throw InvalidInput("WatsonKappa and ODI are for DispersionModel Watson and Coherent: set both to 0");
+  }
   if (stage.watsonKappa != 0.0 && stage.odi != 0.0)
   {
     throw InvalidInput("WatsonKappa and ODI are both given: set one of them to 0");

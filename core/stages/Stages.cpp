@@ -86,14 +86,15 @@ const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
   static const auto list =
     withRadiusTable<BundleInitializerStage, BundleInitializerOptions>()
       .add("WatsonKappa", &BundleInitializerStage::watsonKappa, concentration,
-        "Concentration κ of Watson's distribution of angles, in place of MeanDispersion: 104 for 5°, 26.8 for 10°, 7.8 for 20°. "
-        "0: MeanDispersion or ODI says it.")
-      .where("DispersionModel", { 0, 2 })
+        "Concentration κ of Watson's distribution of angles (DispersionModel Watson or Coherent), in place of MeanDispersion: "
+        "104 "
+        "for 5°, 26.8 for 10°, 7.8 for 20°. 0: MeanDispersion or ODI says it.")
       .add("ODI", &BundleInitializerStage::odi, dispersionIndex,
         "Orientation dispersion index (2/π) arctan(1/κ) in place of MeanDispersion: 0.006 for 5°, 0.024 for 10°, 0.081 for 20°. "
-        "0: "
-        "MeanDispersion or WatsonKappa says it.")
-      .where("DispersionModel", { 0, 2 })
+        "0: MeanDispersion or WatsonKappa says it.")
+      .at("MeanDispersion")
+      .where("WatsonKappa", { 0 })
+      .where("ODI", { 0 })
       .add("OrientationHarmonics", &BundleInitializerStage::orientationHarmonics,
         "Coefficients of the distribution of directions in real spherical harmonics of even degrees, in the basis and order of "
         "MRtrix: 1, 6, 15, 28 or 45 numbers (degrees up to 0, 2, 4, 6 or 8; at most 16), separated by blanks or commas. The axes "
