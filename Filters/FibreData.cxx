@@ -96,7 +96,6 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
     const vtkIdType* ids = nullptr;
     cells->GetCurrentCell(count, ids);
     fibres.addFibre(fibreId ? idFrom(fibreId, cell) : static_cast<int>(cell) + 1, bundleId ? idFrom(bundleId, cell) : 1, 1.0);
-    double sum = 0.0;
     for (vtkIdType i = 0; i < count; ++i)
     {
       if (ids[i] < 0 || ids[i] >= input->GetNumberOfPoints())
@@ -107,10 +106,12 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
       Eigen::Vector3d point;
       input->GetPoint(ids[i], point.data());
       fibres.addPoint(point, radius->GetComponent(ids[i], 0));
-      sum += fibres.radii.back();
     }
-    fibres.targetRadii.back() =
-      targetRadius ? targetRadius->GetComponent(cell, 0) : sum / static_cast<double>(std::max<vtkIdType>(count, 1));
+    if (count > 0)
+    {
+      fibres.targetRadii.back() =
+        targetRadius ? targetRadius->GetComponent(cell, 0) : rootMeanSquareRadius(fibres, fibres.size() - 1);
+    }
     for (const auto& [name, array] : columns)
     {
       fibres.columns.set(name, static_cast<std::size_t>(cell), array->GetComponent(cell, 0));

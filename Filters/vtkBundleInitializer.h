@@ -72,6 +72,8 @@ public:
   CACTUS_NUMBER_PROPERTY(RadiusHistogramGRatio)
   CACTUS_NUMBER_PROPERTY(MinimumRadius)
   CACTUS_NUMBER_PROPERTY(MaximumRadius)
+  CACTUS_NUMBER_PROPERTY(CalibreVariation)
+  CACTUS_NUMBER_PROPERTY(CalibreCorrelationLength)
   CACTUS_WHOLE_PROPERTY(Border)
   CACTUS_NUMBER_PROPERTY(MeanDispersion)
   CACTUS_NUMBER_PROPERTY(WatsonKappa)

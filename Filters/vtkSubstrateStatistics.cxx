@@ -71,6 +71,7 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("MeanTortuosity", s.meanTortuosity);
   number("MeanOuterCalibreVariation", s.meanOuterCalibreVariation);
   number("MeanInnerCalibreVariation", s.meanInnerCalibreVariation);
+  number("MeanAxonDiffusivityRatio", s.meanDiffusivityRatio);
   number("MeanAxonAreaFluctuation_um", s.meanAreaFluctuation);
   number("EffectiveRadius_um", s.effectiveRadius);
   number("MiddleEffectiveRadius_um", s.middleEffectiveRadius);

@@ -53,6 +53,8 @@ public:
   CACTUS_NUMBER_PROPERTY(RadiusHistogramGRatio)
   CACTUS_NUMBER_PROPERTY(MinimumRadius)
   CACTUS_NUMBER_PROPERTY(MaximumRadius)
+  CACTUS_NUMBER_PROPERTY(CalibreVariation)
+  CACTUS_NUMBER_PROPERTY(CalibreCorrelationLength)
   CACTUS_NUMBER_PROPERTY(SpacingFactor)
   CACTUS_NUMBER_PROPERTY(MinimumSpacing)
   CACTUS_NUMBER_PROPERTY(MaximumSpacing)

@@ -86,7 +86,7 @@ def main():
     paths = dict(zip(FILES, make_folder("demo", folder, FILES)))
 
     stages = Stages()
-    bundle = simple.BundleInitializer(Side=wanted.side, FibreVolumeFraction=min(wanted.fvf, 0.7), GrownFibreVolumeFraction=wanted.fvf, GammaShape=2.4, GammaScale=0.25, MeanDispersion=wanted.dispersion, Seed=wanted.seed)
+    bundle = simple.BundleInitializer(Side=wanted.side, FibreVolumeFraction=min(wanted.fvf, 0.6), GrownFibreVolumeFraction=wanted.fvf, GammaShape=2.4, GammaScale=0.25, MeanDispersion=wanted.dispersion, Seed=wanted.seed)
     stages.run("Bundle initialiser", bundle, lambda: f"{cells(bundle)} fibres")
     initial = simple.SubstrateStatistics(Fibres=bundle)
     initial.UpdatePipeline()

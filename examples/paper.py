@@ -7,6 +7,7 @@ rows of the paper's table of maximum fibre volume fractions); histology-N is row
 bundle of 10° with a fibre volume fraction of F. Radii are the defaults, Γ(2.4, 0.25) cut to 0.2-2 µm, which the paper's tutorial has; of
 its own substrates the paper does not tell them. In histology-N and radii-F they are those that fibres end with. The others start with them and
 are grown to be as dense as can be, so that all end thicker by the same amount: dense bundles of thin fibres are held apart by their gaps.
+Capsules of a fibre are equally thick, as they start in the paper; what varies along a fibre comes of its growth.
 """
 
 # {mean dispersion: (fibres, fibre volume fraction)} and {crossing angle: ...} in the paper's Table 1.
@@ -26,8 +27,9 @@ def properties(name, side, seed=1, fraction=0.955, tolerance=0.0065):
     """The properties of BundleInitializer, FibreRadialGrowth and MyelinSurface for the substrate of that name, or None. `fraction` is the
     fibre volume fraction of those that are as dense as can be, `tolerance` their SurfaceTolerance (µm), which leaves room for it."""
     kind, _, number = name.partition("-")
-    bundle = {"Side": side, "Seed": seed, "Border": "Walls"}
-    growth = {"TargetFibreVolumeFraction": fraction, "SurfaceTolerance": tolerance}
+    bundle = {"Side": side, "Seed": seed, "Border": "Walls", "FibreVolumeFraction": 0.7, "CalibreVariation": 0}
+    rough = {"SurfaceRoughness": 0.1}
+    growth = {"TargetFibreVolumeFraction": fraction, "SurfaceTolerance": tolerance, **rough}
     myelin = {"GRatio": 0.7}
     if kind == "dispersion":
         bundle.update(MeanDispersion=float(number), DispersionModel="Watson", GrownFibreVolumeFraction=0)
@@ -36,11 +38,12 @@ def properties(name, side, seed=1, fraction=0.955, tolerance=0.0065):
     elif kind == "crossing":
         bundle = {"Preset": "Crossing at 90 degrees", **bundle, "CrossingAngle": float(number)}
     elif kind == "histology":
+        del bundle["FibreVolumeFraction"]
         bundle = {"Preset": f"Histological target {'abcd'[int(number) - 1]}", **bundle}
-        growth, myelin = {}, {}  # theirs follow from the bundle's
+        growth, myelin = rough, {}  # the rest follows from the bundle's
     elif kind == "radii":
         bundle.update(MeanDispersion=10, GrownFibreVolumeFraction=float(number))
-        growth = {}
+        growth = rough
     else:
         return None
     return bundle, growth, myelin

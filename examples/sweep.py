@@ -26,7 +26,7 @@ wanted = parser.parse_args()
 
 def make(folder, dispersion_deg, fraction, seed, side_um, voxel_um):
     """One substrate, from nothing to its folder."""
-    bundle = simple.BundleInitializer(Side=side_um, MeanDispersion=dispersion_deg, FibreVolumeFraction=min(0.7, 0.9 * fraction), GrownFibreVolumeFraction=fraction, Seed=seed)
+    bundle = simple.BundleInitializer(Side=side_um, MeanDispersion=dispersion_deg, FibreVolumeFraction=min(0.6, 0.9 * fraction), GrownFibreVolumeFraction=fraction, Seed=seed)
     fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundle), 0)
     simple.SubstrateProduction(Input=fibres, VoxelSize=voxel_um, FolderName=folder).UpdatePipeline()
 

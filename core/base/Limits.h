@@ -114,6 +114,9 @@ inline constexpr Range sheetThickness{ 1e-3, 1e5, " µm", 0.0 };
 inline constexpr Range bundleMargin{ 0.0, 1e4, " µm" };
 /// -1: as much as is needed.
 inline constexpr Range bundleMarginOrAsNeeded{ bundleMargin.lowest, bundleMargin.highest, " µm", -1.0 };
+/// Deviation of the logarithm of an axon's radius along it, and the length over which it is correlated.
+inline constexpr Range calibreVariation{ 1e-3, 0.5, "", 0.0 };
+inline constexpr Range calibreCorrelationLength{ 0.3, 20.0, " µm" };
 inline constexpr Range spacingFactor{ 1e-2, 1e3 };
 inline constexpr Range spacing{ 1e-2, 1e5, " µm" };
 

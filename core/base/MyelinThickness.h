@@ -14,4 +14,15 @@ inline double logLinearOuterDiameter(double axonDiameter)
   return axonDiameter + 2.0 * (0.35 + 0.006 * axonDiameter + 0.024 * std::log(axonDiameter));
 }
 
+/// Limits of a model's g-ratios: values outside are clamped (LogLinear) or drawn again (Distributed).
+constexpr double smallestGRatio = 0.3;
+constexpr double largestGRatio = 0.95;
+
+/// Returns the g-ratio of a fibre of outer diameter `outerDiameter` (µm) by the myelin thickness for its axon.
+///
+/// The relation leaves almost no axon in thin fibres (at 1 µm g is 0.35), for which it was not measured: the result is at least
+/// smallestGRatio. It is at most largestGRatio, which is exceeded from 30 µm. Throws InvalidInput unless the diameter is positive
+/// and finite.
+double logLinearGRatio(double outerDiameter);
+
 } // namespace cactus

@@ -10,6 +10,7 @@
 #include "bundle/BundlePacking.h"
 #include "bundle/LinesInSpace.h"
 #include "bundle/StationaryFlow.h"
+#include "bundle/VaryingCalibre.h"
 #include "fibres/JoinFibres.h"
 
 #include <algorithm>
@@ -81,7 +82,7 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
     const double radius = bundle.bottom.radii[i];
     const Eigen::Vector3d first = place(bundle.bottom.centres[i], -0.5 * bundle.length);
     const Eigen::Vector3d last = place(bundle.top.centres[i], 0.5 * bundle.length);
-    const double spacing = options.spacing.of(radius);
+    const double spacing = options.controlPointSpacing(radius);
     const int segments = std::max(2, static_cast<int>(std::lround((last - first).norm() / spacing)));
     fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle.id, radius);
     fibres.addPoint(first, radius);
@@ -112,7 +113,7 @@ void requireMemoryFor(const BundleInitializerOptions& options)
   const Eigen::Vector3d region = regionSize(options);
   const double turned = options.isLayered() ? std::sqrt(2.0) : 1.0;
   const double fibreCount = options.fibreVolumeFraction * region.x() * region.y() * turned / meanCircleArea(options.radius);
-  const double points = fibreCount * (2.0 + region.z() * turned / options.spacing.minimum);
+  const double points = fibreCount * (2.0 + region.z() * turned / options.controlPointSpacing(0.0));
   TextStream what;
   what.precision(3);
   what << "Side " << options.side << " µm with " << fibreCount << " fibres";
@@ -151,7 +152,9 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
   };
   if (!options.isCutOut())
   {
-    return make(options.fibreVolumeFraction);
+    Fibres fibres = make(options.fibreVolumeFraction);
+    varyCalibre(options, fibres);
+    return fibres;
   }
   // Slanted fibres fill more of a volume than of a face, and the domain holds more or less of the bundle by chance.
   constexpr int rounds = 5;
@@ -183,6 +186,7 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
     density = next;
   }
   report.fibreVolumeFraction = reached;
+  varyCalibreInDomain(options, *best);
   return std::move(*best);
 }
 
@@ -241,6 +245,7 @@ Fibres initialiseLayers(const BundleInitializerOptions& options, const Context& 
             << report.fibreVolumeFraction << ". Enlarge Side, or lower MaximumRadius";
     throw Infeasible(message.str());
   }
+  varyCalibreInDomain(options, *best);
   return std::move(*best);
 }
 

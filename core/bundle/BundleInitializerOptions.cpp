@@ -29,6 +29,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "to these radii. The fractions of several sources in one place add up. 0: fibres start with the radii drawn, and growth "
         "makes them thicker.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
+      .include(&Options::calibre, CalibreVariation::properties())
       .add("Border", &Options::border, { "Cut", "Walls" },
         "How the fibres meet the sides of the domain. Cut: the domain is cut from the middle of a larger bundle. Fibres run out "
         "through all six faces, and the tissue is as dense beside a face as in the middle. Walls: all fibres of a bundle start "
@@ -143,6 +144,13 @@ void BundleInitializerOptions::validate() const
 double BundleInitializerOptions::thinning() const
 {
   return grownFibreVolumeFraction > 0.0 ? std::sqrt(fibreVolumeFraction / grownFibreVolumeFraction) : 1.0;
+}
+
+double BundleInitializerOptions::controlPointSpacing(double fibreRadius) const
+{
+  // Shorter capsules than thick ones would fold up, see resampleDenseFibres().
+  constexpr double shortest = 0.6; // radii
+  return std::min(spacing.of(fibreRadius), std::max(longestSpacing(calibre), shortest * fibreRadius));
 }
 
 Domain BundleInitializerOptions::domain() const

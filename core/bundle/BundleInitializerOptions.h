@@ -3,6 +3,7 @@
 
 #include "base/Domain.h"
 #include "base/Properties.h"
+#include "bundle/CalibreVariation.h"
 #include "bundle/ControlPointSpacing.h"
 #include "bundle/DirectionDistribution.h"
 #include "bundle/RadiusDistribution.h"
@@ -44,8 +45,9 @@ struct BundleInitializerOptions
   double length = 0.0; ///< of the domain along z; 0: side
   /// In (0, 1). Volume of the capsules within the domain (see capsuleVolumeInDomain) over that of the domain; one bundle between
   /// walls: area of the circles on the end faces over the area of the faces.
-  double fibreVolumeFraction = 0.7;
+  double fibreVolumeFraction = 0.6;
   RadiusDistributionOptions radius; ///< outer radii of the fibres
+  CalibreVariation calibre;         ///< how they vary along a fibre
   /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules start thinner than the sampled
   /// target radii by sqrt(fibreVolumeFraction / this), so that grown fibres have the target radii; 0: capsules have the target
   /// radii.
@@ -96,6 +98,8 @@ struct BundleInitializerOptions
   Eigen::Vector3d extent() const;
   /// Returns the radius of the capsules over the sampled target radius.
   double thinning() const;
+  /// Returns the distance (µm) of control points of a fibre of this radius.
+  double controlPointSpacing(double fibreRadius) const;
 };
 
 /// Returns the smallest rotation that turns z to a direction (of any length) or the opposite one: the same for both.

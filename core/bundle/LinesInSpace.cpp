@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Random.h"
 #include "bundle/OrientationDistribution.h"
+#include "bundle/VaryingCalibre.h"
 
 #include <Eigen/Core>
 
@@ -166,13 +167,14 @@ Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& c
   {
     const Line& line = lines[fibres.size()];
     const Eigen::Vector3d whole = line.last - line.first;
-    const int segments = std::max(2, static_cast<int>(std::lround(whole.norm() / options.spacing.of(radius))));
+    const int segments = std::max(2, static_cast<int>(std::lround(whole.norm() / options.controlPointSpacing(radius))));
     fibres.addFibre(static_cast<int>(fibres.size()) + 1, 1, radius);
     for (int k = 0; k <= segments; ++k)
     {
       fibres.addPoint(line.first + whole * (static_cast<double>(k) / segments), radius);
     }
   }
+  varyCalibreInDomain(options, fibres);
   return fibres;
 }
 

@@ -8,6 +8,7 @@
 #include "bundle/BundleLayout.h"
 #include "bundle/BundlePacking.h"
 #include "bundle/TractPath.h"
+#include "bundle/VaryingCalibre.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +86,7 @@ void requireMemoryForTract(const TractFibresOptions& options, const TractSizes& 
   const double each = meanCircleArea(sizes.straight.radius);
   const double circles = fewestCircles + options.fibreVolumeFraction * 4.0 * radius * radius / each;
   const double width = options.side + 2.0 * (options.margin + options.radius.maximum);
-  const double points = options.fibreVolumeFraction * std::pow(width, 3) / (each * options.spacing.minimum);
+  const double points = options.fibreVolumeFraction * std::pow(width, 3) / (each * sizes.straight.controlPointSpacing(0.0));
   requireMemory(circles * 600.0 + points * 160.0, text("Side ", options.side, " µm with ", circles, " fibres"),
     "choose a smaller Side, a smaller Margin or larger radii");
 }
@@ -205,7 +206,7 @@ void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, 
     // A shorter piece cuts a corner of the grown domain, too far outside for the fibre to touch the domain.
     if (length > 0.8 * target)
     {
-      const double spacing = options.spacing.of(circle.radius);
+      const double spacing = options.straightBundle().controlPointSpacing(circle.radius);
       addAlong(kept, length, bundleId, circle.radius, spacing, fibres);
       fibres.targetRadii.back() = target;
     }
@@ -280,6 +281,7 @@ Fibres layTractFibres(
   {
     throw Infeasible("no fibre comes into the domain: enlarge BundleDiameter, FibreVolumeFraction or Side");
   }
+  varyCalibre(sizes.straight, fibres);
   reached.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
   setGrownFraction(options, sizes.thinning, reached.fibreVolumeFraction, fibres);
   validate(fibres);

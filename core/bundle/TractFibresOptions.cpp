@@ -52,6 +52,7 @@ const PropertyList<TractFibresOptions>& TractFibresOptions::properties()
         "so thin bundles follow their streamlines more closely.")
       .add("Margin", &Options::margin, limits::bundleMargin, "Width in µm by which fibres extend beyond all sides of the domain.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
+      .include(&Options::calibre, CalibreVariation::properties())
       .include(&Options::spacing, ControlPointSpacing::properties())
       .add("Seed", &Options::seed, limits::seed,
         "Seed of all random numbers. The same seed and parameters give the same fibres, bit for bit.");
@@ -77,6 +78,7 @@ BundleInitializerOptions TractFibresOptions::straightBundle() const
   straight.fibreVolumeFraction = fibreVolumeFraction;
   straight.grownFibreVolumeFraction = grownFibreVolumeFraction;
   straight.radius = radius;
+  straight.calibre = calibre;
   straight.meanDispersion = 0.0;
   straight.spacing = spacing;
   straight.seed = seed;

@@ -42,7 +42,7 @@ struct TractFibresOptions
   double scaleFactor = 1.0;                       ///< length in the substrate over length in the tract
   double side = 30.0;                             ///< side of the cubic domain [-side/2, side/2]³
   /// Fraction of each bundle's cross-section that the fibres' circles cover.
-  double fibreVolumeFraction = 0.7;
+  double fibreVolumeFraction = 0.6;
   /// Fraction of each bundle that growth is to fill later; see BundleInitializerOptions.
   double grownFibreVolumeFraction = 0.9;
   /// Diameter of the bundle around each streamline; 0: a single bundle covers the domain, several are together as large as the
@@ -51,6 +51,7 @@ struct TractFibresOptions
   double margin = 0.0;              ///< width by which the fibres extend beyond the domain on all
                                     ///< sides
   RadiusDistributionOptions radius; ///< outer radii of the fibres
+  CalibreVariation calibre;         ///< how they vary along a fibre
   ControlPointSpacing spacing;
   std::uint64_t seed = 1;
 

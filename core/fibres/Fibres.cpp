@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <unordered_set>
 
@@ -149,6 +150,17 @@ void validate(const Fibres& fibres)
     }
     validateRow(fibres.columns, f, name);
   }
+}
+
+double rootMeanSquareRadius(const Fibres& fibres, std::size_t fibre)
+{
+  const auto first = fibres.radii.begin() + static_cast<std::ptrdiff_t>(fibres.offsets[fibre]);
+  const auto last = fibres.radii.begin() + static_cast<std::ptrdiff_t>(fibres.offsets[fibre + 1]);
+  const auto count = static_cast<double>(last - first);
+  const double mean = std::accumulate(first, last, 0.0) / count;
+  double squares = 0.0;
+  std::for_each(first, last, [&](double radius) { squares += (radius - mean) * (radius - mean); });
+  return std::sqrt(mean * mean + squares / count);
 }
 
 double chainVolume(const Fibres& fibres, std::size_t fibre)

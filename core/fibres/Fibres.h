@@ -50,6 +50,10 @@ void validate(const Domain& domain);
 /// are positive and fibre ids unique; the domain is valid.
 void validate(const Fibres& fibres);
 
+/// Returns the root mean square of the radii at a fibre's control points (µm), the fibre's target radius where nothing else says
+/// it: the volume of a fibre goes with it. NaN for a fibre without a control point.
+double rootMeanSquareRadius(const Fibres& fibres, std::size_t fibre);
+
 /// Volume (µm³) of one fibre: its capsules as truncated cones between control points, without end caps.
 double chainVolume(const Fibres& fibres, std::size_t fibre);
 

@@ -13,7 +13,7 @@ struct CalibreOptions
 {
   /// How far, as a fraction of the local radius, the seeded shape may fall short of the capsule: 0 seeds the capsule itself,
   /// larger values make the calibre uneven. In [0, 0.5].
-  double surfaceRoughness = 0.1;
+  double surfaceRoughness = 0.0;
   std::uint64_t seed = 1;
 };
 

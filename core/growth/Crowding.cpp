@@ -37,26 +37,22 @@ NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wish
   return neighbours;
 }
 
-/// Merges the entries of each pair of fibres into the tightest in every respect.
-void joinPairs(std::vector<Crowding>& all)
+/// Keeps the entries of each pair of fibres that may limit the factor of the thicker one, room / radius + core / radius · the
+/// factor of the thinner: those of which no other is tighter in both terms.
+void keepTightest(std::vector<Crowding>& all)
 {
-  std::stable_sort(all.begin(), all.end(), [](const Crowding& a, const Crowding& b) { return pairOf(a) < pairOf(b); });
-  std::size_t pairs = 0;
+  const auto terms = [](const Crowding& c) { return std::pair(c.room / c.radius, c.core / c.radius); };
+  std::stable_sort(all.begin(), all.end(),
+    [&](const Crowding& a, const Crowding& b) { return std::pair(pairOf(a), terms(a)) < std::pair(pairOf(b), terms(b)); });
+  std::size_t kept = 0;
   for (const Crowding& crowding : all)
   {
-    if (pairs > 0 && pairOf(all[pairs - 1]) == pairOf(crowding))
+    if (kept == 0 || pairOf(all[kept - 1]) != pairOf(crowding) || terms(crowding).second < terms(all[kept - 1]).second)
     {
-      Crowding& kept = all[pairs - 1];
-      kept.radius = std::max(kept.radius, crowding.radius);
-      kept.room = std::min(kept.room, crowding.room);
-      kept.core = std::min(kept.core, crowding.core);
-    }
-    else
-    {
-      all[pairs++] = crowding;
+      all[kept++] = crowding;
     }
   }
-  all.resize(pairs);
+  all.resize(kept);
 }
 
 } // namespace
@@ -92,7 +88,7 @@ std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowth
       }
     }
   }
-  joinPairs(all);
+  keepTightest(all);
   return all;
 }
 

@@ -24,7 +24,7 @@ struct FibreRadialGrowthOptions
   /// Additional room on either side of the gap for later steps that move a surface (smoothing, decimation).
   double surfaceTolerance = 0.0075;
   /// How far, as a fraction of its local radius, a fibre may fall short of its capsules before it grows, in [0, 0.5].
-  double surfaceRoughness = 0.1;
+  double surfaceRoughness = 0.0;
   /// Width by which the image extends beyond the domain on every side, rounded up to whole voxels.
   double margin = 0.0;
   std::uint64_t seed = 1;

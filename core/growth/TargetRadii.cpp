@@ -134,12 +134,7 @@ Aim aimAtOwnRadii(const Fibres& fibres)
   Aim aim;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    double sum = 0.0;
-    for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
-    {
-      sum += fibres.radii[p];
-    }
-    aim.factors.push_back(fibres.targetRadii[f] * static_cast<double>(fibres.pointCount(f)) / sum);
+    aim.factors.push_back(fibres.targetRadii[f] / rootMeanSquareRadius(fibres, f));
     aim.volumes.push_back(volumeInDomain(fibres, f, aim.factors[f]));
   }
   return aim;

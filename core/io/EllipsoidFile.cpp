@@ -39,7 +39,6 @@ void readAxon(const Json& axon, const std::string& name, Fibres& fibres, GRatios
                             "(config_output_N.json), not one that it starts from");
   }
   fibres.addFibre(static_cast<int>(fibres.size()) + 1, 1, 1.0);
-  double sum = 0.0;
   for (const Json& ellipsoid : *ellipsoids)
   {
     const Eigen::Vector3d point = threeNumbers(ellipsoid, "position", where + ", an ellipsoid");
@@ -55,10 +54,9 @@ void readAxon(const Json& axon, const std::string& name, Fibres& fibres, GRatios
       continue;
     }
     fibres.addPoint(point, radius);
-    sum += radius;
     gRatios.add(inner != ellipsoid.end() && inner->is_number() ? 0.5 * inner->get<double>() : 0.0, radius);
   }
-  fibres.targetRadii.back() = sum / static_cast<double>(fibres.pointCount(fibres.size() - 1));
+  fibres.targetRadii.back() = rootMeanSquareRadius(fibres, fibres.size() - 1);
   gRatios.give(fibres);
 }
 

@@ -187,17 +187,15 @@ private:
     }
     else
     {
-      double sum = 0.0;
       this->Read.fibres.addFibre(static_cast<int>(this->Axon) + 1, 1, 1.0);
       for (std::size_t i = 0; i < this->Points.size(); ++i)
       {
         this->Read.fibres.addPoint(this->Points[i], this->Radii[i]);
-        sum += this->Radii[i];
         this->Largest = std::max(this->Largest, this->Points[i].maxCoeff());
         this->GRatios.add(this->InnerRadii[i], this->Radii[i]);
       }
       this->GRatios.give(this->Read.fibres);
-      this->Read.fibres.targetRadii.back() = sum / static_cast<double>(this->Points.size());
+      this->Read.fibres.targetRadii.back() = rootMeanSquareRadius(this->Read.fibres, this->Read.fibres.size() - 1);
     }
     this->Points.clear();
     this->Radii.clear();

@@ -197,20 +197,18 @@ void readStrand(LineReader& reader, std::size_t number, std::size_t strands, Fib
                 " control point(s): a fibre needs at least two");
   }
   fibres.addFibre(static_cast<int>(number), 1, 1.0);
-  double radiusSum = 0.0;
   for (std::size_t i = 0; i < points; ++i)
   {
     double values[4];
     reader.four("x y z r of control point " + std::to_string(i + 1) + " of " + strand, values);
     fibres.addPoint({ values[0], values[1], values[2] }, values[3]);
-    radiusSum += values[3];
   }
-  double& mean = fibres.targetRadii.back();
-  mean = radiusSum / static_cast<double>(points);
+  double& target = fibres.targetRadii.back();
+  target = rootMeanSquareRadius(fibres, fibres.size() - 1);
   for (const double limit : { limits::radius.lowest, limits::radius.highest })
   {
-    // The mean of radii at a limit counts as within it, however their sum was rounded.
-    mean = std::abs(mean - limit) <= 1e-9 * limit ? limit : mean;
+    // That of radii at a limit counts as within it, however their sum was rounded.
+    target = std::abs(target - limit) <= 1e-9 * limit ? limit : target;
   }
 }
 

@@ -223,6 +223,7 @@ void sumUpCuts(SubstrateStatistics& result)
   result.meanTortuosity = meanOver(result.fibres, [](const FibreStatistics& f) { return f.tortuosity; });
   result.meanOuterCalibreVariation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerCalibreVariation(); });
   result.meanInnerCalibreVariation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerCalibreVariation(); });
+  result.meanDiffusivityRatio = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.diffusivityRatio; });
   result.meanAreaFluctuation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.areaFluctuation; });
 }
 

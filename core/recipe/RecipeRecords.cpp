@@ -189,9 +189,17 @@ private:
     {
       setProperty(options, name, value, true);
     }
-    if (textOf(record, "filter") == "BundleInitializer" && memberOf(memberOf(record, "properties"), "Border").is_null())
+    // What there was before 0.3.0.
+    const std::string filter = textOf(record, "filter");
+    const bool isBundle = filter == "BundleInitializer";
+    const auto lacks = [&](const char* name) { return memberOf(memberOf(record, "properties"), name).is_null(); };
+    if (isBundle && lacks("Border"))
     {
-      setProperty(options, "Border", Json("Walls"), true); // all there was before 0.3.0
+      setProperty(options, "Border", Json("Walls"), true);
+    }
+    if ((isBundle || filter == "TractFibres") && lacks("CalibreVariation"))
+    {
+      setProperty(options, "CalibreVariation", Json(0), true);
     }
     const Json& reached = memberOf(record, "reached");
     if (memberOf(reached, "IsResult") == Json(false))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/MyelinThickness.h"
+
 #include <cstdint>
 
 namespace cactus
@@ -14,18 +16,6 @@ enum class GRatioModel
   Distributed = 2,             ///< per fibre from a normal distribution
   TargetAxonVolumeFraction = 3 ///< the same for all fibres, so that the axons fill a given fraction of the domain
 };
-
-/// Limits of a model's g-ratios: values outside are clamped (LogLinear) or drawn again (Distributed).
-constexpr double smallestGRatio = 0.3;
-constexpr double largestGRatio = 0.95;
-
-/// Returns the g-ratio of a fibre of outer diameter `outerDiameter` (µm) by the myelin thickness for its axon, see
-/// base/MyelinThickness.h, which is inverted here.
-///
-/// The relation leaves almost no axon in thin fibres (at 1 µm g is 0.35), for which it was not measured: the result is at least
-/// smallestGRatio. It is at most largestGRatio, which is exceeded from 30 µm. Throws InvalidInput unless the diameter is positive
-/// and finite.
-double logLinearGRatio(double outerDiameter);
 
 /// Returns the g-ratio of one fibre from a normal distribution of this mean and standard deviation, truncated to [smallestGRatio,
 /// largestGRatio]: the same for the same seed and fibre, whatever the other fibres are. Throws InvalidInput for a mean outside

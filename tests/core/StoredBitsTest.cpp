@@ -77,23 +77,25 @@ TEST(StoredBits, DefaultChain)
   }
   BundleInitializerOptions cut;
   cut.side = 8.0;
-  EXPECT_EQ(digest(initialiseBundles(cut)), "db4dc5dc44f817275e34e86ae811cc73053ee547fa9125d615b557b46b5ba681");
+  EXPECT_EQ(digest(initialiseBundles(cut)), "1cc3f73616d6904199b299b546c5cb6aedd715a6f1279c889b609f590a43b43b");
 
   BundleBetweenWalls wanted;
   wanted.side = 8.0;
   wanted.meanDispersion = 10.0;
+  wanted.calibre = CalibreVariation();
+  wanted.fibreVolumeFraction = 0.6;
   const Fibres initial = initialiseBundles(wanted);
-  EXPECT_EQ(digest(initial), "c1032f53505dfff021f4f24f931b7bc283bdf85b9539fff702c2b0e2ad5494dd");
+  EXPECT_EQ(digest(initial), "684ffb509a1b0637adeeda523911df178d82cc3a03d03563050fa6141a1f7031");
 
   Fibres fibres = initial;
   optimise(fibres, CapsuleOptimizerOptions{}, {});
   fibres = trimToDomain(fibres);
-  EXPECT_EQ(digest(fibres), "7c2acbb23ccdb02b4673ff3057b4921b0f7171236a3142a10cf4c2efd0863711");
+  EXPECT_EQ(digest(fibres), "3036da146a0bf3a51ceb66d60ae09966280a4a5550cbfe8f2647d4de68d04436");
 
   const FibreRadialGrowthOptions growth;
   const Fibres aimed = aimAtTargetRadii(fibres, growth);
   const LabelImage image = growFibres(aimed, growth, growthFor(aimed, growth).growth, growthGrid(fibres.domain, growth));
-  EXPECT_EQ(digest(image), "14b7050cdb823fef885868a979b478007a2e4c507379044a7646b8dc8e8a7eec");
+  EXPECT_EQ(digest(image), "b77793960434c99974bd032f057b9210aca4ed26377b162222c29ab6a676dbb4");
 
   const LabelImageFacts facts = labelImageFacts(fibres, growth);
   const auto surfaces = myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), growth.gap() }, facts, {});
@@ -105,12 +107,12 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "d324e18763b81996b4b8bd88b07099cc5139c7d36d7cdaf85ac741e2d4ec4819",
-           "5513e92e8d2e30360ac1b6efed676e0ac068cfdf2ceeb6d444f681d9db502a75" },
-         Known{ 20, "8db1af8c7c7561b8426afa55c2a3904f9936ae3c2ac2338700b7ca4d33543914",
-           "62ad7ac3ba410f17711a80cb0ebd512c4c531dded9fa4c9fc817b6d1fdcbb83b" },
-         Known{ 38, "b26053456983f69fb4966751afb91b9b72a3545ad00b84abffd42b29af176836",
-           "5db4cae763419b0ce543c12dc187021d680a4a284d64137259d7050a943dcdee" },
+         Known{ 1, "a56a6e222c378f0cc65f95568ac0aa465b15ffa9a61677fefb6637c802c446e8",
+           "bbf2bd66cd080055ab5c954d85d7e109253cbdf8d0a7bd9ec7cb5b81cb232729" },
+         Known{ 20, "b6c190e22e1480bf76249f5f1560e8150f6dd262cc3f0a966b6c07f552fcb6ba",
+           "f06c5cd16dbe67b2e268fc2c2edbcd76db85f61109c4f6678f265bbd1ba3a0cc" },
+         Known{ 38, "a84a8182967c5aa91db7c5985421fcba05f79e4107e08534faa37715968b555d",
+           "17b37c87c04fc2539619ef7b115941f2087be879dc7210ec8f74155917f95355" },
        })
   {
     const FibreSurfacePair& pair = surfaces[static_cast<std::size_t>(known.fibreId) - 1];

@@ -47,7 +47,7 @@ class Blocks(CactusTestCase):
     expected = UNPARTED
 
     def bundle(self, **properties):
-        return BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
+        return BundleInitializer(Border="Walls", CalibreVariation=0, Side=6, FibreVolumeFraction=0.2, MinimumRadius=0.4, MeanDispersion=2, GrownFibreVolumeFraction=0, **properties)
 
     def test_growth_of_grouped_bundles(self):
         one, two = self.bundle(), self.bundle(Seed=2)

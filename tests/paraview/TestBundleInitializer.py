@@ -12,7 +12,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 def drawn_radii(**properties):
     """A bundle between walls that starts with the radii drawn, so that these say where its circles touch."""
-    return BundleInitializer(**{"GrownFibreVolumeFraction": 0, "Border": "Walls", "CorrelationLength": 0, **properties})
+    return BundleInitializer(**{"GrownFibreVolumeFraction": 0, "Border": "Walls", "CorrelationLength": 0, "CalibreVariation": 0, "FibreVolumeFraction": 0.7, **properties})
 
 
 def ends(data):
@@ -60,13 +60,29 @@ class BundleInitializerTest(CactusTestCase):
         self.assertEqual([domain.GetValue(i) for i in range(6)], [-15, 15] * 3)
 
     def test_is_made_for_growth_by_default(self):
-        """Capsules that fill 0.7 of the faces, thinner than the radii drawn, by as much as these would fill 0.9 with."""
-        data = fetch(BundleInitializer(Side=20, Border="Walls"))
+        """Capsules that fill 0.6 of the faces, thinner than the radii drawn, by as much as these would fill 0.9 with."""
+        data = fetch(BundleInitializer(Side=20, Border="Walls", CalibreVariation=0))
         first = vtk_to_numpy(data.GetLines().GetOffsetsArray())[:-1]
         radii, targets = vtk_to_numpy(data.GetPointData().GetArray("Radius"))[first], ends(data)[2]
-        np.testing.assert_allclose(radii, targets * np.sqrt(0.7 / 0.9))
-        self.assertAlmostEqual((np.pi * radii**2).sum() / 400, 0.7, delta=0.005)
+        np.testing.assert_allclose(radii, targets * np.sqrt(0.6 / 0.9))
+        self.assertAlmostEqual((np.pi * radii**2).sum() / 400, 0.6, delta=0.005)
         self.assertEqual(data.GetFieldData().GetArray("GrownFibreVolumeFraction").GetValue(0), 0.9)
+
+    def test_calibre_varies_by_default(self):
+        """About the radius that a fibre is to have, and more with a larger CalibreVariation."""
+        spreads = []
+        for properties in ({"CalibreVariation": 0}, {}, {"CalibreVariation": 0.4}):
+            data = fetch(BundleInitializer(Side=20, **properties))
+            first = vtk_to_numpy(data.GetLines().GetOffsetsArray())[:-1]
+            counts = np.diff(vtk_to_numpy(data.GetLines().GetOffsetsArray()))
+            radii, targets = vtk_to_numpy(data.GetPointData().GetArray("Radius")), ends(data)[2]
+            ratios = np.sqrt(np.add.reduceat(radii**2, first) / counts) / (targets * np.sqrt(0.6 / 0.9))
+            self.assertAlmostEqual(ratios.mean(), 1, delta=0.02)
+            means = np.add.reduceat(np.log(radii), first) / counts
+            spreads.append(np.sqrt(np.mean((np.log(radii) - np.repeat(means, counts)) ** 2)))
+        self.assertLess(spreads[0], 1e-9)
+        self.assertGreater(spreads[1], 0.1)
+        self.assertGreater(spreads[2], 1.3 * spreads[1])
 
     def test_crossing(self):
         for style in ("Interwoven", "Sheets"):

@@ -53,7 +53,7 @@ class CactusGrow(CactusTestCase):
             self.assertEqual(content, two[name], name)
 
     def test_a_grown_bundle(self):
-        bundle = {"Side": 5, "Seed": 4}
+        bundle = {"Side": 5, "Seed": 4, "MinimumRadius": 0.5}
         fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(**bundle)), 0)
         self.write(fibres, {"VoxelSize": 0.15}, {"GRatio": 0.65})
         self.grow({"BundleInitializer": bundle, "FibreRadialGrowth": {"VoxelSize": 0.15}, "MyelinSurface": {"GRatio": 0.65}}, "grown")
@@ -103,7 +103,7 @@ class CactusGrow(CactusTestCase):
         numpy.array([1], "<u4").tofile(os.path.join(path, "groups", "inner.uint32"))
         return path
 
-    TRACT = {"Side": 5, "ScaleFactor": 0.001, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0}
+    TRACT = {"Side": 5, "ScaleFactor": 0.001, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0, "CalibreVariation": 0.15}
 
     def test_fibres_along_a_tract(self):
         path = self.tract("tract.tck")

@@ -165,13 +165,13 @@ class ChainTest(CactusTestCase):
         return data, reached
 
     def test_single_bundle(self):
-        data, reached = self.run_chain(12, 0.9, most_triangles=(10, 12.5), MeanDispersion=10, Border="Walls", CorrelationLength=0)
+        data, reached = self.run_chain(12, 0.9, most_triangles=(10, 12.5), MeanDispersion=10, Border="Walls", CorrelationLength=0, CalibreVariation=0)
         self.assertGreater(data.GetNumberOfCells(), 30)
         self.assertAlmostEqual(reached["MeanDispersion_deg"], 10, delta=1)
 
     def test_bundle_that_is_cut(self):
-        # Bent walls, and the rims of fibres that a face cuts lengthwise, take more triangles.
-        data, reached = self.run_chain(8, 0.9, most_triangles=(18, 22), largest_aspect=150)
+        # Bent walls of varying calibre, and the rims of fibres that a face cuts lengthwise, take more triangles.
+        data, reached = self.run_chain(8, 0.9, most_triangles=(22, 28), largest_aspect=150)
         self.assertGreater(data.GetNumberOfCells(), 30)
         self.assertGreater(reached["OuterClosed"], 30)
 
@@ -179,7 +179,7 @@ class ChainTest(CactusTestCase):
         """Three bundles at right angles, each in the whole domain: as many fibres of each, along the axes asked for."""
         directions = np.eye(3)
         data, reached = self.run_chain(
-            10, 0.8, most_triangles=(36, 42), largest_aspect=150, directions=directions, FibreVolumeFraction=0.15, MaximumRadius=1, Length=12
+            10, 0.8, most_triangles=(40, 48), largest_aspect=150, directions=directions, FibreVolumeFraction=0.15, MaximumRadius=1, Length=12
         )
         self.assertEqual(vtk_to_numpy(data.GetFieldData().GetArray("Domain")).ravel().tolist(), [-5, 5, -5, 5, -6, 6])
         p, q, r, _, fibre = capsules(data)
@@ -192,11 +192,11 @@ class ChainTest(CactusTestCase):
             _, axes = np.linalg.eigh(tensor)
             self.assertLess(np.degrees(np.arccos(abs(axes[:, 2] @ way))), 6)
             share = (r[mine] ** 2 * lengths[mine]).sum() / (r**2 * lengths).sum()
-            self.assertAlmostEqual(share, 1 / 3, delta=0.05)
+            self.assertAlmostEqual(share, 1 / 3, delta=0.07)
 
     def test_crossing(self):
         data, _ = self.run_chain(
-            12, 0.7, most_triangles=(12.5, 15), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5, Border="Walls"
+            12, 0.7, most_triangles=(12.5, 15), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5, Border="Walls", CalibreVariation=0
         )
         points = vtk_to_numpy(data.GetPoints().GetData())
         offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())

@@ -105,7 +105,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertGreater(len(whole), 15)
         ratios = [math.sqrt((ids == fibre).sum() * 1e-3 / 10 / math.pi) / target[fibre] for fibre in whole]
         self.assertAlmostEqual(np.mean(ratios), 1.0, delta=0.03)
-        self.assertLess(max(ratios) - min(ratios), 0.1)
+        self.assertLess(max(ratios) - min(ratios), 0.2)  # calibre varies over a few µm
 
     def test_fibres_that_still_overlap_are_warned_of(self):
         optimizer = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=10, DispersionModel="Watson"), MaximumIterations=3)
@@ -126,7 +126,7 @@ class FibreRadialGrowthTest(CactusTestCase):
             fetch(growth)
         growth.Input = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         fetch(growth)
-        fetch(FibreRadialGrowth(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=0), VoxelSize=0.2))
+        fetch(FibreRadialGrowth(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=0, CalibreVariation=0), VoxelSize=0.2))
 
     def test_parted_fibres_that_were_changed_since_are_warned_of(self):
         bundle = BundleInitializer(Border="Walls", Side=6, MeanDispersion=10, DispersionModel="Watson", GrownFibreVolumeFraction=0)

@@ -117,7 +117,7 @@ class FiniteElements(CactusTestCase):
 
     def test_a_grown_substrate(self):
         """The tetrahedra of each kind of compartment are what the statistics say, within 0.2 points."""
-        bundle = BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.4, MinimumRadius=0.7, MeanDispersion=8, GrownFibreVolumeFraction=0.5)
+        bundle = BundleInitializer(Border="Walls", CalibreVariation=0, Side=6, FibreVolumeFraction=0.4, MinimumRadius=0.7, MeanDispersion=8, GrownFibreVolumeFraction=0.5)
         fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         made = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, MinimumGap=0.1, VoxelSize=0.08))
         parts = {"Fibres": fibres, "Outer": OutputPort(made, 0), "Inner": OutputPort(made, 1)}
@@ -133,7 +133,7 @@ class FiniteElements(CactusTestCase):
 
     def test_even_triangles(self):
         """With MinimumAngle a grown substrate is certified as ever, and 99 % of its triangles have no smaller angle."""
-        bundle = BundleInitializer(Border="Walls", Side=5, FibreVolumeFraction=0.4, MinimumRadius=0.6, MeanDispersion=10, GrownFibreVolumeFraction=0.5)
+        bundle = BundleInitializer(Border="Walls", CalibreVariation=0, Side=5, FibreVolumeFraction=0.4, MinimumRadius=0.6, MeanDispersion=10, GrownFibreVolumeFraction=0.5)
         fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         grown = FibreRadialGrowth(Input=fibres, MinimumGap=0.1)
         fractions = []

@@ -58,8 +58,8 @@ class ManifestSchema(CactusTestCase):
     def test_a_chain_from_a_file_and_of_blocks(self):
         """Stages with all that a record may hold: files, what was reached, blocks, a filter of ParaView's own."""
         path = os.path.join(self.folder, "some.strands")
-        SaveData(path, proxy=BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.1, MinimumRadius=0.5))
-        bundle = BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.1, MinimumRadius=0.5, RadiusDistribution="Table", RadiusTable="0.5 0.6")
+        SaveData(path, proxy=BundleInitializer(Border="Walls", CalibreVariation=0, Side=6, FibreVolumeFraction=0.1, MinimumRadius=0.5))
+        bundle = BundleInitializer(Border="Walls", CalibreVariation=0, Side=6, FibreVolumeFraction=0.1, MinimumRadius=0.5, RadiusDistribution="Table", RadiusTable="0.5 0.6")
         fibres = OutputPort(CapsuleOptimizer(Input=GroupDatasets(Input=[StrandReader(FileName=path), bundle])), 0)
         grown = FibreRadialGrowth(Input=fibres, VoxelSize=0.1, TargetFibreVolumeFraction=0)
         made = MyelinSurface(Input=grown)
@@ -88,7 +88,7 @@ class ManifestSchema(CactusTestCase):
         self.assertValid(manifest)
 
     def test_production(self):
-        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=5)), 0)
+        fibres = OutputPort(CapsuleOptimizer(Input=BundleInitializer(Border="Walls", CalibreVariation=0, Side=5)), 0)
         SubstrateProduction(Input=fibres, VoxelSize=0.2, FolderName=self.folder_name()).UpdatePipeline()
         self.assertValid(self.manifest())
 

@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 NAMES = {
     "BundleInitializer": {
         "Side": 30,
-        "FibreVolumeFraction": 0.7,
+        "FibreVolumeFraction": 0.6,
         "RadiusDistribution": "Gamma",
         "GammaShape": 2.4,
         "GammaScale": 0.25,
@@ -20,6 +20,8 @@ NAMES = {
         "CrossingAngle": 90,
         "Border": "Cut",
         "Length": 0,
+        "CalibreVariation": 0.25,
+        "CalibreCorrelationLength": 1.3,
         "Direction": [0, 0, 1],
         "Mixing": "Interpenetrating",
         "CrossingStyle": "Interwoven",
@@ -44,7 +46,7 @@ NAMES = {
         "TargetFibreVolumeFraction": -1,
         "GrowthIterations": 0,
         "MinimumGap": 0.02,
-        "SurfaceRoughness": None,
+        "SurfaceRoughness": 0,
         "Seed": 1,
         "NumberOfThreads": 0,
     },

@@ -41,7 +41,9 @@ class StrandFiles(CactusTestCase):
         cells = fibres.GetCellData()
         self.assertEqual([cells.GetArray("FibreId").GetValue(i) for i in range(2)], [1, 2])
         self.assertEqual([cells.GetArray("BundleId").GetValue(i) for i in range(2)], [1, 1])
-        self.assertEqual([cells.GetArray("TargetRadius").GetValue(i) for i in range(2)], [0.75, 0.25])
+        targets = [cells.GetArray("TargetRadius").GetValue(i) for i in range(2)]
+        self.assertAlmostEqual(targets[0] ** 2, (0.5**2 + 0.75**2 + 1) / 3)
+        self.assertEqual(targets[1], 0.25)
         domain = fibres.GetFieldData().GetArray("Domain")
         self.assertEqual([domain.GetValue(i) for i in range(6)], [-15, 15, -15, 15, -15, 15])
         self.assertIn("StrandReader", fibres.GetFieldData().GetAbstractArray("Provenance").GetValue(0))

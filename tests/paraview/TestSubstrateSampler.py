@@ -86,7 +86,7 @@ class Sampler(CactusTestCase):
         self.assertAlmostEqual(array(whole, "AVF")[0, 0, 0], POLYGON * (0.7**2 + 0.9**2) / 100, 6)
 
     def chain(self):
-        bundle = BundleInitializer(Border="Walls", Side=8, FibreVolumeFraction=0.5, MinimumRadius=0.4, NumberOfBundles=2, CrossingStyle="Sheets")
+        bundle = BundleInitializer(Border="Walls", CalibreVariation=0, Side=8, FibreVolumeFraction=0.5, MinimumRadius=0.4, NumberOfBundles=2, CrossingStyle="Sheets")
         fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         return fibres, MyelinSurface(Input=FibreRadialGrowth(Input=fibres, VoxelSize=0.2, GrowthIterations=1))
 

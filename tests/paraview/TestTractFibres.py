@@ -31,7 +31,7 @@ class Tracts(CactusTestCase):
 
     def fibres(self, tract, **properties):
         values = {"ScaleFactor": 0.001, "Side": 7, "MinimumRadius": 0.4, "MaximumRadius": 1, "FibreVolumeFraction": 0.5,
-                  "GrownFibreVolumeFraction": 0.6, **properties}
+                  "GrownFibreVolumeFraction": 0.6, "CalibreVariation": 0, **properties}
         return TractFibres(Input=tract, **values)
 
     def test_fibres_run_round_the_arc_at_their_distance(self):

@@ -27,7 +27,7 @@ class Views(CactusTestCase):
         return view
 
     def bundle(self, **options):
-        return simple.BundleInitializer(Border="Walls", **{"Side": SIDE, "Seed": 1, "GrownFibreVolumeFraction": 0, **options})
+        return simple.BundleInitializer(Border="Walls", **{"Side": SIDE, "Seed": 1, "GrownFibreVolumeFraction": 0, "CalibreVariation": 0, **options})
 
     def test_fibres_are_tubes_in_the_colours_of_their_direction(self):
         bundle, view = self.bundle(), self.view()

@@ -36,7 +36,7 @@ def digest(surface):
 class VtkMeshingTest(CactusTestCase):
     @classmethod
     def setUpClass(cls):
-        fibres = BundleInitializer(Border="Walls", Side=SIDE, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0, MeanDispersion=5)
+        fibres = BundleInitializer(Border="Walls", CalibreVariation=0, Side=SIDE, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0, MeanDispersion=5)
         cls.fibres = fetch(fibres)
         cls.image = fetch(FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=0.8, VoxelSize=0.125, MinimumGap=GAP))
 

@@ -29,7 +29,7 @@ import performance_page
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MARK = "performance: "  # before what a child has measured
-CAPSULES = 7 / 9  # of the volume fraction that fibres are grown to, as among the defaults of BundleInitializer
+CAPSULES = 2 / 3  # of the volume fraction that fibres are grown to, as among the defaults of BundleInitializer
 
 
 def busy_seconds():

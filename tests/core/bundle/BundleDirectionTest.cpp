@@ -23,7 +23,7 @@ using cactus::degree;
 
 BundleInitializerOptions along(const Eigen::Vector3d& direction, double side = 20.0)
 {
-  BundleInitializerOptions options;
+  BundleInitializerOptions options = ofPipes();
   options.side = side;
   options.direction = direction;
   return options;
@@ -131,7 +131,7 @@ TEST(BundleDirection, ADomainMayBeLong)
   {
     for (const int bundles : { 1, 2 })
     {
-      BundleInitializerOptions options;
+      BundleInitializerOptions options = ofPipes();
       options.side = 10.0;
       options.length = 25.0;
       options.border = border;
@@ -156,7 +156,7 @@ TEST(BundleDirection, ADomainMayBeLong)
       }
     }
   }
-  BundleInitializerOptions cube;
+  BundleInitializerOptions cube = ofPipes();
   cube.side = 10.0;
   const Fibres fibres = initialiseBundles(cube);
   cube.length = 10.0;
@@ -166,7 +166,7 @@ TEST(BundleDirection, ADomainMayBeLong)
 TEST(BundleDirection, InterpenetratingBundlesAreAsRoundAsOne)
 {
   constexpr double asked = 60.0;
-  BundleInitializerOptions options;
+  BundleInitializerOptions options = ofPipes();
   options.numberOfBundles = 2;
   options.crossingAngle = asked;
   BundleInitializerReport report;
@@ -192,7 +192,7 @@ TEST(BundleDirection, InterpenetratingBundlesAreAsRoundAsOne)
 
 TEST(BundleDirection, LayersRemainAChoice)
 {
-  BundleInitializerOptions options;
+  BundleInitializerOptions options = ofPipes();
   options.side = 12.0;
   options.numberOfBundles = 2;
   options.mixing = Mixing::Layers;
@@ -233,7 +233,7 @@ TEST(BundleDirection, WhatIsNoDirectionIsNamed)
   BundleInitializerOptions walled = along({ 1, 0, 1 });
   walled.border = Border::Walls;
   EXPECT_NE(messageFor(walled).find("use Border Cut"), std::string::npos);
-  BundleInitializerOptions options;
+  BundleInitializerOptions options = ofPipes();
   for (const double bad : { -1.0, 0.01, 1e6, none })
   {
     options.length = bad;

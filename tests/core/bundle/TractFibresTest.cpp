@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/TractFibres.h"
 
+#include "BundleBetweenWalls.h"
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "bundle/TractPath.h"
@@ -61,7 +62,7 @@ Streamlines rightAngle(double leg)
 
 TractFibresOptions optionsOf(double side)
 {
-  TractFibresOptions options;
+  TractFibresOptions options = ofPipes<TractFibresOptions>();
   options.side = side;
   options.grownFibreVolumeFraction = 0.0; // fibres start with the drawn radii, at which they touch
   return options;

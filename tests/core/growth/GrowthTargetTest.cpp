@@ -151,6 +151,7 @@ TEST(GrowthTarget, RadiiOfAPackedBundleEndOnTarget)
   const Fibres fibres = bundle(0.9);
   FibreRadialGrowthOptions options;
   options.voxelSize = 0.05;
+  options.surfaceRoughness = 0.1;
   options.targetFibreVolumeFraction = 0.9;
   const Radii aimed = measure(fibres, grown(aimAtTargetRadii(fibres, options), options));
   const Radii plain = measure(fibres, grown(fibres, options));

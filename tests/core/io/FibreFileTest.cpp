@@ -89,7 +89,7 @@ TEST(SphereTable, AxonsBecomeFibres)
   EXPECT_EQ(read.fibres.offsets, std::vector<std::size_t>({ 0, 3, 5 }));
   EXPECT_EQ(read.fibres.points[1], Eigen::Vector3d(1.5, 2.1, 0.25));
   EXPECT_EQ(read.fibres.radii, std::vector<double>({ 0.5, 0.55, 0.5, 0.4, 0.4 })) << "outer ones, the larger of two in one place";
-  EXPECT_NEAR(read.fibres.targetRadii[0], 1.55 / 3.0, 1e-12);
+  EXPECT_NEAR(read.fibres.targetRadii[0], std::sqrt((0.25 + 0.3025 + 0.25) / 3.0), 1e-12);
   EXPECT_EQ(read.fibres.domain.lower, Eigen::Vector3d(0.0, 0.0, 0.0));
   EXPECT_EQ(read.fibres.domain.upper, Eigen::Vector3d(7.5, 7.5, 7.5)) << "nobody has said more";
   // Squares add up; the axon without myelin has no g-ratio.

@@ -45,7 +45,8 @@ struct StraightFibre
 
   StraightFibre()
   {
-    const FibreRadialGrowthOptions options;
+    FibreRadialGrowthOptions options;
+    options.surfaceRoughness = 0.1;
     Fibres fibres;
     fibres.domain = Domain::cube(3.0);
     fibres.addFibre(1, 1, 0.6);
@@ -348,6 +349,7 @@ struct TightBundle
     fibres = initialiseBundles(bundle);
     optimise(fibres, {}, {});
     growth.targetFibreVolumeFraction = 0.93;
+    growth.surfaceRoughness = 0.1;
     fibres = aimAtTargetRadii(trimToDomain(fibres), growth);
     by = growthFor(fibres, growth).growth;
   }

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/VaryingCalibre.h"
+
+#include "base/Limits.h"
+#include "base/MyelinThickness.h"
+#include "base/RandomVariates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// The deviation falls with this power of the radius (mouse, human and monkey axons of 0.5 to 2 µm).
+constexpr double fallOff = 0.3;
+constexpr double largestDeviation = 0.6; ///< of a thin fibre
+/// What occurs of the normal variable: axons swell further than they narrow (mouse: 1.64 and 0.59 times the mean).
+constexpr double lowestNormal = -2.0;
+constexpr double highestNormal = 3.0;
+/// Length of the process, in correlation lengths: between control points the radius is linear, and growth and surfaces smooth it,
+/// too.
+constexpr double shortening = 0.8;
+
+/// Returns the deviation before growth to a volume fraction of fibres that comes out as the one asked for. By measurements of
+/// default bundles (tools/benchmarks/calibre.py): reached² = own² + kept · begun².
+double deviationBeforeGrowth(double asked, double fraction)
+{
+  const double dense = fraction / 0.9;
+  const double own = 0.15 * std::pow(dense, 5.4);
+  const double kept = 1.0 - 0.52 * std::pow(dense, 3.0);
+  return std::sqrt(std::max(0.0, asked * asked - own * own) / kept);
+}
+
+/// Returns the radius (µm) of an axon at its thinnest neck before its neighbours' growth to a volume fraction of fibres squeezes
+/// it, so that a voxel of 0.1 µm still resolves it.
+double thinnestAxon(double fraction)
+{
+  return 0.12 + 0.1 * std::pow(fraction / 0.9, 4.0);
+}
+
+/// Returns the g-ratio of a fibre, as far as its source knows it: it says how much thicker the same myelin makes the fibre.
+double expectedGRatio(const RadiusDistributionOptions& drawn, double grownRadius)
+{
+  constexpr double usual = 0.7;
+  if (drawn.model != RadiusModel::Histogram)
+  {
+    return usual;
+  }
+  return drawn.histogramGRatio > 0.0 ? drawn.histogramGRatio : logLinearGRatio(2.0 * grownRadius);
+}
+
+/// Returns the radius at which the deviation is its mean over fibres: the power mean of the radii.
+double typicalRadius(const RadiusDistributionOptions& drawn, std::uint64_t seed)
+{
+  constexpr std::uint64_t draws = 1000;
+  double sum = 0.0;
+  for (std::uint64_t i = 0; i < draws; ++i)
+  {
+    sum += std::pow(sampleRadius(drawn, seed, i), -fallOff);
+  }
+  return std::pow(sum / static_cast<double>(draws), -1.0 / fallOff);
+}
+
+/// The Gaussian process of one fibre. White noise at knots along the fibre is summed with weights exp(-√3 d/ℓ), whose convolution
+/// with themselves is the correlation.
+class CalibreProcess
+{
+public:
+  /// Draws the noise for a fibre that reaches `half` (µm) to either side of its middle.
+  CalibreProcess(double correlationLength, std::uint64_t seed, int fibreId, double half)
+    : Spacing(correlationLength / knotsPerLength)
+    , First(static_cast<std::int64_t>(std::floor(-half / this->Spacing)) - reach)
+  {
+    const auto last = static_cast<std::int64_t>(std::ceil(half / this->Spacing)) + reach;
+    for (std::int64_t knot = this->First; knot <= last; ++knot)
+    {
+      const std::uint64_t item = (std::uint64_t(std::uint32_t(fibreId)) << 32) | std::uint32_t(knot);
+      RandomEngine engine = randomStream(seed, RandomStage::Calibre, item);
+      this->Noise.push_back(normal(engine));
+    }
+  }
+
+  /// Returns z at a length (µm) from the fibre's middle.
+  double at(double length) const
+  {
+    const double place = length / this->Spacing;
+    const double below = std::floor(place);
+    const auto left = static_cast<std::size_t>(static_cast<std::int64_t>(below) - this->First);
+    const double decay = std::exp(-std::sqrt(3.0) / knotsPerLength);
+    double leftWeight = std::exp(-std::sqrt(3.0) / knotsPerLength * (place - below));
+    double rightWeight = decay / leftWeight;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < reach; ++k)
+    {
+      sum += leftWeight * this->Noise[left - k] + rightWeight * this->Noise[left + 1 + k];
+      squares += leftWeight * leftWeight + rightWeight * rightWeight;
+      leftWeight *= decay;
+      rightWeight *= decay;
+    }
+    return sum / std::sqrt(squares);
+  }
+
+private:
+  static constexpr double knotsPerLength = 4.0;
+  static constexpr int reach = 40; ///< knots, beyond which weights are below 1e-7
+
+  double Spacing;
+  std::int64_t First;
+  std::vector<double> Noise;
+};
+
+/// Returns the correlation of the process at a distance of so many correlation lengths.
+double correlationAt(double distance)
+{
+  const double x = std::sqrt(3.0) * distance;
+  return (1.0 + x) * std::exp(-x);
+}
+
+/// Returns the mean of the outer radius squared, relative to that of an axon of its median radius, by the trapezoidal rule.
+double meanSquare(double gRatio, double deviation)
+{
+  constexpr int steps = 60; // on either side, of a tenth of a deviation
+  double sum = 0.0;
+  double weights = 0.0;
+  for (int step = -steps; step <= steps; ++step)
+  {
+    const double x = 0.1 * step;
+    const double weight = std::exp(-0.5 * x * x);
+    const double radius = 1.0 - gRatio + gRatio * std::exp(deviation * std::clamp(x, lowestNormal, highestNormal));
+    sum += weight * radius * radius;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+} // namespace
+
+void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
+{
+  const double asked = deviationBeforeGrowth(options.calibre.deviation, options.grownFibreVolumeFraction);
+  if (asked == 0.0)
+  {
+    return;
+  }
+  const double typical = typicalRadius(options.radius, options.seed);
+  const double processLength = shortening * options.calibre.correlationLength;
+  const double thinning = options.thinning();
+  const double thinnest = thinnestAxon(options.grownFibreVolumeFraction);
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const std::size_t first = fibres.offsets[f];
+    const std::size_t last = fibres.offsets[f + 1] - 1;
+    std::vector<double> lengths{ 0.0 };
+    for (std::size_t p = first; p < last; ++p)
+    {
+      lengths.push_back(lengths.back() + (fibres.points[p + 1] - fibres.points[p]).norm());
+    }
+    const double half = 0.5 * lengths.back();
+    const double apart = lengths.back() / static_cast<double>(last - first);
+    // Between control points the radius is interpolated, which takes some of the variance.
+    const double kept = (2.0 + correlationAt(apart / processLength)) / 3.0;
+    const double radius = fibres.radii[first];
+    const double gRatio = expectedGRatio(options.radius, radius / thinning);
+    const double narrowest = std::log(thinnest * thinning / (gRatio * radius)) / lowestNormal;
+    const double deviation = std::clamp(
+      asked * std::pow(radius / typical, -fallOff) / std::sqrt(kept), 0.0, std::clamp(narrowest, 0.0, largestDeviation));
+    const double scale = radius / std::sqrt(meanSquare(gRatio, deviation));
+    const CalibreProcess process(processLength, options.seed, fibres.fibreIds[f], half);
+    for (std::size_t p = first; p <= last; ++p)
+    {
+      const double z = std::clamp(process.at(lengths[p - first] - half), lowestNormal, highestNormal);
+      const double varied = scale * (1.0 - gRatio + gRatio * std::exp(deviation * z));
+      fibres.radii[p] = std::clamp(varied, limits::radius.lowest, limits::radius.highest);
+    }
+  }
+}
+
+void varyCalibreInDomain(const BundleInitializerOptions& options, Fibres& fibres)
+{
+  const double before = capsuleVolumeInDomain(fibres);
+  varyCalibre(options, fibres);
+  const double after = capsuleVolumeInDomain(fibres);
+  if (options.calibre.varies() && after > 0.0)
+  {
+    for (double& radius : fibres.radii)
+    {
+      radius = std::clamp(radius * std::sqrt(before / after), limits::radius.lowest, limits::radius.highest);
+    }
+  }
+}
+
+} // namespace cactus
