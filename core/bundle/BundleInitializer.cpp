@@ -152,9 +152,7 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
   };
   if (!options.isCutOut())
   {
-    Fibres fibres = make(options.fibreVolumeFraction);
-    varyCalibre(options, fibres);
-    return fibres;
+    return make(options.fibreVolumeFraction);
   }
   // Slanted fibres fill more of a volume than of a face, and the domain holds more or less of the bundle by chance.
   constexpr int rounds = 5;
@@ -186,7 +184,6 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
     density = next;
   }
   report.fibreVolumeFraction = reached;
-  varyCalibreInDomain(options, *best);
   return std::move(*best);
 }
 
@@ -245,7 +242,6 @@ Fibres initialiseLayers(const BundleInitializerOptions& options, const Context& 
             << report.fibreVolumeFraction << ". Enlarge Side, or lower MaximumRadius";
     throw Infeasible(message.str());
   }
-  varyCalibreInDomain(options, *best);
   return std::move(*best);
 }
 
@@ -315,6 +311,7 @@ Fibres initialiseBundles(const BundleInitializerOptions& options, const Context&
   context.report(0.0, "Drawing radii");
   BundleInitializerReport reached;
   Fibres fibres = initialiseAny(thinner, context, reached);
+  varyCalibreInDomain(withOwnSeed(thinner), fibres); // of all bundles, since growth fills the domain with all of them
   if (options.grownFibreVolumeFraction > 0.0)
   {
     for (double& radius : fibres.targetRadii)

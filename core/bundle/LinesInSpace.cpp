@@ -4,7 +4,6 @@
 #include "base/Constants.h"
 #include "base/Random.h"
 #include "bundle/OrientationDistribution.h"
-#include "bundle/VaryingCalibre.h"
 
 #include <Eigen/Core>
 
@@ -174,7 +173,6 @@ Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& c
       fibres.addPoint(line.first + whole * (static_cast<double>(k) / segments), radius);
     }
   }
-  varyCalibreInDomain(options, fibres);
   return fibres;
 }
 
