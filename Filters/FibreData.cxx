@@ -132,7 +132,8 @@ Domain boundingBox(const Fibres& fibres)
   return box;
 }
 
-Domain readDomain(vtkAbstractArray* array)
+/// `periodic` is the array of that name, or null.
+Domain readDomain(vtkAbstractArray* array, vtkAbstractArray* periodic)
 {
   auto* numbers = vtkDataArray::SafeDownCast(array);
   if (numbers == nullptr || numbers->GetNumberOfValues() != 6)
@@ -144,6 +145,18 @@ Domain readDomain(vtkAbstractArray* array)
   {
     domain.lower[axis] = numbers->GetVariantValue(2 * axis).ToDouble();
     domain.upper[axis] = numbers->GetVariantValue(2 * axis + 1).ToDouble();
+  }
+  if (periodic != nullptr)
+  {
+    auto* flags = vtkDataArray::SafeDownCast(periodic);
+    if (flags == nullptr || flags->GetNumberOfValues() != 3)
+    {
+      throw InvalidInput("the field data Periodic must have three numbers, 0 or 1, for x, y and z");
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      domain.periodic[static_cast<std::size_t>(axis)] = flags->GetVariantValue(axis).ToInt() != 0;
+    }
   }
   validate(domain);
   return domain;
@@ -324,11 +337,12 @@ bool hasDomain(vtkDataObject* data)
 
 Domain domainFrom(vtkDataObject* data)
 {
-  Domain domain = readDomain(fieldArray(data, "Domain"));
+  Domain domain = readDomain(fieldArray(data, "Domain"), fieldArray(data, "Periodic"));
   for (vtkDataObject* leaf : leavesOf(data))
   {
-    vtkAbstractArray* array = leaf->GetFieldData() != nullptr ? leaf->GetFieldData()->GetAbstractArray("Domain") : nullptr;
-    if (array != nullptr && !isSame(readDomain(array), domain))
+    vtkFieldData* facts = leaf->GetFieldData();
+    vtkAbstractArray* array = facts != nullptr ? facts->GetAbstractArray("Domain") : nullptr;
+    if (array != nullptr && !isSame(readDomain(array, facts->GetAbstractArray("Periodic")), domain))
     {
       throw InvalidInput("the blocks of the input have different Domains: group what belongs to one substrate");
     }
@@ -341,12 +355,20 @@ void setDomain(vtkDataObject* data, const Domain& domain)
   vtkNew<vtkDoubleArray> array;
   array->SetName("Domain");
   array->SetNumberOfValues(6);
+  vtkNew<vtkUnsignedCharArray> periodic;
+  periodic->SetName("Periodic");
   for (int axis = 0; axis < 3; ++axis)
   {
     array->SetValue(2 * axis, domain.lower[axis]);
     array->SetValue(2 * axis + 1, domain.upper[axis]);
+    periodic->InsertNextValue(domain.periodic[static_cast<std::size_t>(axis)] ? 1 : 0);
   }
   data->GetFieldData()->AddArray(array);
+  data->GetFieldData()->RemoveArray("Periodic");
+  if (domain.isPeriodic())
+  {
+    data->GetFieldData()->AddArray(periodic);
+  }
   forgetPlacement(data);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace cactus
 {
@@ -14,7 +15,7 @@ struct Domain
 {
   Eigen::Vector3d lower = Eigen::Vector3d::Constant(-15.0);
   Eigen::Vector3d upper = Eigen::Vector3d::Constant(15.0);
-  /// Periodicity per axis. No stage supports a periodic axis yet; each says so with an error.
+  /// Periodicity per axis: what leaves through a periodic face enters through the opposite one. None, x and y, or all.
   std::array<bool, 3> periodic{ { false, false, false } };
 
   /// The cube [-side/2, side/2]³.
@@ -29,6 +30,22 @@ struct Domain
   Eigen::Vector3d size() const { return upper - lower; }
   double volume() const { return size().prod(); }
   bool isPeriodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+  /// Returns the box in which a fibre along z is measured once: without limits along x and y if these are periodic, since the
+  /// fibre goes on through their faces.
+  Domain unrolled() const
+  {
+    Domain all = *this;
+    for (Eigen::Index axis = 0; axis < 2; ++axis)
+    {
+      if (periodic[static_cast<std::size_t>(axis)])
+      {
+        constexpr double everywhere = 1e9;
+        all.lower[axis] = -everywhere;
+        all.upper[axis] = everywhere;
+      }
+    }
+    return all;
+  }
   /// Returns the part of the segment from p to q that lies in the box grown by `margin` (µm) on all sides, as fractions of its
   /// length; the second is below the first if no part does.
   std::array<double, 2> clip(const Eigen::Vector3d& p, const Eigen::Vector3d& q, double margin = 0.0) const

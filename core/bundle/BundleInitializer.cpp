@@ -72,6 +72,31 @@ Eigen::Vector2d bendOf(const Bundle& bundle, const BundleInitializerOptions& opt
   return bundle.top.frame(fibre).clampCentre(bent, bundle.bottom.radii[fibre]) - straight;
 }
 
+/// Appends fibres that repeat after the bundle's length, of which `around` (µm) is added beyond both ends of one period.
+void appendRepeatedFibres(const Bundle& bundle, const BundleInitializerOptions& options, double around, Fibres& fibres)
+{
+  for (std::size_t i = 0; i < bundle.bottom.size(); ++i)
+  {
+    const double radius = bundle.bottom.radii[i];
+    const int segments = std::max(3, static_cast<int>(std::lround(bundle.length / options.controlPointSpacing(radius))));
+    const int beyond = std::max(1, static_cast<int>(std::ceil(around * segments / bundle.length)));
+    std::vector<Eigen::Vector3d> period;
+    for (int k = 0; k < segments; ++k)
+    {
+      const double share = static_cast<double>(k) / segments;
+      const Eigen::Vector2d across = bundle.bottom.centres[i] + bendOf(bundle, options, i, share);
+      period.emplace_back(across.x(), across.y(), (share - 0.5) * bundle.length);
+    }
+    fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle.id, radius);
+    for (int k = -beyond; k <= segments + beyond; ++k)
+    {
+      const int periods = static_cast<int>(std::floor(static_cast<double>(k) / segments));
+      const Eigen::Vector3d shift(0.0, 0.0, periods * bundle.length);
+      fibres.addPoint(period[static_cast<std::size_t>(k - periods * segments)] + shift, radius);
+    }
+  }
+}
+
 void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options, Fibres& fibres)
 {
   // Exact for an axis along z: between walls, the first and last control points lie on the domain's faces.
@@ -102,7 +127,8 @@ Fibres fibresOf(const std::vector<Bundle>& bundles, const BundleInitializerOptio
   fibres.grownFraction = options.grownFibreVolumeFraction;
   for (const Bundle& bundle : bundles)
   {
-    appendFibres(bundle, options, fibres);
+    options.border == Border::Periodic ? appendRepeatedFibres(bundle, options, surroundings(options).ends, fibres)
+                                       : appendFibres(bundle, options, fibres);
   }
   return fibres;
 }

@@ -30,10 +30,13 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "makes them thicker.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
       .include(&Options::calibre, CalibreVariation::properties())
-      .add("Border", &Options::border, { "Cut", "Walls" },
+      .add("Border", &Options::border, { "Cut", "Walls", "Periodic across", "Periodic" },
         "How the fibres meet the sides of the domain. Cut: the domain is cut from the middle of a larger bundle. Fibres run out "
         "through all six faces, and the tissue is as dense beside a face as in the middle. Walls: all fibres of a bundle start "
-        "and end within the domain's faces and lie flat along its sides, where they are less dense.")
+        "and end within the domain's faces and lie flat along its sides, where they are less dense. Periodic across: a fibre "
+        "that leaves through a face across x or y enters again through the opposite one, so that copies of the domain side by "
+        "side are one tissue; across z it is cut. Periodic: the same along z, too, so that fibres are endless. Their angles are "
+        "then those of undulations, since each fibre is back at its place after Length. Both need one bundle along z.")
       .add("MeanDispersion", &Options::meanDispersion, limits::meanDispersion,
         "Mean angle in degrees between fibres and their bundle's axis. Coherent fibres of a domain that is cut: at any place "
         "along them, without their undulation. All others: between their ends; with walls, about 35 can be reached if fibres "
@@ -51,18 +54,20 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "space; needs the border Cut.")
       .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
         "Lateral distance in µm over which the directions of neighbours are similar in the dispersion model Coherent. It does "
-        "not depend on the domain's size. With a shorter length, or a larger dispersion, fibres wind more. 0, with the border "
-        "Walls only: four times the fibres' mean shift between the faces.")
+        "not depend on the domain's size, but in a periodic domain is at most a third of Side. With a shorter length, or a "
+        "larger "
+        "dispersion, fibres wind more. 0, with the border Walls only: four times the fibres' mean shift between the faces.")
       .where("DispersionModel", { 2 })
       .add("Sinuosity", &Options::sinuosity, limits::sinuosity,
         "Mean length of the fibres over the distance of their ends, along one wavelength: they undulate together with their "
         "neighbours. 1: they do not undulate, and only their change of direction makes them longer. Axons of the corpus callosum "
         "have 1.02 to 1.03 (docs/presets.md). If directions alone make fibres more sinuous, a warning says so.")
-      .where("Border", { 0 })
+      .where("Border", { 0, 2, 3 })
       .where("DispersionModel", { 2 })
       .add("UndulationWavelength", &Options::undulationWavelength, limits::undulationWavelength,
-        "Wavelength in µm of the undulation along the fibres; single waves differ from it by 15 %.")
-      .where("Border", { 0 })
+        "Wavelength in µm of the undulation along the fibres; single waves differ from it by 15 %. With the border Periodic, the "
+        "nearest one of which a whole number fits into Length.")
+      .where("Border", { 0, 2, 3 })
       .where("DispersionModel", { 2 })
       .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
         "One bundle, or two that cross in the x-z plane, symmetric about z. For more bundles, connect several sources to one "
@@ -94,6 +99,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .add("Margin", &Options::margin, limits::bundleMarginOrAsNeeded,
         "Width in µm by which fibres extend beyond each lateral side of the domain; with layers beyond all sides. -1: as "
         "wide as the fibres' slants ask with the border Cut, and 0 with Walls.")
+      .where("Border", { 0, 1 })
       .include(&Options::spacing, ControlPointSpacing::properties())
       .add("Seed", &Options::seed, limits::seed,
         "Seed of all random numbers. The same seed and parameters give the same fibres, bit for bit.");
@@ -134,11 +140,39 @@ void BundleInitializerOptions::validate() const
       throw InvalidInput("Direction is not along z: use Border Cut, since walls bound bundles along z");
     }
   }
+  if (this->isPeriodic())
+  {
+    this->requirePeriodic();
+  }
   if (isStationary(*this) && correlationLength == 0.0)
   {
     throw InvalidInput("CorrelationLength is 0: give a length in µm (8 by default); 0 is for Border Walls");
   }
   spacing.validate();
+}
+
+/// Throws unless a periodic domain can hold what is asked for.
+void BundleInitializerOptions::requirePeriodic() const
+{
+  const char* name = border == Border::Periodic ? "Periodic" : "Periodic across";
+  const bool isAlongZ = direction.x() == 0.0 && direction.y() == 0.0;
+  if (numberOfBundles != 1 || dispersionModel == DispersionModel::Harmonics || !isAlongZ)
+  {
+    throw InvalidInput(text(numberOfBundles != 1                            ? "NumberOfBundles is 2"
+                            : dispersionModel == DispersionModel::Harmonics ? "DispersionModel is Harmonics"
+                                                                            : "Direction is not along z",
+      ": use Border Cut, since Border ", name, " needs one bundle along z"));
+  }
+  if (border == Border::Periodic && dispersionModel != DispersionModel::Coherent && meanDispersion > 0.0)
+  {
+    throw InvalidInput("DispersionModel makes straight fibres, which do not come back to their places after Length: use Coherent "
+                       "with Border Periodic, or Border Periodic across");
+  }
+  if (side < 4.0 * radius.maximum)
+  {
+    throw InvalidInput(text("Side ", side, " µm is less than four times MaximumRadius ", radius.maximum, " µm: with Border ",
+      name, " a fibre would lie beside its own image. Enlarge Side, or lower MaximumRadius"));
+  }
 }
 
 double BundleInitializerOptions::thinning() const
@@ -153,12 +187,18 @@ double BundleInitializerOptions::controlPointSpacing(double fibreRadius) const
   return std::min(spacing.of(fibreRadius), std::max(longestSpacing(calibre), shortest * fibreRadius));
 }
 
+double BundleInitializerOptions::lateralCorrelationLength() const
+{
+  return this->isPeriodic() ? std::min(correlationLength, side / 3.0) : correlationLength;
+}
+
 Domain BundleInitializerOptions::domain() const
 {
   const double along = length > 0.0 ? length : side;
   Domain box;
   box.upper = Eigen::Vector3d(0.5 * side, 0.5 * side, 0.5 * along);
   box.lower = -box.upper;
+  box.periodic = { { this->isPeriodic(), this->isPeriodic(), border == Border::Periodic } };
   return box;
 }
 
@@ -203,7 +243,11 @@ Surroundings surroundings(const BundleInitializerOptions& options)
   {
     return { std::max(options.margin, 0.0), 0.0 };
   }
-  constexpr double packed = 2.0;   // µm, within which a wall orders the packing
+  constexpr double packed = 2.0; // µm, within which a wall orders the packing
+  if (options.isPeriodic())
+  {
+    return { 0.0, packed + (options.border == Border::Periodic ? options.radius.maximum : 0.0) };
+  }
   constexpr double steepest = 2.0; // times the mean angle, which hardly any fibres exceed
   const double half = 0.5 * options.extent().z() + packed;
   double shift = half * std::tan(std::min(steepest * options.meanDispersion, 60.0) * degree);

@@ -34,8 +34,10 @@ enum class CrossingStyle
 /// How fibres meet the sides of the domain.
 enum class Border
 {
-  Cut,  ///< the domain is cut from the middle of a larger bundle, so that fibres run out through all its faces
-  Walls ///< all fibres of a bundle start and end within the domain's faces, as between walls
+  Cut,            ///< the domain is cut from the middle of a larger bundle, so that fibres run out through all its faces
+  Walls,          ///< all fibres of a bundle start and end within the domain's faces, as between walls
+  PeriodicAcross, ///< a fibre that leaves through a face across x or y comes in again through the opposite one; cut along z
+  Periodic        ///< the same across z, too: the domain and its copies are endless tissue
 };
 
 /// Options of initialiseBundles(). Lengths in µm, angles in degrees.
@@ -87,9 +89,12 @@ struct BundleInitializerOptions
   static const PropertyList<BundleInitializerOptions>& properties();
   /// Throws InvalidInput, naming the property, unless every value that has an effect is within its range.
   void validate() const;
-  bool isCutOut() const { return this->border == Border::Cut; }
+  bool isCutOut() const { return this->border != Border::Walls; }
+  bool isPeriodic() const { return this->border == Border::PeriodicAcross || this->border == Border::Periodic; }
   /// Tells whether two bundles have layers of their own.
   bool isLayered() const { return this->numberOfBundles == 2 && (this->mixing == Mixing::Layers || !this->isCutOut()); }
+  /// Returns the lateral correlation length (µm): in a periodic domain at most a third of its side, so that some waves fit in.
+  double lateralCorrelationLength() const;
   /// Returns the box around the origin in which the fibres are asked for.
   Domain domain() const;
   /// Returns the rotation of a single bundle from z to its direction, see turnTo().
@@ -100,6 +105,9 @@ struct BundleInitializerOptions
   double thinning() const;
   /// Returns the distance (µm) of control points of a fibre of this radius.
   double controlPointSpacing(double fibreRadius) const;
+
+private:
+  void requirePeriodic() const;
 };
 
 /// Returns the smallest rotation that turns z to a direction (of any length) or the opposite one: the same for both.
@@ -109,7 +117,7 @@ Eigen::Matrix3d turnTo(const Eigen::Vector3d& direction);
 struct Surroundings
 {
   double sides = 0.0; ///< beyond each lateral face; with layers and with DispersionModel::Harmonics beyond all faces
-  double ends = 0.0;  ///< beyond the faces that the fibres of a single bundle run to
+  double ends = 0.0;  ///< beyond the faces that the fibres of a single bundle run to; with Border::Periodic they are repeated
 };
 
 /// Returns the margin, or, where it is to be as wide as needed, the width within which the bundle's own border still shows: as

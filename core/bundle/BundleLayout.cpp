@@ -148,6 +148,7 @@ Bundle layOutSingle(const BundleInitializerOptions& options, double density)
   Rectangle frame;
   frame.upper = 0.5 * region.head<2>();
   frame.lower = -frame.upper;
+  frame.repeats = options.isPeriodic();
   bundle.bottom.frames = { frame };
   bundle.bottom.radii = drawRadii(options.radius, options.seed, density * frame.area(), itemOf(0, bundle.id));
   bundle.bottom.frameOf.assign(bundle.bottom.radii.size(), 0);

@@ -33,11 +33,11 @@ inline std::uint64_t itemOf(std::size_t circle, int bundle, int attempt = 0)
   return circle + (static_cast<std::uint64_t>(bundle) << 40) + (static_cast<std::uint64_t>(attempt) << 48);
 }
 
-/// Returns the size of the box that the fibres cover (µm), along the axes of a single bundle.
+/// Returns the size of the box that the fibres cover (µm), along the axes of a single bundle; of fibres that repeat, one period.
 inline Eigen::Vector3d regionSize(const BundleInitializerOptions& options)
 {
   const Surroundings around = surroundings(options);
-  const double ends = options.isLayered() ? around.sides : around.ends;
+  const double ends = options.isLayered() ? around.sides : options.border == Border::Periodic ? 0.0 : around.ends;
   return options.extent() + 2.0 * Eigen::Vector3d(around.sides, around.sides, ends);
 }
 

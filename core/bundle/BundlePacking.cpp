@@ -69,7 +69,7 @@ bool packBottom(Bundle& bundle, std::uint64_t seed, int attempt, const Context& 
       engine = randomStream(seed, RandomStage::Packing, itemOf(i, bundle.id, attempt));
     }
     const Rectangle& frame = circles.frame(i);
-    const double r = circles.radii[i];
+    const double r = frame.repeats ? 0.0 : circles.radii[i];
     const double s = uniform(engine);
     const double t = uniform(engine);
     const Eigen::Vector2d room = frame.size().array() - 2.0 * r;
@@ -161,10 +161,29 @@ void placeThroughMiddle(Bundle& bundle, const BundleInitializerOptions& options,
   }
 }
 
+/// Shears each path evenly, so that it ends where it begins. The flow has no mean along z, so this is little.
+void closePaths(FlowPaths& paths)
+{
+  const std::vector<Eigen::Vector2d> first = paths.places.front();
+  const std::vector<Eigen::Vector2d> last = paths.places.back();
+  const double planes = static_cast<double>(paths.places.size() - 1);
+  for (std::size_t plane = 0; plane < paths.places.size(); ++plane)
+  {
+    for (std::size_t i = 0; i < first.size(); ++i)
+    {
+      paths.places[plane][i] -= (static_cast<double>(plane) / planes - 0.5) * (last[i] - first[i]);
+    }
+  }
+}
+
 /// Lets each fibre follow the flow both ways from its circle, which was packed on the bottom face, in the middle of the bundle.
-void followBothWays(Bundle& bundle, const StationaryFlow& flow, const Context& context)
+void followBothWays(Bundle& bundle, const StationaryFlow& flow, bool isClosed, const Context& context)
 {
   bundle.paths = flow.carry(bundle.bottom.centres, bundle.length, context);
+  if (isClosed)
+  {
+    closePaths(bundle.paths);
+  }
   bundle.top = bundle.bottom;
   bundle.bottom.centres = bundle.paths.places.front();
   bundle.top.centres = bundle.paths.places.back();
@@ -283,7 +302,7 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const S
     context.report(0.5 * (begin + end), what.str());
     if (flow != nullptr)
     {
-      followBothWays(bundle, *flow, context);
+      followBothWays(bundle, *flow, options.border == Border::Periodic, context);
       return;
     }
     if (options.isCutOut() && !options.isLayered() && options.meanDispersion > 0.0)

@@ -130,7 +130,10 @@ struct Relaxer
         buildNeighbours();
       }
     }
-    circles.centres = centres;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      circles.centres[i] = circles.frame(i).inside(centres[i]);
+    }
     return result;
   }
 
@@ -180,7 +183,7 @@ struct Relaxer
     for (std::size_t k = offsets[i]; k < offsets[i + 1]; ++k)
     {
       const std::size_t j = neighbours[k];
-      const Eigen::Vector2d apart = centres[i] - centres[j];
+      const Eigen::Vector2d apart = circles.frame(i).shortest(centres[i] - centres[j]);
       const double touching = circles.radii[i] + circles.radii[j];
       const double squared = apart.squaredNorm();
       const double reach = swell * touching;
@@ -202,7 +205,7 @@ struct Relaxer
   {
     const Rectangle& frame = circles.frame(i);
     const double r = circles.radii[i];
-    for (int axis = 0; axis < 2; ++axis)
+    for (int axis = 0; axis < 2 && !frame.repeats; ++axis)
     {
       if ((force[i][axis] < 0.0 && centres[i][axis] <= frame.lower[axis] + r) ||
           (force[i][axis] > 0.0 && centres[i][axis] >= frame.upper[axis] - r))
@@ -250,14 +253,14 @@ struct Relaxer
   /// The circles in each cell of a grid: a counting sort.
   struct Members
   {
-    Members(const CircleGrid& grid, const std::vector<Eigen::Vector2d>& centres)
+    Members(const CircleGrid& grid, const Circles& all, const std::vector<Eigen::Vector2d>& centres)
       : start(grid.size() + 1, 0)
       , circles(centres.size())
     {
       std::vector<std::size_t> cellOf(centres.size());
       for (std::size_t i = 0; i < centres.size(); ++i)
       {
-        cellOf[i] = grid.index(centres[i]);
+        cellOf[i] = grid.index(all.frame(i).inside(centres[i]));
         ++start[cellOf[i] + 1];
       }
       std::partial_sum(start.begin(), start.end(), start.begin());
@@ -277,19 +280,33 @@ struct Relaxer
   void forNeighbours(const CircleGrid& grid, const Members& members, std::size_t i, Use&& use) const
   {
     const double swell = 1.0 + options.clearance;
-    grid.around(centres[i], swell * (circles.radii[i] + largestRadius) + skin,
-      [&](std::size_t cell)
-      {
-        for (std::size_t k = members.start[cell]; k < members.start[cell + 1]; ++k)
+    const Rectangle& frame = circles.frame(i);
+    const Eigen::Vector2d centre = frame.inside(centres[i]);
+    const auto lookAround = [&](const Eigen::Vector2d& place)
+    {
+      grid.around(place, swell * (circles.radii[i] + largestRadius) + skin,
+        [&](std::size_t cell)
         {
-          const std::size_t j = members.circles[k];
-          const double reach = swell * (circles.radii[i] + circles.radii[j]) + skin;
-          if (j != i && (centres[i] - centres[j]).squaredNorm() < reach * reach)
+          for (std::size_t k = members.start[cell]; k < members.start[cell + 1]; ++k)
           {
-            use(j);
+            const std::size_t j = members.circles[k];
+            const double reach = swell * (circles.radii[i] + circles.radii[j]) + skin;
+            if (j != i && (place - frame.inside(centres[j])).squaredNorm() < reach * reach)
+            {
+              use(j);
+            }
           }
-        }
-      });
+        });
+    };
+    lookAround(centre);
+    for (int image = 0; frame.repeats && image < 9; ++image)
+    {
+      const Eigen::Vector2d shift(image % 3 - 1, image / 3 - 1); // NOLINT(bugprone-integer-division): row and column
+      if (image != 4)
+      {
+        lookAround(centre + shift.cwiseProduct(frame.size()));
+      }
+    }
   }
 
   /// Lists the neighbours of all circles: count, prefix sum, write.
@@ -297,7 +314,7 @@ struct Relaxer
   {
     listed = centres;
     const CircleGrid grid(boundingRectangle(circles.frames), 2.0 * meanRadius + skin, n);
-    const Members members(grid, centres);
+    const Members members(grid, circles, centres);
     offsets.assign(n + 1, 0);
     parallelForInBlocks(
       n, blockSize, threads, [&](std::size_t i) { forNeighbours(grid, members, i, [&](std::size_t) { ++offsets[i + 1]; }); });

@@ -25,7 +25,8 @@ struct Relaxation
   int iterations = 0;
 };
 
-/// Moves the circles apart until no two overlap, each staying inside its rectangle: harmonic repulsion of overlapping pairs,
+/// Moves the circles apart until no two overlap, each staying inside its rectangle, or coming in again on the other side if that
+/// repeats, which has to be four times as wide as the largest of them at least: harmonic repulsion of overlapping pairs,
 /// minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006) on neighbour lists with a skin. Circles that do not
 /// overlap at the start stay in place. Gives the same bits on any number of threads. If the circles jam or the iterations run
 /// out, the result says so, and the centres are the last ones. Throws Cancelled.

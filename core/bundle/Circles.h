@@ -14,12 +14,29 @@ struct Rectangle
 {
   Eigen::Vector2d lower = Eigen::Vector2d::Zero();
   Eigen::Vector2d upper = Eigen::Vector2d::Zero();
+  bool repeats = false; ///< whether a circle that leaves it comes in again on the other side; centres may then lie outside
 
   Eigen::Vector2d size() const { return upper - lower; }
   double area() const { return size().prod(); }
-  /// Returns the nearest centre for which the circle is wholly inside; the middle of the rectangle if the circle is too large.
+  /// Returns a vector between two centres, or that to the nearest image of the other.
+  Eigen::Vector2d shortest(const Eigen::Vector2d& apart) const
+  {
+    return repeats ? Eigen::Vector2d(apart.array() - (apart.array() / size().array()).round() * size().array()) : apart;
+  }
+  /// Returns the image of a centre in the rectangle.
+  Eigen::Vector2d inside(const Eigen::Vector2d& centre) const
+  {
+    return repeats ? Eigen::Vector2d(centre.array() - ((centre - lower).array() / size().array()).floor() * size().array())
+                   : centre;
+  }
+  /// Returns the nearest centre for which the circle is wholly inside; the middle of the rectangle if the circle is too large. A
+  /// rectangle that repeats returns any centre.
   Eigen::Vector2d clampCentre(const Eigen::Vector2d& centre, double radius) const
   {
+    if (repeats)
+    {
+      return centre;
+    }
     const Eigen::Vector2d margin = (0.5 * size()).cwiseMin(radius);
     return centre.cwiseMax(lower + margin).cwiseMin(upper - margin);
   }

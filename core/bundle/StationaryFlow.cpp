@@ -59,10 +59,22 @@ double widthOf(const BundleInitializerOptions& options)
   return options.extent().head<2>().maxCoeff();
 }
 
-/// Returns the period of the waves: the domain's width, but never so short that few waves are left.
-double periodOf(const BundleInitializerOptions& options, double correlationLength)
+/// Returns the period of the waves: the domain's width, but, unless that is a period, never so short that few waves are left.
+double widthOfWaves(const BundleInitializerOptions& options, double correlationLength)
 {
-  return std::max(widthOf(options), 3.0 * correlationLength);
+  return options.isPeriodic() ? options.side : std::max(widthOf(options), 3.0 * correlationLength);
+}
+
+/// Returns the period of the waves along z, or 0.
+double lengthOfWaves(const BundleInitializerOptions& options)
+{
+  return options.border == Border::Periodic ? options.extent().z() : 0.0;
+}
+
+/// Returns the lateral distance (µm) over which neighbours undulate together: in a periodic domain a third of it at most.
+double undulationLength(const BundleInitializerOptions& options)
+{
+  return options.isPeriodic() ? std::min(undulationTogether, options.side / 3.0) : undulationTogether;
 }
 
 /// The streams of the two parts of an attempt.
@@ -129,15 +141,16 @@ StationaryFlow::StationaryFlow(const BundleInitializerOptions& options, int atte
   : Direction{ [&]
     {
       RandomEngine engine = streamOf(options, 0, attempt);
-      const WaveField::Along along = { 0.0, std::sqrt(2.0) / (lengthAlong * options.correlationLength) };
-      return WaveField(periodOf(options, options.correlationLength), options.correlationLength, along, engine);
+      const double length = options.lateralCorrelationLength();
+      const WaveField::Along along = { 0.0, std::sqrt(2.0) / (lengthAlong * length), lengthOfWaves(options) };
+      return WaveField(widthOfWaves(options, length), length, along, engine);
     }() }
   , Undulation{ [&]
     {
       RandomEngine engine = streamOf(options, 1, attempt);
       const double waveNumber = 2.0 * pi / options.undulationWavelength;
-      const WaveField::Along along = { waveNumber, undulationBandwidth * waveNumber };
-      return WaveField(periodOf(options, undulationTogether), undulationTogether, along, engine);
+      const WaveField::Along along = { waveNumber, undulationBandwidth * waveNumber, lengthOfWaves(options) };
+      return WaveField(widthOfWaves(options, undulationLength(options)), undulationLength(options), along, engine);
     }() }
 {
   this->Direction.skewness = skewnessFor(options.meanDispersion);
@@ -294,7 +307,11 @@ StationaryFlow::Sample StationaryFlow::followFibres(
     angles.push_back(std::atan2(shift, height));
     turns.add(grid[f], fibre.top - fibre.bottom);
   }
-  if (options.meanDispersion > 0.0)
+  if (options.border == Border::Periodic)
+  {
+    sample.unevenness = this->LocalUnevenness; // from end to end, fibres have no angle
+  }
+  else if (options.meanDispersion > 0.0)
   {
     sample.unevenness = std::max({ this->LocalUnevenness, turns.unevenness(), distanceToWatson(angles) / evenDistance });
   }
@@ -307,7 +324,8 @@ StationaryFlow::Sample StationaryFlow::scaleToSinuosity(const BundleInitializerO
 {
   constexpr double precision = 2e-4;
   constexpr int rounds = 8;
-  const double height = measuredWavelengths * options.undulationWavelength;
+  const double height =
+    options.border == Border::Periodic ? options.extent().z() : measuredWavelengths * options.undulationWavelength;
   this->Undulation.scale = 0.0;
   Sample sample = this->followFibres(options, height, context);
   const double straight = sample.sinuosity;

@@ -4,6 +4,7 @@
 #include "base/Limits.h"
 #include "base/MyelinThickness.h"
 #include "base/RandomVariates.h"
+#include "fibres/PeriodicImages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,15 +71,20 @@ double typicalRadius(const RadiusDistributionOptions& drawn, std::uint64_t seed)
 class CalibreProcess
 {
 public:
-  /// Draws the noise for a fibre that reaches `half` (µm) to either side of its middle.
-  CalibreProcess(double correlationLength, std::uint64_t seed, int fibreId, double half)
-    : Spacing(correlationLength / knotsPerLength)
+  /// Draws the noise for a fibre that reaches `half` (µm) to either side of its middle and, if asked, repeats after that.
+  CalibreProcess(double correlationLength, std::uint64_t seed, int fibreId, double half, bool repeats)
+    : KnotsPerLength(repeats
+                       ? correlationLength * std::max(1.0, std::round(2.0 * half * usualKnots / correlationLength)) / (2.0 * half)
+                       : usualKnots)
+    , Spacing(correlationLength / this->KnotsPerLength)
     , First(static_cast<std::int64_t>(std::floor(-half / this->Spacing)) - reach)
   {
     const auto last = static_cast<std::int64_t>(std::ceil(half / this->Spacing)) + reach;
+    const auto period = repeats ? std::llround(2.0 * half / this->Spacing) : 0;
     for (std::int64_t knot = this->First; knot <= last; ++knot)
     {
-      const std::uint64_t item = (std::uint64_t(std::uint32_t(fibreId)) << 32) | std::uint32_t(knot);
+      const std::int64_t drawn = period > 0 ? (knot % period + period) % period : knot;
+      const std::uint64_t item = (std::uint64_t(std::uint32_t(fibreId)) << 32) | std::uint32_t(drawn);
       RandomEngine engine = randomStream(seed, RandomStage::Calibre, item);
       this->Noise.push_back(normal(engine));
     }
@@ -90,8 +96,8 @@ public:
     const double place = length / this->Spacing;
     const double below = std::floor(place);
     const auto left = static_cast<std::size_t>(static_cast<std::int64_t>(below) - this->First);
-    const double decay = std::exp(-std::sqrt(3.0) / knotsPerLength);
-    double leftWeight = std::exp(-std::sqrt(3.0) / knotsPerLength * (place - below));
+    const double decay = std::exp(-std::sqrt(3.0) / this->KnotsPerLength);
+    double leftWeight = std::exp(-std::sqrt(3.0) / this->KnotsPerLength * (place - below));
     double rightWeight = decay / leftWeight;
     double sum = 0.0;
     double squares = 0.0;
@@ -106,9 +112,10 @@ public:
   }
 
 private:
-  static constexpr double knotsPerLength = 4.0;
+  static constexpr double usualKnots = 4.0;
   static constexpr int reach = 40; ///< knots, beyond which weights are below 1e-7
 
+  double KnotsPerLength; ///< correlation length
   double Spacing;
   std::int64_t First;
   std::vector<double> Noise;
@@ -160,7 +167,10 @@ void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
     {
       lengths.push_back(lengths.back() + (fibres.points[p + 1] - fibres.points[p]).norm());
     }
-    const double half = 0.5 * lengths.back();
+    // Of fibres that repeat, one period is drawn, and copied.
+    const bool repeats = fibres.domain.periodic[2];
+    const std::size_t period = repeats ? periodOf(fibres, f).points : last - first + 1;
+    const double half = 0.5 * (repeats ? lengths[period] : lengths.back());
     const double apart = lengths.back() / static_cast<double>(last - first);
     // Between control points the radius is interpolated, which takes some of the variance.
     const double kept = (2.0 + correlationAt(apart / processLength)) / 3.0;
@@ -170,9 +180,14 @@ void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
     const double deviation = std::clamp(
       asked * std::pow(radius / typical, -fallOff) / std::sqrt(kept), 0.0, std::clamp(narrowest, 0.0, largestDeviation));
     const double scale = radius / std::sqrt(meanSquare(gRatio, deviation));
-    const CalibreProcess process(processLength, options.seed, fibres.fibreIds[f], half);
+    const CalibreProcess process(processLength, options.seed, fibres.fibreIds[f], half, repeats);
     for (std::size_t p = first; p <= last; ++p)
     {
+      if (p - first >= period)
+      {
+        fibres.radii[p] = fibres.radii[p - period];
+        continue;
+      }
       const double z = std::clamp(process.at(lengths[p - first] - half), lowestNormal, highestNormal);
       const double varied = scale * (1.0 - gRatio + gRatio * std::exp(deviation * z));
       fibres.radii[p] = std::clamp(varied, limits::radius.lowest, limits::radius.highest);

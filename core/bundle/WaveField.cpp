@@ -19,6 +19,17 @@ constexpr double faintest = 0.01;
 /// exp(−κ²/8) κ, with κ = kℓ, is `faintest` of its maximum at this κ.
 constexpr double largestWaveNumber = 7.15;
 
+/// Returns the nearest wave number of a whole number of waves on the period, if there is one, but not 0.
+double wholeNumber(double number, double period)
+{
+  if (period == 0.0)
+  {
+    return number;
+  }
+  const double waves = std::max(1.0, std::round(std::abs(number) * period / (2.0 * pi)));
+  return std::copysign(2.0 * pi * waves / period, number);
+}
+
 } // namespace
 
 WaveField::WaveField(double period, double correlationLength, const Along& along, RandomEngine& engine)
@@ -54,7 +65,7 @@ WaveField::WaveField(double period, double correlationLength, const Along& along
       const double waveNumber = this->WaveNumber * std::sqrt(static_cast<double>(x * x + y * y));
       const double amplitude = velocity / waveNumber;
       const double sign = uniform(engine) < 0.5 ? -1.0 : 1.0;
-      const double number = sign * (along.waveNumber + along.deviation * normal(engine));
+      const double number = wholeNumber(sign * (along.waveNumber + along.deviation * normal(engine)), along.period);
       this->Waves.push_back({ amplitude, number, 2.0 * pi * uniform(engine) });
       streamSquare += 0.5 * amplitude * amplitude;
       velocitySquare += 0.25 * velocity * velocity; // of one component

@@ -25,6 +25,7 @@ public:
   {
     double waveNumber = 0.0; ///< mean (1/µm), of either sign
     double deviation = 0.0;  ///< (1/µm)
+    double period = 0.0;     ///< µm; if not 0, each wave has a whole number of periods on it, at least one
   };
 
   /// The field on a plane across z.

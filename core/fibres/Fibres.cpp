@@ -105,9 +105,9 @@ void validate(const Domain& domain)
     requireWithin("a corner of the Domain", domain.upper[axis], limits::coordinate);
     requireWithin("a side of the Domain", domain.size()[axis], { limits::side.lowest, 2.0 * limits::coordinate.highest, " µm" });
   }
-  if (domain.isPeriodic())
+  if (domain.periodic[0] != domain.periodic[1] || (domain.periodic[2] && !domain.periodic[0]))
   {
-    throw InvalidInput("the Domain is periodic, which is not supported yet: use a domain that is not periodic");
+    throw InvalidInput("the Domain repeats along some axes only: x and y can be periodic, or all three");
   }
 }
 
@@ -176,11 +176,12 @@ double chainVolume(const Fibres& fibres, std::size_t fibre)
 double capsuleVolumeInDomain(const Fibres& fibres)
 {
   double volume = 0.0;
+  const Domain domain = fibres.domain.unrolled();
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
     {
-      const auto [t0, t1] = fibres.domain.clip(fibres.points[i], fibres.points[i + 1]);
+      const auto [t0, t1] = domain.clip(fibres.points[i], fibres.points[i + 1]);
       if (t1 <= t0)
       {
         continue;

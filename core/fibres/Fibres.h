@@ -42,7 +42,8 @@ struct Fibres
   Fibres emptyCopy() const;
 };
 
-/// Throws InvalidInput unless the domain has corners and sides within the limits (see Limits.h) and is not periodic.
+/// Throws InvalidInput unless the domain has corners and sides within the limits (see Limits.h), and is periodic along no axis, x
+/// and y, or all.
 void validate(const Domain& domain);
 
 /// Throws InvalidInput, naming the fibre, unless: there is a fibre; every fibre has at least two control points, no

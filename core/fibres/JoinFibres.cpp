@@ -72,7 +72,8 @@ Fibres joinFibres(std::vector<Fibres> inputs)
     }
     if (!isSame(inputs[i].domain, all.domain))
     {
-      throw InvalidInput("input " + std::to_string(i + 1) + " has another Domain than the first: give all bundles the same Side");
+      throw InvalidInput("input " + std::to_string(i + 1) +
+                         " has another Domain than the first: give all bundles the same Side and periodic borders");
     }
     appendFibres(inputs[i], all);
   }
@@ -81,7 +82,8 @@ Fibres joinFibres(std::vector<Fibres> inputs)
 
 bool isSame(const Domain& a, const Domain& b)
 {
-  return (a.lower - b.lower).cwiseAbs().maxCoeff() <= 1e-9 && (a.upper - b.upper).cwiseAbs().maxCoeff() <= 1e-9;
+  return (a.lower - b.lower).cwiseAbs().maxCoeff() <= 1e-9 && (a.upper - b.upper).cwiseAbs().maxCoeff() <= 1e-9 &&
+         a.periodic == b.periodic;
 }
 
 } // namespace cactus

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace cactus
@@ -29,6 +30,16 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
   {
     kept->clear();
   }
+  if (fibres.domain.periodic[2])
+  {
+    if (kept != nullptr)
+    {
+      kept->resize(fibres.points.size());
+      std::iota(kept->begin(), kept->end(), std::size_t(0));
+    }
+    return fibres;
+  }
+  const Domain domain = fibres.domain.unrolled();
   int largestId = fibres.fibreIds.empty() ? 0 : *std::max_element(fibres.fibreIds.begin(), fibres.fibreIds.end());
   const auto freeId = [&]
   {
@@ -45,7 +56,7 @@ Fibres trimToDomain(const Fibres& fibres, std::vector<std::size_t>* kept)
     for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
     {
       const auto [enter, leave] =
-        fibres.domain.clip(fibres.points[i], fibres.points[i + 1], 2.0 * std::max(fibres.radii[i], fibres.radii[i + 1]));
+        domain.clip(fibres.points[i], fibres.points[i + 1], 2.0 * std::max(fibres.radii[i], fibres.radii[i + 1]));
       if (leave < enter)
       {
         continue;

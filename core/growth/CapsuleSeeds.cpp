@@ -3,6 +3,7 @@
 
 #include "base/Memory.h"
 #include "base/Parallel.h"
+#include "fibres/PeriodicImages.h"
 #include "fibres/SelectFibres.h"
 
 #include <algorithm>
@@ -28,21 +29,31 @@ int pieceCount(const Fibres& fibres, const Calibre& calibre, std::size_t p)
   return int(std::min(std::max(1.0, std::ceil(length / longest)), calibre.varies() ? 1e6 : 256.0));
 }
 
-bool isInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& region, double reach)
+/// Calls use(shift) for the images of a segment in reach of the region, see forEachImage().
+template <typename Use>
+void forEachInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& region, double reach, Use&& use)
 {
   Eigen::AlignedBox3d box(fibres.points[p]);
   box.extend(fibres.points[p + 1]);
   const double grown = reach + std::max(fibres.radii[p], fibres.radii[p + 1]);
-  return box.squaredExteriorDistance(region) <= grown * grown;
+  const Eigen::Vector3d around = Eigen::Vector3d::Constant(std::max(grown, 0.0));
+  forEachImage(fibres.domain, Eigen::AlignedBox3d(box.min() - around, box.max() + around), region,
+    [&](const Eigen::Vector3d& shift)
+    {
+      if (Eigen::AlignedBox3d(box).translate(shift).squaredExteriorDistance(region) <= grown * grown)
+      {
+        use(shift);
+      }
+    });
 }
 
-/// Cuts the segment from control point p to the next, `start` along the fibre of that rank, into `parts` pieces; returns their
-/// end.
-SeedPiece* cutSegment(
-  const Fibres& fibres, FibreCalibre& calibre, std::size_t p, double start, int parts, int rank, SeedPiece* piece)
+/// Cuts the image of the segment from control point p to the next, `start` along the fibre of that rank, into `parts` pieces;
+/// returns their end.
+SeedPiece* cutSegment(const Fibres& fibres, FibreCalibre& calibre, std::size_t p, const Eigen::Vector3d& shift, double start,
+  int parts, int rank, SeedPiece* piece)
 {
-  const Eigen::Vector3d& p0 = fibres.points[p];
-  const Eigen::Vector3d along = fibres.points[p + 1] - p0;
+  const Eigen::Vector3d p0 = fibres.points[p] + shift;
+  const Eigen::Vector3d along = fibres.points[p + 1] - fibres.points[p];
   const double length = along.norm();
   const double r0 = fibres.radii[p];
   const double widening = fibres.radii[p + 1] - r0;
@@ -70,7 +81,8 @@ CapsuleSeeds::CapsuleSeeds(
       std::size_t count = 0;
       for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
       {
-        count += isInReach(fibres, p, region, reach) ? std::size_t(pieceCount(fibres, calibre, p)) : 0;
+        forEachInReach(
+          fibres, p, region, reach, [&](const Eigen::Vector3d&) { count += std::size_t(pieceCount(fibres, calibre, p)); });
       }
       this->pieceOffsets[rank + 1] = count;
     });
@@ -87,10 +99,9 @@ CapsuleSeeds::CapsuleSeeds(
       double start = 0.0; // length of the fibre before the segment
       for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
       {
-        if (isInReach(fibres, p, region, reach))
-        {
-          piece = cutSegment(fibres, ofFibre, p, start, pieceCount(fibres, calibre, p), int(rank), piece);
-        }
+        forEachInReach(fibres, p, region, reach,
+          [&](const Eigen::Vector3d& shift)
+          { piece = cutSegment(fibres, ofFibre, p, shift, start, pieceCount(fibres, calibre, p), int(rank), piece); });
         start += (fibres.points[p + 1] - fibres.points[p]).norm();
       }
     });

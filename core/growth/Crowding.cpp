@@ -2,6 +2,7 @@
 #include "growth/Crowding.h"
 
 #include "fibres/Capsules.h"
+#include "fibres/PeriodicImages.h"
 #include "fibres/SegmentDistance.h"
 #include "growth/Calibre.h"
 #include "optimiser/NeighbourSearch.h"
@@ -23,8 +24,8 @@ FibrePair pairOf(const Crowding& crowding)
   return { crowding.thick, crowding.thin };
 }
 
-/// Finds the capsules that could come so near to each other that one of the two is severed.
-NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wished, double thickening, int threads)
+/// Returns, per capsule, by how much it may thicken.
+std::vector<float> reachesOf(const Capsules& capsules, const std::vector<double>& wished, double thickening)
 {
   std::vector<float> reaches(capsules.size());
   for (std::size_t k = 0; k < capsules.size(); ++k)
@@ -32,8 +33,14 @@ NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wish
     const double radius = std::max(capsules.bodies[k].r0, capsules.bodies[k].r1);
     reaches[k] = static_cast<float>(std::max(0.0, thickening * wished[capsules.fibre[k]] - 1.0) * radius);
   }
+  return reaches;
+}
+
+/// Finds the capsules that could come so near to each other that one of the two is severed.
+NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wished, double thickening, int threads)
+{
   NeighbourList neighbours;
-  findNeighbours(capsules, reaches, threads, neighbours);
+  findNeighbours(capsules, reachesOf(capsules, wished, thickening), threads, neighbours);
   return neighbours;
 }
 
@@ -60,12 +67,17 @@ void keepTightest(std::vector<Crowding>& all)
 std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowthOptions& options,
   const std::vector<double>& wished, const FactorBounds& bounds, int threads)
 {
-  const Capsules capsules = capsulesOf(fibres);
+  Capsules capsules = capsulesOf(fibres);
+  const std::size_t inPlace = capsules.size();
+  if (fibres.domain.isPeriodic())
+  {
+    addImages(imagesWithin(fibres.domain, capsules, reachesOf(capsules, wished, bounds.thickening)), capsules);
+  }
   const NeighbourList neighbours = findNear(capsules, wished, bounds.thickening, threads);
   const double smallestFraction = Calibre({ options.surfaceRoughness, options.seed }).smallestFraction();
   const auto end = [](const double* p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
   std::vector<Crowding> all;
-  for (std::size_t k = 0; k < capsules.size(); ++k)
+  for (std::size_t k = 0; k < inPlace; ++k)
   {
     const Capsule& thin = capsules.bodies[k];
     const double thinnest = std::min(thin.r0, thin.r1);

@@ -41,6 +41,7 @@ double discInDomain(const Domain& domain, const Eigen::Vector3d& centre, const E
 double volumeInDomain(const Fibres& fibres, std::size_t f, double factor, int samples)
 {
   double volume = 0.0;
+  const Domain domain = fibres.domain.unrolled();
   const std::size_t begin = fibres.offsets[f];
   const std::size_t last = fibres.offsets[f + 1] - 1;
   for (std::size_t p = begin; p < last; ++p)
@@ -52,7 +53,7 @@ double volumeInDomain(const Fibres& fibres, std::size_t f, double factor, int sa
     const double wanted = std::ceil(2.0 * length / radius);
     // For very long segments, only the part in the domain.
     const std::array<double, 2> part = wanted <= mostSteps ? std::array<double, 2>{ { 0.0, 1.0 } }
-                                                           : fibres.domain.clip(fibres.points[p], fibres.points[p + 1],
+                                                           : domain.clip(fibres.points[p], fibres.points[p + 1],
                                                                factor * std::max(fibres.radii[p], fibres.radii[p + 1]));
     const double share = std::max(0.0, part[1] - part[0]);
     const int steps = static_cast<int>(std::min(std::ceil(share * wanted), mostSteps));
@@ -60,7 +61,7 @@ double volumeInDomain(const Fibres& fibres, std::size_t f, double factor, int sa
     {
       const double t = part[0] + share * ((n + 0.5) / steps);
       volume += share * length / steps *
-                discInDomain(fibres.domain, fibres.points[p] + t * along, along / length,
+                discInDomain(domain, fibres.points[p] + t * along, along / length,
                   factor * ((1.0 - t) * fibres.radii[p] + t * fibres.radii[p + 1]), samples);
     }
   }
@@ -73,7 +74,7 @@ double volumeInDomain(const Fibres& fibres, std::size_t f, double factor, int sa
     {
       const double t = (n + 0.5) / steps;
       volume += radius / steps *
-                discInDomain(fibres.domain, fibres.points[end] + t * radius * out, out, radius * std::sqrt(1.0 - t * t), samples);
+                discInDomain(domain, fibres.points[end] + t * radius * out, out, radius * std::sqrt(1.0 - t * t), samples);
     }
   };
   halfBall(begin, begin + 1);

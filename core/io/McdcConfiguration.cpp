@@ -26,6 +26,16 @@ Domain startBox(const Domain& domain, const Eigen::Vector3d& margin)
   return { domain.lower + margin, domain.upper - margin };
 }
 
+/// Returns a distance from the faces, 0 for periodic ones.
+Eigen::Vector3d alongWalls(const Domain& domain, Eigen::Vector3d distance)
+{
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    distance[axis] = domain.periodic[static_cast<std::size_t>(axis)] ? 0.0 : distance[axis];
+  }
+  return distance;
+}
+
 void writeBox(std::ostream& out, const Domain& box)
 {
   for (const Eigen::Vector3d& corner : { box.lower, box.upper })
@@ -50,7 +60,7 @@ McdcSimulation intraSimulation(const McdcOptions& options, const Domain& domain,
 McdcSimulation extraSimulation(const McdcOptions& options, const Domain& domain)
 {
   const Eigen::Vector3d margin = (0.375 * domain.size()).cwiseMin(4.0 * options.displacement());
-  return { "extra", extraStep, startBox(domain, margin) };
+  return { "extra", extraStep, startBox(domain, alongWalls(domain, margin)) };
 }
 
 int mcdcSteps(const McdcOptions& options, double longestStep)
@@ -62,7 +72,8 @@ int mcdcSteps(const McdcOptions& options, double longestStep)
 
 std::string mcdcConfiguration(const McdcOptions& options, const Domain& domain, const McdcSimulation& simulation)
 {
-  const Eigen::Vector3d room = Eigen::Vector3d::Constant(10.0 * options.displacement());
+  // The simulator repeats this box: around a periodic domain, it is the period.
+  const Eigen::Vector3d room = alongWalls(domain, Eigen::Vector3d::Constant(10.0 * options.displacement()));
   const std::string& compartment = simulation.compartment;
   const bool hasStarts = simulation.startPositions > 0;
   TextStream out;

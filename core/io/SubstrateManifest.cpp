@@ -131,6 +131,10 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   manifest["length_unit"] = "micrometre";
   manifest["simulator"] = formatNames[std::size_t(contents.format)];
   manifest["domain"] = domain;
+  if (contents.domain.isPeriodic())
+  {
+    manifest["periodic"] = contents.domain.periodic;
+  }
   manifest["placement_um_to_mm"] = placementRows(contents.placement);
   manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();
   if (contents.sample)

@@ -127,11 +127,15 @@ std::string filesFor(const SubstrateFolderContents& contents)
            "    setup.pde = prepare_pde(setup); setup = prepare_experiments(setup);\n"
            "    femesh = create_geometry(setup);\n";
   default:
-    return "outer_vertices.npy, outer_faces.npy, inner_...   all outer, and all inner, surfaces, in metres, with their box's "
-           "lower\n"
-           "corner at the origin (Disimpy)\n\n"
-           "    vertices, faces = numpy.load('inner_vertices.npy'), numpy.load('inner_faces.npy')\n"
-           "    substrate = disimpy.substrates.mesh(vertices, faces, periodic=False, init_pos='intra')\n";
+    return std::string(
+             "outer_vertices.npy, outer_faces.npy, inner_...   all outer, and all inner, surfaces, in metres, with their box's "
+             "lower\n"
+             "corner at the origin (Disimpy)\n\n"
+             "    vertices, faces = numpy.load('inner_vertices.npy'), numpy.load('inner_faces.npy')\n"
+             "    substrate = disimpy.substrates.mesh(vertices, faces, periodic=False, init_pos='intra')\n") +
+           (contents.domain.periodic[2]
+               ? "\nOutside the fibres: outer_vertices.npy, outer_faces.npy, periodic=True, init_pos='extra'.\n"
+               : "");
   }
 }
 
@@ -155,6 +159,14 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
     text += "  - " + fault + "\n";
   }
   text += certificate.certified() ? "" : "\n";
+  if (contents.domain.isPeriodic())
+  {
+    text +=
+      std::string("It repeats along x") + (contents.domain.periodic[2] ? ", y and z" : " and y") +
+      " after the sides of its domain (manifest.json): copies side by side are one tissue, in which surfaces fit together at\n"
+      "the faces, point by point. Each piece of a fibre is closed by a cap there. So walkers outside the fibres see endless\n"
+      "tissue in a simulator that repeats the domain, and those inside a fibre stay in its piece.\n\n";
+  }
   if (contents.sample)
   {
     text +=
@@ -259,8 +271,11 @@ std::string mcdcText(const SubstrateFolderContents& contents, const WrittenSubst
             ? "Walkers start from the points in start/, one each; where N is larger than the number of lines, MC/DC takes\n"
               "points again from the first. "
             : "Walkers start in <spawning_area> (mm), off the substrate's boundary. ";
-  text += "<voxels> is wider than the substrate, because\n"
-          "MC/DC continues a walker that leaves it on the opposite side, where there is another fibre.\n";
+  text += contents.domain.isPeriodic()
+            ? "<voxels> ends with the substrate where that\n"
+              "repeats, as MC/DC continues a walker that leaves it on the opposite side.\n"
+            : "<voxels> is wider than the substrate, because\n"
+              "MC/DC continues a walker that leaves it on the opposite side, where there is another fibre.\n";
   return text;
 }
 

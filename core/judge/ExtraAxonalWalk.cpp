@@ -135,7 +135,7 @@ Vector3d randomDirection(RandomEngine& engine)
   return { radius * std::cos(angle), radius * std::sin(angle), z };
 }
 
-/// What the domain's faces do to walkers.
+/// What the domain's faces do to walkers; through periodic ones they come in again on the other side.
 enum class Faces
 {
   Mirror,
@@ -196,11 +196,16 @@ public:
       const double way = std::max(0.0, isFace ? face : isWall ? wall.distance - clearance : left);
       this->move(way * direction);
       left -= std::max(way, clearance);
-      if (isFace && this->AtFaces == Faces::LetOut)
+      if (isFace && this->Space.box().periodic[static_cast<std::size_t>(axis)])
+      {
+        // Walls end at the same places there, so that it comes out between them.
+        this->Place[axis] = direction[axis] > 0.0 ? this->Space.box().lower[axis] : this->Space.box().upper[axis];
+      }
+      else if (isFace && this->AtFaces == Faces::LetOut)
       {
         return StepEnd::AtFace;
       }
-      if (isFace)
+      else if (isFace)
       {
         direction[axis] = -direction[axis];
         this->Mirrored[axis] = -this->Mirrored[axis];
@@ -248,7 +253,7 @@ private:
   RandomEngine& Engine;
   Faces AtFaces;
   Vector3d Place = Vector3d::Zero();
-  Vector3d Moved = Vector3d::Zero();           ///< in the space that faces mirror without end
+  Vector3d Moved = Vector3d::Zero();           ///< in the space that faces mirror or repeat without end
   Vector3d Mirrored = Vector3d::Constant(1.0); ///< −1 along axes that are mirrored at the walker
 };
 
@@ -411,8 +416,9 @@ double freeLeavingShare(const Domain& domain, const Domain& start, double distan
   for (Eigen::Index axis = 0; axis < 3; ++axis)
   {
     const double side = domain.size()[axis];
-    stay *=
-      freeStay((start.lower[axis] - domain.lower[axis]) / side, (start.upper[axis] - domain.lower[axis]) / side, distance / side);
+    stay *= domain.periodic[static_cast<std::size_t>(axis)] ? 1.0
+                                                            : freeStay((start.lower[axis] - domain.lower[axis]) / side,
+                                                                (start.upper[axis] - domain.lower[axis]) / side, distance / side);
   }
   return 1.0 - stay;
 }
@@ -429,8 +435,12 @@ LeavingWalkers walkUntilLeaving(const Domain& domain, const Domain& start, const
   // (Comtet & Majumdar 2005, J Stat Mech P06013).
   constexpr double late = 0.29795;
   Domain box = domain;
-  box.lower.array() += late * order.step;
-  box.upper.array() -= late * order.step;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+  {
+    const double inwards = domain.periodic[static_cast<std::size_t>(axis)] ? 0.0 : late * order.step;
+    box.lower[axis] += inwards;
+    box.upper[axis] -= inwards;
+  }
   const TriangleMesh mesh = joined(outer, "cut a smaller substrate", context);
   const TriangleTree tree(mesh);
   const Outside space(box, tree);

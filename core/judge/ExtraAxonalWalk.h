@@ -38,7 +38,7 @@ struct ExtraAxonalDiffusion
 
 /// Simulates a random walk outside the surfaces: steps of one length in random directions, which walls and the domain's faces
 /// reflect. A face mirrors the substrate, so that walkers continue in its mirror image: the space is unbounded, and displacements
-/// are measured in it.
+/// are measured in it. Periodic faces let them in on the other side, and displacements go on.
 ///
 /// The ratio is the growth of the mean squared displacement over the second half of the walk, relative to that of free walkers:
 /// the early part, before the walkers have seen the fibres around them, drops out (D(t) − D∞ falls off as ln t / t, Burcaw et al.

@@ -253,9 +253,10 @@ AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing)
 double lengthInDomain(const Fibres& fibres, std::size_t fibre)
 {
   double length = 0.0;
+  const Domain domain = fibres.domain.unrolled();
   for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
   {
-    const auto [from, to] = fibres.domain.clip(fibres.points[i], fibres.points[i + 1]);
+    const auto [from, to] = domain.clip(fibres.points[i], fibres.points[i + 1]);
     length += std::max(0.0, to - from) * (fibres.points[i + 1] - fibres.points[i]).norm();
   }
   return length;
@@ -266,10 +267,11 @@ double tortuosityInDomain(const Fibres& fibres, std::size_t fibre)
   const std::vector<double> arc = arcLengths(fibres, fibre);
   double entered = notANumber;
   double left = notANumber;
+  const Domain domain = fibres.domain.unrolled();
   for (std::size_t segment = 0; segment + 1 < arc.size(); ++segment)
   {
     const std::size_t first = fibres.offsets[fibre] + segment;
-    const auto [from, to] = fibres.domain.clip(fibres.points[first], fibres.points[first + 1]);
+    const auto [from, to] = domain.clip(fibres.points[first], fibres.points[first + 1]);
     if (to > from)
     {
       const double length = arc[segment + 1] - arc[segment];

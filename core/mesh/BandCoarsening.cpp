@@ -159,7 +159,7 @@ private:
     double highest = 0.0;
     for (std::size_t i = from + 1; i < to; ++i)
     {
-      if ((faces & ~this->facesOf(point(i))) != 0)
+      if ((faces & ~this->facesOf(point(i))) != 0 || this->Surface.isToStay(point(i)))
       {
         return false; // otherwise the wall between two points of a face would come to lie in the face
       }
@@ -186,7 +186,7 @@ private:
     const Vector3d outwards = along.cross(Vector3d::Unit(this->Axis));
     const double length = outwards.norm();
     const int otherFaces = this->facesOf(p) & ~(3 << (2 * this->Axis)); // a rim stays in its own face
-    if (otherFaces == 0 && length > 0.0)
+    if (otherFaces == 0 && length > 0.0 && !this->Surface.isHeld(p))
     {
       const Vector3d to = this->at(p) + (way / length) * outwards;
       this->Places[std::size_t(p)] = keptInside(this->Surface.box, this->at(p), to, this->Options.maximumError);
@@ -383,12 +383,23 @@ private:
   std::array<std::vector<std::array<std::int32_t, 3>>, 2> Caps; ///< in the first plane and the last one
 };
 
+/// Tells whether rims that have to stay lie in faces along the axis, where bands would replace them.
+bool holdsBeside(const CappedSurface& surface, Eigen::Index axis)
+{
+  const unsigned beside = surface.held & ~(3U << (2 * axis));
+  return std::any_of(surface.faces.begin(), surface.faces.end(), [&](std::uint8_t faces) { return (faces & beside) != 0; });
+}
+
 } // namespace
 
 void coarsenBands(CappedSurface& surface, const NodeLattice& lattice, const SurfaceDecimationOptions& options)
 {
   constexpr std::size_t fewestPlanes = 4; // so that there is a band between two inner planes
   const Eigen::Index axis = longestAxis(surface.mesh);
+  if (holdsBeside(surface, axis))
+  {
+    return;
+  }
   std::vector<double> planes = lattice.planes[std::size_t(axis)];
   if (!surface.box.isEmpty())
   {

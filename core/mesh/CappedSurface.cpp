@@ -42,6 +42,10 @@ std::vector<Vector3d> normals(const CappedSurface& surface)
   }
   for (std::size_t p = 0; p < result.size(); ++p)
   {
+    if (surface.isHeld(static_cast<std::int32_t>(p)))
+    {
+      result[p].setZero();
+    }
     for (Eigen::Index axis = 0; axis < 3; ++axis)
     {
       if ((surface.faces[p] >> (2 * axis)) & 3)

@@ -5,7 +5,10 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cstdint>
+#include <memory>
+#include <set>
 #include <vector>
 
 namespace cactus
@@ -18,7 +21,18 @@ struct CappedSurface
   TriangleMesh mesh;
   std::vector<std::uint8_t> faces;
   Eigen::AlignedBox3d box; ///< µm; empty if unknown
+  /// Faces, as bits, beyond which the surface goes on at the opposite ones: no point of it moves in them, so that the rims of
+  /// their caps fit together. See HeldRims.
+  std::uint8_t held = 0;
+  /// Places of points of such rims that are not removed either; all of these if null.
+  std::shared_ptr<const std::set<std::array<double, 3>>> stays = nullptr;
 
+  bool isHeld(std::int32_t point) const { return (faces[std::size_t(point)] & held) != 0; }
+  bool isToStay(std::int32_t point) const
+  {
+    const Eigen::Vector3d& place = mesh.points[std::size_t(point)];
+    return isHeld(point) && (stays == nullptr || stays->count({ { place.x(), place.y(), place.z() } }) != 0);
+  }
   bool isCap(const std::array<std::int32_t, 3>& t) const
   {
     return (faces[std::size_t(t[0])] & faces[std::size_t(t[1])] & faces[std::size_t(t[2])]) != 0;
@@ -62,8 +76,8 @@ struct SurfaceMeasure
 SurfaceMeasure measure(const CappedSurface& surface);
 
 /// Moves a surface along its normals, all of it by the same distance, until it encloses `volume` (µm³), or by `furthest` (µm) if
-/// it would have to move more. Caps stay in their faces. Returns the distance (µm), positive outwards. Collisions are not
-/// checked.
+/// it would have to move more. Caps stay in their faces, those in held ones as they are. Returns the distance (µm), positive
+/// outwards. Collisions are not checked.
 double moveToVolume(CappedSurface& surface, double volume, double furthest);
 
 } // namespace cactus

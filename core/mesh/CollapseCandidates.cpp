@@ -36,6 +36,18 @@ Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32
   return sum;
 }
 
+/// Tells whether a triangle of the wall would lie in a face of the box if a point were merged into one on a face.
+bool flattensWall(const EditableSurface& surface, std::int32_t rim, std::int32_t point)
+{
+  return surface.visitCornersAt(point, point,
+    [&](std::int32_t c, std::int32_t)
+    {
+      const auto edge = surface.oppositeEdge(c);
+      return EditableSurface::outlivesCollapse(edge, rim, point) && surface.facesOf(point) == 0 &&
+             (surface.facesOf(edge[0]) & surface.facesOf(edge[1]) & surface.facesOf(rim)) != 0;
+    });
+}
+
 } // namespace
 
 CollapseCandidates collapseCandidates(
@@ -47,7 +59,23 @@ CollapseCandidates collapseCandidates(
   const std::uint8_t facesV = surface.facesOf(v);
   const std::uint8_t both = facesU & facesV;
   CollapseCandidates found;
-  if (facesU == facesV)
+  const bool isRimU = facesU != 0 && surface.isHeldRim(u);
+  const bool isRimV = facesV != 0 && surface.isHeldRim(v);
+  if (isRimU || isRimV)
+  {
+    // Points of such a rim take in others of theirs, of its cap and of the wall, but do not move.
+    const auto addInto = [&](std::int32_t into, std::int32_t other, bool isRim, bool isOtherRim)
+    {
+      const bool goes = both == surface.facesOf(other) && !(isOtherRim && surface.isToStay(other));
+      if (isRim && goes && !flattensWall(surface, into, other))
+      {
+        found.add(surface.at(into));
+      }
+    };
+    addInto(u, v, isRimU, isRimV);
+    addInto(v, u, isRimV, isRimU);
+  }
+  else if (facesU == facesV)
   {
     const Vector3d middle = 0.5 * (surface.at(u) + surface.at(v));
     if (facesU == 0)
@@ -62,11 +90,12 @@ CollapseCandidates collapseCandidates(
     found.add(surface.at(u));
     found.add(surface.at(v));
   }
-  else if (both == facesU)
+  // Of a surface with held faces, pieces may be as thin as they come, and must not vanish in a face.
+  else if (both == facesU && !(surface.hasHeldFaces() && flattensWall(surface, v, u)))
   {
     found.add(surface.at(v));
   }
-  else if (both == facesV)
+  else if (both == facesV && !(surface.hasHeldFaces() && flattensWall(surface, u, v)))
   {
     found.add(surface.at(u));
   }

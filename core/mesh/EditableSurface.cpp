@@ -201,6 +201,28 @@ void EditableSurface::flip(std::size_t one, std::size_t other, std::int32_t a, s
   }
 }
 
+bool EditableSurface::isHeldRim(std::int32_t point) const
+{
+  if (!this->Surface.isHeld(point))
+  {
+    return false;
+  }
+  for (std::int32_t c = this->firstCorner(point); c >= 0; c = this->nextCorner(c))
+  {
+    if (!this->isCap(this->cornersOf(std::size_t(c) / 3)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool EditableSurface::isHeldRim(std::int32_t a, std::int32_t b) const
+{
+  return (this->facesOf(a) & this->facesOf(b) & this->Surface.held) != 0 &&
+         !(this->isCap(this->cornersOf(this->triangleAlong(a, b))) && this->isCap(this->cornersOf(this->triangleAlong(b, a))));
+}
+
 std::int32_t EditableSurface::addPoint(const Eigen::Vector3d& place, std::uint8_t faces)
 {
   const auto point = static_cast<std::int32_t>(this->pointCount());

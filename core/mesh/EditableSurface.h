@@ -38,6 +38,12 @@ public:
     return (this->Faces[corners[0]] & this->Faces[corners[1]] & this->Faces[corners[2]]) != 0;
   }
 
+  /// Tells whether a point, or the edge between two triangles, is part of a rim in a held face, see CappedSurface.
+  bool isHeldRim(std::int32_t point) const;
+  bool isHeldRim(std::int32_t a, std::int32_t b) const;
+  bool hasHeldFaces() const { return this->Surface.held != 0; }
+  bool isToStay(std::int32_t point) const { return this->Surface.isToStay(point); }
+
   /// Returns the other two points of a corner's triangle, in its orientation.
   std::array<std::int32_t, 2> oppositeEdge(std::int32_t corner) const
   {

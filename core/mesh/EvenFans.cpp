@@ -183,7 +183,7 @@ private:
         }
       }
     }
-    std::vector<std::int32_t> loop = loopOf(rim);
+    std::vector<std::int32_t> loop = rim.empty() ? std::vector<std::int32_t>() : loopOf(rim);
     if (!loop.empty())
     {
       this->fanDisc(disc, loop);
@@ -363,6 +363,10 @@ private:
     for (std::int32_t c = this->Mesh.firstCorner(point); c >= 0; c = this->Mesh.nextCorner(c))
     {
       const std::int32_t end = this->Mesh.oppositeEdge(c)[0];
+      if (this->Mesh.isHeldRim(point, end))
+      {
+        continue;
+      }
       const std::size_t sides[2] = { std::size_t(c) / 3, this->Mesh.triangleAlong(end, point) };
       const Vector3d between = this->Mesh.normalOf(sides[0]) + this->Mesh.normalOf(sides[1]);
       if (std::min(cosineBetween(between, this->Mesh.normalOf(sides[0])), cosineBetween(between, this->Mesh.normalOf(sides[1]))) <

@@ -86,6 +86,12 @@ private:
     const std::int32_t a = this->Triangles[needle][edge];
     const std::int32_t b = this->Triangles[needle][(edge + 1) % 3];
     const std::size_t neighbour = this->TriangleOf.at(key(b, a));
+    const bool isBetweenCaps = this->Surface.isCap(this->Triangles[needle]) && this->Surface.isCap(this->Triangles[neighbour]);
+    const auto facesOf = [this](std::int32_t point) { return this->Surface.faces[std::size_t(point)]; };
+    if ((facesOf(a) & facesOf(b) & this->Surface.held) != 0 && !isBetweenCaps)
+    {
+      return; // a rim that has to stay
+    }
     const auto middle = static_cast<std::int32_t>(this->Points.size());
     this->Points.push_back(0.5 * (this->Points[std::size_t(a)] + this->Points[std::size_t(b)]));
     this->Surface.faces.push_back(this->Surface.faces[std::size_t(a)] & this->Surface.faces[std::size_t(b)]);

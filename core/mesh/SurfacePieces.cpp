@@ -82,15 +82,18 @@ void joinAcrossFaces(const CappedSurface& surface, DisjointSets<std::int32_t>& s
     {
       if ((surface.faces[p] >> face) & 1)
       {
-        onFace[face] = onFace[face] < 0 ? std::int32_t(p) : onFace[face];
-        sets.join(onFace[face], static_cast<std::int32_t>(p));
+        // What goes on beyond a face does so at the opposite one.
+        std::int32_t& first = onFace[(surface.held >> face & 1) != 0 ? face & ~std::size_t(1) : face];
+        first = first < 0 ? std::int32_t(p) : first;
+        sets.join(first, static_cast<std::int32_t>(p));
       }
     }
   }
 }
 
 /// Tells, by the first point of each piece, whether it belongs to the part of the largest volume and is large enough.
-std::vector<char> piecesOfMainPart(const std::vector<double>& volumes, DisjointSets<std::int32_t>& parts, double smallest)
+std::vector<char> piecesOfMainPart(
+  const std::vector<double>& volumes, DisjointSets<std::int32_t>& parts, const std::vector<double>& smallest)
 {
   std::vector<double> volumeOfPart(volumes.size(), 0.0);
   for (std::size_t p = 0; p < volumes.size(); ++p)
@@ -104,7 +107,7 @@ std::vector<char> piecesOfMainPart(const std::vector<double>& volumes, DisjointS
   {
     if (parts.find(static_cast<std::int32_t>(p)) == main)
     {
-      isKept[p] = volumes[p] > smallest ? 1 : 0;
+      isKept[p] = volumes[p] > smallest[p] ? 1 : 0;
       largest = volumes[p] > volumes[largest] ? p : largest;
     }
   }
@@ -145,7 +148,14 @@ double keepMainPart(CappedSurface& surface, double smallest)
     sets.join(pieceOf[p], static_cast<std::int32_t>(p));
   }
   joinAcrossFaces(surface, sets); // from here on a set is a part, not a piece
-  const std::vector<char> isKept = piecesOfMainPart(volumes, sets, smallest);
+  std::vector<double> smallestOf(count, smallest);
+  for (std::size_t p = 0; p < count; ++p)
+  {
+    // However small, it has a counterpart at the opposite face.
+    smallestOf[std::size_t(pieceOf[p])] =
+      surface.isHeld(static_cast<std::int32_t>(p)) ? 0.0 : smallestOf[std::size_t(pieceOf[p])];
+  }
+  const std::vector<char> isKept = piecesOfMainPart(volumes, sets, smallestOf);
   double dropped = 0.0;
   for (std::size_t p = 0; p < count; ++p)
   {

@@ -155,7 +155,7 @@ private:
   std::vector<Move> All;
 };
 
-void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox3d& box, double margin)
+void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox3d& box, std::uint8_t held, double margin)
 {
   const auto onFace = [&](std::int32_t p, Eigen::Index axis, int side)
   { return mesh.points[std::size_t(p)][axis] == (side == 0 ? box.min()[axis] : box.max()[axis]); };
@@ -191,6 +191,13 @@ void moveInwards(TriangleMesh& mesh, const Moves& moves, const Eigen::AlignedBox
       continue; // inside a cap
     }
     Vector3d normal = found->second;
+    for (int face = 0; face < 6; ++face)
+    {
+      if ((held >> face & 1) != 0 && onFace(point, face / 2, face % 2))
+      {
+        normal.setZero();
+      }
+    }
     for (Eigen::Index axis = 0; axis < 3; ++axis)
     {
       if (onFace(point, axis, 0) || onFace(point, axis, 1))
@@ -368,10 +375,11 @@ class Spacing
 public:
   /// `given` are the surfaces that others may be too near to.
   Spacing(SurfaceStore& surfaces, const std::vector<std::size_t>& given, double gap, const Eigen::AlignedBox3d& box,
-    const Context& context, const Sharing& sharing)
+    std::uint8_t held, const Context& context, const Sharing& sharing)
     : Surfaces(surfaces)
     , Gap(gap)
     , Box(box)
+    , Held(held)
     , Caller(context)
     , Shared(sharing)
     , InSlabs(box, gap)
@@ -430,7 +438,7 @@ public:
         TriangleMesh mesh = *this->Surfaces.get(s);
         SlabBoxes before = this->Boxes[s];
         markChanged(mesh, moves.at(s), this->InSlabs, before);
-        moveInwards(mesh, moves.at(s), this->Box, this->Gap);
+        moveInwards(mesh, moves.at(s), this->Box, this->Held, this->Gap);
         this->Boxes[s] = boxesBySlab(mesh, this->InSlabs);
         markChanged(mesh, moves.at(s), this->InSlabs, this->Boxes[s]);
         keepMarks(before, this->Boxes[s]);
@@ -474,6 +482,7 @@ private:
   SurfaceStore& Surfaces;
   double Gap;
   Eigen::AlignedBox3d Box;
+  std::uint8_t Held;
   const Context& Caller;
   const Sharing& Shared;
   Slabs InSlabs;
@@ -615,14 +624,14 @@ std::map<std::size_t, Moves> Spacing::movesInSlab(int slab, const std::vector<st
 
 SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& changed, double smallest,
   const Eigen::AlignedBox3d& box, const Context& context, double from, double to, const Sharing& sharing,
-  const Recollection& known)
+  const Recollection& known, std::uint8_t held)
 {
   SpacingReport report;
   if (!(smallest > 0.0))
   {
     return report;
   }
-  Spacing spacing(surfaces, changed, smallest + lostInFiles, box, context, sharing);
+  Spacing spacing(surfaces, changed, smallest + lostInFiles, box, held, context, sharing);
   std::set<std::size_t> moved;
   // Most of the work is the first measurement of all surfaces.
   const double half = 0.5 * (from + to);

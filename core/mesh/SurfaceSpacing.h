@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace cactus
@@ -28,7 +29,8 @@ struct SpacingReport
 ///
 /// The gap also holds for files with points in single precision: surfaces nearer than the gap plus 0.00005 µm are moved. Points
 /// on a face of `box` stay on it, so that flat caps stay flat; the caller has to check other collisions, such as a cap that
-/// folds. Empty surfaces are skipped. The result is the same on any number of threads.
+/// folds. Points on the faces in `held` (bits as in CappedSurface) do not move. Empty surfaces are skipped. The result is the
+/// same on any number of threads.
 ///
 /// It processes `box` in slabs of 10 µm along z, and holds only the surfaces' parts in one slab, with search trees for those near
 /// others. A point's displacement depends on the missing gap within its slab. It reads each surface once from the store, for its
@@ -40,7 +42,7 @@ struct SpacingReport
 /// are not measured again; the surfaces have to be the same as then.
 SpacingReport keepApart(SurfaceStore& surfaces, const std::vector<std::size_t>& changed, double gap,
   const Eigen::AlignedBox3d& box, const Context& context = {}, double from = 0.0, double to = 1.0,
-  const Sharing& sharing = Sharing(), const Recollection& known = {});
+  const Sharing& sharing = Sharing(), const Recollection& known = {}, std::uint8_t held = 0);
 
 /// Does the same for all surfaces.
 SpacingReport keepApart(SurfaceStore& surfaces, double gap, const Eigen::AlignedBox3d& box, const Context& context = {},

@@ -150,6 +150,14 @@ std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
   }
   for (auto& entry : boxes)
   {
+    if (fibres.domain.isPeriodic())
+    {
+      // The copies of the domain confine the fibres.
+      constexpr double everywhere = 1e9;
+      entry.second.lowerU = entry.second.lowerV = -everywhere;
+      entry.second.upperU = entry.second.upperV = everywhere;
+      continue;
+    }
     if (boxes.size() > 1)
     {
       cutToBulk(fibres, entry.first, entry.second);
@@ -166,6 +174,10 @@ std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit)
 
 void spreadBundles(Fibres& fibres, double packingLimit)
 {
+  if (fibres.domain.isPeriodic())
+  {
+    return;
+  }
   const std::vector<BundleBox> tight = bundleBoxes(fibres, std::numeric_limits<double>::infinity());
   const std::vector<BundleBox> wide = bundleBoxes(fibres, packingLimit);
   for (std::size_t f = 0; f < fibres.size(); ++f)

@@ -24,13 +24,15 @@ struct BundleBox
 /// Returns the cuboid of each fibre's bundle: laterally the extent of the input fibres, widened if they would fill more than
 /// `packingLimit` of it. One lateral direction is the domain axis that is most perpendicular to the bundle.
 ///
+/// In a periodic domain, whose copies confine the fibres, cuboids have no limits.
+///
 /// Cuts to its bulk, and holds, each of several bundles that is larger than the domain and frays: where bundles part that lie in
 /// one place, they would otherwise spread into their thin rims, and leave the domain less dense than it came.
 std::vector<BundleBox> bundleBoxes(const Fibres& fibres, double packingLimit);
 
 /// Moves apart the fibres of each bundle that fills more than `packingLimit` of its cuboid, each as a whole and across the
 /// bundle's axis, until the bundle fills that much. A descent would get there too, but pressure takes longer to spread the wider
-/// the bundle is.
+/// the bundle is. In a periodic domain there is nowhere to move to.
 void spreadBundles(Fibres& fibres, double packingLimit);
 
 } // namespace cactus

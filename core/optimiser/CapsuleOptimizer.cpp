@@ -183,11 +183,11 @@ void tell(OptimisationRun& run, StopReason reason, OptimisationResult& result)
 }
 
 /// Returns the shares of the fibres with fewer control points; nothing if these would not help: most control points have to stay,
-/// radii (of single control points) change, or the method is the published one.
+/// radii (of single control points) change, fibres repeat after a number of control points, or the method is the published one.
 std::optional<FibreShares> sharesOfFewer(const Fibres& fibres, const FibreShares& shares, const CapsuleOptimizerOptions& options)
 {
   constexpr double most = 0.75; // of the control points
-  if (options.method != DescentMethod::Momentum || options.radiusTolerance > 0.0)
+  if (options.method != DescentMethod::Momentum || options.radiusTolerance > 0.0 || fibres.domain.periodic[2])
   {
     return std::nullopt;
   }
@@ -300,9 +300,17 @@ OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOption
   validate(options);
   validate(fibres);
   requireShares(fibres);
+  if (fibres.domain.isPeriodic() && sharing.size() > 1)
+  {
+    throw InvalidInput("the Domain is periodic, and its fibres are optimised on one rank only: run CapsuleOptimizer without MPI, "
+                       "and give its result to the other stages");
+  }
   OptimisationResult result;
   const double givenLength = totalLength(fibres);
-  result.resampling = resampleDenseFibres(fibres);
+  if (!fibres.domain.periodic[2]) // such fibres come from BundleInitializer
+  {
+    result.resampling = resampleDenseFibres(fibres);
+  }
   requireSegmentsToSearch(fibres);
   requireRoom(fibres, sharing.size());
   const Clock::time_point start = Clock::now();

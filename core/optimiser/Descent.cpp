@@ -66,6 +66,11 @@ Descent::Descent(
   , Stiffness(fibres.points.size())
   , Upper(options.method == DescentMethod::Momentum ? fibres.points.size() : 0)
 {
+  for (std::size_t f = 0; fibres.domain.periodic[2] && f < fibres.size(); ++f)
+  {
+    this->Periods.push_back(periodOf(fibres, f));
+  }
+  this->Closing.resize(this->Periods.empty() ? 0 : this->Upper.size());
 }
 
 ConvergenceRow Descent::evaluate(const std::function<Moment()>& now, Moment& moment)
@@ -152,6 +157,7 @@ void Descent::step()
     [&](std::size_t f)
     {
       exceeded[f] = momentum ? this->stepMomentum(f) : this->stepAdagrad(f);
+      this->closePeriod(f);
       this->Bodies.take(this->State.fibres, f);
     });
   ++this->State.stepsSinceSearch;
@@ -276,7 +282,7 @@ bool Descent::move(std::size_t i, const Eigen::Vector3d& by, double growth)
 
 bool Descent::stepMomentum(std::size_t f)
 {
-  this->smoothGradient(f);
+  this->Periods.empty() ? this->smoothGradient(f) : this->smoothGradientAround(f);
   this->accelerate(f);
   bool exceeded = false;
   for (std::size_t i = this->State.fibres.offsets[f]; i < this->State.fibres.offsets[f + 1]; ++i)
@@ -340,6 +346,52 @@ void Descent::smoothGradient(std::size_t f)
   }
 }
 
+/// Does the same for the middle period of a fibre that repeats, whose last control point is followed by the first one.
+void Descent::smoothGradientAround(std::size_t f)
+{
+  const std::size_t first = this->firstOfPeriod(f);
+  const std::size_t last = this->Periods[f].points - 1;
+  Eigen::Vector3d* gradient = this->Gradient.data() + first;
+  double* upper = this->Upper.data() + first;
+  double* closing = this->Closing.data() + first; // by how much the last control point moves each
+  const auto thread = [&](std::size_t i) { return this->stiffnessOfThread(first + i); };
+  const double around = thread(last);
+  for (std::size_t i = 0; i < last; ++i)
+  {
+    const double before = i > 0 ? thread(i - 1) : around;
+    double diagonal = this->stiffnessOfPoint(first + i) + before + thread(i);
+    closing[i] = (i == 0 ? around : 0.0) + (i + 1 == last ? thread(i) : 0.0);
+    if (i > 0)
+    {
+      diagonal += before * upper[i - 1];
+      gradient[i] += before * gradient[i - 1];
+      closing[i] += before * closing[i - 1];
+    }
+    upper[i] = i + 1 < last ? -thread(i) / diagonal : 0.0;
+    gradient[i] /= diagonal;
+    closing[i] /= diagonal;
+  }
+  for (std::size_t i = last - 1; i > 0; --i)
+  {
+    gradient[i - 1] -= upper[i - 1] * gradient[i];
+    closing[i - 1] -= upper[i - 1] * closing[i];
+  }
+  const double before = thread(last - 1);
+  const double diagonal = this->stiffnessOfPoint(first + last) + before * (1.0 - closing[last - 1]) + around * (1.0 - closing[0]);
+  gradient[last] = (gradient[last] + before * gradient[last - 1] + around * gradient[0]) / diagonal;
+  for (std::size_t i = 0; i < last; ++i)
+  {
+    gradient[i] += closing[i] * gradient[last];
+  }
+}
+
+/// Returns the first control point of the middle period of a fibre that repeats.
+std::size_t Descent::firstOfPeriod(std::size_t f) const
+{
+  const std::size_t begin = this->State.fibres.offsets[f];
+  return begin + (this->State.fibres.offsets[f + 1] - begin - this->Periods[f].points) / 2;
+}
+
 double Descent::stepSize() const
 {
   return (this->OverlappingShare < fewOverlaps ? settlingStep : 1.0) * this->Options.stepSize;
@@ -382,7 +434,42 @@ double Descent::changeRadiusWithAdagrad(std::size_t i)
   return this->changeRadius(i, -this->Options.stepSize * this->RadiusGradient[i] / (std::sqrt(squares) + 1e-12));
 }
 
-/// Keeps both ends of a fibre in their planes across the bundle's axis, so that fibres keep spanning the domain.
+/// Repeats the middle period of a fibre that is periodic along z in its other control points.
+void Descent::closePeriod(std::size_t f)
+{
+  if (this->Periods.empty())
+  {
+    return;
+  }
+  const FibrePeriod& period = this->Periods[f];
+  const std::size_t begin = this->State.fibres.offsets[f];
+  const std::size_t end = this->State.fibres.offsets[f + 1];
+  const std::size_t first = this->firstOfPeriod(f);
+  const auto repeat = [&](std::size_t from, std::size_t to, const Eigen::Vector3d& shift)
+  {
+    this->State.fibres.points[to] = this->State.fibres.points[from] + shift;
+    this->State.fibres.radii[to] = this->State.fibres.radii[from];
+    this->State.velocity[to] = this->State.velocity[from];
+    this->State.speed[to] = this->State.speed[from];
+    this->State.push[to] = this->State.push[from];
+    this->State.displacement[to] = this->State.displacement[from];
+    if (!this->State.radiusVelocity.empty())
+    {
+      this->State.radiusVelocity[to] = this->State.radiusVelocity[from];
+    }
+  };
+  for (std::size_t i = first; i-- > begin;)
+  {
+    repeat(i + period.points, i, -period.shift);
+  }
+  for (std::size_t i = first + period.points; i < end; ++i)
+  {
+    repeat(i - period.points, i, period.shift);
+  }
+}
+
+/// Keeps both ends of a fibre in their planes across the bundle's axis, so that fibres keep spanning the domain. The ends of one
+/// that repeats along z are copies, see closePeriod().
 void Descent::constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector3d& last) const
 {
   const Eigen::Vector3d& axis = this->Costs.boxOf(f).axis;

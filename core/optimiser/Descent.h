@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fibres/Fibres.h"
+#include "fibres/PeriodicImages.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/CapsuleOverlap.h"
 #include "optimiser/ConvergenceRow.h"
@@ -65,8 +66,11 @@ private:
   void accelerate(std::size_t f);
   double changeRadiusWithMomentum(std::size_t i);
   void smoothGradient(std::size_t f);
+  void smoothGradientAround(std::size_t f);
+  std::size_t firstOfPeriod(std::size_t f) const;
   bool stepAdagrad(std::size_t f);
   double changeRadiusWithAdagrad(std::size_t i);
+  void closePeriod(std::size_t f);
   void constrainEnds(std::size_t f, Eigen::Vector3d& first, Eigen::Vector3d& last) const;
   double changeRadius(std::size_t i, double change);
   double stepSize() const;
@@ -80,13 +84,15 @@ private:
   int Threads;
   FibreCosts Costs;
   SharedCapsules Bodies;
+  std::vector<FibrePeriod> Periods; ///< per fibre, where the domain is periodic along z; else empty
   std::vector<double> ReferenceRadii;
   std::vector<CapsuleOverlap> Overlaps;
   double OverlappingShare = 1.0; ///< overlapping pairs per capsule at the last evaluation
   std::vector<Eigen::Vector3d> Gradient;
   std::vector<double> RadiusGradient;
   std::vector<double> Stiffness;
-  std::vector<double> Upper; ///< work space for the elimination in smoothGradient
+  std::vector<double> Upper;   ///< work space for the elimination in smoothGradient
+  std::vector<double> Closing; ///< the same in smoothGradientAround
 };
 
 } // namespace cactus

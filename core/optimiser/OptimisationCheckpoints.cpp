@@ -37,6 +37,12 @@ std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions&
   add(fibres.offsets);
   add(fibres.points);
   add(fibres.radii);
+  if (fibres.domain.isPeriodic())
+  {
+    add(fibres.domain.periodic);
+    print.add(fibres.domain.lower.data(), 3 * sizeof(double));
+    print.add(fibres.domain.upper.data(), 3 * sizeof(double));
+  }
   return print.value();
 }
 

@@ -47,6 +47,7 @@ void keep(std::vector<Value>& values, const CapsuleRange& range)
 
 SharedCapsules::SharedCapsules(const Fibres& fibres, const FibreShares& shares)
   : Shares(shares)
+  , Periods(fibres.domain)
   , All(capsulesOf(fibres))
   , Own{ 0, this->All.size() }
   , Given(shares.processes())
@@ -93,7 +94,15 @@ void SharedCapsules::findNeighbours(const Fibres& fibres, const std::vector<floa
 {
   if (!this->isShared())
   {
-    cactus::findNeighbours(this->All, reach, threads, list);
+    this->dropOthers();
+    this->Images = imagesWithin(this->Periods, this->All, reach);
+    addImages(this->Images, this->All);
+    std::vector<float> allReaches = reach;
+    for (const CapsuleImage& image : this->Images)
+    {
+      allReaches.push_back(reach[image.capsule]);
+    }
+    cactus::findNeighbours(this->All, this->Own, allReaches, threads, list);
     return;
   }
   this->dropOthers();
@@ -306,6 +315,10 @@ bool SharedCapsules::update(const Fibres& fibres, bool withRadii, bool flag)
         this->getPoints(this->Taken[process], withRadii, get);
       }
     }
+  }
+  for (std::size_t i = 0; i < this->Images.size(); ++i)
+  {
+    placeImage(this->All.bodies[this->Images[i].capsule], this->Images[i].shift, this->All.bodies[this->Own.end + i]);
   }
   this->IsTapered = isTapered;
   return flag;

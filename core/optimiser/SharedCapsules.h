@@ -4,6 +4,7 @@
 #include "base/Bytes.h"
 #include "fibres/Capsules.h"
 #include "fibres/Fibres.h"
+#include "fibres/PeriodicImages.h"
 #include "optimiser/FibreShares.h"
 #include "optimiser/NeighbourSearch.h"
 #include "optimiser/OverlapCost.h"
@@ -18,7 +19,8 @@ namespace cactus
 
 /// The capsules of this process's fibres, and those of other processes' fibres that may touch them, as found in the last search
 /// for neighbours. All are in the order of a single process, so that lists of neighbours and their sums are the same. A single
-/// process has all and sends nothing.
+/// process has all and sends nothing. In a periodic domain, which processes do not share, the images of capsules that may touch
+/// others follow behind all.
 class SharedCapsules
 {
 public:
@@ -77,6 +79,8 @@ private:
   void getPoints(const std::vector<Stretch>& stretches, bool withRadii, ByteReader& get);
 
   const FibreShares& Shares;
+  const Domain Periods;
+  std::vector<CapsuleImage> Images; ///< of own capsules, behind these in All
   Capsules All;
   std::vector<RoughCapsule> Rough; ///< work space of evaluate()
   CapsuleRange Own;

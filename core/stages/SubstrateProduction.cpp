@@ -79,6 +79,10 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   sum.add(&fibres.grownFraction, sizeof(double));
   sum.add(fibres.domain.lower.data(), 3 * sizeof(double));
   sum.add(fibres.domain.upper.data(), 3 * sizeof(double));
+  if (fibres.domain.isPeriodic())
+  {
+    sum.add(fibres.domain.periodic.data(), sizeof(fibres.domain.periodic));
+  }
   const std::string values = "CACTUS " CACTUS_VERSION ", journal 10\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)

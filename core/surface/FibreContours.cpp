@@ -32,8 +32,10 @@ CappedSurface FibreContours::contourAt(double inset, const SmoothedField& field,
     return this->Filters->contour(fibreImage(this->Field, field.fibre(), field.blocks(), level, inset), level,
       Eigen::AlignedBox3d(Eigen::Vector3d(x.front(), y.front(), z.front()), Eigen::Vector3d(x.back(), y.back(), z.back())));
   }
-  return contour(
-    lattice, field.blocks(), [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
+  CappedSurface surface =
+    contour(lattice, field.blocks(), [&](const NodeRange& around, float* out) { field.values(level, this->Nudge, around, out); });
+  surface.held = this->Field.heldFaces();
+  return surface;
 }
 
 CappedSurface FibreContours::outerAt(const SmoothedField& field, double level, double& dropped) const
@@ -58,6 +60,7 @@ CappedSurface FibreContours::unsmoothed(const SmoothedField& field) const
 {
   CappedSurface surface = contour(this->OuterLattice, field.blocks(),
     [&](const NodeRange& around, float* out) { field.unsmoothedValues(this->Nudge, around, out); });
+  surface.held = this->Field.heldFaces();
   keepMainPart(surface, this->SmallestPiece);
   return surface;
 }

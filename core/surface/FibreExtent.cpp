@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/FibreExtent.h"
 
+#include "base/Constants.h"
+
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
@@ -94,10 +96,64 @@ SampleMoments momentsOf(const SmoothedField& field)
   return moments;
 }
 
+/// Returns the length, in nodes, of a fibre along z whose pieces go on beyond periodic faces across x and y.
+double lengthOfRepeated(const SmoothedField& field)
+{
+  const Eigen::Array2d period(field.lattice().cells(0) - 1, field.lattice().cells(1) - 1);
+  const auto nearest = [&](const Eigen::Vector2d& apart) -> Eigen::Vector2d
+  { return apart.array() - (apart.array() / period).round() * period; };
+  struct Layer
+  {
+    double count = 0.0;
+    Eigen::Vector2d first = Eigen::Vector2d::Zero();
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero(); ///< of the ways from the first sample
+  };
+  std::map<int, Layer> layers;
+  double count = 0.0;
+  forEachSample(field,
+    [&](const std::array<int, 3>& at, float)
+    {
+      const Eigen::Vector2d p(at[0], at[1]);
+      Layer& layer = layers[at[2]];
+      layer.first = layer.count == 0.0 ? p : layer.first;
+      layer.count += 1.0;
+      layer.sum += nearest(p - layer.first);
+      count += 1.0;
+    });
+  if (layers.empty())
+  {
+    return 1.0;
+  }
+  // From centroid to centroid of layers as far apart as the fibre is wide, so that they follow the fibre and not the voxels.
+  const auto height = static_cast<double>(layers.size());
+  const int thickness = std::max(4, static_cast<int>(std::lround(2.0 * std::sqrt(count / height / pi))));
+  double length = height;
+  const Layer* before = nullptr;
+  int last = 0;
+  for (const auto& [z, layer] : layers)
+  {
+    if (before == nullptr || z >= last + thickness)
+    {
+      if (before != nullptr)
+      {
+        const auto centroid = [](const Layer& of) -> Eigen::Vector2d { return of.first + of.sum / of.count; };
+        length += std::hypot(nearest(centroid(layer) - centroid(*before)).norm(), z - last) - (z - last);
+      }
+      before = &layer;
+      last = z;
+    }
+  }
+  return length;
+}
+
 } // namespace
 
 double lengthOf(const SmoothedField& field, double spacing)
 {
+  if (field.repeats(0))
+  {
+    return lengthOfRepeated(field) * spacing;
+  }
   const SampleMoments moments = momentsOf(field);
   if (!(moments.count > 0.0))
   {

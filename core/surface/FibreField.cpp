@@ -121,7 +121,25 @@ FibreField::FibreField(std::shared_ptr<const LabelSource> image, const Domain& d
     }
     Samples.first[axis] = grid.lower[axis] + from;
     Samples.count[axis] = to - from + 1;
+    Samples.repeats[axis] = Box.periodic[axis] = domain.periodic[axis];
+    if (domain.periodic[axis] && (!clipToDomain || Samples.count[axis] != grid.count[axis] || Box.lower[a] != domain.lower[a] ||
+                                   Box.upper[a] != domain.upper[a]))
+    {
+      throw InvalidInput(
+        "the Domain is periodic, and the label image has to end with it: give the whole image, without Margin, and "
+        "leave ClipToDomain on");
+    }
   }
+}
+
+std::uint8_t FibreField::heldFaces() const
+{
+  unsigned held = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    held |= this->Samples.repeats[axis] ? 3U << (2 * axis) : 0U;
+  }
+  return static_cast<std::uint8_t>(held);
 }
 
 NodeLattice FibreField::lattice(double inset) const
@@ -157,10 +175,9 @@ Eigen::Vector3d FibreField::firstNode() const
 
 inline bool FibreField::holds(int i, int j, int k) const
 {
-  const auto& first = this->All.first;
-  const auto& count = this->All.count;
-  return i >= first[0] && j >= first[1] && k >= first[2] && i < first[0] + count[0] && j < first[1] + count[1] &&
-         k < first[2] + count[2];
+  const auto isIn = [&](std::size_t axis, int sample)
+  { return unsigned(sample - this->All.first[axis]) < unsigned(this->All.count[axis]) || this->Samples.repeats[axis]; };
+  return isIn(0, i) && isIn(1, j) && isIn(2, k);
 }
 
 std::int32_t FibreField::nearest(const LabelImageView& held, int i, int j, int k) const
@@ -254,13 +271,79 @@ LabelImageView FibreField::samplesAround(const SampleRange& range, int more, Lab
 {
   const VoxelGrid& grid = this->grid();
   SampleRange wider;
+  bool isBeyond = false;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    wider.first[axis] = std::max(grid.lower[axis], range.first[axis] - more);
-    wider.count[axis] =
-      std::min(grid.lower[axis] + grid.count[axis], range.first[axis] + range.count[axis] + more) - wider.first[axis];
+    wider.first[axis] = range.first[axis] - more;
+    int end = range.first[axis] + range.count[axis] + more;
+    if (!this->Samples.repeats[axis])
+    {
+      wider.first[axis] = std::max(grid.lower[axis], wider.first[axis]);
+      end = std::min(grid.lower[axis] + grid.count[axis], end);
+    }
+    wider.count[axis] = end - wider.first[axis];
+    isBeyond = isBeyond || wider.first[axis] < grid.lower[axis] || end > grid.lower[axis] + grid.count[axis];
   }
-  return this->Image->samples(wider, buffer);
+  return isBeyond ? this->repeated(wider, buffer) : this->Image->samples(wider, buffer);
+}
+
+/// Copies samples of which some lie beyond periodic faces, part by part.
+LabelImageView FibreField::repeated(const SampleRange& range, LabelBuffer& buffer) const
+{
+  const VoxelGrid& grid = this->grid();
+  LabelImageView all;
+  all.gap = this->Image->gap();
+  all.grid = grid;
+  all.grid.lower = range.first;
+  all.grid.count = range.count;
+  buffer.fibreId.resize(all.grid.size());
+  buffer.depth.resize(all.grid.size());
+  all.fibreId = buffer.fibreId.data();
+  all.depth = buffer.depth.data();
+  // A part's first sample, by axis, and what of the image it is.
+  struct Part
+  {
+    int at;
+    int sample;
+    int count;
+  };
+  std::array<std::vector<Part>, 3> parts;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const int lower = grid.lower[axis];
+    const int count = grid.count[axis];
+    const int end = range.first[axis] + range.count[axis];
+    for (int at = range.first[axis]; at < end;)
+    {
+      const int into = ((at - lower) % count + count) % count;
+      const int length = std::min(count - into, end - at);
+      parts[axis].push_back({ at, lower + into, length });
+      at += length;
+    }
+  }
+  thread_local LabelBuffer own;
+  for (const Part& z : parts[2])
+  {
+    for (const Part& y : parts[1])
+    {
+      for (const Part& x : parts[0])
+      {
+        const LabelImageView part =
+          this->Image->samples({ { { x.sample, y.sample, z.sample } }, { { x.count, y.count, z.count } } }, own);
+        for (int k = 0; k < z.count; ++k)
+        {
+          for (int j = 0; j < y.count; ++j)
+          {
+            const std::size_t from = part.grid.index(x.sample, y.sample + j, z.sample + k);
+            const std::size_t to = all.grid.index(x.at, y.at + j, z.at + k);
+            std::copy_n(part.fibreId + from, x.count, buffer.fibreId.data() + to);
+            std::copy_n(part.depth + from, x.count, buffer.depth.data() + to);
+          }
+        }
+      }
+    }
+  }
+  return all;
 }
 
 LabelImageView FibreField::samplesAt(const NodeRange& range, int more, LabelBuffer& buffer) const

@@ -39,8 +39,13 @@ struct SampleBox
 {
   std::array<int, 3> first{ { 0, 0, 0 } }; ///< index in the image, per axis
   std::array<int, 3> count{ { 0, 0, 0 } };
+  /// Whether samples repeat beyond the box, per axis: nodes beyond then have those that follow.
+  std::array<bool, 3> repeats{ { false, false, false } };
 
-  int sampleOf(std::size_t axis, int node) const { return this->first[axis] + std::clamp(node - 1, 0, this->count[axis] - 1); }
+  int sampleOf(std::size_t axis, int node) const
+  {
+    return this->first[axis] + (this->repeats[axis] ? node - 1 : std::clamp(node - 1, 0, this->count[axis] - 1));
+  }
   /// Returns the row of samples for the rows of nodes of a range.
   SampleRow rowOf(const NodeRange& range) const;
 };
@@ -49,11 +54,15 @@ struct SampleBox
 ///
 /// At the samples, a field is defined as in LabelImage, and the sum of two fields is at most -gap. The lattice's inner planes run
 /// through the samples, and its outermost ones are the faces of the box, where a field has the value of the sample beside it.
+///
+/// Where the domain is periodic, the samples repeat beyond its faces, and a field has the mean of the samples on both sides
+/// there: the same on two opposite faces, bit for bit.
 class FibreField
 {
 public:
   /// The box is `domain` or, with `clipToDomain` off, the extent of the image's voxels. A domain that reaches beyond the image is
-  /// cut off where the image ends. Throws InvalidInput if nothing is left, or if the image is invalid.
+  /// cut off where the image ends. Throws InvalidInput if nothing is left, if the image is invalid, or if the domain is periodic
+  /// and the image is not exactly that.
   FibreField(std::shared_ptr<const LabelSource> image, const Domain& domain, bool clipToDomain);
   /// Uses an image in memory.
   FibreField(const LabelImageView& image, const Domain& domain, bool clipToDomain);
@@ -65,6 +74,8 @@ public:
   /// Returns the box that the lattice fills.
   const Domain& box() const { return this->Box; }
   const SampleBox& samples() const { return this->Samples; }
+  /// Returns the periodic faces of the box, as bits (see CappedSurface::held).
+  std::uint8_t heldFaces() const;
   /// Returns the lattice with planes through the samples; the outermost ones are moved into the box by `inset` (µm, less than a
   /// quarter of a voxel), to a number in single precision.
   NodeLattice lattice(double inset = 0.0) const;
@@ -89,6 +100,7 @@ private:
   std::int32_t nearest(const LabelImageView& held, int i, int j, int k) const;
   bool isNearest(const LabelImageView& held, std::int32_t fibre, int i, int j, int k) const;
   bool holds(int i, int j, int k) const;
+  LabelImageView repeated(const SampleRange& range, LabelBuffer& buffer) const;
   float field(const LabelImageView& held, std::int32_t fibre, std::size_t index, int i, int j, int k) const;
 
   std::shared_ptr<const LabelSource> Image;

@@ -76,6 +76,12 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
   , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + lostInFiles)
 {
+  if (this->Field.heldFaces() != 0 && (filters != nullptr || options.minimumAngle > 0.0))
+  {
+    throw InvalidInput(text("the Domain is periodic, and ", filters != nullptr ? "Meshing VTK filters" : "MinimumAngle",
+      " would change the rims in its faces, which have to fit those of the opposite ones: ",
+      filters != nullptr ? "leave Meshing at CACTUS" : "leave MinimumAngle at 0"));
+  }
   if (options.smoothingIterations > 0)
   {
     this->Thin.emplace(this->Field, this->Places.thinnerThan(ThinFibres::thickTarget * this->Spacing, context, sharing, known));
@@ -124,7 +130,7 @@ void FibreMesher::makeOuter(
     right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
     // The move after coarsening does the rest.
     const double rest = restPart * furthest;
-    if (!this->movesContours())
+    if (!this->movesContours() || surface.held != 0) // whose rims cannot be moved
     {
       if (std::abs(right - level) > rest)
       {
@@ -152,7 +158,7 @@ std::vector<Eigen::Vector3d> FibreMesher::checkOuter(FibreSurfacePair& pair) con
 {
   const Eigen::AlignedBox3d box = this->box();
   std::vector<std::uint8_t> faces = facesOf(pair.outer, box);
-  CappedSurface surface{ std::move(pair.outer), std::move(faces), box };
+  CappedSurface surface{ std::move(pair.outer), std::move(faces), box, this->Field.heldFaces() };
   this->Finishing.finishMoved(surface);
   pair.outer = std::move(surface.mesh);
   pair.outerReport = keepSoundPieces(pair.outer, pair.outerChange.droppedVolume);
@@ -171,7 +177,7 @@ void FibreMesher::evenOuter(FibreSurfacePair& pair) const
     return;
   }
   const Eigen::AlignedBox3d box = this->box();
-  CappedSurface surface{ pair.outer, facesOf(pair.outer, box), box };
+  CappedSurface surface{ pair.outer, facesOf(pair.outer, box), box, this->Field.heldFaces() };
   this->Finishing.even(surface);
   const SurfaceReport report = checkSurface(surface.mesh);
   if (report.sound() && placesThatMeet(surface.mesh).empty())

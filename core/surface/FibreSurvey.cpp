@@ -315,6 +315,13 @@ std::vector<std::uint32_t> piecesAt(const FibreField& field, const NodeRange& no
   {
     first[axis] = samples.sampleOf(axis, nodes.first[axis]);
     last[axis] = samples.sampleOf(axis, nodes.first[axis] + nodes.count[axis] - 1);
+    const int end = samples.first[axis] + samples.count[axis] - 1;
+    if (first[axis] < samples.first[axis] || last[axis] > end)
+    {
+      // What lies beyond a periodic face is elsewhere along the axis.
+      first[axis] = samples.first[axis];
+      last[axis] = end;
+    }
   }
   return ImagePieces(samples).holding(first, last);
 }

@@ -8,9 +8,38 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <vector>
 
 namespace cactus
 {
+
+namespace
+{
+
+/// Returns the range and, along axes whose samples repeat, its copies that come as near to the box as `reach` (nodes).
+std::vector<NodeRange> imagesOf(const NodeRange& nodes, const SampleBox& samples, int reach)
+{
+  std::vector<NodeRange> images{ nodes };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t count = samples.repeats[axis] ? images.size() : 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      for (const int shift : { -samples.count[axis], samples.count[axis] })
+      {
+        NodeRange image = images[i];
+        image.first[axis] += shift;
+        if (image.first[axis] <= samples.count[axis] + 1 + reach && image.first[axis] + image.count[axis] + reach >= 0)
+        {
+          images.push_back(image);
+        }
+      }
+    }
+  }
+  return images;
+}
+
+} // namespace
 
 NearBlocks blocksNear(const FibreField& field, const FoundFibre& fibre, int reach)
 {
@@ -25,15 +54,14 @@ NearBlocks blocksNear(const FibreField& field, const FoundFibre& fibre, int reac
     bool isNear = false;
   };
   std::map<std::uint32_t, Known> known;
-  for (const FoundBox& box : fibre.boxes)
+  const auto enter = [&](const NodeRange& nodes)
   {
-    const NodeRange nodes = nodesOf(field, box);
     std::array<int, 3> first{};
     std::array<int, 3> last{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       // A block of `size` cells has one node more.
-      first[axis] = std::max(0, (nodes.first[axis] - farthest - 1) / size);
+      first[axis] = std::max(0, nodes.first[axis] - farthest - 1) / size;
       last[axis] = std::min(lattice.blocks(int(axis)) - 1, (nodes.first[axis] + nodes.count[axis] - 1 + farthest) / size);
     }
     for (int z = first[2]; z <= last[2]; ++z)
@@ -50,6 +78,13 @@ NearBlocks blocksNear(const FibreField& field, const FoundFibre& fibre, int reac
           here.isNear = here.isNear || nodes.within(own.widened(reach)).size() > 0;
         }
       }
+    }
+  };
+  for (const FoundBox& box : fibre.boxes)
+  {
+    for (const NodeRange& nodes : imagesOf(nodesOf(field, box), field.samples(), farthest))
+    {
+      enter(nodes);
     }
   }
   NearBlocks blocks;

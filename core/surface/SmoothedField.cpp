@@ -134,6 +134,7 @@ inline FourFloats agreedBends(const FourFloats& first, const FourFloats& second)
 SmoothedField::SmoothedField(const FibreField& field, std::int32_t fibre, NearBlocks blocks, int passes, const ThinFibres* thin)
   : Fibre(fibre)
   , Lattice(field.lattice())
+  , Repeats(field.samples().repeats)
   , Blocks(std::move(blocks.numbers))
   , FirstNode(field.firstNode())
   , NodesPerLength(1.0 / field.grid().spacing)
@@ -164,8 +165,8 @@ std::vector<std::vector<SmoothedField::Piece>> SmoothedField::layOut(const std::
   {
     this->Count[axis] = at.empty() ? 0 : last[axis] - this->First[axis] + 1;
     this->Cells[axis] = this->Lattice.cells(int(axis));
-    this->LastSample[axis] = this->Cells[axis] - 1;
-    this->LastCell[axis] = std::max(1, this->Cells[axis] - 2);
+    this->LastSample[axis] = this->Cells[axis] - (this->Repeats[axis] ? 0.5 : 1.0);
+    this->LastCell[axis] = std::max(1, this->Cells[axis] - (this->Repeats[axis] ? 1 : 2));
   }
   this->Places.assign(std::size_t(this->Count[0]) * std::size_t(this->Count[1]) * std::size_t(this->Count[2]), BlockPlace());
   const std::size_t longest = std::size_t(std::max_element(this->Count.begin(), this->Count.end()) - this->Count.begin());
@@ -322,13 +323,49 @@ void SmoothedField::copyBlock(float* BlockPlace::*held, double level, double sma
     block[axis] = (around.first[axis] + 1) / NodeLattice::blockCells;
   }
   const float* in = this->placeOf(block)->*held;
+  std::copy_n(in, around.size(), out);
+  this->meanOnFaces(around, out);
   const auto t = static_cast<float>(level);
   const auto least = static_cast<float>(smallest);
   for (std::size_t n = 0; n < around.size(); ++n)
   {
-    const float field = in[n] - t;
+    const float field = out[n] - t;
     const float kept = std::max(std::abs(field), least);
     out[n] = field > 0.0f ? kept : -kept;
+  }
+}
+
+/// Where samples repeat, gives the nodes on faces, which are half a voxel from samples on both sides, the mean of these.
+void SmoothedField::meanOnFaces(const NodeRange& around, float* values) const
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (const int face : { 0, this->Cells[axis] })
+    {
+      const int inside = face == 0 ? 1 : face - 1;
+      const int last = around.first[axis] + around.count[axis] - 1;
+      if (!this->Repeats[axis] || face < around.first[axis] || face > last || inside < around.first[axis] || inside > last)
+      {
+        continue;
+      }
+      NodeRange plane = around;
+      plane.first[axis] = face;
+      plane.count[axis] = 1;
+      const std::ptrdiff_t step = (inside - face) * (axis == 0    ? 1
+                                                      : axis == 1 ? around.count[0]
+                                                                  : around.count[0] * around.count[1]);
+      for (int k = plane.first[2]; k < plane.first[2] + plane.count[2]; ++k)
+      {
+        for (int j = plane.first[1]; j < plane.first[1] + plane.count[1]; ++j)
+        {
+          for (int i = plane.first[0]; i < plane.first[0] + plane.count[0]; ++i)
+          {
+            float* value = values + around.index(i, j, k);
+            *value = 0.5f * (*value + value[step]);
+          }
+        }
+      }
+    }
   }
 }
 
@@ -343,7 +380,7 @@ inline SmoothedField::CellPlace SmoothedField::placeAt(const Eigen::Vector3d& at
   {
     const auto a = Eigen::Index(axis);
     const double node = (at[a] - this->FirstNode[a]) * this->NodesPerLength;
-    const double inside = std::max(std::min(node, this->LastSample[axis]), 1.0);
+    const double inside = std::max(std::min(node, this->LastSample[axis]), this->Repeats[axis] ? 0.5 : 1.0);
     place.cell[axis] = std::min(static_cast<int>(inside), this->LastCell[axis]);
     t[axis] = static_cast<float>(inside - place.cell[axis]);
     block[axis] = static_cast<int>(static_cast<unsigned>(place.cell[axis]) / blockCells);
@@ -396,8 +433,8 @@ inline FourFloats SmoothedField::bends(const std::array<FourFloats, 4>& along, i
 {
   const FourFloats before = along[0] - 2.0f * along[1] + along[2];
   const FourFloats behind = along[1] - 2.0f * along[2] + along[3];
-  const bool isFirst = cell <= 1;
-  const bool isLast = cell + 3 > this->Cells[axis];
+  const bool isFirst = cell <= 1 && !this->Repeats[axis];
+  const bool isLast = cell + 3 > this->Cells[axis] && !this->Repeats[axis];
   if (isFirst || isLast)
   {
     return isFirst && isLast ? FourFloats{} : isFirst ? behind : before;

@@ -37,6 +37,9 @@ public:
   const NodeLattice& lattice() const { return this->Lattice; }
   const std::vector<std::uint32_t>& blocks() const { return this->Blocks; }
 
+  /// Tells whether samples repeat beyond the box along an axis.
+  bool repeats(std::size_t axis) const { return this->Repeats[axis]; }
+
   /// Writes the field minus `level` at the nodes of a block and one node beyond on every side, for contour(). Values nearer to 0
   /// than `smallest` become ±smallest, so that the contour keeps off the nodes and gets no needles. Three nodes or more away from
   /// the fibre, they may be far lower than the field.
@@ -90,9 +93,11 @@ private:
   const BlockPlace* placeOf(const Index& block) const;
   /// Copies the stored values of a block, minus `level` and kept off 0.
   void copyBlock(float* BlockPlace::*held, double level, double smallest, const NodeRange& around, float* out) const;
+  void meanOnFaces(const NodeRange& around, float* values) const;
 
   std::int32_t Fibre;
   NodeLattice Lattice;
+  std::array<bool, 3> Repeats;
   std::vector<std::uint32_t> Blocks;
   Eigen::Vector3d FirstNode;                    ///< µm
   double NodesPerLength;                        ///< per µm
@@ -100,7 +105,7 @@ private:
   Index First{ { 0, 0, 0 } };                   ///< first one of the box of stored blocks
   Index Count{ { 0, 0, 0 } };                   ///< and their number
   Index Cells{ { 0, 0, 0 } };                   ///< of the lattice
-  std::array<double, 3> LastSample{};           ///< last node that is a sample
+  std::array<double, 3> LastSample{};           ///< last node that is a sample, or the face where samples repeat
   Index LastCell{ { 1, 1, 1 } };                ///< last cell that begins at a sample, and ends at another if there are two
   std::vector<BlockPlace> Places;               ///< per block of the box
 };

@@ -3,6 +3,7 @@
 
 #include "mesh/BandCoarsening.h"
 #include "mesh/EvenFans.h"
+#include "mesh/HeldRims.h"
 #include "mesh/NeedleSplitting.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfacePieces.h"
@@ -21,6 +22,9 @@ namespace
 
 /// Distance of the points at which coarsening evaluates the field on large triangles, in voxels.
 constexpr double samplingDistance = 6.0;
+/// Largest error of the rims in periodic faces, as a part of the decimation error: only the wall beside them is coarsened
+/// further.
+constexpr double rimPart = 0.5;
 /// Longest edge of remeshed triangles, in voxels.
 constexpr double longestEdge = 6.0;
 /// MC/DC warns about triangles above 1000.
@@ -184,9 +188,11 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
   decimation.maximumError = this->DecimationError;
   decimation.sampling = samplingDistance * this->Spacing;
   decimation.field = [&field](const Eigen::Vector3d& p) { return field.value(p); };
+  const HeldRims rims(surface, rimPart * this->DecimationError, samplingDistance * this->Spacing);
   for (int attempt = 0; attempt <= repairs; ++attempt)
   {
     CappedSurface trial = surface;
+    trial.stays = rims.stays();
     const bool isBanded = attempt == 0 && decimation.localBounds.empty() && this->MinimumAngle <= 0.0;
     if (isBanded)
     {
@@ -197,6 +203,7 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
     }
     this->reshape(trial, decimation);
     moveToVolume(trial, target.volume, this->DecimationError);
+    rims.join(trial);
     splitNeedles(trial, largestSquaredEdgeRatio);
     target.hasEvenFans ? this->even(trial) : roundPoints(trial.mesh, trial.box);
     report = checkSurface(trial.mesh);

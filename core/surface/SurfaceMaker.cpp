@@ -328,7 +328,7 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
     std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
     const SpacingReport spacing = keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller,
       attempt == 0 ? this->Shares.contoured : this->Shares.spaced, this->Shares.spaced, this->Shared,
-      this->Journal.findings().part(text("apart ", attempt)));
+      this->Journal.findings().part(text("apart ", attempt)), this->Mesher.field().heldFaces());
     tooNear = spacing.tooNear;
     moved.insert(spacing.moved.begin(), spacing.moved.end());
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);

@@ -225,3 +225,42 @@ TEST(ExtraAxonalWalk, SaysWhyItCannotBeTaken)
   EXPECT_NE(
     message(example::surfacesOf({ 1 }, { open }), walks(200, 2.0, 0.1)).find("came to be inside a fibre"), std::string::npos);
 }
+
+/// The same array, moved so that the faces cut each tube in four: what leaves through one comes in again through the other.
+TEST(ExtraAxonalWalk, PeriodicFacesLetWalkersInAgain)
+{
+  const double fraction = 0.6;
+  const double radius = std::sqrt(fraction * side * side / (0.5 * corners * std::sin(2.0 * pi / corners)));
+  std::vector<TriangleMesh> tubes;
+  std::vector<int> ids;
+  for (const double x : { -1.5, -0.5, 0.5, 1.5 })
+  {
+    for (const double y : { -1.5, -0.5, 0.5, 1.5 })
+    {
+      tubes.push_back(example::tube(x * side + 0.5, y * side + 0.5, radius, -0.5 * side, 0.5 * side, corners, 1));
+      ids.push_back(static_cast<int>(tubes.size()));
+    }
+  }
+  Domain domain = Domain::cube(side);
+  domain.periodic = { { true, true, true } };
+  const FibreSurfaces all = example::surfacesOf(ids, tubes);
+  const ExtraAxonalDiffusion found = walkOutside(domain, all, walks(1000, 3.0, 0.05));
+  const double across = 0.5 * (found.ratio[0] + found.ratio[1]);
+  const double error = std::hypot(found.standardError[0], found.standardError[1]) / 2.0;
+  EXPECT_NEAR(across, perrins(fraction), 3.0 * error);
+  EXPECT_NEAR(found.ratio[2], 1.0, 3.0 * found.standardError[2]);
+  EXPECT_EQ(found.leaked, 0u);
+}
+
+TEST(ExtraAxonalWalk, NobodyLeavesThroughPeriodicFaces)
+{
+  Domain domain = Domain::cube(side);
+  domain.periodic = { { true, true, false } };
+  const double half = freeLeavingShare(domain, domain, 0.5);
+  domain.periodic = { { true, true, true } };
+  EXPECT_EQ(freeLeavingShare(domain, domain, 0.5), 0.0);
+  EXPECT_GT(half, 0.1);
+  const LeavingWalkers leaving = walkUntilLeaving(domain, domain, array(0.5), 1.0, 1, {});
+  EXPECT_EQ(leaving.walkers, 1000u);
+  EXPECT_TRUE(leaving.distances.empty());
+}

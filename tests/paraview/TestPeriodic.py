@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# ctest-timeout: 600
+"""A substrate in a periodic domain: copies side by side are one tissue, for the mesh oracle, a walk and simulators."""
+
+import json
+import os
+
+import numpy as np
+from cactus_testing import CactusTestCase, fetch, main, mesh_oracle
+from paraview.simple import (
+    BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate, SubstrateStatistics, SubstrateWriter,
+)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+SIDE = 8.0
+
+
+def mesh_of(data):
+    """Points, triangles and the fibre of each triangle."""
+    points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+    triangles = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return points, triangles, vtk_to_numpy(data.GetCellData().GetArray("FibreId"))
+
+
+def row(proxy):
+    table = fetch(proxy)
+    columns = (table.GetColumn(i) for i in range(table.GetNumberOfColumns()))
+    return {column.GetName(): column.GetVariantValue(0).ToDouble() for column in columns}
+
+
+def write_off(path, points, triangles):
+    with open(path, "w", encoding="ascii") as file:
+        file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
+        np.savetxt(file, points, fmt="%.17g")
+        np.savetxt(file, np.c_[np.full(len(triangles), 3), triangles], fmt="%d")
+
+
+class TestPeriodic(CactusTestCase):
+    def chain(self, border="Periodic", **options):
+        bundle = BundleInitializer(Side=SIDE, Border=border, MeanDispersion=8, **options)
+        fibres = CapsuleOptimizer(Input=bundle)
+        return fibres, MyelinSurface(Input=FibreRadialGrowth(Input=fibres))
+
+    def test_copies_are_one_tissue(self):
+        fibres, surfaces = self.chain()
+        data = fetch(fibres)
+        self.assertEqual(vtk_to_numpy(data.GetFieldData().GetArray("Periodic")).tolist(), [1, 1, 1])
+        self.assertEqual(data.GetFieldData().GetArray("Converged").GetValue(0), 1)
+        reached = row(SubstrateStatistics(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), ExtraAxonalWalkers=200, WalkDistance=6))
+        self.assertAlmostEqual(reached["FVF"], 0.9, delta=0.01)
+        self.assertAlmostEqual(reached["CapsuleVolumeFraction"], 0.6, delta=0.01)
+        self.assertEqual(reached["Fibres"], data.GetNumberOfCells())
+        for axis in "XYZ":
+            self.assertLess(reached[f"ExtraAxonalDiffusivityRatio{axis}"], 1)
+            self.assertGreater(reached[f"ExtraAxonalDiffusivityRatio{axis}"], 0)
+        certificate = row(SubstrateCertificate(Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1)))
+        self.assertEqual(certificate["Certified"], 1)
+
+        # Eight copies, without the caps between them.
+        points, triangles, fibre = mesh_of(fetch(surfaces))
+        half = SIDE / 2
+        folder = os.path.join(self.folder, "copies")
+        os.makedirs(folder)
+        for one in np.unique(fibre):
+            corners = []
+            for copy in np.ndindex(2, 2, 2):
+                inner_face = np.where(np.array(copy) == 0, half, -half)
+                own = triangles[fibre == one]
+                is_between = np.any(np.all(points[own] == inner_face, axis=1), axis=1)
+                corners.append(points[own[~is_between]] + SIDE * np.array(copy))
+            corners = np.concatenate(corners).reshape(-1, 3)
+            places, numbers = np.unique(corners, axis=0, return_inverse=True)
+            edges = self.on_box_edges(places, numbers.reshape(-1, 3))
+            write_off(os.path.join(folder, f"fibre_{one}.off"), places, edges)
+        judged = mesh_oracle(folder, "--gap", "0.02")
+        self.assertGreater(len(judged["meshes"]), 20)
+        for mesh in judged["meshes"]:
+            self.assertFalse(mesh["self_intersecting"], mesh["file"])
+        self.assertEqual(judged["pairs"], [])
+
+    @staticmethod
+    def on_box_edges(places, triangles):
+        """The triangles of walls: caps of different faces share the edges of the domain, on which each has points of its own."""
+        low, high = places.min(axis=0), places.max(axis=0)
+        is_on = [places[:, axis] == end[axis] for axis in range(3) for end in (low, high)]
+        is_cap = np.any([on[triangles].all(axis=1) for on in is_on], axis=0)
+        return triangles[~is_cap]
+
+    def test_simulators_are_told(self):
+        fibres, surfaces = self.chain()
+        folder = os.path.join(self.folder, "substrate")
+        SubstrateWriter(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), FolderName=folder, Format="MC/DC").UpdatePipeline()
+        with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+            manifest = json.load(file)
+        self.assertEqual(manifest["periodic"], [True, True, True])
+        with open(os.path.join(folder, "mcdc", "extra.conf"), encoding="ascii") as file:
+            lines = file.read().splitlines()
+        for name in ("voxels", "spawning_area"):
+            first = lines.index(f"<{name}>") + 1
+            corners = np.array([[float(word) for word in line.split()] for line in lines[first : first + 2]])
+            np.testing.assert_allclose(corners, [[-SIDE / 2e3] * 3, [SIDE / 2e3] * 3], rtol=1e-12)
+        with open(os.path.join(folder, "README.txt"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn("repeats along x, y and z", text)
+        self.assertIn("Fewer than 0.1 %", text)
+
+    def test_what_cannot_be_is_refused(self):
+        for error, options in (
+            ("NumberOfBundles is 2: use Border Cut", {"NumberOfBundles": 2}),
+            ("Direction is not along z", {"Direction": [0, 1, 1]}),
+            ("DispersionModel makes straight fibres", {"DispersionModel": "Watson"}),
+            ("less than four times MaximumRadius 3", {"MaximumRadius": 3}),
+        ):
+            bundle = BundleInitializer(Side=SIDE, Border="Periodic", **options)
+            with self.assertError(error):
+                bundle.UpdatePipeline()
+        fibres, _ = self.chain(FibreVolumeFraction=0.4, GrownFibreVolumeFraction=0.6)
+        for error, margin, options in (
+            ("leave MinimumAngle at 0", 0, {"MinimumAngle": 10}),
+            ("without Margin", 0.5, {}),
+            ("leave ClipToDomain on", 0, {"ClipToDomain": 0}),
+        ):
+            surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, Margin=margin), **options)
+            with self.assertError(error):
+                surfaces.UpdatePipeline()
+
+
+main()
