@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace cactus
@@ -45,6 +46,29 @@ struct Domain
       }
     }
     return all;
+  }
+  /// Returns the image of a point that lies between the faces across x and y, if these are periodic; else the point.
+  Eigen::Vector3d inside(const Eigen::Vector3d& point) const
+  {
+    Eigen::Vector3d image = point;
+    for (Eigen::Index axis = 0; axis < 2; ++axis)
+    {
+      if (periodic[static_cast<std::size_t>(axis)])
+      {
+        image[axis] -= size()[axis] * std::floor((point[axis] - lower[axis]) / size()[axis]);
+      }
+    }
+    return image;
+  }
+  /// Returns the shortest way to any image of the place that lies this way, along x and y if these are periodic.
+  Eigen::Vector3d nearest(const Eigen::Vector3d& way) const
+  {
+    Eigen::Vector3d shortest = way;
+    for (Eigen::Index axis = 0; axis < 2; ++axis)
+    {
+      shortest[axis] -= periodic[static_cast<std::size_t>(axis)] ? size()[axis] * std::round(way[axis] / size()[axis]) : 0.0;
+    }
+    return shortest;
   }
   /// Returns the part of the segment from p to q that lies in the box grown by `margin` (µm) on all sides, as fractions of its
   /// length; the second is below the first if no part does.

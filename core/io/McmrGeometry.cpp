@@ -9,6 +9,7 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <utility>
 
 namespace cactus
 {
@@ -68,30 +69,52 @@ std::string triangleRows(const TriangleMesh& mesh, std::int64_t before)
   return text;
 }
 
-void writeMesh(std::ostream& out, const FibreSurfaces& surfaces, PlyEncoding encoding, const Context& context)
+/// Returns what a group says of the distance after which it is repeated, if the domain is periodic: along an axis on which that
+/// is not, a distance that nobody walks, as there are walls.
+std::string repeatsText(const Domain& domain)
+{
+  if (!domain.isPeriodic())
+  {
+    return "";
+  }
+  std::string text = "\"repeats\": ";
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    text += axis == 0 ? "[" : ", ";
+    appendNumber(text, (domain.periodic[axis] ? 1.0 : 2.0) * domain.size()[Eigen::Index(axis)], jsonDigits);
+  }
+  return text + "], ";
+}
+
+/// Writes a group behind `before`, which becomes what is put between two.
+void writeMesh(std::ostream& out, const FibreSurfaces& surfaces, const Domain& domain, PlyEncoding encoding, std::string& before,
+  const Context& context)
 {
   if (surfaces.size() == 0)
   {
     return;
   }
-  out << "{\"type\": \"Mesh\", \"vertices\": [\n";
+  out << std::exchange(before, ",\n") << "{\"type\": \"Mesh\", " << repeatsText(domain) << "\"vertices\": [\n";
   writeRows(out, surfaces, encoding, context, [](const TriangleMesh& mesh, std::int64_t) { return vertexRows(mesh); });
   out << "], \"triangles\": [\n";
   writeRows(out, surfaces, encoding, context, triangleRows);
-  out << "]},\n";
+  out << "]}";
 }
 
-std::string wallText(const Domain& box)
+std::string wallText(const Domain& box, std::string& before)
 {
   constexpr const char* axes[] = { "[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]" };
   std::string text;
   for (int axis = 0; axis < 3; ++axis)
   {
-    text += std::string(R"({"type": "Walls", "rotation": )") + axes[axis] + ", \"position\": [";
-    appendNumber(text, box.lower[axis], jsonDigits);
-    text += ", ";
-    appendNumber(text, box.upper[axis], jsonDigits);
-    text += axis < 2 ? "]},\n" : "]}\n";
+    if (!box.periodic[std::size_t(axis)])
+    {
+      text += std::exchange(before, ",\n") + R"({"type": "Walls", "rotation": )" + axes[axis] + ", \"position\": [";
+      appendNumber(text, box.lower[axis], jsonDigits);
+      text += ", ";
+      appendNumber(text, box.upper[axis], jsonDigits);
+      text += "]}";
+    }
   }
   return text;
 }
@@ -112,10 +135,10 @@ void writeMcmrGeometry(const SubstrateFolderContents& contents, FolderWriter& wr
     [&](const std::string& place)
     {
       AtomicFile file(place);
-      file.stream() << "[\n";
-      writeMesh(file.stream(), contents.outer, contents.encoding, context);
-      writeMesh(file.stream(), contents.inner, contents.encoding, context);
-      file.stream() << wallText(mcmrBox(contents.domain)) << "]\n";
+      std::string before = "[\n";
+      writeMesh(file.stream(), contents.outer, contents.domain, contents.encoding, before, context);
+      writeMesh(file.stream(), contents.inner, contents.domain, contents.encoding, before, context);
+      file.stream() << wallText(mcmrBox(contents.domain), before) << "\n]\n";
       file.commit();
     });
 }

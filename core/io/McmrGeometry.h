@@ -15,8 +15,9 @@ Domain mcmrBox(const Domain& domain);
 
 /// Writes `geometry.json`, which MCMRSimulator.jl (Cottaar et al. 2026, Imaging Neuroscience; version 1.1.0) reads as its
 /// geometry: a Mesh of all outer surfaces, one of all inner ones, as far as there are any, and Walls at the faces of mcmrBox(),
-/// since a substrate is not periodic, and walkers would leave it. Lengths are µm, with the digits of the PLY files; corners are
-/// counted from 1, and MCMRSimulator.jl takes the surfaces of a Mesh apart by itself. Throws FileError and Cancelled.
+/// where walkers would leave the substrate. A periodic domain has `repeats` instead (around the origin, as that program's are).
+/// Lengths are µm, with the digits of the PLY files; corners are counted from 1, and MCMRSimulator.jl takes the surfaces of a
+/// Mesh apart by itself. Throws FileError and Cancelled.
 void writeMcmrGeometry(const SubstrateFolderContents& contents, FolderWriter& writer, const Context& context);
 
 } // namespace cactus

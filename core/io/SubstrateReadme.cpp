@@ -71,9 +71,12 @@ std::string mcmrText(const SubstrateFolderContents& contents)
   const double step = inMetres * longestStep;
   const double milliseconds = 1e3 * step * step / (6.0 * contents.mcdc.diffusivity);
   const bool hasBoth = contents.inner.size() > 0 && contents.outer.size() > 0;
-  return "geometry.json   the geometry for MCMRSimulator.jl (git.fmrib.ox.ac.uk/ndcn0236/mcmrsimulator.jl): a Mesh of all outer\n"
-         "                surfaces, one of all inner ones, and Walls at the faces of the domain, as walkers would leave it "
-         "else\n\n"
+  return std::string("geometry.json   the geometry for MCMRSimulator.jl (git.fmrib.ox.ac.uk/ndcn0236/mcmrsimulator.jl): a Mesh "
+                     "of all outer\n"
+                     "                surfaces, one of all inner ones, and ") +
+         (contents.domain.periodic[2]     ? "repeats after the sides of the domain\n\n"
+           : contents.domain.isPeriodic() ? "repeats along x and y, and Walls across z, as walkers would leave it else\n\n"
+                                          : "Walls at the faces of the domain, as walkers would leave it else\n\n") +
          "In Julia, in this folder, with a sequence of your own:\n\n"
          "    using MCMRSimulator\n"
          "    geometry = read_geometry(\"geometry.json\")\n"

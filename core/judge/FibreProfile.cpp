@@ -58,7 +58,7 @@ std::vector<FibrePlace> placesAlongFibre(const Fibres& fibres, std::size_t fibre
   for (std::size_t number = 0; (static_cast<double>(number) + 0.5) * spacing < arc.back(); ++number)
   {
     const double s = (static_cast<double>(number) + 0.5) * spacing;
-    const Eigen::Vector3d point = positionAt(fibres, fibre, arc, s);
+    const Eigen::Vector3d point = fibres.domain.inside(positionAt(fibres, fibre, arc, s));
     // The chord over one spacing, so that a kink between two short segments does not tilt the plane of a cut.
     const Eigen::Vector3d chord = positionAt(fibres, fibre, arc, std::min(s + 0.5 * spacing, arc.back())) -
                                   positionAt(fibres, fibre, arc, std::max(s - 0.5 * spacing, 0.0));

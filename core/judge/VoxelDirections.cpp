@@ -3,6 +3,7 @@
 
 #include "base/Domain.h"
 #include "base/SphericalHarmonics.h"
+#include "fibres/PeriodicImages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +34,13 @@ public:
 
   VoxelDirections run()
   {
+    Eigen::AlignedBox3d around(this->box(0, 0, 0).lower);
+    around.extend(this->box(this->Block.count[0] - 1, this->Block.count[1] - 1, this->Block.count[2] - 1).upper);
     for (std::size_t segment = this->First; segment < this->Last; ++segment)
     {
-      this->addSegment(segment);
+      Eigen::AlignedBox3d ends(this->Lines.points[segment]);
+      ends.extend(this->Lines.points[segment + 1]);
+      forEachImage(this->Lines.domain, ends, around, [&](const Eigen::Vector3d& shift) { this->addSegment(segment, shift); });
     }
     std::size_t place = 0;
     for (int k = 0; k < this->Block.count[2]; ++k)
@@ -63,11 +68,11 @@ private:
 
   Eigen::Vector3d along(std::size_t segment) const { return this->Lines.points[segment + 1] - this->Lines.points[segment]; }
 
-  /// Adds a segment to the voxels of the block that meet its box.
-  void addSegment(std::size_t segment)
+  /// Adds the image of a segment to the voxels of the block that meet its box.
+  void addSegment(std::size_t segment, const Eigen::Vector3d& shift)
   {
-    const Eigen::Vector3d& p = this->Lines.points[segment];
-    const Eigen::Vector3d& q = this->Lines.points[segment + 1];
+    const Eigen::Vector3d p = this->Lines.points[segment] + shift;
+    const Eigen::Vector3d q = this->Lines.points[segment + 1] + shift;
     std::array<int, 3> low{};
     std::array<int, 3> high{};
     for (int axis = 0; axis < 3; ++axis)
@@ -148,7 +153,7 @@ private:
     for (std::size_t segment = this->First; segment < this->Last; ++segment)
     {
       const Eigen::Vector3d direction = this->along(segment);
-      const Eigen::Vector3d offset = point - this->Lines.points[segment];
+      const Eigen::Vector3d offset = this->Lines.domain.nearest(point - this->Lines.points[segment]);
       const double t = std::clamp(offset.dot(direction) / direction.squaredNorm(), 0.0, 1.0);
       const double distance = (offset - t * direction).squaredNorm();
       if (distance < least)

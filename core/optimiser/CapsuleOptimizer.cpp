@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -108,10 +109,33 @@ struct Surroundings
   const Context& context;
   Clock::time_point start;
   OptimisationCheckpoints& checkpoints;
+  const Sharing* all; ///< the processes that each do all the work; null where they share it
   /// Called with each state that a run measures: control points and radii of the input fibres. Empty if there is no observer.
   std::function<void(const ConvergenceRow&, const std::vector<Eigen::Vector3d>&, const std::vector<double>&)> observe;
   double completed = 0.0; ///< last reported progress
 };
+
+/// Returns this process's moment or, where each does all the work, that of all: the first one's time, and whether any is to stop.
+Moment momentOf(const Surroundings& around)
+{
+  Moment moment{ secondsSince(around.start), around.context.stopRequested() };
+  if (around.all == nullptr)
+  {
+    return moment;
+  }
+  ByteWriter mine;
+  mine(moment.seconds);
+  mine(static_cast<std::uint8_t>(moment.wantsStop));
+  const std::vector<std::string> told = around.all->exchange(mine.bytes());
+  for (std::size_t process = 0; process < told.size(); ++process)
+  {
+    ByteReader get(told[process]);
+    const double seconds = get.get<double>();
+    moment.seconds = process == 0 ? seconds : moment.seconds;
+    moment.wantsStop = get.get<std::uint8_t>() != 0 || moment.wantsStop;
+  }
+  return moment;
+}
 
 /// Tells whether a run with fewer control points continues with all of them.
 bool isToBeRefined(const OptimisationRun& run, const std::optional<StopReason>& reason)
@@ -131,11 +155,7 @@ std::optional<StopReason> descend(
       around.checkpoints.write(run);
     }
     Moment moment;
-    ConvergenceRow row = run.descent.evaluate(
-      [&] {
-        return Moment{ secondsSince(around.start), around.context.stopRequested() };
-      },
-      moment);
+    ConvergenceRow row = run.descent.evaluate([&] { return momentOf(around); }, moment);
     row.iteration = run.iteration;
     row.seconds = run.seconds + moment.seconds;
     run.note(row, around.options.overlapTolerance);
@@ -295,16 +315,18 @@ bool hasAny(bool own, const Sharing& sharing)
 }
 
 OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
-  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe, const Sharing& sharing)
+  const std::function<void(const ConvergenceRow&, const Fibres&)>& observe, const Sharing& team)
 {
   validate(options);
   validate(fibres);
   requireShares(fibres);
-  if (fibres.domain.isPeriodic() && sharing.size() > 1)
+  if (fibres.domain.isPeriodic() && team.size() > 1 && !options.checkpointFile.empty())
   {
-    throw InvalidInput("the Domain is periodic, and its fibres are optimised on one rank only: run CapsuleOptimizer without MPI, "
-                       "and give its result to the other stages");
+    throw InvalidInput("CheckpointFile cannot be kept for a periodic domain on several ranks: leave it empty, or use one rank");
   }
+  // Images of capsules are found among those of one process: in a periodic domain each does all the work.
+  const Sharing alone;
+  const Sharing& sharing = fibres.domain.isPeriodic() ? alone : team;
   OptimisationResult result;
   const double givenLength = totalLength(fibres);
   if (!fibres.domain.periodic[2]) // such fibres come from BundleInitializer
@@ -333,7 +355,7 @@ OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOption
     bringTogether(points, shares, order, fibres.points);
     bringTogether(radii, shares, order, fibres.radii);
   };
-  Surroundings around{ options, context, start, checkpoints, {} };
+  Surroundings around{ options, context, start, checkpoints, &sharing == &alone ? &team : nullptr, {} };
   if (hasAny(static_cast<bool>(observe), sharing))
   {
     around.observe = [&](const ConvergenceRow& row, const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii)

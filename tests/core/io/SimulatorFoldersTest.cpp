@@ -212,3 +212,25 @@ TEST_F(SimulatorFolders, McmrSimulatorHasItsGeometry)
   EXPECT_TRUE(fs::exists(this->Scratch / "s/outer/fibre_00001.ply"));
   EXPECT_TRUE(fs::exists(this->Scratch / "s/start/extra.txt"));
 }
+
+TEST_F(SimulatorFolders, McmrSimulatorRepeatsWhatIsPeriodic)
+{
+  this->takePlates(1.0, 0.5);
+  for (const bool isAlongZ : { false, true })
+  {
+    this->Contents.domain.periodic = { { true, true, isAlongZ } };
+    this->write(cactus::SubstrateFormat::Mcmr);
+    const auto groups = cactus::parsedJson(contentOf(this->Scratch / "s/geometry.json"));
+    ASSERT_TRUE(groups && groups->is_array() && groups->size() == (isAlongZ ? 2u : 3u));
+    for (std::size_t group = 0; group < 2; ++group)
+    {
+      EXPECT_EQ((*groups)[group]["repeats"], cactus::Json({ 10, 10, isAlongZ ? 10 : 20 }));
+    }
+    if (!isAlongZ)
+    {
+      EXPECT_EQ((*groups)[2]["rotation"], cactus::Json({ 0, 0, 1 }));
+    }
+    EXPECT_NE(
+      this->readme().find(isAlongZ ? "repeats after the sides" : "repeats along x and y, and Walls across z"), std::string::npos);
+  }
+}
