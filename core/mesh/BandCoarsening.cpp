@@ -81,6 +81,7 @@ public:
 
   void run()
   {
+    this->findHeld();
     this->simplify();
     this->cutCaps(0);
     this->cutCaps(this->Loops.planeCount() - 1);
@@ -246,9 +247,28 @@ private:
     }
   }
 
+  /// Finds the bands with points in held faces along the axis: their rims are not to be replaced.
+  void findHeld()
+  {
+    const unsigned beside = this->Surface.held & ~(3U << (2 * this->Axis));
+    this->IsHeld.assign(this->Loops.bandCount(), false);
+    for (std::size_t t = 0; beside != 0 && t < this->Surface.mesh.triangles.size(); ++t)
+    {
+      const auto& corners = this->Surface.mesh.triangles[t];
+      if (std::any_of(corners.begin(), corners.end(), [&](std::int32_t p) { return (this->facesOf(p) & beside) != 0; }))
+      {
+        this->IsHeld[this->Loops.bandOf(t)] = true;
+      }
+    }
+  }
+
   /// Tells whether a band may be part of a strip.
   bool canGo(std::size_t band) const
   {
+    if (this->IsHeld[band])
+    {
+      return false;
+    }
     const bool hasCaps = (band > 0 || !this->Caps[0].empty()) && (band + 1 < this->Loops.bandCount() || !this->Caps[1].empty());
     return hasCaps && this->Loops.isRing(band) && this->Loops.loop(band).points.size() >= fewestPoints &&
            this->Loops.loop(band + 1).points.size() >= fewestPoints;
@@ -379,27 +399,18 @@ private:
   std::vector<Vector3d> Places; ///< per point, its new place
   std::vector<double> Moves;    ///< per point, its outward displacement, µm
   BandExcesses Excesses;
+  std::vector<bool> IsHeld;                                     ///< per band, whether it has to stay
   std::vector<Strip> Strips;                                    ///< from below
   std::array<std::vector<std::array<std::int32_t, 3>>, 2> Caps; ///< in the first plane and the last one
 };
-
-/// Tells whether rims that have to stay lie in faces along the axis, where bands would replace them.
-bool holdsBeside(const CappedSurface& surface, Eigen::Index axis)
-{
-  const unsigned beside = surface.held & ~(3U << (2 * axis));
-  return std::any_of(surface.faces.begin(), surface.faces.end(), [&](std::uint8_t faces) { return (faces & beside) != 0; });
-}
 
 } // namespace
 
 void coarsenBands(CappedSurface& surface, const NodeLattice& lattice, const SurfaceDecimationOptions& options)
 {
   constexpr std::size_t fewestPlanes = 4; // so that there is a band between two inner planes
-  const Eigen::Index axis = longestAxis(surface.mesh);
-  if (holdsBeside(surface, axis))
-  {
-    return;
-  }
+  // Pieces beside two opposite faces do not tell the way of a fibre that passes through them.
+  const Eigen::Index axis = surface.held != 0 ? 2 : longestAxis(surface.mesh);
   std::vector<double> planes = lattice.planes[std::size_t(axis)];
   if (!surface.box.isEmpty())
   {

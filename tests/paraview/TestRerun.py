@@ -140,9 +140,9 @@ class Rerun(CactusTestCase):
         manifest = self.write(bundle())
         with open(manifest, encoding="utf-8") as file:
             text = file.read()
-        self.assertIn('"Seed": 1}', text)
+        self.assertIn('"Seed": 1, "WatsonKappa"', text)
         with open(manifest, "w", encoding="utf-8") as file:
-            file.write(text.replace('"Seed": 1}', '"Seed": 2}', 1))
+            file.write(text.replace('"Seed": 1, "WatsonKappa"', '"Seed": 2, "WatsonKappa"', 1))
         code, said = self.rerun(manifest)
         self.assertEqual(code, 1, said)
         self.assertIn("came out otherwise are those at input Input of CapsuleOptimizer", said)
