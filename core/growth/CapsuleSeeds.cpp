@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/CapsuleSeeds.h"
 
+#include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Parallel.h"
 #include "fibres/PeriodicImages.h"
@@ -74,6 +75,15 @@ CapsuleSeeds::CapsuleSeeds(
   : fibreOfRank(orderById(fibres))
   , pieceOffsets(fibreOfRank.size() + 1, 0)
 {
+  if (calibre.varies() && fibres.domain.periodic[2])
+  {
+    throw InvalidInput("the Domain is periodic along z, where SurfaceRoughness would not come back to its values: leave it at 0; "
+                       "CalibreVariation of BundleInitializer varies fibres and repeats");
+  }
+  for (std::size_t f = 0; fibres.domain.periodic[2] && f < fibres.size(); ++f)
+  {
+    periodOf(fibres, f); // or throws
+  }
   parallelForInBlocks(this->fibreOfRank.size(), fibresAtOnce, threads,
     [&](std::size_t rank)
     {

@@ -230,6 +230,12 @@ TEST(PeriodicSurfaces, WhatWouldBreakTheRimsIsRefused)
   options = {};
   options.clipToDomain = false;
   EXPECT_THROW(tissue.surfaces(options), InvalidInput);
+  PeriodicTissue rough = tissue;
+  rough.growth.surfaceRoughness = 0.1;
+  EXPECT_THROW(rough.image(), InvalidInput);
+  PeriodicTissue bent = tissue;
+  bent.fibres.points[bent.fibres.offsets[1]].x() += 0.01;
+  EXPECT_THROW(bent.image(), InvalidInput);
   const LabelImage wide = tissue.image(0.5);
   EXPECT_THROW(FibreField({ wide.grid, wide.fibreId.data(), wide.depth.data(), tissue.growth.gap() }, tissue.fibres.domain, true),
     InvalidInput);
