@@ -58,7 +58,7 @@ NAMES = {
 CHOICES = {
     ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table", "Histogram"],
     ("BundleInitializer", "DispersionModel"): ["Watson", "Cone", "Coherent", "Harmonics"],
-    ("BundleInitializer", "Border"): ["Cut", "Walls"],
+    ("BundleInitializer", "Border"): ["Cut", "Walls", "Periodic across", "Periodic"],
     ("BundleInitializer", "Mixing"): ["Interpenetrating", "Layers"],
     ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],
 }
