@@ -11,6 +11,12 @@
 namespace cactus
 {
 
+/// Returns the shortest of the ways (µm) to the images of a place that repeats after a period.
+inline double nearestImage(double way, double period)
+{
+  return way - period * std::round(way / period);
+}
+
 /// The box (µm) in which a substrate is asked for and measured.
 struct Domain
 {
@@ -66,7 +72,7 @@ struct Domain
     Eigen::Vector3d shortest = way;
     for (Eigen::Index axis = 0; axis < 2; ++axis)
     {
-      shortest[axis] -= periodic[static_cast<std::size_t>(axis)] ? size()[axis] * std::round(way[axis] / size()[axis]) : 0.0;
+      shortest[axis] = periodic[static_cast<std::size_t>(axis)] ? nearestImage(way[axis], size()[axis]) : way[axis];
     }
     return shortest;
   }

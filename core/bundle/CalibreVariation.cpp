@@ -19,8 +19,7 @@ const PropertyList<CalibreVariation>& CalibreVariation::properties()
         "as thick along the whole fibre, so that the outer radius varies 0.7 times as much for a g-ratio of 0.7. TargetRadius "
         "is the root mean square of a fibre's outer radius. Neighbours alone give fibres that fill 0.9 a variation of 0.15, and "
         "less cannot be had there. Axons of up to 0.2 µm do not vary, since their necks could not be resolved. 0: fibres are as "
-        "thick "
-        "everywhere before they grow.")
+        "thick everywhere before they grow.")
       .add("CalibreCorrelationLength", &Options::correlationLength, limits::calibreCorrelationLength,
         "Length in µm along the fibre over which its calibre is similar: the correlation falls to one half at 0.97 times this "
         "length. Axons have 1.2 to 1.5. Control points are at most 0.6 times this length apart.")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Domain.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -21,7 +23,7 @@ struct Rectangle
   /// Returns a vector between two centres, or that to the nearest image of the other.
   Eigen::Vector2d shortest(const Eigen::Vector2d& apart) const
   {
-    return repeats ? Eigen::Vector2d(apart.array() - (apart.array() / size().array()).round() * size().array()) : apart;
+    return repeats ? Eigen::Vector2d(apart.binaryExpr(size(), &nearestImage)) : apart;
   }
   /// Returns the image of a centre in the rectangle.
   Eigen::Vector2d inside(const Eigen::Vector2d& centre) const

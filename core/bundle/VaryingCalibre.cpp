@@ -4,7 +4,6 @@
 #include "base/Limits.h"
 #include "base/MyelinThickness.h"
 #include "base/RandomVariates.h"
-#include "fibres/PeriodicImages.h"
 
 #include <algorithm>
 #include <cmath>

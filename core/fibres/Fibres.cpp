@@ -149,7 +149,42 @@ void validate(const Fibres& fibres)
       requireWithin((name + ": TargetRadius").c_str(), fibres.targetRadii[f], limits::radius);
     }
     validateRow(fibres.columns, f, name);
+    if (fibres.domain.periodic[2])
+    {
+      periodOf(fibres, f);
+    }
   }
+}
+
+FibrePeriod periodOf(const Fibres& fibres, std::size_t f)
+{
+  constexpr double tolerance = 1e-4; // µm, of a file with few digits
+  const Eigen::Vector3d* points = fibres.points.data() + fibres.offsets[f];
+  const std::size_t count = fibres.pointCount(f);
+  const Eigen::Vector3d size = fibres.domain.size();
+  constexpr std::size_t fewest = 3; // control points, so that the first and the last one are not beside each other twice
+  for (std::size_t n = fewest; n < count; ++n)
+  {
+    const Eigen::Vector3d along = points[n] - points[0];
+    if (std::abs(std::abs(along.z()) - size.z()) > tolerance)
+    {
+      continue;
+    }
+    const Eigen::Vector3d shift = (along.array() / size.array()).round() * size.array();
+    bool repeats = true;
+    for (std::size_t i = 0; repeats && i + n < count; ++i)
+    {
+      repeats = (points[i + n] - points[i] - shift).cwiseAbs().maxCoeff() <= tolerance &&
+                std::abs(fibres.radii[fibres.offsets[f] + i + n] - fibres.radii[fibres.offsets[f] + i]) <= tolerance;
+    }
+    if (repeats)
+    {
+      return { n, shift };
+    }
+  }
+  throw InvalidInput(text("fibre ", fibres.fibreIds[f], " (cell ", f, ") does not repeat after the domain's ", size.z(),
+    " µm along z, although the domain is periodic there: take it from BundleInitializer, or make the domain periodic along x and "
+    "y only"));
 }
 
 double rootMeanSquareRadius(const Fibres& fibres, std::size_t fibre)

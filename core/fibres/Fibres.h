@@ -42,13 +42,24 @@ struct Fibres
   Fibres emptyCopy() const;
 };
 
+/// How a fibre of a domain that is periodic along z repeats: control point i + `points` is control point i, shifted. The fibre
+/// has at least one period, and the same again beyond.
+struct FibrePeriod
+{
+  std::size_t points = 0;                          ///< control points in one period
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero(); ///< µm, by whole periods
+};
+
+/// Finds the period of a fibre. Throws InvalidInput, naming the fibre, if it does not repeat.
+FibrePeriod periodOf(const Fibres& fibres, std::size_t f);
+
 /// Throws InvalidInput unless the domain has corners and sides within the limits (see Limits.h), and is periodic along no axis, x
 /// and y, or all.
 void validate(const Domain& domain);
 
 /// Throws InvalidInput, naming the fibre, unless: there is a fibre; every fibre has at least two control points, no
 /// zero-length segment, and coordinates, radii, target radius and columns within the limits (see Limits.h, ColumnTable.h); ids
-/// are positive and fibre ids unique; the domain is valid.
+/// are positive and fibre ids unique; the domain is valid, and fibres repeat along z if that does.
 void validate(const Fibres& fibres);
 
 /// Returns the root mean square of the radii at a fibre's control points (µm), the fibre's target radius where nothing else says

@@ -59,15 +59,4 @@ void placeImage(const Capsule& of, const Eigen::Vector3d& shift, Capsule& image)
 /// Appends images to the capsules; each is a run of its own, of its capsule's fibre.
 void addImages(const std::vector<CapsuleImage>& images, Capsules& capsules);
 
-/// How a fibre of a domain that is periodic along z repeats: control point i + `points` is control point i, shifted. The fibre
-/// has at least one period, and the same again beyond.
-struct FibrePeriod
-{
-  std::size_t points = 0;                          ///< control points in one period
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero(); ///< µm, by whole periods
-};
-
-/// Finds the period of a fibre. Throws InvalidInput, naming the fibre, if it does not repeat.
-FibrePeriod periodOf(const Fibres& fibres, std::size_t f);
-
 } // namespace cactus

@@ -80,10 +80,6 @@ CapsuleSeeds::CapsuleSeeds(
     throw InvalidInput("the Domain is periodic along z, where SurfaceRoughness would not come back to its values: leave it at 0; "
                        "CalibreVariation of BundleInitializer varies fibres and repeats");
   }
-  for (std::size_t f = 0; fibres.domain.periodic[2] && f < fibres.size(); ++f)
-  {
-    periodOf(fibres, f); // or throws
-  }
   parallelForInBlocks(this->fibreOfRank.size(), fibresAtOnce, threads,
     [&](std::size_t rank)
     {

@@ -24,7 +24,7 @@ struct SeedPiece
 struct CapsuleSeeds
 {
   /// Makes all pieces that come within `reach` of the region; segments farther away are left out. Throws OutOfMemory, and
-  /// InvalidInput for fibres that do not repeat, or a calibre that varies, in a domain that is periodic along z.
+  /// InvalidInput for a calibre that varies in a domain that is periodic along z.
   CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach, int threads);
 
   std::vector<std::size_t> fibreOfRank;  ///< index into the given fibres

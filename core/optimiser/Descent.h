@@ -2,7 +2,6 @@
 #pragma once
 
 #include "fibres/Fibres.h"
-#include "fibres/PeriodicImages.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/CapsuleOverlap.h"
 #include "optimiser/ConvergenceRow.h"

@@ -92,6 +92,11 @@ OverlapParts SharedCapsules::evaluate(
 
 void SharedCapsules::findNeighbours(const Fibres& fibres, const std::vector<float>& reach, int threads, NeighbourList& list)
 {
+  if (!this->isShared() && !this->Periods.isPeriodic())
+  {
+    cactus::findNeighbours(this->All, reach, threads, list);
+    return;
+  }
   if (!this->isShared())
   {
     this->dropOthers();

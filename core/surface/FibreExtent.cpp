@@ -99,9 +99,8 @@ SampleMoments momentsOf(const SmoothedField& field)
 /// Returns the length, in nodes, of a fibre along z whose pieces go on beyond periodic faces across x and y.
 double lengthOfRepeated(const SmoothedField& field)
 {
-  const Eigen::Array2d period(field.lattice().cells(0) - 1, field.lattice().cells(1) - 1);
-  const auto nearest = [&](const Eigen::Vector2d& apart) -> Eigen::Vector2d
-  { return apart.array() - (apart.array() / period).round() * period; };
+  const Eigen::Vector2d period(field.lattice().cells(0) - 1, field.lattice().cells(1) - 1);
+  const auto nearest = [&](const Eigen::Vector2d& apart) -> Eigen::Vector2d { return apart.binaryExpr(period, &nearestImage); };
   struct Layer
   {
     double count = 0.0;

@@ -323,13 +323,17 @@ void SmoothedField::copyBlock(float* BlockPlace::*held, double level, double sma
     block[axis] = (around.first[axis] + 1) / NodeLattice::blockCells;
   }
   const float* in = this->placeOf(block)->*held;
-  std::copy_n(in, around.size(), out);
-  this->meanOnFaces(around, out);
+  if (this->Repeats[0])
+  {
+    std::copy_n(in, around.size(), out);
+    this->meanOnFaces(around, out);
+    in = out;
+  }
   const auto t = static_cast<float>(level);
   const auto least = static_cast<float>(smallest);
   for (std::size_t n = 0; n < around.size(); ++n)
   {
-    const float field = out[n] - t;
+    const float field = in[n] - t;
     const float kept = std::max(std::abs(field), least);
     out[n] = field > 0.0f ? kept : -kept;
   }
