@@ -45,6 +45,8 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("FVF", s.fibreVolumeFraction);
   number("AVF", s.axonVolumeFraction);
   number("MVF", s.myelinVolumeFraction);
+  number("UnmyelinatedFraction", s.unmyelinatedFraction);
+  number("AxonalWaterFraction", s.axonalWaterFraction);
   number("AggregateGRatio", s.aggregateGRatio);
   number("CapsuleVolumeFraction", s.capsuleVolumeFraction);
   number("LargestPenetration", s.largestPenetration);

@@ -57,6 +57,11 @@ namespace limits
 inline constexpr Range radius{ 1e-3, 1e3, " µm" };
 /// The same, with 0 for none.
 inline constexpr Range radiusOrNone{ 1e-3, 1e3, " µm", 0.0 };
+/// Axons without myelin: their part of the domain, radius, its deviation and the size of their clusters.
+inline constexpr Range unmyelinatedFraction{ 0.0, 0.6 };
+inline constexpr Range unmyelinatedRadius{ 0.01, 2.0, " µm" };
+inline constexpr Range unmyelinatedDeviation{ 0.0, 1.0, " µm" };
+inline constexpr Range unmyelinatedCluster{ 1.0, 1000.0 };
 /// Coordinates of control points, of the domain's corners and of all that is derived from them, along each axis: 10 cm to either
 /// side. Double precision then still has 7e4 steps in a nanometre.
 inline constexpr Range coordinate{ -1e5, 1e5, " µm" };
@@ -152,10 +157,17 @@ inline constexpr Range growthIterations{ 0.0, 1e3 };
 inline constexpr Range surfaceRoughness{ 0.0, 0.5 };
 inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 
+// Lesion.
+
+inline constexpr Range axonLoss{ 0.0, 0.95 };
+inline constexpr Range myelinLoss{ 0.0, 1.0 };
+
 // MyelinSurface.
 
 /// Ratio of an axon's diameter to its fibre's.
 inline constexpr Range gRatio{ 0.05, 0.99 };
+/// The same of a single fibre, which may have no myelin (1).
+inline constexpr Range gRatioOrBare{ gRatio.lowest, 1.0 };
 /// Its standard deviation from fibre to fibre.
 inline constexpr Range gRatioDeviation{ 0.0, 0.3 };
 /// Smoothing passes. They blur by the square root of half their number, at most 3.2 voxels, and take on average passes · spacing²

@@ -12,10 +12,12 @@
 #include "bundle/StationaryFlow.h"
 #include "bundle/VaryingCalibre.h"
 #include "fibres/JoinFibres.h"
+#include "fibres/SelectFibres.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -72,6 +74,16 @@ Eigen::Vector2d bendOf(const Bundle& bundle, const BundleInitializerOptions& opt
   return bundle.top.frame(fibre).clampCentre(bent, bundle.bottom.radii[fibre]) - straight;
 }
 
+/// Appends a fibre without control points.
+void addFibre(const Bundle& bundle, std::size_t circle, Fibres& fibres)
+{
+  fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle.id, bundle.bottom.radii[circle]);
+  if (circle >= bundle.myelinated)
+  {
+    fibres.columns.set(targetGRatioColumn.name, fibres.size() - 1, bareGRatio);
+  }
+}
+
 /// Appends fibres that repeat after the bundle's length, of which `around` (µm) is added beyond both ends of one period.
 void appendRepeatedFibres(const Bundle& bundle, const BundleInitializerOptions& options, double around, Fibres& fibres)
 {
@@ -87,7 +99,7 @@ void appendRepeatedFibres(const Bundle& bundle, const BundleInitializerOptions& 
       const Eigen::Vector2d across = bundle.bottom.centres[i] + bendOf(bundle, options, i, share);
       period.emplace_back(across.x(), across.y(), (share - 0.5) * bundle.length);
     }
-    fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle.id, radius);
+    addFibre(bundle, i, fibres);
     for (int k = -beyond; k <= segments + beyond; ++k)
     {
       const int periods = static_cast<int>(std::floor(static_cast<double>(k) / segments));
@@ -109,7 +121,7 @@ void appendFibres(const Bundle& bundle, const BundleInitializerOptions& options,
     const Eigen::Vector3d last = place(bundle.top.centres[i], 0.5 * bundle.length);
     const double spacing = options.controlPointSpacing(radius);
     const int segments = std::max(2, static_cast<int>(std::lround((last - first).norm() / spacing)));
-    fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle.id, radius);
+    addFibre(bundle, i, fibres);
     fibres.addPoint(first, radius);
     for (int k = 1; k < segments; ++k)
     {
@@ -138,7 +150,10 @@ void requireMemoryFor(const BundleInitializerOptions& options)
 {
   const Eigen::Vector3d region = regionSize(options);
   const double turned = options.isLayered() ? std::sqrt(2.0) : 1.0;
-  const double fibreCount = options.fibreVolumeFraction * region.x() * region.y() * turned / meanCircleArea(options.radius);
+  const double area = options.fibreVolumeFraction * region.x() * region.y() * turned;
+  const double bare =
+    options.unmyelinated.any() ? options.unmyelinatedShare() / meanCircleArea(options.unmyelinated.radii()) : 0.0;
+  const double fibreCount = area * ((1.0 - options.unmyelinatedShare()) / meanCircleArea(options.radius) + bare);
   const double points = fibreCount * (2.0 + region.z() * turned / options.controlPointSpacing(0.0));
   TextStream what;
   what.precision(3);
@@ -157,6 +172,27 @@ BundleInitializerOptions withOwnSeed(BundleInitializerOptions options)
   return options;
 }
 
+/// Leaves out axons without myelin, the last ones first, until the others fill as nearly as possible `wanted` of the domain.
+/// Returns the fraction that they fill.
+double leaveOutBare(double wanted, Fibres& fibres)
+{
+  const auto isBare = [&](std::size_t f) { return fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio; };
+  double filled = 0.0;
+  std::vector<std::size_t> kept;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const double own = isBare(f) ? capsuleVolumeInDomain(fibres, f) / fibres.domain.volume() : 0.0;
+    if (filled + 0.5 * own <= wanted)
+    {
+      kept.push_back(f);
+      filled += own;
+    }
+  }
+  fibres = selectFibres(fibres, kept);
+  std::iota(fibres.fibreIds.begin(), fibres.fibreIds.end(), 1);
+  return filled;
+}
+
 Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& context, BundleInitializerReport& report)
 {
   requireMemoryFor(asked);
@@ -168,9 +204,9 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
     flow = StationaryFlow::draw(options, context);
     report.sinuosity = flow->report().sinuosity;
   }
-  const auto make = [&](double density)
+  const auto make = [&](double density, double bareSurplus)
   {
-    std::vector<Bundle> bundles = { layOutSingle(options, density) };
+    std::vector<Bundle> bundles = { layOutSingle(options, density, bareSurplus) };
     packFaces(bundles, options, context, flow ? &*flow : nullptr);
     report.fibreVolumeFraction = bundles.front().bottom.density();
     report.meanDispersion = flow ? flow->report().meanAngle : orientationOf(bundles.front()).meanAngle;
@@ -178,7 +214,7 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
   };
   if (!options.isCutOut())
   {
-    return make(options.fibreVolumeFraction);
+    return make(options.fibreVolumeFraction, 1.0);
   }
   // Slanted fibres fill more of a volume than of a face, and the domain holds more or less of the bundle by chance.
   constexpr int rounds = 5;
@@ -191,11 +227,20 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
   std::optional<Fibres> best;
   double nearest = 0.0;
   double reached = 0.0;
+  const double wantedBare = options.unmyelinatedShare() * options.fibreVolumeFraction;
+  double bareSurplus = 1.1; // by chance, there are fewer of them in the domain than elsewhere
   for (int round = 0; round < (best && best->size() <= few ? roundsOfFew : rounds); ++round)
   {
-    Fibres fibres = make(density);
+    Fibres fibres = make(density, bareSurplus);
+    double bareMiss = 0.0;
+    if (options.unmyelinated.any())
+    {
+      const double bare = leaveOutBare(wantedBare, fibres);
+      bareMiss = std::abs(bare / wantedBare - 1.0);
+      bareSurplus *= bare < (1.0 - tolerance) * wantedBare ? 1.1 * wantedBare / bare : 1.0;
+    }
     const double filled = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
-    const double miss = std::abs(filled / options.fibreVolumeFraction - 1.0);
+    const double miss = std::max(bareMiss, std::abs(filled / options.fibreVolumeFraction - 1.0));
     if (!best || miss < nearest)
     {
       best = std::move(fibres);
@@ -295,6 +340,7 @@ Fibres initialiseInterpenetrating(
     one.direction = Eigen::Vector3d(std::sin(tilt), 0.0, std::cos(tilt));
     one.fibreVolumeFraction *= 0.5;
     one.grownFibreVolumeFraction *= 0.5;
+    one.unmyelinated.fraction *= 0.5;
     BundleInitializerReport reached;
     const double begin = 0.5 * static_cast<double>(bundles.size());
     bundles.push_back(initialiseSingle(one, context.part(begin, begin + 0.5), reached));
@@ -333,6 +379,7 @@ Fibres initialiseBundles(const BundleInitializerOptions& options, const Context&
   if (options.grownFibreVolumeFraction > 0.0)
   {
     thinner.radius = options.radius.scaled(thinning);
+    thinner.unmyelinated = options.unmyelinated.scaled(thinning);
   }
   context.report(0.0, "Drawing radii");
   BundleInitializerReport reached;

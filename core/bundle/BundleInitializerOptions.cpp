@@ -30,6 +30,7 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "makes them thicker.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
       .include(&Options::calibre, CalibreVariation::properties())
+      .include(&Options::unmyelinated, UnmyelinatedAxons::properties())
       .add("Border", &Options::border, { "Cut", "Walls", "Periodic across", "Periodic" },
         "How the fibres meet the sides of the domain. Cut: the domain is cut from the middle of a larger bundle. Fibres run out "
         "through all six faces, and the tissue is as dense beside a face as in the middle. Walls: all fibres of a bundle start "
@@ -144,6 +145,10 @@ void BundleInitializerOptions::validate() const
   {
     this->requirePeriodic();
   }
+  if (unmyelinated.any())
+  {
+    this->requireUnmyelinated();
+  }
   if (isStationary(*this) && correlationLength == 0.0)
   {
     throw InvalidInput("CorrelationLength is 0: give a length in µm (8 by default); 0 is for Border Walls");
@@ -173,6 +178,28 @@ void BundleInitializerOptions::requirePeriodic() const
     throw InvalidInput(text("Side ", side, " µm is less than four times MaximumRadius ", radius.maximum, " µm: with Border ",
       name, " a fibre would lie beside its own image. Enlarge Side, or lower MaximumRadius"));
   }
+}
+
+/// Throws unless there is a place for axons without myelin.
+void BundleInitializerOptions::requireUnmyelinated() const
+{
+  constexpr double largestShare = 0.95; // of the fibres' volume, since there is a fibre with myelin
+  if (dispersionModel == DispersionModel::Harmonics || this->isLayered())
+  {
+    throw InvalidInput(text("UnmyelinatedFraction is ", unmyelinated.fraction, ": give 0 with ",
+      this->isLayered() ? "bundles in layers, or choose Mixing Interpenetrating with Border Cut" : "DispersionModel Harmonics"));
+  }
+  if (this->unmyelinatedShare() > largestShare)
+  {
+    throw InvalidInput(text("UnmyelinatedFraction is ", unmyelinated.fraction, ": give at most ", largestShare, " of ",
+      grownFibreVolumeFraction > 0.0 ? "GrownFibreVolumeFraction " : "FibreVolumeFraction ",
+      grownFibreVolumeFraction > 0.0 ? grownFibreVolumeFraction : fibreVolumeFraction));
+  }
+}
+
+double BundleInitializerOptions::unmyelinatedShare() const
+{
+  return unmyelinated.fraction / (grownFibreVolumeFraction > 0.0 ? grownFibreVolumeFraction : fibreVolumeFraction);
 }
 
 double BundleInitializerOptions::thinning() const

@@ -7,6 +7,7 @@
 #include "bundle/ControlPointSpacing.h"
 #include "bundle/DirectionDistribution.h"
 #include "bundle/RadiusDistribution.h"
+#include "bundle/UnmyelinatedAxons.h"
 
 #include <Eigen/Core>
 
@@ -50,6 +51,7 @@ struct BundleInitializerOptions
   double fibreVolumeFraction = 0.6;
   RadiusDistributionOptions radius; ///< outer radii of the fibres
   CalibreVariation calibre;         ///< how they vary along a fibre
+  UnmyelinatedAxons unmyelinated;   ///< among them; not with DispersionModel::Harmonics and bundles in layers
   /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules start thinner than the sampled
   /// target radii by sqrt(fibreVolumeFraction / this), so that grown fibres have the target radii; 0: capsules have the target
   /// radii.
@@ -103,11 +105,14 @@ struct BundleInitializerOptions
   Eigen::Vector3d extent() const;
   /// Returns the radius of the capsules over the sampled target radius.
   double thinning() const;
+  /// Returns the part of the fibres' volume that axons without myelin have.
+  double unmyelinatedShare() const;
   /// Returns the distance (µm) of control points of a fibre of this radius.
   double controlPointSpacing(double fibreRadius) const;
 
 private:
   void requirePeriodic() const;
+  void requireUnmyelinated() const;
 };
 
 /// Returns the smallest rotation that turns z to a direction (of any length) or the opposite one: the same for both.

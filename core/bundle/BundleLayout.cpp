@@ -18,6 +18,9 @@ namespace cactus
 namespace
 {
 
+/// Item number of the first radius of axons without myelin, behind those of all others.
+constexpr std::uint64_t firstBareItem = std::uint64_t(1) << 36;
+
 /// Throws unless every circle has room in its rectangle.
 void requireFit(const Circles& circles, const char* property)
 {
@@ -138,7 +141,7 @@ std::vector<double> weave(Bundle& bundle, const BundleInitializerOptions& option
 
 } // namespace
 
-Bundle layOutSingle(const BundleInitializerOptions& options, double density)
+Bundle layOutSingle(const BundleInitializerOptions& options, double density, double bareSurplus)
 {
   const Eigen::Vector3d region = regionSize(options);
   Bundle bundle;
@@ -150,7 +153,17 @@ Bundle layOutSingle(const BundleInitializerOptions& options, double density)
   frame.lower = -frame.upper;
   frame.repeats = options.isPeriodic();
   bundle.bottom.frames = { frame };
-  bundle.bottom.radii = drawRadii(options.radius, options.seed, density * frame.area(), itemOf(0, bundle.id));
+  const double share = options.unmyelinatedShare();
+  const double area = density * frame.area();
+  std::vector<double>& radii = bundle.bottom.radii;
+  radii = drawRadii(options.radius, options.seed, (1.0 - share) * area, itemOf(0, bundle.id));
+  bundle.myelinated = radii.size();
+  if (options.unmyelinated.any())
+  {
+    const std::vector<double> bare =
+      drawRadii(options.unmyelinated.radii(), options.seed, bareSurplus * share * area, itemOf(firstBareItem, bundle.id));
+    radii.insert(radii.end(), bare.begin(), bare.end());
+  }
   bundle.bottom.frameOf.assign(bundle.bottom.radii.size(), 0);
   requireFit(bundle.bottom, "Side");
   return bundle;

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace cactus
@@ -24,6 +25,8 @@ struct Bundle
   double density = 0.0;                               ///< requested density of the circles on each face
   Circles bottom;
   Circles top;
+  /// Number of circles of fibres with myelin, which come first; the others lie in clusters.
+  std::size_t myelinated = std::numeric_limits<std::size_t>::max();
   FlowPaths paths; ///< paths of the circles' centres from bottom to top, in the flow; without places if fibres are straight
 };
 
@@ -44,8 +47,9 @@ inline Eigen::Vector3d regionSize(const BundleInitializerOptions& options)
 // The functions below return bundles with radii and, for each circle, its rectangle on the faces; nothing is placed yet. All
 // throw InvalidInput if the largest fibre has no room.
 
-/// Makes a single bundle whose circles fill `density` of each face: one frame on each.
-Bundle layOutSingle(const BundleInitializerOptions& options, double density);
+/// Makes a single bundle whose circles fill `density` of each face: one frame on each. Of axons without myelin there are
+/// `bareSurplus` times as many as asked for.
+Bundle layOutSingle(const BundleInitializerOptions& options, double density, double bareSurplus = 1.0);
 
 /// Makes two crossing bundles in alternating layers of equal thickness; each circle, largest first, goes to the layer with most
 /// area left. `density` is that of the circles in each layer.

@@ -58,22 +58,49 @@ double reachableDensity(Circles circles, const Context& context)
   throw Infeasible(message.str());
 }
 
-bool packBottom(Bundle& bundle, std::uint64_t seed, int attempt, const Context& context)
+/// Returns a random centre in a frame.
+Eigen::Vector2d centreIn(const Rectangle& frame, double radius, RandomEngine& engine)
+{
+  const double r = frame.repeats ? 0.0 : radius;
+  const double s = uniform(engine);
+  const double t = uniform(engine);
+  const Eigen::Vector2d room = frame.size().array() - 2.0 * r;
+  return frame.clampCentre(frame.lower.array() + r + Eigen::Array2d(s, t) * room.array(), r);
+}
+
+/// Returns the middle of the cluster in which a circle lies.
+Eigen::Vector2d clusterMiddle(const Bundle& bundle, const BundleInitializerOptions& options, std::size_t circle, int attempt)
+{
+  constexpr std::uint64_t firstCluster = std::uint64_t(1) << 36; // behind the items of all circles
+  const std::size_t cluster = (circle - bundle.myelinated) / static_cast<std::size_t>(options.unmyelinated.cluster);
+  RandomEngine engine = randomStream(options.seed, RandomStage::Packing, itemOf(firstCluster + cluster, bundle.id, attempt));
+  return centreIn(bundle.bottom.frame(circle), 0.0, engine);
+}
+
+bool packBottom(Bundle& bundle, const BundleInitializerOptions& options, int attempt, const Context& context)
 {
   Circles& circles = bundle.bottom;
   RandomEngine engine;
+  Eigen::Vector2d middle;
   const auto anywhere = [&](std::size_t i, int trial) -> Eigen::Vector2d
   {
+    const bool isClustered = i >= bundle.myelinated && options.unmyelinated.cluster > 1;
     if (trial == 0)
     {
-      engine = randomStream(seed, RandomStage::Packing, itemOf(i, bundle.id, attempt));
+      engine = randomStream(options.seed, RandomStage::Packing, itemOf(i, bundle.id, attempt));
+      middle = isClustered ? clusterMiddle(bundle, options, i, attempt) : middle;
     }
-    const Rectangle& frame = circles.frame(i);
-    const double r = frame.repeats ? 0.0 : circles.radii[i];
-    const double s = uniform(engine);
-    const double t = uniform(engine);
-    const Eigen::Vector2d room = frame.size().array() - 2.0 * r;
-    return frame.clampCentre(frame.lower.array() + r + Eigen::Array2d(s, t) * room.array(), r);
+    if (!isClustered)
+    {
+      return centreIn(circles.frame(i), circles.radii[i], engine);
+    }
+    // Farther out with each trial, as the middle may be taken.
+    const double compact = options.unmyelinated.radius * std::sqrt(static_cast<double>(options.unmyelinated.cluster));
+    const double reach = compact * (1.0 + 4.0 * trial / trialsPerCircle);
+    const double distance = reach * std::sqrt(uniform(engine));
+    const double azimuth = 2.0 * pi * uniform(engine);
+    return circles.frame(i).clampCentre(
+      middle + distance * Eigen::Vector2d(std::cos(azimuth), std::sin(azimuth)), circles.radii[i]);
   };
   placeCircles(circles, anywhere, trialsPerCircle);
   return relaxCircles(circles, {}, context).separated;
@@ -294,7 +321,7 @@ void packBundle(Bundle& bundle, const BundleInitializerOptions& options, const S
   {
     context.checkpoint();
     context.report(begin, what.str());
-    if (!packBottom(bundle, options.seed, attempt, context))
+    if (!packBottom(bundle, options, attempt, context))
     {
       jammed = bundle.bottom;
       continue;

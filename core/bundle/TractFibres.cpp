@@ -40,6 +40,7 @@ TractSizes sizesOf(const TractFibresOptions& options)
   sizes.straight = options.straightBundle();
   sizes.thinning = sizes.straight.thinning();
   sizes.straight.radius = options.radius.scaled(sizes.thinning);
+  sizes.straight.unmyelinated = options.unmyelinated.scaled(sizes.thinning);
   sizes.reach = std::sqrt(3.0) * (0.5 * options.side + options.margin + options.radius.maximum);
   return sizes;
 }
@@ -96,6 +97,7 @@ struct PlacedCircle
 {
   Eigen::Vector2d centre;
   double radius;
+  bool isBare; ///< whether the fibre has no myelin
 };
 
 /// Returns packed circles around the origin whose area comes as near as whole circles allow to the requested fraction of a disc
@@ -130,7 +132,7 @@ std::vector<PlacedCircle> circlesWithin(
     owed -= own;
     area += own;
     balance += own * circles.centres[i];
-    placed.push_back({ circles.centres[i], circles.radii[i] });
+    placed.push_back({ circles.centres[i], circles.radii[i], i >= bundles.front().myelinated });
   }
   for (PlacedCircle& circle : placed)
   {
@@ -209,6 +211,10 @@ void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, 
       const double spacing = options.straightBundle().controlPointSpacing(circle.radius);
       addAlong(kept, length, bundleId, circle.radius, spacing, fibres);
       fibres.targetRadii.back() = target;
+      if (circle.isBare)
+      {
+        fibres.columns.set(targetGRatioColumn.name, fibres.size() - 1, bareGRatio);
+      }
     }
   }
 }

@@ -53,6 +53,7 @@ const PropertyList<TractFibresOptions>& TractFibresOptions::properties()
       .add("Margin", &Options::margin, limits::bundleMargin, "Width in µm by which fibres extend beyond all sides of the domain.")
       .include(&Options::radius, RadiusDistributionOptions::properties())
       .include(&Options::calibre, CalibreVariation::properties())
+      .include(&Options::unmyelinated, UnmyelinatedAxons::properties())
       .include(&Options::spacing, ControlPointSpacing::properties())
       .add("Seed", &Options::seed, limits::seed,
         "Seed of all random numbers. The same seed and parameters give the same fibres, bit for bit.");
@@ -79,6 +80,7 @@ BundleInitializerOptions TractFibresOptions::straightBundle() const
   straight.grownFibreVolumeFraction = grownFibreVolumeFraction;
   straight.radius = radius;
   straight.calibre = calibre;
+  straight.unmyelinated = unmyelinated;
   straight.meanDispersion = 0.0;
   straight.spacing = spacing;
   straight.seed = seed;

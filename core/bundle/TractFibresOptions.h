@@ -52,6 +52,7 @@ struct TractFibresOptions
                                     ///< sides
   RadiusDistributionOptions radius; ///< outer radii of the fibres
   CalibreVariation calibre;         ///< how they vary along a fibre
+  UnmyelinatedAxons unmyelinated;   ///< among them
   ControlPointSpacing spacing;
   std::uint64_t seed = 1;
 

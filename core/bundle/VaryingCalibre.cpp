@@ -174,7 +174,8 @@ void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
     // Between control points the radius is interpolated, which takes some of the variance.
     const double kept = (2.0 + correlationAt(apart / processLength)) / 3.0;
     const double radius = fibres.radii[first];
-    const double gRatio = expectedGRatio(options.radius, radius / thinning);
+    const bool isBare = fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio;
+    const double gRatio = isBare ? bareGRatio : expectedGRatio(options.radius, radius / thinning);
     const double narrowest = std::log(thinnest * thinning / (gRatio * radius)) / lowestNormal;
     const double deviation = std::clamp(
       asked * std::pow(radius / typical, -fallOff) / std::sqrt(kept), 0.0, std::clamp(narrowest, 0.0, largestDeviation));

@@ -21,9 +21,12 @@ struct ColumnFacts
   Range range;         ///< of the values
 };
 
-/// Ratio of the axon's diameter to the fibre's that a fibre is to have, instead of the one that MyelinSurface gives all others.
-inline constexpr ColumnFacts targetGRatioColumn{ "TargetGRatio", "g-ratio that the fibre's surfaces are to have",
-  limits::gRatio };
+/// Ratio of the axon's diameter to the fibre's that a fibre is to have, instead of the one that MyelinSurface gives all others. A
+/// fibre of 1 is an axon without myelin.
+inline constexpr ColumnFacts targetGRatioColumn{ "TargetGRatio", "g-ratio that the fibre's surfaces are to have; 1: no myelin",
+  limits::gRatioOrBare };
+/// The g-ratio of an axon without myelin. One surface bounds it: its outer surface and its inner one are the same, bit for bit.
+inline constexpr double bareGRatio = limits::gRatioOrBare.highest;
 
 /// Returns the columns that stages pass on from fibres to fibres, by name.
 const std::vector<ColumnFacts>& fibreColumns();

@@ -208,25 +208,42 @@ double chainVolume(const Fibres& fibres, std::size_t fibre)
   return volume;
 }
 
+namespace
+{
+
+/// Adds the volume of the capsules [first, last) in the domain.
+double volumeBetween(const Fibres& fibres, std::size_t first, std::size_t last, const Domain& domain, double volume)
+{
+  for (std::size_t i = first; i + 1 < last; ++i)
+  {
+    const auto [t0, t1] = domain.clip(fibres.points[i], fibres.points[i + 1]);
+    if (t1 <= t0)
+    {
+      continue;
+    }
+    const double r0 = fibres.radii[i] + t0 * (fibres.radii[i + 1] - fibres.radii[i]);
+    const double r1 = fibres.radii[i] + t1 * (fibres.radii[i + 1] - fibres.radii[i]);
+    volume += coneVolume(r0, r1, (t1 - t0) * (fibres.points[i + 1] - fibres.points[i]).norm());
+  }
+  return volume;
+}
+
+} // namespace
+
 double capsuleVolumeInDomain(const Fibres& fibres)
 {
   double volume = 0.0;
   const Domain domain = fibres.domain.unrolled();
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
-    {
-      const auto [t0, t1] = domain.clip(fibres.points[i], fibres.points[i + 1]);
-      if (t1 <= t0)
-      {
-        continue;
-      }
-      const double r0 = fibres.radii[i] + t0 * (fibres.radii[i + 1] - fibres.radii[i]);
-      const double r1 = fibres.radii[i] + t1 * (fibres.radii[i + 1] - fibres.radii[i]);
-      volume += coneVolume(r0, r1, (t1 - t0) * (fibres.points[i + 1] - fibres.points[i]).norm());
-    }
+    volume = volumeBetween(fibres, fibres.offsets[f], fibres.offsets[f + 1], domain, volume);
   }
   return volume;
+}
+
+double capsuleVolumeInDomain(const Fibres& fibres, std::size_t fibre)
+{
+  return volumeBetween(fibres, fibres.offsets[fibre], fibres.offsets[fibre + 1], fibres.domain.unrolled(), 0.0);
 }
 
 std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)

@@ -73,6 +73,9 @@ double chainVolume(const Fibres& fibres, std::size_t fibre);
 /// between control points clipped to the domain along the centre line. Overlaps count twice, end caps are left out.
 double capsuleVolumeInDomain(const Fibres& fibres);
 
+/// Returns the part of it that one fibre has.
+double capsuleVolumeInDomain(const Fibres& fibres, std::size_t fibre);
+
 /// Returns the angle (degrees, at most 90) between two lines of these directions, which need not be unit vectors.
 double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis);
 

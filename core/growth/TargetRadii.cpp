@@ -141,31 +141,35 @@ Aim aimAtOwnRadii(const Fibres& fibres)
 }
 
 /// Changes the aim so that all capsules together, without overlaps, gaps and roughness, fill the volume `target`: little growth
-/// remains.
+/// remains. Axons without myelin, which are thin, keep their share of the volume.
 void fillTarget(const Fibres& fibres, double target, Aim& aim)
 {
   const double volume = aim.volume();
+  const double scale = std::sqrt(target / volume);
   if (volume >= target)
   {
     for (double& factor : aim.factors)
     {
-      factor *= std::sqrt(target / volume);
+      factor *= scale;
     }
     return;
   }
-  // All radii grow by δ, so that the volumes w (1 + δ / r)² add up to the target.
+  // All other radii grow by δ, so that the volumes w (1 + δ / r)² add up to the target.
+  const auto isBare = [&](std::size_t f) { return fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio; };
+  double more = target - volume;
   double linear = 0.0;
   double quadratic = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    linear += aim.volumes[f] / fibres.targetRadii[f];
-    quadratic += aim.volumes[f] / (fibres.targetRadii[f] * fibres.targetRadii[f]);
+    more -= isBare(f) ? aim.volumes[f] * (target / volume - 1.0) : 0.0;
+    linear += isBare(f) ? 0.0 : aim.volumes[f] / fibres.targetRadii[f];
+    quadratic += isBare(f) ? 0.0 : aim.volumes[f] / (fibres.targetRadii[f] * fibres.targetRadii[f]);
   }
-  const double more = target - volume;
-  const double thicker = std::min(more / (linear + std::sqrt(linear * linear + quadratic * more)), largestGrowth);
+  const double thicker =
+    linear > 0.0 ? std::min(more / (linear + std::sqrt(linear * linear + quadratic * more)), largestGrowth) : 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    const double ratio = 1.0 + thicker / fibres.targetRadii[f];
+    const double ratio = isBare(f) ? scale : 1.0 + thicker / fibres.targetRadii[f];
     aim.factors[f] *= ratio;
     aim.volumes[f] *= ratio * ratio;
   }

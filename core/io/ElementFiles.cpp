@@ -26,15 +26,15 @@ namespace
 constexpr double furthestExtension = 0.5;
 constexpr char place[] = "substrate_dir/substrate_mesh";
 
-/// The numbers of compartments, from 0.
+/// The numbers of compartments, from 0. Those of myelin are by their places among the sheaths.
 struct CompartmentNumbers
 {
   std::int32_t axons = 0;
-  std::int32_t fibres = 0;
+  std::int32_t sheaths = 0;
 
   std::int32_t axon(std::size_t inner) const { return static_cast<std::int32_t>(inner); }
-  std::int32_t myelin(std::size_t outer) const { return this->axons + static_cast<std::int32_t>(outer); }
-  std::int32_t extraAxonal() const { return this->axons + this->fibres; }
+  std::int32_t myelin(std::size_t sheath) const { return this->axons + static_cast<std::int32_t>(sheath); }
+  std::int32_t extraAxonal() const { return this->axons + this->sheaths; }
   std::int32_t count() const { return this->extraAxonal() + 1; }
   /// Returns the boundary of a triangle, from 0, by the compartments behind and before it: interfaces by the one behind, then
   /// faces of the domain.
@@ -64,40 +64,74 @@ bool extendAxon(TriangleMesh& inner, const TriangleMesh& outer, const Domain& do
   return isWhole;
 }
 
-/// Returns all surfaces, axons first, as in the PLY files except for the axons' ends.
-std::vector<CompartmentSurface> compartmentSurfaces(
-  const SubstrateFolderContents& contents, const CompartmentNumbers& numbers, std::vector<int>& closed, const Context& context)
+/// The surfaces between compartments, as in the PLY files except for the axons' ends.
+struct Compartments
+{
+  std::vector<CompartmentSurface> surfaces; ///< axons, then sheaths
+  std::vector<std::size_t> sheaths;         ///< indices of outer surfaces that bound myelin; that of a bare axon is its wall
+  CompartmentNumbers numbers;
+  std::vector<int> closed; ///< fibres whose axons do not reach all faces
+};
+
+/// Returns the index of each axon's outer surface.
+std::vector<std::size_t> outerSurfacesOf(const SubstrateFolderContents& contents)
 {
   const std::vector<int>& outerIds = contents.outer.fibreIds;
-  std::vector<CompartmentSurface> surfaces(contents.inner.size() + contents.outer.size());
-  parallelFor(contents.outer.size(), context,
-    [&](std::size_t i)
+  std::vector<std::size_t> found;
+  for (const int id : contents.inner.fibreIds)
+  {
+    const auto place = std::lower_bound(outerIds.begin(), outerIds.end(), id);
+    if (place == outerIds.end() || *place != id)
     {
-      surfaces[contents.inner.size() + i] = { asWritten(contents.outer.mesh(i), contents.encoding), numbers.myelin(i),
-        numbers.extraAxonal() };
-    });
+      throw InvalidInput(text("fibre ", id, " has an inner surface and no outer one, between which its myelin would be"));
+    }
+    found.push_back(static_cast<std::size_t>(place - outerIds.begin()));
+  }
+  return found;
+}
+
+Compartments compartmentsOf(const SubstrateFolderContents& contents, const Context& context)
+{
+  const std::vector<std::size_t> outerOf = outerSurfacesOf(contents);
+  std::vector<TriangleMesh> outer(contents.outer.size());
+  parallelFor(outer.size(), context, [&](std::size_t i) { outer[i] = asWritten(contents.outer.mesh(i), contents.encoding); });
+  Compartments all;
+  all.surfaces.resize(contents.inner.size());
+  std::vector<char> isBare(outer.size(), 0);
   std::vector<char> isExtended(contents.inner.size(), 1);
   parallelFor(contents.inner.size(), context,
     [&](std::size_t i)
     {
-      const int id = contents.inner.fibreIds[i];
-      const auto found = std::lower_bound(outerIds.begin(), outerIds.end(), id);
-      if (found == outerIds.end() || *found != id)
-      {
-        throw InvalidInput(text("fibre ", id, " has an inner surface and no outer one, between which its myelin would be"));
-      }
-      const auto outer = static_cast<std::size_t>(found - outerIds.begin());
-      surfaces[i] = { asWritten(contents.inner.mesh(i), contents.encoding), numbers.axon(i), numbers.myelin(outer) };
-      isExtended[i] = extendAxon(surfaces[i].mesh, surfaces[contents.inner.size() + outer].mesh, contents.domain);
+      TriangleMesh& inner = all.surfaces[i].mesh;
+      inner = asWritten(contents.inner.mesh(i), contents.encoding);
+      isBare[outerOf[i]] = areSame(inner, outer[outerOf[i]]);
+      isExtended[i] = isBare[outerOf[i]] != 0 || extendAxon(inner, outer[outerOf[i]], contents.domain);
     });
-  for (std::size_t i = 0; i < isExtended.size(); ++i)
+  std::vector<std::size_t> sheathOf(outer.size(), 0);
+  for (std::size_t i = 0; i < outer.size(); ++i)
   {
-    if (!isExtended[i])
+    sheathOf[i] = all.sheaths.size();
+    if (isBare[i] == 0)
     {
-      closed.push_back(contents.inner.fibreIds[i]);
+      all.sheaths.push_back(i);
     }
   }
-  return surfaces;
+  all.numbers = { static_cast<std::int32_t>(contents.inner.size()), static_cast<std::int32_t>(all.sheaths.size()) };
+  for (std::size_t i = 0; i < outerOf.size(); ++i)
+  {
+    const bool hasMyelin = isBare[outerOf[i]] == 0;
+    all.surfaces[i].inside = all.numbers.axon(i);
+    all.surfaces[i].outside = hasMyelin ? all.numbers.myelin(sheathOf[outerOf[i]]) : all.numbers.extraAxonal();
+    if (!isExtended[i])
+    {
+      all.closed.push_back(contents.inner.fibreIds[i]);
+    }
+  }
+  for (std::size_t sheath = 0; sheath < all.sheaths.size(); ++sheath)
+  {
+    all.surfaces.push_back({ std::move(outer[all.sheaths[sheath]]), all.numbers.myelin(sheath), all.numbers.extraAxonal() });
+  }
+  return all;
 }
 
 void appendPlace(std::string& text, const Eigen::Vector3d& point)
@@ -175,8 +209,9 @@ void writeComplex(const BoxedSurfaces& joined, const std::vector<CompartmentPoin
 }
 
 std::string compartmentTable(
-  const SubstrateFolderContents& contents, const CompartmentNumbers& numbers, const std::vector<double>& volumes)
+  const SubstrateFolderContents& contents, const Compartments& compartments, const std::vector<double>& volumes)
 {
+  const CompartmentNumbers& numbers = compartments.numbers;
   std::string table = "Compartment,Kind,FibreId,BundleId,Volume_um3\n";
   const auto add = [&](std::int32_t number, const std::string& kind, int fibre, int bundle)
   {
@@ -188,9 +223,10 @@ std::string compartmentTable(
   {
     add(numbers.axon(i), "axon", contents.inner.fibreIds[i], contents.inner.bundleIds[i]);
   }
-  for (std::size_t i = 0; i < contents.outer.size(); ++i)
+  for (std::size_t i = 0; i < compartments.sheaths.size(); ++i)
   {
-    add(numbers.myelin(i), "myelin", contents.outer.fibreIds[i], contents.outer.bundleIds[i]);
+    const std::size_t outer = compartments.sheaths[i];
+    add(numbers.myelin(i), "myelin", contents.outer.fibreIds[outer], contents.outer.bundleIds[outer]);
   }
   add(numbers.extraAxonal(), "extra-axonal", 0, 0);
   return table;
@@ -205,8 +241,8 @@ std::string cellText(
   {
     within[std::size_t(surface.outside)] += volumes[std::size_t(surface.inside)];
   }
-  std::string text = "# number of cells\n" + std::to_string(numbers.fibres) + "\n# dimension\n2\n# cell x y radius\n";
-  for (std::int32_t i = 0; i < numbers.fibres; ++i)
+  std::string text = "# number of cells\n" + std::to_string(numbers.sheaths) + "\n# dimension\n2\n# cell x y radius\n";
+  for (std::int32_t i = 0; i < numbers.sheaths; ++i)
   {
     const CompartmentSurface& outer = surfaces[std::size_t(numbers.axons + i)];
     Eigen::AlignedBox3d box;
@@ -239,7 +275,7 @@ std::string setupText(const SubstrateFolderContents& contents, const Compartment
       << "setup.name = fileparts(mfilename(\"fullpath\")) + \"/substrate\";\n"
       << "% Without setup.geometry.refinement: with it SpinDoctor looks for files of another name, and makes cylinders.\n"
       << "setup.geometry.cell_shape = \"cylinder\";\n"
-      << "setup.geometry.ncell = " << numbers.fibres << ";\n"
+      << "setup.geometry.ncell = " << numbers.sheaths << ";\n"
       << "setup.geometry.rmin = 0.1;\nsetup.geometry.rmax = 1;\nsetup.geometry.dmin = 0.1;\nsetup.geometry.dmax = 0.2;\n"
       << "setup.geometry.height = " << contents.domain.size()[2] << ";\n"
       << "setup.geometry.deformation = [0; 0];\n"
@@ -272,8 +308,10 @@ std::string setupText(const SubstrateFolderContents& contents, const Compartment
 }
 
 std::vector<std::string> remarksOn(
-  const BoxedSurfaces& joined, const CompartmentNumbers& numbers, const std::vector<int>& closed, double smallestGap)
+  const BoxedSurfaces& joined, const Compartments& compartments, std::size_t fibres, double smallestGap)
 {
+  const CompartmentNumbers& numbers = compartments.numbers;
+  const std::vector<int>& closed = compartments.closed;
   constexpr double narrow = 0.1; // µm, see docs/simulators/spindoctor.md
   std::vector<std::string> remarks;
   if (smallestGap < narrow)
@@ -294,10 +332,11 @@ std::vector<std::string> remarksOn(
     isThere[std::size_t(numbers.boundary(sides))] = 1;
   }
   const bool hasAll = std::all_of(isThere.begin(), isThere.end(), [](char there) { return there != 0; });
-  if (!hasAll || (numbers.axons > 0 && numbers.axons != numbers.fibres))
+  if (!hasAll || (numbers.axons > 0 && numbers.axons != numbers.sheaths))
   {
-    remarks.push_back(text("SpinDoctor's create_geometry refuses this mesh, since not every one of the ", numbers.fibres,
-      " fibres has an axon and both end in a face of the domain: call tetgen yourself, and give split_mesh what read_tetgen "
+    remarks.push_back(text("SpinDoctor's create_geometry refuses this mesh, since not every one of the ", fibres,
+      " fibres has an axon and myelin, and both end in a face of the domain: call tetgen yourself, and give split_mesh what "
+      "read_tetgen "
       "reads"));
   }
   return remarks;
@@ -308,19 +347,16 @@ std::vector<std::string> remarksOn(
 std::vector<std::string> writeElementFiles(
   const SubstrateFolderContents& contents, double smallestGap, FolderWriter& writer, const Context& context)
 {
-  CompartmentNumbers numbers;
-  numbers.axons = static_cast<std::int32_t>(contents.inner.size());
-  numbers.fibres = static_cast<std::int32_t>(contents.outer.size());
-  std::vector<int> closed;
-  const auto surfaces = compartmentSurfaces(contents, numbers, closed, context);
-  const BoxedSurfaces joined = joinInBox(contents.domain, surfaces, numbers.extraAxonal());
+  const Compartments compartments = compartmentsOf(contents, context);
+  const CompartmentNumbers& numbers = compartments.numbers;
+  const BoxedSurfaces joined = joinInBox(contents.domain, compartments.surfaces, numbers.extraAxonal());
   const std::vector<double> volumes = joined.volumes(std::size_t(numbers.count()));
   writer.makeFolder("substrate_dir");
   writeComplex(joined, joined.pointsInside(context), numbers, writer, context);
-  writer.write("compartments.csv", compartmentTable(contents, numbers, volumes));
-  writer.write("substrate_cells", cellText(surfaces, numbers, volumes));
+  writer.write("compartments.csv", compartmentTable(contents, compartments, volumes));
+  writer.write("substrate_cells", cellText(compartments.surfaces, numbers, volumes));
   writer.write("setup_substrate.m", setupText(contents, numbers));
-  return remarksOn(joined, numbers, closed, smallestGap);
+  return remarksOn(joined, compartments, contents.outer.size(), smallestGap);
 }
 
 } // namespace cactus

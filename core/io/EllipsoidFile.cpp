@@ -83,7 +83,6 @@ FibresOfFile readEllipsoidFile(std::istream& stream, const std::string& name)
   {
     readAxon(axon, name, read.fibres, gRatios);
   }
-  gRatios.remark(read);
   if (const auto cells = json->find("cells"); cells != json->end() && cells->is_array() && !cells->empty())
   {
     read.remarks.push_back(text(cells->size(), " cell(s) are left out, since only axons become fibres"));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/Error.h"
 #include "fibres/Fibres.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -31,35 +31,20 @@ public:
   }
 
   /// Gives the last of the fibres its TargetGRatio, the root of inner over outer cross-sections, and begins the next fibre. A
-  /// fibre whose radii are equal has no myelin, and none is given.
+  /// fibre whose radii are equal has no myelin.
   void give(Fibres& fibres)
   {
-    const double gRatio = this->Outer > 0.0 ? std::sqrt(this->Inner / this->Outer) : 0.0;
+    const double gRatio = this->Outer > 0.0 ? std::min(std::sqrt(this->Inner / this->Outer), bareGRatio) : 0.0;
     if (targetGRatioColumn.range.holds(gRatio))
     {
       fibres.columns.set(targetGRatioColumn.name, fibres.size() - 1, gRatio);
     }
-    else if (gRatio > targetGRatioColumn.range.highest)
-    {
-      ++this->Bare;
-    }
     this->Inner = this->Outer = 0.0;
-  }
-
-  /// Adds what a user should know about the fibres without myelin.
-  void remark(FibresOfFile& file) const
-  {
-    if (this->Bare > 0)
-    {
-      file.remarks.push_back(text(this->Bare, " axon(s) have no myelin in this file. MyelinSurface gives them the g-ratio of its "
-                                              "own GRatioModel, since surfaces without myelin are not made"));
-    }
   }
 
 private:
   double Inner = 0.0;
   double Outer = 0.0;
-  std::size_t Bare = 0;
 };
 
 } // namespace cactus

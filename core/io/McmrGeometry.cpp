@@ -5,11 +5,13 @@
 #include "base/Numbers.h"
 #include "io/PlyFile.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <ostream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cactus
 {
@@ -119,6 +121,30 @@ std::string wallText(const Domain& box, std::string& before)
   return text;
 }
 
+/// Returns the outer surfaces of fibres with myelin; that of an axon without it is its inner one, too, and stands there.
+FibreSurfaces withMyelin(const SubstrateFolderContents& contents)
+{
+  const FibreSurfaces& outer = contents.outer;
+  const FibreSurfaces& inner = contents.inner;
+  FibreSurfaces found = outer;
+  found.fibreIds.clear();
+  found.bundleIds.clear();
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < outer.size(); ++i)
+  {
+    const auto axon = std::lower_bound(inner.fibreIds.begin(), inner.fibreIds.end(), outer.fibreIds[i]);
+    const bool hasAxon = axon != inner.fibreIds.end() && *axon == outer.fibreIds[i];
+    if (!hasAxon || !areSame(outer.mesh(i), inner.mesh(std::size_t(axon - inner.fibreIds.begin()))))
+    {
+      found.fibreIds.push_back(outer.fibreIds[i]);
+      found.bundleIds.push_back(outer.bundleIds[i]);
+      places.push_back(i);
+    }
+  }
+  found.mesh = [&outer, places = std::move(places)](std::size_t i) { return outer.mesh(places[i]); };
+  return found;
+}
+
 } // namespace
 
 Domain mcmrBox(const Domain& domain)
@@ -136,7 +162,7 @@ void writeMcmrGeometry(const SubstrateFolderContents& contents, FolderWriter& wr
     {
       AtomicFile file(place);
       std::string before = "[\n";
-      writeMesh(file.stream(), contents.outer, contents.domain, contents.encoding, before, context);
+      writeMesh(file.stream(), withMyelin(contents), contents.domain, contents.encoding, before, context);
       writeMesh(file.stream(), contents.inner, contents.domain, contents.encoding, before, context);
       file.stream() << wallText(mcmrBox(contents.domain), before) << "\n]\n";
       file.commit();

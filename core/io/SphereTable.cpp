@@ -163,7 +163,6 @@ public:
     {
       this->Read.remarks.push_back(text(this->Single, " axon(s) of a single sphere are left out"));
     }
-    this->GRatios.remark(this->Read);
     return std::move(this->Read);
   }
 

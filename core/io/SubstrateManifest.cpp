@@ -143,6 +143,10 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   }
   manifest["outer_surfaces"] = contents.outer.size();
   manifest["inner_surfaces"] = contents.inner.size();
+  if (substrate.certificate.bare > 0)
+  {
+    manifest["unmyelinated_fibres"] = substrate.certificate.bare;
+  }
   manifest["triangles"] = triangles;
   manifest["outer_volume_um3"] = outerVolume;
   manifest["inner_volume_um3"] = innerVolume;

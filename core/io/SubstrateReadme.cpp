@@ -64,13 +64,36 @@ std::string caminoText(const SubstrateFolderContents& contents)
          "step,\nwhich takes most of its time: -p 1e-20 leaves that out, and walls let as few walkers through.\n";
 }
 
-/// How MCMRSimulator.jl is run here.
-std::string mcmrText(const SubstrateFolderContents& contents)
+/// Which walkers MCMRSimulator.jl is asked for, and what the numbers mean.
+struct McmrSubsets
 {
+  std::string subsets;
+  std::string meaning;
+};
+
+McmrSubsets mcmrSubsets(const SubstrateFolderContents& contents, bool hasBare)
+{
+  if (contents.inner.size() == 0 || contents.outer.size() == 0)
+  {
+    return { "Subset(inside=1), Subset(inside=0)", "1 in a fibre, 0 outside the fibres" };
+  }
+  if (!hasBare)
+  {
+    return { "Subset(inside=2), Subset(inside=1), Subset(inside=0)", "2 in an axon, 1 in myelin, 0 outside the fibres" };
+  }
+  return {
+    "Subset(inside=true, geometry_index=2), Subset(inside=0)",
+    "1 in myelin and in an axon without myelin, whose wall is\nin the second Mesh, that of the axons, alone; 0 outside the fibres"
+  };
+}
+
+/// How MCMRSimulator.jl is run here.
+std::string mcmrText(const SubstrateFolderContents& contents, bool hasBare)
+{
+  const McmrSubsets asked = mcmrSubsets(contents, hasBare);
   const Domain box = mcmrBox(contents.domain);
   const double step = inMetres * longestStep;
   const double milliseconds = 1e3 * step * step / (6.0 * contents.mcdc.diffusivity);
-  const bool hasBoth = contents.inner.size() > 0 && contents.outer.size() > 0;
   return std::string("geometry.json   the geometry for MCMRSimulator.jl (git.fmrib.ox.ac.uk/ndcn0236/mcmrsimulator.jl): a Mesh "
                      "of all outer\n"
                      "                surfaces, one of all inner ones, and ") +
@@ -87,10 +110,8 @@ std::string mcmrText(const SubstrateFolderContents& contents)
          numberWords(box.lower, ", ") + "], [" + numberWords(box.upper, ", ") +
          "])\n"
          "    signals = readout(" +
-         std::to_string(contents.mcdc.walkers) + ", simulation; bounding_box=box, subset=[" +
-         (hasBoth ? "Subset(inside=2), Subset(inside=1), Subset(inside=0)" : "Subset(inside=1), Subset(inside=0)") + "])\n\n" +
-         "inside= is the number of surfaces that a walker is in: " +
-         (hasBoth ? "2 in an axon, 1 in myelin, 0 outside the fibres" : "1 in a fibre, 0 outside the fibres") +
+         std::to_string(contents.mcdc.walkers) + ", simulation; bounding_box=box, subset=[" + asked.subsets + "])\n\n" +
+         "inside= is the number of surfaces that a walker is in: " + asked.meaning +
          ". Walkers start all over the box, so that\n"
          "signals are weighted by volume. Take the signal of myelin for what the tissue has: none, where its T2 is short.\n"
          "timestep is in ms, and makes steps of " +
@@ -98,7 +119,7 @@ std::string mcmrText(const SubstrateFolderContents& contents)
 }
 
 /// What stands in a folder besides what all have, and how it is used.
-std::string filesFor(const SubstrateFolderContents& contents)
+std::string filesFor(const SubstrateFolderContents& contents, bool hasBare)
 {
   switch (contents.format)
   {
@@ -109,7 +130,7 @@ std::string filesFor(const SubstrateFolderContents& contents)
   case SubstrateFormat::Camino:
     return caminoText(contents);
   case SubstrateFormat::Mcmr:
-    return mcmrText(contents);
+    return mcmrText(contents, hasBare);
   case SubstrateFormat::Rms:
     return "intra/, extra/  simulations for RMS (extra/ where the labels hold it): fiber.txt holds the labels of the voxels (1: "
            "walkers), simParamInput.txt their\n"
@@ -162,6 +183,13 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
     text += "  - " + fault + "\n";
   }
   text += certificate.certified() ? "" : "\n";
+  if (certificate.bare > 0)
+  {
+    text +=
+      std::to_string(certificate.bare) +
+      " of the fibres are axons without myelin. One surface bounds each: its outer surface and its inner one are the same,\n"
+      "so that it is an axon where inner surfaces are used, and an obstacle where outer ones are. Do not use both at once.\n\n";
+  }
   if (contents.domain.isPeriodic())
   {
     text +=
@@ -306,7 +334,7 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
     "certificate.csv what was checked on the surfaces; certificate_fibres.csv the same for each fibre\n";
   if (!hasFilePerSurface(contents.format))
   {
-    return text + certificateLine + filesFor(contents);
+    return text + certificateLine + filesFor(contents, substrate.certificate.bare > 0);
   }
   if (hasOuter)
   {
@@ -323,7 +351,8 @@ std::string readmeText(const SubstrateFolderContents& contents, const WrittenSub
     text += "fibres.strands  centre lines and radii\n";
   }
   text += certificateLine;
-  return text + (contents.format == SubstrateFormat::Mcdc ? mcdcText(contents, substrate) : filesFor(contents));
+  return text + (contents.format == SubstrateFormat::Mcdc ? mcdcText(contents, substrate)
+                                                          : filesFor(contents, substrate.certificate.bare > 0));
 }
 
 } // namespace cactus

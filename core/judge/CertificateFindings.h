@@ -20,6 +20,7 @@ struct FibreCertificate
   bool hasInner = false;
   SurfaceReport outer;
   SurfaceReport inner;
+  bool isBare = false;                    ///< an axon without myelin: both surfaces are the same, to the bit
   std::size_t outerSelfIntersections = 0; ///< pairs of triangles, see selfIntersections(); at most 10,000 are counted
   std::size_t innerSelfIntersections = 0;
   bool outerSelfNested = false; ///< whether a piece of the surface lies inside another one of its pieces
@@ -55,6 +56,7 @@ struct SubstrateCertificate
   std::size_t wantedFibres = 0;     ///< fibres with a surface, or that were to have one
   std::size_t withoutOuter = 0;     ///< of these, without an outer surface
   std::size_t withoutInner = 0;     ///< with an outer surface, but no inner one: myelin throughout; no fault
+  std::size_t bare = 0;             ///< fibres without myelin
   std::size_t thinMyelin = 0;       ///< fibres whose myelin is thinner than their maker promised
   double promisedGap = 0.0;         ///< µm, as promised by their maker; 0 without a promise
   double requiredGap = 0.0;         ///< µm, minimumGap
@@ -79,8 +81,9 @@ struct SubstrateCertificate
   std::vector<FibreCertificate> fibres; ///< every fibre with a surface, or that was to have one, by increasing id
 
   /// Tells whether every surface is a closed, outward 2-manifold that neither meets nor contains a part of itself, no two outer
-  /// surfaces meet or lie inside one another, every inner surface lies strictly inside its outer one, fibres keep the required
-  /// gap, no fibre lacks an outer surface that it was to have, and myelin is as thick as its maker promised.
+  /// surfaces meet or lie inside one another, every inner surface lies strictly inside its outer one (or is it, of an axon
+  /// without myelin), fibres keep the required gap, no fibre lacks an outer surface that it was to have, and myelin is as thick
+  /// as its maker promised.
   bool certified() const { return this->faults.empty(); }
   /// Returns the faults in one sentence; "certified" without any.
   std::string verdict() const;

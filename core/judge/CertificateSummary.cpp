@@ -44,6 +44,7 @@ void addFibre(SubstrateCertificate& all, const FibreCertificate& fibre)
   all.leavingInner += fibre.innerLeaves ? 1 : 0;
   all.withoutOuter += fibre.hasOuter ? 0 : 1;
   all.withoutInner += fibre.hasOuter && !fibre.hasInner ? 1 : 0;
+  all.bare += fibre.isBare ? 1 : 0;
   all.thinMyelin += fibre.myelinThickness < all.promisedGap ? 1 : 0;
   if (fibre.myelinThickness < all.smallestMyelin || (std::isnan(all.smallestMyelin) && !std::isnan(fibre.myelinThickness)))
   {

@@ -74,6 +74,7 @@ std::vector<CertificateColumn> substrateColumns(const SubstrateCertificate& cert
   columns.count("Fibres", [](const All* c) { return c->wantedFibres; });
   columns.count("WithoutOuter", [](const All* c) { return c->withoutOuter; });
   columns.count("WithoutInner", [](const All* c) { return c->withoutInner; });
+  columns.count("Unmyelinated", [](const All* c) { return c->bare; });
   columns.count("ThinMyelin", [](const All* c) { return c->thinMyelin; });
   columns.number("SmallestGap_um", [](const All* c) { return c->smallestGap; });
   columns.count("SmallestGapFibreA", [](const All* c) { return c->gapFibreA; });

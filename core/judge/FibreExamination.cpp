@@ -103,7 +103,11 @@ std::unique_ptr<TreedSurface> FibreExamination::examine(FibreCertificate& fibre,
     fibre.innerLeaves = !fibre.hasOuter;
     if (fibre.hasOuter)
     {
+      fibre.isBare = areSame(inner->mesh, outer->mesh);
       fibre.gRatio = gRatioOf(fibre.inner.volume, fibre.outer.volume);
+    }
+    if (fibre.hasOuter && !fibre.isBare)
+    {
       // In a file, caps lie at the nearest number in single precision to the face.
       const std::vector<std::uint32_t> wall = wallTriangles(outer->mesh, this->Box, lostInFiles);
       const SurfaceGap gap = smallestGap(inner->tree, TriangleTree(outer->mesh, wall));

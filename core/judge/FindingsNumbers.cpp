@@ -27,6 +27,7 @@ void visitFindings(Fibre& fibre, Visit&& visit)
   visit(fibre.bundleId);
   visit(fibre.hasOuter);
   visit(fibre.hasInner);
+  visit(fibre.isBare);
   visitNumbers(fibre.outer, visit);
   visitNumbers(fibre.inner, visit);
   visit(fibre.outerSelfIntersections);

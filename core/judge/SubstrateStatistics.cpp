@@ -154,6 +154,7 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
   // Sums in the order of the fibres: the same bits on any number of threads.
   double outerVolume = 0.0;
   double innerVolume = 0.0;
+  double bareVolume = 0.0;
   double area = 0.0;
   double outerWall = 0.0;
   double innerWall = 0.0;
@@ -163,6 +164,7 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
   {
     outerVolume += fibre.outer.volume;
     innerVolume += fibre.inner.volume;
+    bareVolume += fibre.gRatio == 1.0 ? fibre.inner.volume : 0.0;
     area += fibre.outer.area + fibre.inner.area;
     outerWall += fibre.outerWallArea;
     innerWall += fibre.innerWallArea;
@@ -185,6 +187,8 @@ void sumUpSurfaces(const Domain& domain, bool hasOuter, bool hasInner, Substrate
   result.fibreVolumeFraction = hasOuter ? outerVolume / domainVolume : notANumber;
   result.axonVolumeFraction = hasInner ? innerVolume / domainVolume : notANumber;
   result.myelinVolumeFraction = hasBoth ? (outerVolume - innerVolume) / domainVolume : notANumber;
+  result.unmyelinatedFraction = hasBoth ? bareVolume / domainVolume : notANumber;
+  result.axonalWaterFraction = hasBoth ? result.axonVolumeFraction / (1.0 - result.myelinVolumeFraction) : notANumber;
   result.aggregateGRatio = !hasBoth ? notANumber
                            : outerVolume > 0.0
                              ? std::sqrt(std::max(0.0, 1.0 - result.myelinVolumeFraction / result.fibreVolumeFraction))

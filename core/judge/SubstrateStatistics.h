@@ -43,7 +43,7 @@ struct FibreStatistics
   SurfaceReport inner;
   RadiusAlongFibre outerRadius;
   RadiusAlongFibre innerRadius;
-  double gRatio = 0.0;        ///< gRatioOf() the two volumes, NaN without both surfaces
+  double gRatio = 0.0;        ///< gRatioOf() the two volumes, NaN without both surfaces; 1 of an axon without myelin only
   double tortuosity = 0.0;    ///< tortuosityInDomain()
   double outerWallArea = 0.0; ///< µm², without the caps by which the domain ends the surface
   double innerWallArea = 0.0; ///< µm²
@@ -71,6 +71,8 @@ struct SubstrateStatistics
   double fibreVolumeFraction = 0.0;   ///< outer surfaces
   double axonVolumeFraction = 0.0;    ///< inner surfaces
   double myelinVolumeFraction = 0.0;  ///< the difference: a fibre without an inner surface is myelin throughout
+  double unmyelinatedFraction = 0.0;  ///< of the axons whose outer surface is their inner one
+  double axonalWaterFraction = 0.0;   ///< AVF / (1 - MVF): that of the water which is not in myelin
   double aggregateGRatio = 0.0;       ///< sqrt(1 - MVF / FVF), Stikov 2015; 0 without fibres
   double capsuleVolumeFraction = 0.0; ///< of the capsules, overlaps counted twice
   double largestPenetration = 0.0;    ///< D = 1 - d / (rp + rq) over all pairs of capsules of different fibres; 0 without overlap

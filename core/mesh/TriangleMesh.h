@@ -17,4 +17,10 @@ struct TriangleMesh
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
+/// Tells whether two meshes are the same, to the bit.
+inline bool areSame(const TriangleMesh& a, const TriangleMesh& b)
+{
+  return a.triangles == b.triangles && a.points == b.points;
+}
+
 } // namespace cactus

@@ -240,6 +240,17 @@ std::string remarksOnBundle(const BundleInitializerOptions& options, const Bundl
       " was asked for: fibres of so large a MeanDispersion that run alike with neighbours over so short a CorrelationLength wind "
       "more. Lower MeanDispersion, or enlarge CorrelationLength or Sinuosity");
   }
+  constexpr double littleGrowth = 0.85; // of what growth fills
+  const bool growsMuch = options.fibreVolumeFraction < littleGrowth * options.grownFibreVolumeFraction;
+  if (options.unmyelinated.any() && (options.calibre.varies() || growsMuch))
+  {
+    told += text(told.empty() ? "" : "; ", "axons without myelin will end thicker than asked for, since thick fibres that ",
+      options.calibre.varies() ? "swell" : "grow much", " leave them no place and growth fills what is left: choose ",
+      options.calibre.varies() ? "CalibreVariation 0" : "", options.calibre.varies() && growsMuch ? " and " : "",
+      growsMuch ? text("FibreVolumeFraction ", littleGrowth * options.grownFibreVolumeFraction,
+                    " or more, or a smaller GrownFibreVolumeFraction")
+                : std::string());
+  }
   return told;
 }
 

@@ -233,6 +233,16 @@ const PropertyList<SubstrateCertificateStage>& SubstrateCertificateStage::proper
   return list;
 }
 
+const PropertyList<LesionStage>& LesionStage::properties()
+{
+  using Stage = LesionStage;
+  static const auto list = PropertyList<Stage>()
+                             .include(&Stage::options, LesionOptions::properties())
+                             .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
+                             .use(PropertyUse::Run);
+  return list;
+}
+
 const PropertyList<SubstrateSamplerStage>& SubstrateSamplerStage::properties()
 {
   using Stage = SubstrateSamplerStage;
@@ -392,11 +402,11 @@ std::vector<StageDescription> describeStages()
     description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
     description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
     description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
-    description<SubstrateSamplerStage>("SubstrateSampler"), description<HistologyMaskStage>("HistologyMask"),
-    description<HistologyRadiiStage>("HistologyRadii"), description<SubstrateWriterStage>("SubstrateWriter"),
-    description<SubstrateProductionStage>("SubstrateProduction"), description<PlacementStage>("Placement"),
-    description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
-    description<NiftiWriterStage>("NiftiWriter") };
+    description<LesionStage>("Lesion"), description<SubstrateSamplerStage>("SubstrateSampler"),
+    description<HistologyMaskStage>("HistologyMask"), description<HistologyRadiiStage>("HistologyRadii"),
+    description<SubstrateWriterStage>("SubstrateWriter"), description<SubstrateProductionStage>("SubstrateProduction"),
+    description<PlacementStage>("Placement"), description<StrandWriterStage>("StrandWriter"),
+    description<TractogramWriterStage>("TractogramWriter"), description<NiftiWriterStage>("NiftiWriter") };
 }
 
 } // namespace cactus

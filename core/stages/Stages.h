@@ -10,6 +10,7 @@
 #include "growth/FibreRadialGrowthOptions.h"
 #include "io/SubstrateContents.h"
 #include "judge/HistologyMask.h"
+#include "judge/Lesion.h"
 #include "judge/SubstrateCertificate.h"
 #include "judge/SubstrateSampler.h"
 #include "judge/SubstrateStatistics.h"
@@ -122,6 +123,14 @@ struct SubstrateCertificateStage
   int threads = 0;
 
   static const PropertyList<SubstrateCertificateStage>& properties();
+};
+
+struct LesionStage
+{
+  LesionOptions options;
+  int threads = 0;
+
+  static const PropertyList<LesionStage>& properties();
 };
 
 struct SubstrateSamplerStage

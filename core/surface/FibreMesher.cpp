@@ -217,6 +217,15 @@ void FibreMesher::forgetInner(FibreSurfacePair& pair)
 
 void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) const
 {
+  if (pair.isBare())
+  {
+    forgetInner(pair);
+    pair.inner = pair.outer;
+    pair.innerReport = pair.outerReport;
+    pair.gRatio = bareGRatio;
+    pair.state = MyelinState::AsAsked;
+    return;
+  }
   if (pair.outerReport.volume != pair.volumeAsMade && hasVolumeAsMade(pair))
   {
     this->makeInnerWithin(pair.volumeAsMade, field, pair);
@@ -230,7 +239,7 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
 
 bool FibreMesher::keepsInner(FibreSurfacePair& pair) const
 {
-  if (!hasFreeInner(pair) || !hasVolumeAsMade(pair))
+  if (!hasFreeInner(pair) || !hasVolumeAsMade(pair) || pair.isBare())
   {
     return false;
   }

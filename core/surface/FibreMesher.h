@@ -59,7 +59,8 @@ public:
 
   /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would otherwise leave
   /// the outer one or come nearer to its wall than promised, and without an axon if no thickness prevents that. If the outer one
-  /// was moved and nearly kept its volume (volumeAsMade), the old inner one is kept, unless it is in the way.
+  /// was moved and nearly kept its volume (volumeAsMade), the old inner one is kept, unless it is in the way. Of a fibre without
+  /// myelin the inner surface is the outer one.
   void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
 
   /// Tells whether the pair's inner surface is the same that makeInner() would make now that the outer one was moved. Sets the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "fibres/ColumnTable.h"
 #include "mesh/SurfaceCheck.h"
 #include "mesh/TriangleMesh.h"
 
@@ -58,6 +59,8 @@ struct FibreSurfacePair
   bool isInnerMade = false;
 
   bool hasOwnGRatio() const { return !std::isnan(this->ownGRatio); }
+  /// Tells whether the fibre is an axon without myelin.
+  bool isBare() const { return this->ownGRatio == bareGRatio; }
   /// Combine the values of both surfaces.
   double largestMove() const { return std::max(this->outerChange.largestMove, this->innerChange.largestMove); }
   double droppedVolume() const { return this->outerChange.droppedVolume + this->innerChange.droppedVolume; }

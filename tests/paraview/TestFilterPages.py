@@ -64,6 +64,7 @@ class FilterPages(CactusTestCase):
             "SubstrateWriter": simple.SubstrateWriter(Outer=outer, FolderName=os.path.join(self.folder, "written")),
             "SubstrateProduction": simple.SubstrateProduction(Input=fibres, FolderName=os.path.join(self.folder, "produced")),
             "HistologyMask": mask,
+            "Lesion": simple.Lesion(Outer=outer, MyelinLoss=0.3),
             "HistologyRadii": simple.HistologyRadii(Input=mask, LeaveOutBorder=0),
             "Placement": simple.Placement(Input=fibres),
             "StrandReader": simple.StrandReader(FileName=strands),

@@ -11,7 +11,7 @@ from paraview import servermanager, simple
 FIBRES = {"CapsuleOptimizer", "FibreRadialGrowth", "SubstrateProduction", "SubstrateStatistics"}
 LABELS = {"FibreField", "MyelinSurface"}
 LINES = {"TractFibres"}
-SURFACES = {"HistologyMask", "SubstrateCertificate", "SubstrateSampler", "SubstrateStatistics", "SubstrateWriter"}
+SURFACES = {"HistologyMask", "Lesion", "SubstrateCertificate", "SubstrateSampler", "SubstrateStatistics", "SubstrateWriter"}
 FIBRE_FILES = {"strands", "tck", "trx"}
 SURFACE_FILES = {"substrate"}
 IMAGE_FILES = {"nii"}

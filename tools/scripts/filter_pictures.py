@@ -221,6 +221,12 @@ def substrate_sampler():
     return section(fractions[len(fractions) // 2], "AVF, voxels of 1 µm", "fraction of axons", cmap="viridis", vmin=0)
 
 
+def lesion():
+    left = simple.Lesion(Outer=outer(), AxonLoss=0.1, MyelinLoss=0.4)
+    cut = simple.HistologyMask(Outer=simple.OutputPort(left, 0), Inner=simple.OutputPort(left, 1), PixelSize=PIXEL)
+    return section(voxels(cut, "Mask")[0], "Mask at z = 0", cmap="gray", vmin=0, vmax=255)
+
+
 def histology_mask():
     return section(voxels(simple.HistologyMask(Outer=outer(), PixelSize=PIXEL), "Mask")[0], "Mask at z = 0", cmap="gray", vmin=0, vmax=255)
 
@@ -247,7 +253,7 @@ PICTURES = {
     "".join(part.capitalize() for part in function.__name__.split("_")): function
     for function in (
         bundle_initializer, tract_fibres, strand_reader, tractogram_reader, capsule_optimizer, fibre_radial_growth, myelin_surface, fibre_field,
-        substrate_production, substrate_statistics, substrate_certificate, substrate_sampler, histology_mask, histology_radii, placement,
+        substrate_production, substrate_statistics, substrate_certificate, substrate_sampler, lesion, histology_mask, histology_radii, placement,
     )
 }  # fmt: skip
 

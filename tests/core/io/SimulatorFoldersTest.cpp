@@ -213,6 +213,31 @@ TEST_F(SimulatorFolders, McmrSimulatorHasItsGeometry)
   EXPECT_TRUE(fs::exists(this->Scratch / "s/start/extra.txt"));
 }
 
+// Its wall is in a geometry once: two in one place would be two membranes.
+TEST_F(SimulatorFolders, AnAxonWithoutMyelinIsOneCompartment)
+{
+  this->takePlates(1.0, 0.5);
+  const auto plate = this->Contents.outer.mesh(1);
+  const auto axon = this->Contents.inner.mesh(0);
+  this->Contents.inner = surfacesOf({ 1, 2 }, { axon, plate });
+  this->write(cactus::SubstrateFormat::Mcmr);
+  const auto groups = cactus::parsedJson(contentOf(this->Scratch / "s/geometry.json"));
+  ASSERT_TRUE(groups && groups->is_array() && groups->size() == 5);
+  EXPECT_EQ((*groups)[0]["vertices"].size(), plate.points.size());
+  EXPECT_EQ((*groups)[1]["vertices"].size(), axon.points.size() + plate.points.size());
+  EXPECT_NE(this->readme().find("subset=[Subset(inside=true, geometry_index=2), Subset(inside=0)]"), std::string::npos);
+  EXPECT_NE(this->readme().find("1 of the fibres are axons without myelin"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"unmyelinated_fibres\": 1"), std::string::npos);
+
+  this->write(cactus::SubstrateFormat::SpinDoctor);
+  const std::string table = contentOf(this->Scratch / "s/compartments.csv");
+  EXPECT_NE(table.find("1,axon,1,1,128\n2,axon,2,1,400\n3,myelin,1,1,272\n4,extra-axonal,0,0,200\n"), std::string::npos) << table;
+
+  this->write(cactus::SubstrateFormat::Mcdc);
+  EXPECT_EQ(contentOf(this->Scratch / "s/outer/fibre_00002.ply").size(),
+    contentOf(this->Scratch / "s/inner/fibre_00002.ply").size()); // comments differ, but for the same number of letters
+}
+
 TEST_F(SimulatorFolders, McmrSimulatorRepeatsWhatIsPeriodic)
 {
   this->takePlates(1.0, 0.5);

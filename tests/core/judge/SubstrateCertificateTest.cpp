@@ -314,6 +314,25 @@ TEST(SubstrateCertificate, TellsMissingAxonsAndThinMyelin)
   EXPECT_NE(certificate.verdict().find("have myelin thinner than"), std::string::npos) << certificate.verdict();
 }
 
+TEST(SubstrateCertificate, AnAxonWithoutMyelinIsItsOuterSurface)
+{
+  Substrate some;
+  some.inner[2] = some.outer[2];
+  const auto domain = cactus::Domain::cube(2 * halfSide);
+  cactus::FibreSurfaces inner = surfaces(some.inner);
+  inner.promisedGap = 0.01;
+  auto certificate = cactus::certify(domain, surfaces(some.outer), inner, nullptr);
+  EXPECT_TRUE(certificate.certified()) << certificate.verdict();
+  EXPECT_EQ(certificate.bare, 1u);
+  EXPECT_EQ(certificate.fibres[1].gRatio, 1.0);
+  EXPECT_TRUE(std::isnan(certificate.fibres[1].myelinThickness));
+  // One that touches it in all but a point is none.
+  some.inner[2].points[0] += Eigen::Vector3d(0.0, 0.0, 1e-9);
+  certificate = cactus::certify(domain, surfaces(some.outer), surfaces(some.inner), nullptr);
+  EXPECT_EQ(certificate.bare, 0u);
+  EXPECT_EQ(certificate.leavingInner, 1u) << certificate.verdict();
+}
+
 // Damaged surfaces get a verdict or one clear error.
 TEST(SubstrateCertificate, TakesWhatIsNoSurface)
 {

@@ -779,6 +779,28 @@ TEST(MyelinSurfaces, AFibresOwnGRatioComesFirst)
   EXPECT_THROW(myelinSurfaces(view, facts, options), InvalidInput);
 }
 
+// One surface bounds it, also where that was moved, and whatever the model is for the others.
+TEST(MyelinSurfaces, AnAxonWithoutMyelinHasOneSurface)
+{
+  Meeting near;
+  near.surfaces();
+  near.facts.columns.set("TargetGRatio", 0, 1.0);
+  MyelinSurfaceOptions options;
+  options.targetAxonVolumeFraction = 0.35;
+  for (const GRatioModel model : { GRatioModel::Constant, GRatioModel::TargetAxonVolumeFraction })
+  {
+    options.model = model;
+    const auto pairs = myelinSurfaces(near.view(), near.facts, options);
+    EXPECT_FALSE(pairs[0].outer.triangles.empty());
+    EXPECT_TRUE(areSame(pairs[0].outer, pairs[0].inner));
+    EXPECT_EQ(pairs[0].state, MyelinState::AsAsked);
+    EXPECT_EQ(pairs[0].gRatio, 1.0);
+    EXPECT_EQ(pairs[0].innerReport.volume, pairs[0].outerReport.volume);
+    EXPECT_FALSE(areSame(pairs[1].outer, pairs[1].inner));
+    EXPECT_LT(pairs[1].gRatio, 0.9);
+  }
+}
+
 TEST(MyelinSurfaces, CountsWhatIsNotAsAsked)
 {
   Meeting lost;

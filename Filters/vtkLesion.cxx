@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLesion.h"
+
+#include "DataProvenance.h"
+#include "FibreData.h"
+#include "FilterSupport.h"
+#include "StageProperties.h"
+#include "SubstrateInputs.h"
+#include "SurfaceData.h"
+#include "SurfaceFacts.h"
+#include "WholeData.h"
+#include "base/Error.h"
+#include "fibres/SelectFibres.h"
+#include "judge/Lesion.h"
+#include "stages/Stages.h"
+
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+
+#include <set>
+#include <utility>
+#include <vector>
+
+vtkStandardNewMacro(vtkLesion);
+
+namespace
+{
+
+void giveSurfaces(const cactus::FibreSurfaces& surfaces, int kind, const cactus::Domain& domain, vtkPolyData* output)
+{
+  std::vector<cactus::NamedSurface> named;
+  named.reserve(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    named.push_back({ surfaces.fibreIds[i], surfaces.bundleIds[i], surfaces.mesh(i) });
+  }
+  cactus::toPolyData(std::move(named), kind, output);
+  cactus::setSurfaceFacts(output, surfaces.wantedIds, surfaces.promisedGap);
+  cactus::setDomain(output, domain);
+}
+
+/// Returns the fibres that are not gone.
+cactus::Fibres fibresLeft(const cactus::Fibres& fibres, const cactus::FibreSurfaces& outer, const cactus::Lesion& lesion)
+{
+  std::set<int> gone;
+  for (std::size_t i = 0; i < outer.size(); ++i)
+  {
+    if (lesion.fibres[i] == cactus::FibreInLesion::Gone)
+    {
+      gone.insert(outer.fibreIds[i]);
+    }
+  }
+  std::vector<std::size_t> left;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    if (gone.count(fibres.fibreIds[f]) == 0)
+    {
+      left.push_back(f);
+    }
+  }
+  return cactus::selectFibres(fibres, left);
+}
+
+} // namespace
+
+vtkLesion::vtkLesion()
+  : Properties(cactus::makeProperties<cactus::LesionStage>())
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(3);
+}
+
+int vtkLesion::FillInputPortInformation(int port, vtkInformation* info)
+{
+  cactus::acceptAnyData(info);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port > 0 ? 1 : 0);
+  return 1;
+}
+
+int vtkLesion::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  cactus::requestWholeInputs(inputs, 3);
+  return 1;
+}
+
+int vtkLesion::ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
+{
+  return cactus::pipelineTime(this, time);
+}
+
+int vtkLesion::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  return cactus::guarded(this,
+    [&]
+    {
+      const auto& stage = cactus::stageOf<cactus::LesionStage>(this->Properties);
+      cactus::validateProperties(stage);
+      if (!cactus::ownsWholeOutput(request, outputs))
+      {
+        return; // the first rank gives everything
+      }
+      const cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, 2);
+      const cactus::Substrate substrate = cactus::substrateFrom(data);
+      if (substrate.inner.size() == 0)
+      {
+        throw cactus::InvalidInput(
+          "there are no inner surfaces, and without them no myelin to lose: connect MyelinSurface's Inner");
+      }
+      const cactus::Lesion lesion = cactus::fibresInLesion(
+        substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));
+      auto* outer = vtkPolyData::GetData(outputs, 0);
+      auto* inner = vtkPolyData::GetData(outputs, 1);
+      auto* fibres = vtkPolyData::GetData(outputs, 2);
+      giveSurfaces(cactus::outerInLesion(lesion, substrate.outer, substrate.inner), 0, substrate.domain, outer);
+      giveSurfaces(cactus::innerInLesion(lesion, substrate.outer, substrate.inner), 1, substrate.domain, inner);
+      if (substrate.fibres)
+      {
+        cactus::toPolyData(fibresLeft(*substrate.fibres, substrate.outer, lesion), fibres);
+        cactus::addDirectionColours(fibres);
+      }
+      const cactus::Provenance provenance = cactus::recordOf(this, "Lesion", stage, { "Outer", "Inner", "Fibres" },
+        { { "AxonLossReached", lesion.axonLoss }, { "MyelinLossReached", lesion.myelinLoss } });
+      int port = 0;
+      for (vtkPolyData* output : { outer, inner, fibres })
+      {
+        cactus::setProvenance(output, provenance, port++);
+      }
+    });
+}
+
+void vtkLesion::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->Properties->print(os, indent);
+}
