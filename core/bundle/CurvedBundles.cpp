@@ -22,10 +22,12 @@ namespace
 {
 
 /// Returns the square of packed circles that is large enough for all places, with room beside it where the packing's own walls
-/// show.
+/// show, and holds enough of them for the density to be accurate.
 BundleInitializerOptions squareFor(const CurvedBundlesOptions& options, BundleInitializerOptions straight)
 {
-  straight.side = 2.0 * (std::max(options.reach(), farthestPlace(options)) + options.radius.maximum);
+  constexpr double fewest = 64.0;
+  const double needed = std::sqrt(fewest * meanCircleArea(straight.radius) / straight.fibreVolumeFraction);
+  straight.side = std::max(needed, 2.0 * (std::max(options.reach(), farthestPlace(options)) + options.radius.maximum));
   straight.margin = 0.0;
   return straight;
 }
@@ -80,7 +82,19 @@ Fibres nearestToFraction(const CurvedBundlesOptions& options, const BundleInitia
   double nearest = 0.0;
   for (int round = 0; round == 0 || round < (best.size() <= few ? roundsOfFew : rounds); ++round)
   {
-    Fibres fibres = fibresAlongCurves(options, square, density, thinning, context);
+    Fibres fibres;
+    try
+    {
+      fibres = fibresAlongCurves(options, square, density, thinning, context);
+    }
+    catch (const Infeasible&)
+    {
+      if (round == 0)
+      {
+        throw;
+      }
+      break; // the nearest so far is good enough
+    }
     const double filled = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
     const double miss = std::abs(filled / fraction - 1.0);
     if (round == 0 || miss < nearest)
