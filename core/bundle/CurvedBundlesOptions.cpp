@@ -103,8 +103,8 @@ void CurvedBundlesOptions::validate() const
     throw InvalidInput(text("Margin ", margin, " µm is too wide for a fan of ", fanAngle,
       "°: its outermost fibres would bend with ", sharpest, " µm. Lower Margin or FanAngle"));
   }
-  throw InvalidInput(text("BendRadius is ", bendRadius, ": give ", bendRadius + least - sharpest,
-    " µm or more here, so that the innermost fibres can follow; or lower Side, Margin, KissDistance or MaximumRadius"));
+  throw InvalidInput(text("BendRadius ", bendRadius, " µm is too sharp here: give ", bendRadius + least - sharpest,
+    " µm or more, so that the innermost fibres can follow, or lower Side, Margin, KissDistance or MaximumRadius"));
 }
 
 BundleInitializerOptions CurvedBundlesOptions::straightBundle() const

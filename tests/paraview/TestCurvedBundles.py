@@ -65,7 +65,7 @@ class Curves(CactusTestCase):
 
     def test_a_bad_value_gives_one_error_and_a_good_one_works_again(self):
         fibres = CurvedBundles(Side=12, BendRadius=5)
-        with self.assertError(r"BendRadius is 5: give 15 µm or more here"):
+        with self.assertError(r"BendRadius 5 µm is too sharp here: give 15 µm or more"):
             fibres.UpdatePipeline()
         fibres.BendRadius = 15
         self.assertGreater(fetch(fibres).GetNumberOfCells(), 30)

@@ -200,7 +200,8 @@ TEST(CurvedBundles, ABendTooSharpNamesTheSmallestThatWorks)
   }
   catch (const InvalidInput& error)
   {
-    EXPECT_NE(std::string(error.what()).find("BendRadius is 8.9: give 9 µm or more"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("BendRadius 8.9 µm is too sharp here: give 9 µm or more"), std::string::npos)
+      << error.what();
   }
   options.bendRadius = 9.0;
   EXPECT_NO_THROW(options.validate());

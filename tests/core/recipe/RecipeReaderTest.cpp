@@ -138,7 +138,8 @@ TEST(RecipeReader, CurvedBundlesAreASource)
   EXPECT_EQ(options.shape, BundleShape::Kiss);
   EXPECT_EQ(options.kissDistance, 6.0);
   EXPECT_NE(
-    refusal(R"({"CurvedBundles": {"BendRadius": 16}})").find("CurvedBundles: BendRadius is 16: give 24"), std::string::npos);
+    refusal(R"({"CurvedBundles": {"BendRadius": 16}})").find("CurvedBundles: BendRadius 16 µm is too sharp here: give 24"),
+    std::string::npos);
 }
 
 TEST(RecipeReader, AnEmptyListIsNoSource)
