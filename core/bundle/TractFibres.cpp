@@ -7,6 +7,7 @@
 #include "base/Memory.h"
 #include "bundle/BundleLayout.h"
 #include "bundle/BundlePacking.h"
+#include "bundle/FibreAlong.h"
 #include "bundle/TractPath.h"
 #include "bundle/VaryingCalibre.h"
 
@@ -141,55 +142,6 @@ std::vector<PlacedCircle> circlesWithin(
   return placed;
 }
 
-/// Returns the part of a line between its first entry into a domain grown by `margin` and its last exit.
-std::vector<Eigen::Vector3d> partWithin(const std::vector<Eigen::Vector3d>& line, const Domain& domain, double margin)
-{
-  std::vector<Eigen::Vector3d> kept;
-  std::vector<Eigen::Vector3d> outside; ///< points since the last exit
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-  {
-    const auto part = domain.clip(line[i], line[i + 1], margin);
-    const Eigen::Vector3d along = line[i + 1] - line[i];
-    if (part[1] > part[0])
-    {
-      kept.insert(kept.end(), outside.begin(), outside.end());
-      outside.clear();
-      if (kept.empty())
-      {
-        kept.emplace_back(line[i] + part[0] * along);
-      }
-      kept.emplace_back(line[i] + part[1] * along);
-    }
-    else if (!kept.empty())
-    {
-      outside.push_back(line[i + 1]);
-    }
-  }
-  return kept;
-}
-
-/// Adds a fibre along a line, with evenly spaced control points.
-void addAlong(
-  const std::vector<Eigen::Vector3d>& line, double length, int bundleId, double radius, double spacing, Fibres& fibres)
-{
-  const int segments = std::max(2, static_cast<int>(std::lround(length / spacing)));
-  fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundleId, radius);
-  fibres.addPoint(line.front(), radius);
-  double begin = 0.0;
-  int next = 1;
-  for (std::size_t i = 1; i < line.size() && next < segments; ++i)
-  {
-    const Eigen::Vector3d along = line[i] - line[i - 1];
-    const double step = along.norm();
-    for (; next < segments && length * next / segments <= begin + step; ++next)
-    {
-      fibres.addPoint(line[i - 1] + (length * next / segments - begin) / step * along, radius);
-    }
-    begin += step;
-  }
-  fibres.addPoint(line.back(), radius);
-}
-
 /// Carries the circles along a path.
 void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, int bundleId, const TractFibresOptions& options,
   double thinning, Fibres& fibres)
@@ -202,20 +154,10 @@ void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, 
     {
       line.push_back(path.beside(i, circle.centre));
     }
-    const double target = circle.radius / thinning;
-    const std::vector<Eigen::Vector3d> kept = partWithin(line, fibres.domain, options.margin + target);
-    const double length = lengthOf(kept);
-    // A shorter piece cuts a corner of the grown domain, too far outside for the fibre to touch the domain.
-    if (length > 0.8 * target)
-    {
-      const double spacing = options.straightBundle().controlPointSpacing(circle.radius);
-      addAlong(kept, length, bundleId, circle.radius, spacing, fibres);
-      fibres.targetRadii.back() = target;
-      if (circle.isBare)
-      {
-        fibres.columns.set(targetGRatioColumn.name, fibres.size() - 1, bareGRatio);
-      }
-    }
+    addFibreAlong(line, bundleId,
+      { circle.radius, circle.radius / thinning, options.margin, options.straightBundle().controlPointSpacing(circle.radius),
+        circle.isBare },
+      fibres);
   }
 }
 

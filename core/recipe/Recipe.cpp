@@ -18,10 +18,11 @@ namespace
 const std::vector<std::pair<std::string, RecipeOptions>>& knownStages()
 {
   static const std::vector<std::pair<std::string, RecipeOptions>> stages = { { "BundleInitializer", BundleInitializerStage() },
-    { "StrandReader", StrandReaderStage() }, { "TractogramReader", TractogramReaderStage() },
-    { "TractFibres", TractFibresStage() }, { "CapsuleOptimizer", CapsuleOptimizerStage() },
-    { "FibreRadialGrowth", FibreRadialGrowthStage() }, { "MyelinSurface", MyelinSurfaceStage() },
-    { "SubstrateWriter", SubstrateWriterStage() }, { "SubstrateProduction", SubstrateProductionStage() } };
+    { "CurvedBundles", CurvedBundlesStage() }, { "StrandReader", StrandReaderStage() },
+    { "TractogramReader", TractogramReaderStage() }, { "TractFibres", TractFibresStage() },
+    { "CapsuleOptimizer", CapsuleOptimizerStage() }, { "FibreRadialGrowth", FibreRadialGrowthStage() },
+    { "MyelinSurface", MyelinSurfaceStage() }, { "SubstrateWriter", SubstrateWriterStage() },
+    { "SubstrateProduction", SubstrateProductionStage() } };
   return stages;
 }
 
@@ -33,8 +34,8 @@ bool isA(const RecipeStage& stage)
 
 bool givesFibres(const RecipeStage& stage)
 {
-  return isA<BundleInitializerStage>(stage) || isA<StrandReaderStage>(stage) || isA<TractFibresStage>(stage) ||
-         isA<CapsuleOptimizerStage>(stage);
+  return isA<BundleInitializerStage>(stage) || isA<CurvedBundlesStage>(stage) || isA<StrandReaderStage>(stage) ||
+         isA<TractFibresStage>(stage) || isA<CapsuleOptimizerStage>(stage);
 }
 
 /// Checks the sources of each input of a stage.
@@ -184,6 +185,11 @@ void requireUnset(bool isSet, const char* name)
 void checkOptions(const BundleInitializerStage& stage)
 {
   bundleOptions(stage).validate();
+}
+
+void checkOptions(const CurvedBundlesStage& stage)
+{
+  curvedOptions(stage).validate();
 }
 
 void checkOptions(const StrandReaderStage& stage)

@@ -22,8 +22,9 @@ struct RecipeSource
 };
 
 /// The options of a stage that can be run without ParaView.
-using RecipeOptions = std::variant<BundleInitializerStage, StrandReaderStage, TractogramReaderStage, TractFibresStage,
-  CapsuleOptimizerStage, FibreRadialGrowthStage, MyelinSurfaceStage, SubstrateWriterStage, SubstrateProductionStage>;
+using RecipeOptions =
+  std::variant<BundleInitializerStage, CurvedBundlesStage, StrandReaderStage, TractogramReaderStage, TractFibresStage,
+    CapsuleOptimizerStage, FibreRadialGrowthStage, MyelinSurfaceStage, SubstrateWriterStage, SubstrateProductionStage>;
 
 struct RecipeStage
 {

@@ -197,7 +197,7 @@ private:
   {
     for (const auto& entry : this->Text.items())
     {
-      if (entry.key() == "BundleInitializer" || entry.key() == "StrandReader")
+      if (entry.key() == "BundleInitializer" || entry.key() == "CurvedBundles" || entry.key() == "StrandReader")
       {
         const std::vector<RecipeSource> made = this->addAll(entry.key(), {});
         this->Fibres.insert(this->Fibres.end(), made.begin(), made.end());

@@ -2,6 +2,7 @@
 #include "recipe/RecipeRun.h"
 
 #include "base/Provenance.h"
+#include "bundle/CurvedBundles.h"
 #include "bundle/TractFibres.h"
 #include "fibres/JoinFibres.h"
 #include "growth/FibreRadialGrowth.h"
@@ -194,6 +195,15 @@ private:
     const std::string remarks = remarksOnBundle(options, report);
     this->say(remarks.empty() ? "" : "BundleInitializer: " + remarks);
     const Provenance records = provenanceOf(bundleRecord(stage, options, fibres.size(), report));
+    this->giveFibres(std::move(fibres), records, false);
+  }
+
+  void work(const CurvedBundlesStage& stage)
+  {
+    const CurvedBundlesOptions options = curvedOptions(stage);
+    double filled = 0.0;
+    Fibres fibres = layCurvedBundles(options, this->contextFor(0), &filled);
+    const Provenance records = provenanceOf(curvedRecord(stage, options, fibres.size(), filled));
     this->giveFibres(std::move(fibres), records, false);
   }
 

@@ -254,6 +254,24 @@ std::string remarksOnBundle(const BundleInitializerOptions& options, const Bundl
   return told;
 }
 
+CurvedBundlesOptions curvedOptions(const CurvedBundlesStage& stage)
+{
+  CurvedBundlesOptions options = stage.options;
+  options.radius = withTableOf(stage);
+  return options;
+}
+
+StageRecord curvedRecord(
+  const CurvedBundlesStage& stage, const CurvedBundlesOptions& options, std::size_t fibres, double fibreVolumeFraction)
+{
+  StageRecord record;
+  record.filter = "CurvedBundles";
+  record.properties = CurvedBundlesStage::properties().states(stage);
+  keepRadiusTable(options.radius, stage.radiusTableFile, record);
+  record.reached = { { "Fibres", static_cast<std::int64_t>(fibres) }, { "FibreVolumeFraction", fibreVolumeFraction } };
+  return record;
+}
+
 TractFibresOptions tractOptions(const TractFibresStage& stage)
 {
   TractFibresOptions options = stage.options;

@@ -7,6 +7,7 @@
 #include "base/Context.h"
 #include "base/Provenance.h"
 #include "bundle/BundleInitializer.h"
+#include "bundle/CurvedBundles.h"
 #include "bundle/Streamlines.h"
 #include "bundle/TractFibres.h"
 #include "fibres/Fibres.h"
@@ -38,6 +39,11 @@ StageRecord bundleRecord(const BundleInitializerStage& stage, const BundleInitia
 
 /// Returns a remark on the density or the undulation that the fibres do not have as asked for; empty if they have both.
 std::string remarksOnBundle(const BundleInitializerOptions& options, const BundleInitializerReport& report);
+
+/// Do the same as the first two for curved bundles, which fill `fibreVolumeFraction` of the domain.
+CurvedBundlesOptions curvedOptions(const CurvedBundlesStage& stage);
+StageRecord curvedRecord(
+  const CurvedBundlesStage& stage, const CurvedBundlesOptions& options, std::size_t fibres, double fibreVolumeFraction);
 
 /// Do the same as the first two for fibres along a tract.
 TractFibresOptions tractOptions(const TractFibresStage& stage);

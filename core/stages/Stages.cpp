@@ -103,6 +103,12 @@ const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
   return list;
 }
 
+const PropertyList<CurvedBundlesStage>& CurvedBundlesStage::properties()
+{
+  static const auto list = withRadiusTable<CurvedBundlesStage, CurvedBundlesOptions>();
+  return list;
+}
+
 const PropertyList<TractFibresStage>& TractFibresStage::properties()
 {
   static const auto list = withRadiusTable<TractFibresStage, TractFibresOptions>();
@@ -397,16 +403,17 @@ const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
 
 std::vector<StageDescription> describeStages()
 {
-  return { description<BundleInitializerStage>("BundleInitializer"), description<StrandReaderStage>("StrandReader"),
-    description<TractogramReaderStage>("TractogramReader"), description<TractFibresStage>("TractFibres"),
-    description<CapsuleOptimizerStage>("CapsuleOptimizer"), description<FibreRadialGrowthStage>("FibreRadialGrowth"),
-    description<FibreFieldStage>("FibreField"), description<MyelinSurfaceStage>("MyelinSurface"),
-    description<SubstrateStatisticsStage>("SubstrateStatistics"), description<SubstrateCertificateStage>("SubstrateCertificate"),
-    description<LesionStage>("Lesion"), description<SubstrateSamplerStage>("SubstrateSampler"),
-    description<HistologyMaskStage>("HistologyMask"), description<HistologyRadiiStage>("HistologyRadii"),
-    description<SubstrateWriterStage>("SubstrateWriter"), description<SubstrateProductionStage>("SubstrateProduction"),
-    description<PlacementStage>("Placement"), description<StrandWriterStage>("StrandWriter"),
-    description<TractogramWriterStage>("TractogramWriter"), description<NiftiWriterStage>("NiftiWriter") };
+  return { description<BundleInitializerStage>("BundleInitializer"), description<CurvedBundlesStage>("CurvedBundles"),
+    description<StrandReaderStage>("StrandReader"), description<TractogramReaderStage>("TractogramReader"),
+    description<TractFibresStage>("TractFibres"), description<CapsuleOptimizerStage>("CapsuleOptimizer"),
+    description<FibreRadialGrowthStage>("FibreRadialGrowth"), description<FibreFieldStage>("FibreField"),
+    description<MyelinSurfaceStage>("MyelinSurface"), description<SubstrateStatisticsStage>("SubstrateStatistics"),
+    description<SubstrateCertificateStage>("SubstrateCertificate"), description<LesionStage>("Lesion"),
+    description<SubstrateSamplerStage>("SubstrateSampler"), description<HistologyMaskStage>("HistologyMask"),
+    description<HistologyRadiiStage>("HistologyRadii"), description<SubstrateWriterStage>("SubstrateWriter"),
+    description<SubstrateProductionStage>("SubstrateProduction"), description<PlacementStage>("Placement"),
+    description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
+    description<NiftiWriterStage>("NiftiWriter") };
 }
 
 } // namespace cactus

@@ -6,6 +6,7 @@
 #include "base/Placement.h"
 #include "base/Properties.h"
 #include "bundle/BundleInitializerOptions.h"
+#include "bundle/CurvedBundlesOptions.h"
 #include "bundle/TractFibresOptions.h"
 #include "growth/FibreRadialGrowthOptions.h"
 #include "io/SubstrateContents.h"
@@ -37,6 +38,17 @@ struct BundleInitializerStage
   std::string orientationHarmonics; ///< coefficients as text, for DispersionModel::Harmonics
 
   static const PropertyList<BundleInitializerStage>& properties();
+};
+
+struct CurvedBundlesStage
+{
+  CurvedBundlesOptions options;
+  std::string radiusTable;        ///< as in BundleInitializerStage
+  std::string radiusTableFile;    ///< the same as a file
+  std::string radiusTableColumn;  ///< as in BundleInitializerStage
+  double radiusTableFactor = 1.0; ///< the same
+
+  static const PropertyList<CurvedBundlesStage>& properties();
 };
 
 struct TractFibresStage

@@ -24,6 +24,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
   writeSeeds(*argc, *argv,
     { "{}", R"({"BundleInitializer": [{"Side": 20, "RadiusTable": [0.5, 1]}, {}], "CapsuleOptimizer": false})",
       R"({"TractogramReader": [{"FileName": "x.tck"}, {"FileName": "y.trx"}], "TractFibres": [{"Side": 5}, {}]})",
+      R"({"CurvedBundles": [{"Shape": "Fan", "FanAngle": 60}, {"Shape": "Kiss", "KissDistance": 5}], "CapsuleOptimizer": false})",
       R"({"StrandReader": {"FileName": "x"}, "SubstrateProduction": {"GRatioModel": "Constant", "Seed": 1e3}} // end)",
       R"({"format": "CACTUS substrate folder", "version": "0.2.0", "provenance": [
         {"id": "a", "filter": "BundleInitializer", "properties": {"Side": 5}, "inputs": {}},

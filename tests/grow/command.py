@@ -105,6 +105,15 @@ class Command(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertRegex(done.stderr, r"StrandReader: .*fibres\.strands, which it has read, is another file than it was")
 
+    def test_curved_bundles_again_from_their_manifest(self):
+        laid = {"Shape": "Kiss", "BendRadius": 9, "Side": 4, "Margin": 1, "MinimumRadius": 0.4, "MaximumRadius": 1, "GrownFibreVolumeFraction": 0}
+        done = self.run_it(self.recipe({"CurvedBundles": laid, "FibreRadialGrowth": SMALL["FibreRadialGrowth"],
+                                        "SubstrateWriter": {"Format": "Surfaces alone"}}))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        again = self.run_it("recipe")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(files(os.path.join(self.folder, "recipe-rerun")), files(os.path.join(self.folder, "recipe")))
+
     def tract(self, name="tract.tck", **header):
         """A streamline (mm) along x, and one beside it."""
         points = [(x, y, z) for y in (0.0, 1.0) for x, z in ((-9.0, 0.0), (0.0, 0.3), (9.0, 0.0))]

@@ -11,8 +11,8 @@ import numpy
 from cactus_testing import LEAVING, CactusTestCase, main
 from folder_content import files
 from nibabel.streamlines import TckFile, Tractogram
-from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort, Placement,
-                             SubstrateProduction, SubstrateWriter, TractFibres, TractogramReader)
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, CurvedBundles, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
+                             Placement, SubstrateProduction, SubstrateWriter, TractFibres, TractogramReader)
 
 PROGRAM = os.path.join(os.environ["CACTUS_TOOLS"], "cactus-grow")
 BUNDLE = {"Side": 4, "Border": "Walls", "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0}
@@ -116,6 +116,12 @@ class CactusGrow(CactusTestCase):
         self.assertSame("filters", "grown")
         self.grow(self.path("filters"), "again")
         self.assertSame("filters", "again")
+
+    def test_curved_bundles(self):
+        laid = {"Shape": "Kiss", "BendRadius": 12, "Side": 5, "Margin": 1, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0}
+        self.write(OutputPort(CapsuleOptimizer(Input=CurvedBundles(**laid)), 0), GROWTH, {})
+        self.grow({"CurvedBundles": laid, "FibreRadialGrowth": GROWTH}, "grown")
+        self.assertSame("filters", "grown")
 
     def test_groups_of_a_tract_and_tracts_in_blocks(self):
         """Bundles of a .trx that is a folder, beside a straight bundle; and two tracts at one input, of which one has no bundles."""

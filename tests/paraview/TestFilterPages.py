@@ -54,6 +54,7 @@ class FilterPages(CactusTestCase):
         streamlines = simple.TractogramReader(FileName=tract)
         return {
             "BundleInitializer": bundle,
+            "CurvedBundles": simple.CurvedBundles(Side=5, MinimumRadius=0.4),
             "CapsuleOptimizer": optimiser,
             "FibreRadialGrowth": grown,
             "MyelinSurface": surfaces,

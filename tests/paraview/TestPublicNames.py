@@ -57,6 +57,7 @@ NAMES = {
     "SubstrateCertificate": {"MinimumGap": -1, "CutSpacing": 1.0},
     "SubstrateStatistics": {},
     "StrandReader": {"FileName": None},
+    "CurvedBundles": {"Shape": "Bend", "BendRadius": 30, "FanAngle": 30, "KissDistance": 0, "Side": 30, "Margin": 3, "Seed": 1},
     "SubstrateWriter": {"MinimumGap": -1},
 }
 CHOICES = {
@@ -65,6 +66,7 @@ CHOICES = {
     ("BundleInitializer", "Border"): ["Cut", "Walls", "Periodic across", "Periodic"],
     ("BundleInitializer", "Mixing"): ["Interpenetrating", "Layers"],
     ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],
+    ("CurvedBundles", "Shape"): ["Bend", "Fan", "Kiss"],
 }
 PORTS = {
     "CapsuleOptimizer": ["Fibres", "Convergence"],

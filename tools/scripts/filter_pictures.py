@@ -56,17 +56,17 @@ def scratch(name):
     return os.path.join(SCRATCH.name, name)
 
 
-def look(view):
+def look(view, position=(2.2, -1.7, 1.6)):
     """From above, at an angle."""
-    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [2.2, -1.7, 1.6], [0, 0, 0], [0, 0, 1]
+    view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = position, [0, 0, 0], [0, 0, 1]
     simple.ResetCamera(view)
     return image(view, PIXELS, PIXELS)
 
 
-def tubes(source):
+def tubes(source, **position):
     view = white_view(PIXELS, PIXELS)
     simple.Show(source, view)
-    return look(view)
+    return look(view, **position)
 
 
 def coloured(source, array, low, high):
@@ -130,6 +130,15 @@ def bundle_initializer():
 def tract_fibres():
     read = simple.TractogramReader(FileName=tract())
     return pictures_beside(("", tubes(simple.TractFibres(Input=read, Side=16, ScaleFactor=0.001, BundleDiameter=11, MinimumRadius=0.4))))
+
+
+def curved_bundles():
+    """A bend, a fan and two bundles that kiss."""
+    shapes = (("Bend", {"BendRadius": 16}), ("Fan", {"FanAngle": 60}), ("Kiss", {"BendRadius": 16}))
+    return pictures_beside(*[
+        (shape.lower(), tubes(simple.CurvedBundles(Shape=shape, Side=15, Margin=0, MinimumRadius=0.4, **values), position=(0.5, -2.0, 0.6)))
+        for shape, values in shapes
+    ])
 
 
 def strand_reader():
@@ -252,8 +261,9 @@ def placement():
 PICTURES = {
     "".join(part.capitalize() for part in function.__name__.split("_")): function
     for function in (
-        bundle_initializer, tract_fibres, strand_reader, tractogram_reader, capsule_optimizer, fibre_radial_growth, myelin_surface, fibre_field,
-        substrate_production, substrate_statistics, substrate_certificate, substrate_sampler, lesion, histology_mask, histology_radii, placement,
+        bundle_initializer, curved_bundles, tract_fibres, strand_reader, tractogram_reader, capsule_optimizer, fibre_radial_growth, myelin_surface,
+        fibre_field, substrate_production, substrate_statistics, substrate_certificate, substrate_sampler, lesion, histology_mask, histology_radii,
+        placement,
     )
 }  # fmt: skip
 

@@ -32,7 +32,7 @@ def mean_radius(fibres, name):
 def source_of_all(manifest, names):
     """Those properties of the source of all fibres, or of several that have the same; None where they differ, or some fibres are of another kind
     of source."""
-    if stages_of(manifest, "StrandReader", "TractFibres"):
+    if stages_of(manifest, "StrandReader", "TractFibres", "CurvedBundles"):
         return None
     return only({name: source.get(name) for name in names} for source in stages_of(manifest, "BundleInitializer"))
 
@@ -97,8 +97,8 @@ def asked_fraction(manifest):
         return None
     target = growth.get("TargetFibreVolumeFraction", 0.0)
     if target < 0.0:
-        # Fibres of files do not say what they were made for, and those along a tract only of what the tract fills.
-        if stages_of(manifest, "TractFibres"):
+        # Fibres of files do not say what they were made for, and those along a tract or a curve only of what their bundles fill.
+        if stages_of(manifest, "TractFibres", "CurvedBundles"):
             return None
         shares = [source.get("GrownFibreVolumeFraction", 0.0) for source in stages_of(manifest, "BundleInitializer", "StrandReader")]
         target = math.fsum(shares) if all(share > 0.0 for share in shares) else 0.0

@@ -130,6 +130,18 @@ TEST(RecipeReader, NamesTheLikelyProperty)
   EXPECT_EQ(refusal(R"({"FibreRadialGrowth": {"GRatio": 1}})"), "FibreRadialGrowth: there is no property GRatio");
 }
 
+TEST(RecipeReader, CurvedBundlesAreASource)
+{
+  const Recipe recipe = readRecipe(R"({ "CurvedBundles": {"Shape": "Kiss", "KissDistance": 6}, "SubstrateProduction": {} })", "");
+  EXPECT_EQ(stageNames(recipe), (std::vector<std::string>{ "CurvedBundles", "CapsuleOptimizer", "SubstrateProduction" }));
+  const auto& options = stageIn<CurvedBundlesStage>(recipe, 0).options;
+  EXPECT_EQ(options.shape, BundleShape::Kiss);
+  EXPECT_EQ(options.kissDistance, 6.0);
+  EXPECT_NE(
+    refusal(R"({"CurvedBundles": {"BendRadius": 16}})").find("CurvedBundles: BendRadius 16 µm is too sharp here: give 24"),
+    std::string::npos);
+}
+
 TEST(RecipeReader, AnEmptyListIsNoSource)
 {
   const auto refuses = [](const std::string& text, const std::string& name)

@@ -42,6 +42,10 @@ SMALL = {
         "Side": 4, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "MaximumRadius": 1.2, "MeanDispersion": 5, "RadiusTable": "0.5 0.6 0.7",
         "GrownFibreVolumeFraction": 0,
     },
+    "CurvedBundles": {
+        "Side": 4, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "MaximumRadius": 1.2, "RadiusTable": "0.5 0.6 0.7",
+        "GrownFibreVolumeFraction": 0,
+    },
     "TractFibres": {
         "Side": 4, "FibreVolumeFraction": 0.4, "MinimumRadius": 0.4, "MaximumRadius": 1.2, "RadiusTable": "0.5 0.6 0.7",
         "GrownFibreVolumeFraction": 0,
