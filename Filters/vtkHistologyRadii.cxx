@@ -9,6 +9,7 @@
 #include "WholeData.h"
 #include "base/Error.h"
 #include "judge/HistologyRadii.h"
+#include "judge/MaskColours.h"
 #include "stages/Stages.h"
 
 #include <vtkCellData.h>
@@ -30,21 +31,6 @@ vtkStandardNewMacro(vtkHistologyRadii);
 
 namespace
 {
-
-/// Grey values half way between those of AxonDeepSeg.
-constexpr double leastMyelin = 64.0;
-constexpr double leastAxon = 191.0;
-constexpr double mostGrey = 255.0;
-
-cactus::Tissue tissueOf(double grey)
-{
-  if (!(grey <= mostGrey))
-  {
-    throw cactus::InvalidInput("the mask has grey values above 255, and 0 background, 127 myelin and 255 axon are expected: make "
-                               "these of them; those of 16 bits are to be divided by 257, by Calculator, say");
-  }
-  return grey >= leastAxon ? cactus::Tissue::Axon : grey >= leastMyelin ? cactus::Tissue::Myelin : cactus::Tissue::Background;
-}
 
 /// Returns the active scalars, those of points first; else the first array.
 vtkDataArray* greysOf(vtkImageData* image)
@@ -73,7 +59,7 @@ void requirePixelSize(vtkImageData* image, double pixelSize)
   }
 }
 
-cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
+cactus::HistologyMask maskFrom(vtkDataObject* input, const cactus::HistologyRadiiStage& stage)
 {
   auto* image = vtkImageData::SafeDownCast(input);
   if (image == nullptr)
@@ -81,22 +67,26 @@ cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
     throw cactus::InvalidInput(
       std::string("the input is a ") + input->GetClassName() + ", and one mask is expected: 0 background, 127 myelin, 255 axon");
   }
-  requirePixelSize(image, pixelSize);
+  requirePixelSize(image, stage.pixelSize);
   vtkDataArray* greys = greysOf(image);
   const int* size = image->GetDimensions();
   const int less = greys->GetNumberOfTuples() == image->GetNumberOfPoints() ? 0 : 1; // cells lie between points
   cactus::HistologyMask mask;
   mask.count = { { size[0] - less, size[1] - less } };
-  mask.pixelSize = pixelSize;
+  mask.pixelSize = stage.pixelSize;
   if (size[2] != 1 || mask.count[0] < 1 || mask.count[1] < 1 || greys->GetNumberOfTuples() != vtkIdType(mask.size()))
   {
     throw cactus::InvalidInput(cactus::text("the input has ", size[0], " × ", size[1], " × ", size[2],
       " points: give a flat image, along x and y, with a grey value for each pixel"));
   }
+  cactus::MaskReader reader(stage.axonColour, stage.myelinColour);
+  std::vector<double> components(std::size_t(greys->GetNumberOfComponents()));
   for (vtkIdType i = 0; i < vtkIdType(mask.size()); ++i)
   {
-    mask.pixels.push_back(tissueOf(greys->GetComponent(i, 0)));
+    greys->GetTuple(i, components.data());
+    mask.pixels.push_back(reader.tissueOf(components.data(), components.size()));
   }
+  reader.finish();
   return mask;
 }
 
@@ -145,7 +135,7 @@ int vtkHistologyRadii::RequestData(vtkInformation* request, vtkInformationVector
       {
         return;
       }
-      const cactus::HistologyMask mask = maskFrom(vtkDataObject::GetData(inputs[0]), stage.pixelSize);
+      const cactus::HistologyMask mask = maskFrom(vtkDataObject::GetData(inputs[0]), stage);
       const cactus::MaskAxons found = cactus::measureMask(mask, cactus::contextFor(this));
       std::vector<cactus::MaskAxon> axons;
       for (const cactus::MaskAxon& axon : found.axons)
