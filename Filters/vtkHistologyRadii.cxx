@@ -19,10 +19,12 @@
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
+#include <vtkLookupTable.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkTable.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -59,6 +61,52 @@ void requirePixelSize(vtkImageData* image, double pixelSize)
   }
 }
 
+/// Gives the colour or grey value of each pixel. An image with a palette holds indices, from which its table makes colours.
+class PixelColours
+{
+public:
+  explicit PixelColours(vtkDataArray* array)
+    : Array(array)
+    , Components(std::size_t(array->GetNumberOfComponents()))
+  {
+    vtkLookupTable* palette = array->GetLookupTable();
+    if (palette != nullptr && palette->GetIndexedLookup() != 0 && this->Components.size() == 1)
+    {
+      this->Components.resize(4);
+      for (int index = 0; index < mostColours; ++index)
+      {
+        const unsigned char* colour = palette->MapValue(index);
+        this->Palette.push_back({ { double(colour[0]), double(colour[1]), double(colour[2]), double(colour[3]) } });
+      }
+    }
+  }
+
+  const std::vector<double>& at(vtkIdType pixel)
+  {
+    if (this->Palette.empty())
+    {
+      this->Array->GetTuple(pixel, this->Components.data());
+      return this->Components;
+    }
+    const double index = this->Array->GetComponent(pixel, 0);
+    if (!(index >= 0.0 && index < mostColours))
+    {
+      throw cactus::InvalidInput(
+        cactus::text("the mask has a pixel of colour ", index, " of its palette, which has none beyond 255"));
+    }
+    const auto& colour = this->Palette[std::size_t(index)];
+    this->Components.assign(colour.begin(), colour.end());
+    return this->Components;
+  }
+
+private:
+  static constexpr int mostColours = 256;
+
+  vtkDataArray* Array;
+  std::vector<double> Components;
+  std::vector<std::array<double, 4>> Palette;
+};
+
 cactus::HistologyMask maskFrom(vtkDataObject* input, const cactus::HistologyRadiiStage& stage)
 {
   auto* image = vtkImageData::SafeDownCast(input);
@@ -80,10 +128,10 @@ cactus::HistologyMask maskFrom(vtkDataObject* input, const cactus::HistologyRadi
       " points: give a flat image, along x and y, with a grey value for each pixel"));
   }
   cactus::MaskReader reader(stage.axonColour, stage.myelinColour);
-  std::vector<double> components(std::size_t(greys->GetNumberOfComponents()));
+  PixelColours colours(greys);
   for (vtkIdType i = 0; i < vtkIdType(mask.size()); ++i)
   {
-    greys->GetTuple(i, components.data());
+    const std::vector<double>& components = colours.at(i);
     mask.pixels.push_back(reader.tissueOf(components.data(), components.size()));
   }
   reader.finish();

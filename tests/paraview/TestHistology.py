@@ -152,6 +152,11 @@ class Histology(CactusTestCase):
         proxy.AxonColour, proxy.MyelinColour = "White", "Grey"
         with self.assertError(r"not grey: Red \(\d+ of 4800 pixels\), Blue \(\d+ of 4800 pixels\)\. Choose AxonColour"):
             proxy.UpdatePipeline()
+        # Pixels that count the colours of a palette.
+        palette = Image.fromarray(numpy.where(picture[..., 3:] > 0, picture[..., :3], 0)[::-1]).convert("P", palette=Image.ADAPTIVE)
+        palette.save(self.path("palette.png"))
+        again = fetch(HistologyRadii(Input=OpenDataFile(self.path("palette.png")), PixelSize=0.1, AxonColour="Blue", MyelinColour="Red"))
+        numpy.testing.assert_array_equal(column(again, "FibreRadius_um"), column(grey, "FibreRadius_um"))
         # The same in grey, in three channels and with a background that nobody sees.
         picture = numpy.repeat(mask[..., None], 4, axis=2)
         picture[..., 3] = 255
