@@ -9,6 +9,7 @@
 #include "WholeData.h"
 #include "base/Error.h"
 #include "judge/HistologyRadii.h"
+#include "judge/MaskColours.h"
 #include "stages/Stages.h"
 
 #include <vtkCellData.h>
@@ -18,10 +19,12 @@
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
+#include <vtkLookupTable.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkTable.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -30,21 +33,6 @@ vtkStandardNewMacro(vtkHistologyRadii);
 
 namespace
 {
-
-/// Grey values half way between those of AxonDeepSeg.
-constexpr double leastMyelin = 64.0;
-constexpr double leastAxon = 191.0;
-constexpr double mostGrey = 255.0;
-
-cactus::Tissue tissueOf(double grey)
-{
-  if (!(grey <= mostGrey))
-  {
-    throw cactus::InvalidInput("the mask has grey values above 255, and 0 background, 127 myelin and 255 axon are expected: make "
-                               "these of them; those of 16 bits are to be divided by 257, by Calculator, say");
-  }
-  return grey >= leastAxon ? cactus::Tissue::Axon : grey >= leastMyelin ? cactus::Tissue::Myelin : cactus::Tissue::Background;
-}
 
 /// Returns the active scalars, those of points first; else the first array.
 vtkDataArray* greysOf(vtkImageData* image)
@@ -73,7 +61,53 @@ void requirePixelSize(vtkImageData* image, double pixelSize)
   }
 }
 
-cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
+/// Gives the colour or grey value of each pixel. An image with a palette holds indices, from which its table makes colours.
+class PixelColours
+{
+public:
+  explicit PixelColours(vtkDataArray* array)
+    : Array(array)
+    , Components(std::size_t(array->GetNumberOfComponents()))
+  {
+    vtkLookupTable* palette = array->GetLookupTable();
+    if (palette != nullptr && palette->GetIndexedLookup() != 0 && this->Components.size() == 1)
+    {
+      this->Components.resize(4);
+      for (int index = 0; index < mostColours; ++index)
+      {
+        const unsigned char* colour = palette->MapValue(index);
+        this->Palette.push_back({ { double(colour[0]), double(colour[1]), double(colour[2]), double(colour[3]) } });
+      }
+    }
+  }
+
+  const std::vector<double>& at(vtkIdType pixel)
+  {
+    if (this->Palette.empty())
+    {
+      this->Array->GetTuple(pixel, this->Components.data());
+      return this->Components;
+    }
+    const double index = this->Array->GetComponent(pixel, 0);
+    if (!(index >= 0.0 && index < mostColours))
+    {
+      throw cactus::InvalidInput(
+        cactus::text("the mask has a pixel of colour ", index, " of its palette, which has none beyond 255"));
+    }
+    const auto& colour = this->Palette[std::size_t(index)];
+    this->Components.assign(colour.begin(), colour.end());
+    return this->Components;
+  }
+
+private:
+  static constexpr int mostColours = 256;
+
+  vtkDataArray* Array;
+  std::vector<double> Components;
+  std::vector<std::array<double, 4>> Palette;
+};
+
+cactus::HistologyMask maskFrom(vtkDataObject* input, const cactus::HistologyRadiiStage& stage)
 {
   auto* image = vtkImageData::SafeDownCast(input);
   if (image == nullptr)
@@ -81,22 +115,26 @@ cactus::HistologyMask maskFrom(vtkDataObject* input, double pixelSize)
     throw cactus::InvalidInput(
       std::string("the input is a ") + input->GetClassName() + ", and one mask is expected: 0 background, 127 myelin, 255 axon");
   }
-  requirePixelSize(image, pixelSize);
+  requirePixelSize(image, stage.pixelSize);
   vtkDataArray* greys = greysOf(image);
   const int* size = image->GetDimensions();
   const int less = greys->GetNumberOfTuples() == image->GetNumberOfPoints() ? 0 : 1; // cells lie between points
   cactus::HistologyMask mask;
   mask.count = { { size[0] - less, size[1] - less } };
-  mask.pixelSize = pixelSize;
+  mask.pixelSize = stage.pixelSize;
   if (size[2] != 1 || mask.count[0] < 1 || mask.count[1] < 1 || greys->GetNumberOfTuples() != vtkIdType(mask.size()))
   {
     throw cactus::InvalidInput(cactus::text("the input has ", size[0], " × ", size[1], " × ", size[2],
       " points: give a flat image, along x and y, with a grey value for each pixel"));
   }
+  cactus::MaskReader reader(stage.axonColour, stage.myelinColour);
+  PixelColours colours(greys);
   for (vtkIdType i = 0; i < vtkIdType(mask.size()); ++i)
   {
-    mask.pixels.push_back(tissueOf(greys->GetComponent(i, 0)));
+    const std::vector<double>& components = colours.at(i);
+    mask.pixels.push_back(reader.tissueOf(components.data(), components.size()));
   }
+  reader.finish();
   return mask;
 }
 
@@ -145,7 +183,7 @@ int vtkHistologyRadii::RequestData(vtkInformation* request, vtkInformationVector
       {
         return;
       }
-      const cactus::HistologyMask mask = maskFrom(vtkDataObject::GetData(inputs[0]), stage.pixelSize);
+      const cactus::HistologyMask mask = maskFrom(vtkDataObject::GetData(inputs[0]), stage);
       const cactus::MaskAxons found = cactus::measureMask(mask, cactus::contextFor(this));
       std::vector<cactus::MaskAxon> axons;
       for (const cactus::MaskAxon& axon : found.axons)

@@ -3,8 +3,8 @@
  * @class vtkHistologyRadii
  * @brief Measures the axons of a histology mask (AxonDeepSeg's grey values), as a table of radii to draw fibres from.
  *
- * Input: a flat image of grey values (or of colours, whose first component counts), as point or cell data: about 0 background,
- * 127 myelin, 255 axon.
+ * Input: a flat image of grey values, as point or cell data: about 0 background, 127 myelin, 255 axon; or of colours, of which
+ * `AxonColour` and `MyelinColour` say what they are. Transparent pixels are background.
  *
  * Output: a table with a row for each axon: `X_um`, `Y_um` (its centre of mass, from the image's corner), `AxonRadius_um` and
  * `FibreRadius_um` (of circles with the areas of the axon, and of the axon with its myelin), `GRatio`, `AxonArea_um2`,
@@ -28,6 +28,8 @@ public:
   CACTUS_NUMBER_PROPERTY(PixelSize)
   CACTUS_NUMBER_PROPERTY(SmallestRadius)
   CACTUS_SWITCH_PROPERTY(LeaveOutBorder)
+  CACTUS_WHOLE_PROPERTY(AxonColour)
+  CACTUS_WHOLE_PROPERTY(MyelinColour)
 
 protected:
   vtkHistologyRadii();

@@ -5,6 +5,7 @@
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "StageProperties.h"
+#include "io/FibreFile.h"
 #include "stages/StageWork.h"
 
 #include <vtkObjectFactory.h>
@@ -18,6 +19,11 @@ vtkStrandReader::vtkStrandReader()
   : Properties(cactus::makeProperties<cactus::StrandReaderStage>())
 {
   this->SetNumberOfInputPorts(0);
+}
+
+int vtkStrandReader::CanReadFile(const char* name)
+{
+  return name != nullptr && cactus::isFibreFile(name) ? 1 : 0;
 }
 
 int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)

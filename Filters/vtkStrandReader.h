@@ -25,6 +25,9 @@ public:
   vtkTypeMacro(vtkStrandReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** Whether the file is one of these by its content (ParaView asks before it offers this reader). */
+  int CanReadFile(const char* name);
+
   CACTUS_FILE_PROPERTY(FileName)
 
   CACTUS_ABORT_IS_NO_CHANGE

@@ -5,6 +5,7 @@
 #include "FilterSupport.h"
 #include "StageProperties.h"
 #include "TractogramData.h"
+#include "io/TractogramFile.h"
 #include "stages/StageWork.h"
 
 #include <vtkObjectFactory.h>
@@ -24,6 +25,11 @@ int vtkTractogramReader::ComputePipelineMTime(
   vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
 {
   return cactus::pipelineTime(this, time);
+}
+
+int vtkTractogramReader::CanReadFile(const char* name)
+{
+  return name != nullptr && cactus::isTractogram(name) ? 1 : 0;
 }
 
 int vtkTractogramReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)

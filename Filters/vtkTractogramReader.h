@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class vtkTractogramReader
- * @brief Reads streamlines from tractograms: MRtrix's .tck, TrackVis's .trk (versions 1 and 2), and .trx, an archive or a folder.
+ * @brief Reads streamlines from tractograms: MRtrix's .tck, TrackVis's .trk (versions 1 to 3), these packed by gzip, and .trx, an
+ * archive or a folder.
  *
  * Output: one polyline per streamline of two points or more, in the scanner's space (RAS), in µm or mm by `LengthUnit`. The
  * file's data per point become point data, those per streamline cell data, by their names; an array `Radius` is a length, in mm
@@ -26,6 +27,9 @@ public:
   static vtkTractogramReader* New();
   vtkTypeMacro(vtkTractogramReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Whether the file is one of these by its content (ParaView asks before it offers this reader). */
+  int CanReadFile(const char* name);
 
   CACTUS_FILE_PROPERTY(FileName)
   CACTUS_WHOLE_PROPERTY(LengthUnit)

@@ -85,6 +85,43 @@ char separatorOf(const std::string& header)
   return place == std::string::npos ? ',' : header[place];
 }
 
+/// Returns a column's name with "u" for each way to write a micro sign: those of Latin-1 and UTF-8, and the Greek letter.
+std::string withoutMicro(std::string name)
+{
+  for (const char* sign : { "\xc2\xb5", "\xce\xbc", "\xb5" })
+  {
+    const std::string text(sign);
+    for (std::size_t at = name.find(text); at != std::string::npos; at = name.find(text, at))
+    {
+      name.replace(at, text.size(), "u");
+    }
+  }
+  return name;
+}
+
+/// Returns the column of this name, or of one that differs in its micro sign alone; their number if there is none.
+std::size_t placeOf(const std::string& column, const std::vector<std::string>& names)
+{
+  auto found = std::find(names.begin(), names.end(), column);
+  if (found == names.end())
+  {
+    found = std::find_if(
+      names.begin(), names.end(), [&](const std::string& name) { return withoutMicro(name) == withoutMicro(column); });
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// Takes the finite number that a cell is, with a point or a comma before its decimals.
+bool takeCell(std::string cell, double& value)
+{
+  if (const std::size_t comma = cell.find(','); comma != std::string::npos && cell.find('.') == std::string::npos)
+  {
+    cell[comma] = '.';
+  }
+  std::string_view rest(cell);
+  return takeNumber(rest, value) && rest.empty() && std::isfinite(value);
+}
+
 } // namespace
 
 std::vector<double> readRadiusColumn(std::istream& stream, const std::string& name, const std::string& column)
@@ -97,7 +134,7 @@ std::vector<double> readRadiusColumn(std::istream& stream, const std::string& na
   }
   const char separator = separatorOf(line);
   const std::vector<std::string> names = cellsOf(line, separator);
-  const auto place = static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin());
+  const std::size_t place = placeOf(column, names);
   if (place == names.size())
   {
     throw FileError("RadiusTableFile " + name + " has no column \"" + column + "\" (RadiusTableColumn); its first line is \"" +
@@ -118,12 +155,12 @@ std::vector<double> readRadiusColumn(std::istream& stream, const std::string& na
       throw FileError("RadiusTableFile " + name + ", line " + std::to_string(number) +
                       ", has more cells than the first line has names: numbers with a decimal comma, or names left out?");
     }
-    std::string_view cell = place < cells.size() ? std::string_view(cells[place]) : std::string_view();
+    const std::string cell = place < cells.size() ? cells[place] : std::string();
     double value = 0.0;
-    if (!takeNumber(cell, value) || !cell.empty() || !std::isfinite(value))
+    if (!takeCell(cell, value))
     {
       throw FileError("RadiusTableFile " + name + ", line " + std::to_string(number) + ", has no number in column \"" + column +
-                      "\": leave such lines out");
+                      "\", but \"" + excerpt(cell) + "\": leave such lines out");
     }
     radii.push_back(value);
     if (radii.size() > mostRadii)

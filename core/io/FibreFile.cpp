@@ -10,7 +10,9 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace cactus
 {
@@ -32,7 +34,45 @@ int firstCharacter(std::istream& stream)
   return c;
 }
 
+/// Returns the beginning of a file without its byte order mark; empty if there is none to read.
+std::string firstText(const std::string& path)
+{
+  constexpr std::size_t most = 1 << 16;
+  std::error_code error;
+  std::string text;
+  if (std::filesystem::is_regular_file(path, error)) // a pipe would wait for its writer
+  {
+    std::ifstream file(path, std::ios::binary);
+    text.resize(most);
+    file.read(text.data(), most);
+    text.resize(static_cast<std::size_t>(file.gcount()));
+  }
+  return text.compare(0, 3, "\xef\xbb\xbf") == 0 ? text.substr(3) : text;
+}
+
 } // namespace
+
+bool isFibreFile(const std::string& path)
+{
+  const std::filesystem::path name(path);
+  std::error_code error;
+  if (name.extension() == ".strands" && !name.stem().has_extension() && std::filesystem::is_regular_file(name, error))
+  {
+    return true;
+  }
+  const std::string text = firstText(path);
+  std::istringstream stream(text);
+  const int first = firstCharacter(stream);
+  if (first == '{')
+  {
+    return text.find("\"axons\"") != std::string::npos || text.find("\"voxelSize\"") != std::string::npos;
+  }
+  if (first != std::char_traits<char>::eof() && std::isalpha(first) != 0)
+  {
+    return isSphereTable(text.substr(0, text.find('\n')));
+  }
+  return beginsAsStrandFile(stream);
+}
 
 FibresOfFile readFibreFile(const std::string& path)
 {

@@ -15,4 +15,8 @@ namespace cactus
 /// Throws FileError and InvalidInput as these do.
 FibresOfFile readFibreFile(const std::string& path);
 
+/// Whether the file begins as one of these formats does. A file NAME.strands counts in any case, if NAME has no dots: then no
+/// other format can be meant, and readFibreFile() says what is wrong.
+bool isFibreFile(const std::string& path);
+
 } // namespace cactus

@@ -242,6 +242,11 @@ FibresOfFile readSphereTable(std::istream& stream, const std::string& name, doub
   return read;
 }
 
+bool isSphereTable(const std::string& firstLine)
+{
+  return columnsOf(firstLine).has_value();
+}
+
 double sideBesideTable(const std::string& path)
 {
   const std::filesystem::path table(path);

@@ -24,6 +24,9 @@ namespace cactus
 /// Throws FileError with the line, and InvalidInput as `validate` does.
 FibresOfFile readSphereTable(std::istream& stream, const std::string& name, double side = 0.0);
 
+/// Whether a table with this first line, without byte order mark, is one.
+bool isSphereTable(const std::string& firstLine);
+
 /// The side of the voxel ("Voxel Size", µm) that CATERPillar has written beside such a table: in NAME_growth_info.txt or
 /// NAME_info.txt for NAME.csv, and in NAME_growth_info_2.txt for NAME_2.csv. 0 where there is no such file, or none with a side.
 double sideBesideTable(const std::string& path);

@@ -262,6 +262,24 @@ Fibres readStrandFile(const std::string& path)
   return readStrandFile(file, path);
 }
 
+bool beginsAsStrandFile(std::istream& stream)
+{
+  try
+  {
+    LineReader reader(stream, "");
+    reader.oneOrThree("");
+    reader.count("");
+    reader.count("");
+    double values[4];
+    reader.four("", values);
+    return true;
+  }
+  catch (const FileError&)
+  {
+    return false;
+  }
+}
+
 bool fitsStrandFile(const Domain& domain)
 {
   return (domain.lower + domain.upper).cwiseAbs().maxCoeff() <= 1e-9 * domain.size().maxCoeff();

@@ -25,6 +25,9 @@ Fibres readStrandFile(const std::string& path);
 /// Does the same with a stream; `name` is its name in messages.
 Fibres readStrandFile(std::istream& stream, const std::string& name);
 
+/// Whether the first lines have as many numbers as those of a strand file up to its first control point.
+bool beginsAsStrandFile(std::istream& stream);
+
 /// Throws InvalidInput as `validate` does, with the name of the file that the fibres are of.
 void validateFile(const Fibres& fibres, const std::string& name);
 

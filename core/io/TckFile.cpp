@@ -8,6 +8,7 @@
 #include "base/Numbers.h"
 #include "io/BinaryReader.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -41,7 +42,21 @@ std::string readLine(BinaryReader& reader, std::size_t longest)
   return line.substr(0, line.find_last_not_of(" \t") + 1);
 }
 
-/// Reads the lines `key: value` up to END; of duplicate keys the last counts.
+std::string inLowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c); });
+  return text;
+}
+
+std::string trimmedKey(const std::string& key)
+{
+  constexpr char blanks[] = " \t";
+  const std::size_t begin = key.find_first_not_of(blanks);
+  return begin == std::string::npos ? "" : key.substr(begin, key.find_last_not_of(blanks) + 1 - begin);
+}
+
+/// Reads the lines `key: value` up to END; of duplicate keys the last counts. Keys come in lower case.
 std::map<std::string, std::string> readLines(BinaryReader& reader)
 {
   if (reader.size() == 0 || readLine(reader, longestFirstLine) != firstLine)
@@ -60,7 +75,7 @@ std::map<std::string, std::string> readLines(BinaryReader& reader)
     if (colon != std::string::npos)
     {
       const std::size_t begin = line.find_first_not_of(" \t", colon + 1);
-      lines[line.substr(0, colon)] = begin == std::string::npos ? "" : line.substr(begin);
+      lines[inLowerCase(trimmedKey(line.substr(0, colon)))] = begin == std::string::npos ? "" : line.substr(begin);
     }
   }
   reader.fail("its header has no line END");
@@ -88,17 +103,22 @@ std::uint64_t dataBegin(const BinaryReader& reader, const std::map<std::string, 
   return static_cast<std::uint64_t>(offset);
 }
 
-TckHeader readHeader(BinaryReader& reader)
+TckHeader readHeader(BinaryReader& reader, std::vector<std::string>& remarks)
 {
   const auto lines = readLines(reader);
   TckHeader header;
   const auto type = lines.find("datatype");
-  const std::string named = type == lines.end() ? "" : type->second;
-  const bool isBig = named == "Float32BE" || named == "Float64BE";
-  header.isDouble = named == "Float64LE" || named == "Float64BE";
-  if (!isBig && !header.isDouble && named != "Float32LE")
+  if (type == lines.end())
   {
-    reader.fail("its header gives '" + excerpt(named) + "' as datatype: expected Float32LE, Float32BE, Float64LE or Float64BE");
+    remarks.emplace_back("its header has no datatype, which is taken as Float32LE");
+  }
+  const std::string named = type == lines.end() ? "float32le" : inLowerCase(type->second);
+  const bool isBig = named == "float32be" || named == "float64be";
+  header.isDouble = named == "float64le" || named == "float64be";
+  if (!isBig && !header.isDouble && named != "float32le")
+  {
+    reader.fail(
+      "its header gives '" + excerpt(type->second) + "' as datatype: expected Float32LE, Float32BE, Float64LE or Float64BE");
   }
   reader.setSwapped(isBig == isLittleEndian());
   const auto count = lines.find("count");
@@ -180,8 +200,8 @@ void readPoints(BinaryReader& reader, Tractogram& tractogram, const Context& con
 Tractogram readTck(std::istream& stream, const std::string& name, const Context& context)
 {
   BinaryReader reader(stream, name);
-  const TckHeader header = readHeader(reader);
   Tractogram tractogram;
+  const TckHeader header = readHeader(reader, tractogram.remarks);
   // Reserves memory for all triplets as points and as ends: unused memory is never touched, and so costs nothing.
   const std::uint64_t triplets = reader.left() / (3 * (header.isDouble ? sizeof(double) : sizeof(float)));
   requireMemory(double(triplets) * bytesPerPoint, name, "choose streamlines from it first, e.g. with tckedit");

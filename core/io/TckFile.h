@@ -13,8 +13,8 @@ namespace cactus
 {
 
 /// Reads MRtrix's tracks (.tck, "mrtrix tracks"): a header in text, then x y z in single or double precision of either byte
-/// order, three NaNs after each streamline and three infinities at the end. A wrong count in the header gives a remark, since
-/// MRtrix leaves one when it is stopped.
+/// order, three NaNs after each streamline and three infinities at the end. Keys of the header may be in capitals. A wrong
+/// count gives a remark, since MRtrix leaves one when it is stopped, and so does a missing datatype (Float32LE).
 ///
 /// Throws FileError (no such file, truncated, an invalid coordinate, with its streamline), OutOfMemory and Cancelled.
 Tractogram readTck(std::istream& stream, const std::string& name, const Context& context = {});

@@ -4,17 +4,22 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/PosixFile.h"
+#include "io/FileCollection.h"
+#include "io/GzipFile.h"
 #include "io/TckFile.h"
 #include "io/TrkFile.h"
 #include "io/TrxFile.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <string_view>
 
 namespace cactus
 {
@@ -35,13 +40,35 @@ std::string extensionOf(std::string path)
   return extension;
 }
 
+/// How a name says what the file holds.
+struct TractogramName
+{
+  std::string extension;  ///< in lower case, with its dot: .tck, .trk, .trx or another one
+  bool isPacked = false;  ///< .gz follows
+  bool hasOthers = false; ///< dots are left before the extension, between which other programs look for theirs
+
+  explicit TractogramName(const std::string& path)
+    : extension(extensionOf(path))
+  {
+    std::filesystem::path rest = std::filesystem::path(path).stem();
+    if (extension == ".gz")
+    {
+      isPacked = true;
+      extension = extensionOf(rest.string());
+      rest = rest.stem();
+    }
+    hasOthers = rest.has_extension();
+  }
+
+  bool isTractogram() const { return extension == ".tck" || extension == ".trk" || (extension == ".trx" && !isPacked); }
+};
+
 /// Opens the file, or folder, after a check of its name.
 std::ifstream opened(const std::string& path)
 {
-  const std::string extension = extensionOf(path);
-  if (extension != ".tck" && extension != ".trk" && extension != ".trx")
+  if (!TractogramName(path).isTractogram())
   {
-    throw FileError(path + ": a tractogram's name ends in .tck, .trk or .trx");
+    throw FileError(path + ": a tractogram's name ends in .tck, .tck.gz, .trk, .trk.gz or .trx");
   }
   requireNoPipe("tractogram " + path, path);
   std::ifstream file(path, std::ios::binary);
@@ -55,17 +82,52 @@ std::ifstream opened(const std::string& path)
 Tractogram readAny(const std::string& path, const Context& context)
 {
   std::ifstream file = opened(path);
-  const std::string extension = extensionOf(path);
-  if (extension == ".tck")
+  const TractogramName name(path);
+  std::stringstream content;
+  if (name.isPacked)
   {
-    return readTck(file, path, context);
+    unpackGzip(path, content, context);
   }
-  if (extension == ".trk")
+  std::istream& stream = name.isPacked ? static_cast<std::istream&>(content) : file;
+  if (name.extension == ".tck")
   {
-    return readTrk(file, path, context);
+    return readTck(stream, path, context);
+  }
+  if (name.extension == ".trk")
+  {
+    return readTrk(stream, path, context);
   }
   std::error_code error;
   return std::filesystem::is_directory(path, error) ? readTrx(Folder(path), path) : readTrx(ZipArchive(path), path);
+}
+
+/// Whether the header of a .trx is there.
+bool isTrx(const FileCollection& files)
+{
+  constexpr char header[] = "header.json";
+  constexpr std::uint64_t longest = 1 << 20;
+  constexpr std::string_view key = "\"NB_STREAMLINES\"";
+  if (files.size(header) > longest)
+  {
+    return false;
+  }
+  const std::vector<char> bytes = files.read(header);
+  return std::search(bytes.begin(), bytes.end(), key.begin(), key.end()) != bytes.end();
+}
+
+bool hasContentOf(const std::string& extension, const std::string& path)
+{
+  std::error_code error;
+  if (extension != ".trx")
+  {
+    const std::string wanted = extension == ".tck" ? "mrtrix tracks" : "TRACK";
+    return beginningOfFile(path, wanted.size()) == wanted;
+  }
+  if (std::filesystem::is_directory(path, error))
+  {
+    return isTrx(Folder(path));
+  }
+  return beginningOfFile(path, 2) == "PK" && isTrx(ZipArchive(path));
 }
 
 void requireWithinScanner(const Tractogram& tractogram, const std::string& path)
@@ -122,6 +184,25 @@ Tractogram readTractogram(const std::string& path, const Context& context)
 void requireTractogram(const std::string& path)
 {
   opened(path);
+}
+
+bool isTractogram(const std::string& path)
+{
+  const TractogramName name(path);
+  std::error_code error;
+  const bool isFile = std::filesystem::is_regular_file(path, error);
+  if (!name.isTractogram() || (!isFile && !std::filesystem::is_directory(path, error)))
+  {
+    return false;
+  }
+  try
+  {
+    return (isFile && !name.hasOthers) || hasContentOf(name.extension, path);
+  }
+  catch (const FileError&)
+  {
+    return false;
+  }
 }
 
 void writeTractogram(const Fibres& fibres, const Placement& placement, const std::string& path, LengthUnit unit)

@@ -245,12 +245,16 @@ Tractogram readTrk(std::istream& stream, const std::string& name, const Context&
   const auto scalars = header.number<std::int16_t>(scalarsAt);
   const auto properties = header.number<std::int16_t>(propertiesAt);
   const auto count = header.number<std::int32_t>(countAt);
-  if (version < 1 || version > 2 || scalars < 0 || properties < 0 || count < 0)
+  if (version < 1 || version > 3 || scalars < 0 || properties < 0 || count < 0)
   {
     reader.fail(text("its header has version ", version, ", ", scalars, " scalars, ", properties, " properties and ", count,
-      " streamlines: versions 1 and 2 can be read, and no number is below 0"));
+      " streamlines: versions 1 to 3 can be read, and no number is below 0"));
   }
   Tractogram tractogram;
+  if (version == 3)
+  {
+    tractogram.remarks.emplace_back("its header has version 3, which is read as version 2");
+  }
   tractogram.pointValues = valuesOf(header, std::size_t(scalars), scalarNamesAt, "Scalar");
   tractogram.streamlineValues = valuesOf(header, std::size_t(properties), propertyNamesAt, "Property");
   Eigen::Affine3d toScanner;

@@ -5,6 +5,7 @@
 
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -89,6 +90,13 @@ Eigen::Affine3d trkToScanner(TrkSpace space, std::vector<std::string>& remarks)
     remarks.emplace_back("its header has no vox_to_ras, which is taken as the identity");
     space.voxelToRas.setIdentity();
   }
+  std::string letters = space.voxelOrder;
+  letters.erase(std::remove(letters.begin(), letters.end(), ' '), letters.end());
+  if (letters != space.voxelOrder && !letters.empty())
+  {
+    remarks.push_back("its voxel_order '" + excerpt(space.voxelOrder) + "' has blanks, which are left out");
+  }
+  space.voxelOrder = letters;
   if (space.voxelOrder.empty())
   {
     remarks.emplace_back("its header has no voxel_order, which is taken as LPS");

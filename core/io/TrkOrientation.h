@@ -15,7 +15,7 @@ struct TrkSpace
   Eigen::Vector3d dimensions = Eigen::Vector3d::Ones(); ///< of the image, in voxels
   Eigen::Vector3d voxelSizes = Eigen::Vector3d::Ones(); ///< mm
   Eigen::Matrix4d voxelToRas = Eigen::Matrix4d::Zero(); ///< its last number is 0 if it is missing
-  std::string voxelOrder;                               ///< such as LPS; empty if missing
+  std::string voxelOrder;                               ///< such as LPS, with blanks or not; empty if missing
 };
 
 /// Returns the map from a file's millimetres, from the corner of the first voxel along the voxel order's axes, to those of the

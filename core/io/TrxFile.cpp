@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace cactus
@@ -37,7 +38,12 @@ public:
     {
       this->readPart(path);
     }
-    if (!this->HasPositions || !this->HasOffsets)
+    const bool isEmpty = this->Vertices == 0 && this->Streamlines == 0;
+    if (isEmpty)
+    {
+      this->Tracks.remarks.emplace_back("it holds no streamlines");
+    }
+    else if (!this->HasPositions || !this->HasOffsets)
     {
       this->fail("it has no positions.3.float16, 32 or 64, or no offsets.uint32 or 64: it is no whole .trx");
     }
@@ -178,7 +184,13 @@ private:
     {
       return;
     }
-    const std::string folder = path.substr(0, path.find('/') == std::string::npos ? 0 : path.find('/'));
+    std::string inFolders = path;
+    std::replace(inFolders.begin(), inFolders.end(), '\\', '/'); // of some programs for Windows
+    if (inFolders != path && !std::exchange(this->HasBackslashes, true))
+    {
+      this->Tracks.remarks.emplace_back("names in it have backslashes, which are read as slashes");
+    }
+    const std::string folder = inFolders.substr(0, inFolders.find('/') == std::string::npos ? 0 : inFolders.find('/'));
     if (folder == "dpg")
     {
       if (!this->HasGroupValues)
@@ -188,12 +200,13 @@ private:
       this->HasGroupValues = true;
       return;
     }
-    const auto part = trxPart(path);
+    auto part = trxPart(inFolders);
     if (!part)
     {
       this->Tracks.remarks.push_back(excerpt(path) + " is no file of numbers that a .trx has, and is left out");
       return;
     }
+    part->path = path;
     if (folder == "dpv")
     {
       this->requireNew(this->Tracks.pointValues, *part);
@@ -228,6 +241,7 @@ private:
   bool HasPositions = false;
   bool HasOffsets = false;
   bool HasGroupValues = false;
+  bool HasBackslashes = false;
 };
 
 } // namespace

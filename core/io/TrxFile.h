@@ -13,7 +13,8 @@ namespace cactus
 
 /// Reads a .trx tractogram (tee-ar-ex, version 1): `header.json`, `positions.3.float16|32|64`, `offsets.uint32|64` (with or
 /// without the number of points at its end), `dpv/`, `dps/` and `groups/`. Positions are in the scanner's mm. Values of groups
-/// (`dpg/`) are left out, with a remark.
+/// (`dpg/`) are left out, with a remark. Backslashes in names count as slashes, and a header of 0 streamlines and 0 points is
+/// enough, each with a remark.
 ///
 /// Throws FileError, which begins with `name` or names the file in it, if something is missing, has a length that differs from
 /// the header, or has impossible values; and OutOfMemory.

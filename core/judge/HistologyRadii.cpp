@@ -86,9 +86,9 @@ private:
       const std::size_t pixel = open.back();
       open.pop_back();
       this->forNeighbours(pixel,
-        [&](std::size_t next, double)
+        [&](std::size_t next, double step)
         {
-          if (this->Mask.pixels[next] == Tissue::Axon && this->Result.labels[next] == 0)
+          if (step == 1.0 && this->Mask.pixels[next] == Tissue::Axon && this->Result.labels[next] == 0)
           {
             this->Result.labels[next] = label;
             open.push_back(next);

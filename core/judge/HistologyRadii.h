@@ -31,7 +31,7 @@ struct MaskAxons
   double looseMyelin = 0.0;         ///< µm², of myelin without an axon
 };
 
-/// Finds the axons: connected pixels (by sides or corners), in the order of their first pixels. Myelin belongs to the axon to
+/// Finds the axons: pixels connected by sides, in the order of their first pixels. Myelin belongs to the axon to
 /// which its path through myelin is shortest, over sides (1) and corners (√2); ties are broken consistently. Throws InvalidInput
 /// for a mask without axons, OutOfMemory and Cancelled.
 MaskAxons measureMask(const HistologyMask& mask, const Context& context = {});

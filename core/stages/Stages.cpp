@@ -279,7 +279,15 @@ const PropertyList<HistologyRadiiStage>& HistologyRadiiStage::properties()
       .add("SmallestRadius", &Stage::smallestRadius, leastRadius,
         "Smallest radius in µm. Smaller axons, such as specks of a few pixels, are left out.")
       .add("LeaveOutBorder", &Stage::leaveOutBorder,
-        "Leave out fibres that touch the border of the image, because they are cut off there.");
+        "Leave out fibres that touch the border of the image, because they are cut off there.")
+      .add("AxonColour", &Stage::axonColour, { maskColourNames.begin(), maskColourNames.end() },
+        "Colour of axons in the mask. White is 191 to 255. Of a mask in colours, such as one drawn over its image, choose the "
+        "name "
+        "closest to theirs; transparent pixels are background.")
+      .add("MyelinColour", &Stage::myelinColour, { maskColourNames.begin(), maskColourNames.end() },
+        "Colour of myelin in the mask; another one than AxonColour. Grey is 64 to below 191. With White and Grey, a mask that "
+        "has "
+        "other colours is refused.");
   return list;
 }
 

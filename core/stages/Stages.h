@@ -12,6 +12,7 @@
 #include "io/SubstrateContents.h"
 #include "judge/HistologyMask.h"
 #include "judge/Lesion.h"
+#include "judge/MaskColours.h"
 #include "judge/SubstrateCertificate.h"
 #include "judge/SubstrateSampler.h"
 #include "judge/SubstrateStatistics.h"
@@ -166,6 +167,8 @@ struct HistologyRadiiStage
   double pixelSize = 0.1;      ///< µm
   double smallestRadius = 0.0; ///< µm, of the smallest axons that count
   bool leaveOutBorder = true;  ///< leave out fibres that are cut off there
+  MaskColour axonColour = MaskColour::White;
+  MaskColour myelinColour = MaskColour::Grey;
 
   static const PropertyList<HistologyRadiiStage>& properties();
 };

@@ -124,17 +124,46 @@ class Histology(CactusTestCase):
         self.assertEqual(fetch(proxy).GetNumberOfRows(), 2)
 
     def test_axons_are_those_of_scipy(self):
-        """In a mask at random, by sides and corners; all myelin goes to somebody or is loose."""
+        """In a mask at random: axons by sides, myelin by sides and corners, all of which goes to somebody or is loose."""
         random = numpy.random.default_rng(5)
         mask = random.choice(numpy.array([0, 127, 255], "u1"), (120, 90), p=[0.55, 0.25, 0.2])
         table = fetch(HistologyRadii(Input=image_of(mask), PixelSize=1, LeaveOutBorder=0))
-        labels, count = ndimage.label(mask == 255, structure=numpy.ones((3, 3)))
+        labels, count = ndimage.label(mask == 255)
         self.assertEqual(table.GetNumberOfRows(), count)
         numpy.testing.assert_allclose(column(table, "AxonArea_um2"), ndimage.sum_labels(mask == 255, labels, range(1, count + 1)))
         hangs, _ = ndimage.label(mask > 0, structure=numpy.ones((3, 3)))
         loose = (mask == 127) & ~numpy.isin(hangs, hangs[mask == 255])
         self.assertAlmostEqual(table.GetFieldData().GetArray("LooseMyelin_um2").GetValue(0), loose.sum())
         self.assertAlmostEqual(column(table, "MyelinArea_um2").sum(), (mask == 127).sum() - loose.sum())
+
+    def test_a_mask_in_colours(self):
+        """As drawn over its image, by Pillow: blue axons and red myelin, with a grey image and a transparent part beside them."""
+        mask = rings((60, 80), {(20, 30): (8, 12), (55, 30): (10, 15)})
+        grey = fetch(HistologyRadii(Input=image_of(mask), PixelSize=0.1))
+        picture = numpy.full((60, 80, 4), 150, "u1")
+        picture[..., 3] = 255
+        picture[mask == 127] = 230, 20, 30, 255
+        picture[mask == 255] = 10, 30, 200, 255
+        picture[:4] = 10, 30, 200, 0
+        Image.fromarray(picture[::-1]).save(self.path("overlay.png"))
+        proxy = HistologyRadii(Input=OpenDataFile(self.path("overlay.png")), PixelSize=0.1, AxonColour="Blue", MyelinColour="Red")
+        for name in ("X_um", "AxonRadius_um", "FibreRadius_um"):
+            numpy.testing.assert_array_equal(column(fetch(proxy), name), column(grey, name))
+        proxy.AxonColour, proxy.MyelinColour = "White", "Grey"
+        with self.assertError(r"not grey: Red \(\d+ of 4800 pixels\), Blue \(\d+ of 4800 pixels\)\. Choose AxonColour"):
+            proxy.UpdatePipeline()
+        # Pixels that count the colours of a palette.
+        palette = Image.fromarray(numpy.where(picture[..., 3:] > 0, picture[..., :3], 0)[::-1]).convert("P", palette=Image.ADAPTIVE)
+        palette.save(self.path("palette.png"))
+        again = fetch(HistologyRadii(Input=OpenDataFile(self.path("palette.png")), PixelSize=0.1, AxonColour="Blue", MyelinColour="Red"))
+        numpy.testing.assert_array_equal(column(again, "FibreRadius_um"), column(grey, "FibreRadius_um"))
+        # The same in grey, in three channels and with a background that nobody sees.
+        picture = numpy.repeat(mask[..., None], 4, axis=2)
+        picture[..., 3] = 255
+        picture[:4] = 255, 255, 255, 0
+        Image.fromarray(picture[::-1]).save(self.path("grey.png"))
+        again = fetch(HistologyRadii(Input=OpenDataFile(self.path("grey.png")), PixelSize=0.1))
+        numpy.testing.assert_array_equal(column(again, "FibreRadius_um"), column(grey, "FibreRadius_um"))
 
     def test_touching_fibres_share_their_myelin_where_it_is_nearer(self):
         mask = numpy.full((41, 101), 127, "u1")
@@ -166,8 +195,12 @@ class Histology(CactusTestCase):
             file.write('x0 (px);"axon_diam (um)";myelin\r\n1;1.0;a;b\r\n\r\n2; 1.4 ;"c;d"\r\n')
         drawn = fetch(BundleInitializer(Border="Walls", RadiusTableColumn="axon_diam (um)", RadiusTableFactor=0.5, GrownFibreVolumeFraction=0, **bundle))
         self.assertLessEqual(set(vtk_to_numpy(drawn.GetCellData().GetArray("TargetRadius"))), {0.5, 0.7})
+        with open(self.path("axons.csv"), "w", encoding="utf-8-sig") as file:
+            file.write("x0 (px);axon_diam (µm);myelin\n1;1,0;a\n2;1,4;b\n")
+        again = fetch(BundleInitializer(Border="Walls", RadiusTableColumn="axon_diam (um)", RadiusTableFactor=0.5, GrownFibreVolumeFraction=0, **bundle))
+        self.assertEqual(set(vtk_to_numpy(again.GetCellData().GetArray("TargetRadius"))), set(vtk_to_numpy(drawn.GetCellData().GetArray("TargetRadius"))))
         with open(self.path("axons.csv"), "a", encoding="utf-8") as file:
-            file.write("3;nan;e\n")
+            file.write("\n3;nan;e\n")
         with self.assertError(r"line 5, has no number in column"):
             BundleInitializer(Border="Walls", RadiusTableColumn="axon_diam (um)", **bundle).UpdatePipeline()
 

@@ -120,6 +120,25 @@ class Tractograms(CactusTestCase):
             reader.UpdatePipeline()
         self.assertSameStreamlines(fetch(reader), wanted, 1e-4)
 
+    def test_what_nibabel_takes_is_read_with_a_warning(self):
+        """Version 3 of .trk, which nibabel reads as version 2."""
+        path = self.trk("some.trk", "LPS")
+        wanted = nibabel.streamlines.load(path).streamlines
+        for name, pattern, fields in (("third.trk", "version 3, which is read as version 2", {"version": 3}),
+                                      ("blank.trk", "voxel_order 'LPS ' has blanks", {"voxel_order": b"LPS "})):
+            reader = TractogramReader(FileName=self.changed(path, name, **fields), LengthUnit="Millimetre")
+            with self.assertError(pattern):
+                reader.UpdatePipeline()
+            self.assertSameStreamlines(fetch(reader), wanted, 1e-4)
+
+    def test_a_trx_of_nothing_is_read_with_a_warning(self):
+        with zipfile.ZipFile(self.path("none.trx"), "w") as archive:
+            archive.writestr("header.json", '{"NB_VERTICES": 0, "NB_STREAMLINES": 0}')
+        reader = TractogramReader(FileName=self.path("none.trx"))
+        with self.assertError("it holds no streamlines"):
+            reader.UpdatePipeline()
+        self.assertEqual(fetch(reader).GetNumberOfPoints(), 0)
+
     def test_short_streamlines_are_left_out_and_counted(self):
         streamlines = some_streamlines()[:1] + [numpy.ones((1, 3), "f4")] + some_streamlines()[1:]
         TckFile(Tractogram(streamlines, affine_to_rasmm=numpy.eye(4))).save(self.path("short.tck"))

@@ -158,6 +158,40 @@ TEST(RadiusDistribution, AColumnOfAnotherWidthIsNamed)
   }
 }
 
+TEST(RadiusDistribution, ColumnsOfOtherProgramsAreRead)
+{
+  const auto read = [](const std::string& text, const std::string& column)
+  {
+    std::istringstream stream(text);
+    return readRadiusColumn(stream, "a.csv", column);
+  };
+  const std::vector<double> wanted{ 1.25, 0.5 };
+  EXPECT_EQ(read("x;r\n1,5;1,25\n2,5;0,5\n", "r"), wanted);
+  EXPECT_EQ(read("x\tr\n1,5\t1,25\n2,5\t0.5\n", "r"), wanted);
+  EXPECT_EQ(read("x,r\n1,\"1,25\"\n2,\"0,5\"\n", "r"), wanted);
+  for (const std::string micro : { "u", "\xc2\xb5", "\xce\xbc", "\xb5" })
+  {
+    const std::string file = "x0 (px),axon_diam (" + micro + "m)\n1,1.25\n2,0.5\n";
+    for (const std::string asked : { "axon_diam (um)", "axon_diam (\xc2\xb5m)" })
+    {
+      EXPECT_EQ(read(file, asked), wanted) << file << asked;
+    }
+  }
+  for (const std::string cell : { "", "nan", "1,2,5", "1.000,5", "x" })
+  {
+    try
+    {
+      read("x;r\n1;2\n1;" + cell + "\n", "r");
+      ADD_FAILURE() << cell;
+    }
+    catch (const FileError& error)
+    {
+      const std::string wanted = "line 3, has no number in column \"r\", but \"" + cell + "\"";
+      EXPECT_NE(std::string(error.what()).find(wanted), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(RadiusDistribution, BadParametersAreNamed)
 {
   const auto message = [](const std::function<void(RadiusDistributionOptions&)>& change)

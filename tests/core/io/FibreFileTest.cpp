@@ -185,3 +185,31 @@ TEST(FibreFile, ItsFirstCharactersTellTheFormat)
   std::filesystem::remove(path);
   EXPECT_THROW(cactus::readFibreFile(path), cactus::FileError);
 }
+
+TEST(FibreFile, IsKnownByItsContent)
+{
+  const auto isOne = [](const std::string& name, const std::string& content)
+  {
+    const std::string path = cactus_testing::scratchPath(name);
+    std::ofstream(path) << content;
+    const bool found = cactus::isFibreFile(path);
+    std::filesystem::remove(path);
+    return found;
+  };
+  const std::string strands = "30 20 10\n\n1\n2\n0 0 -5 1\n0 0 5 1\n";
+  for (const char* name : { "a.init", "b.partial", "run.7.strands", "none.txt" })
+  {
+    EXPECT_TRUE(isOne(name, strands)) << name;
+    EXPECT_TRUE(isOne(name, newTable)) << name;
+    EXPECT_TRUE(isOne(name, ellipsoids)) << name;
+  }
+  EXPECT_TRUE(isOne("damaged.strands", "hello")) << "the reader says what is wrong with it";
+  for (const char* other : { "<?xml version=\"1.0\"?>\n<VTKFile", "solid slab\n", "# vtk DataFile Version 3.0\n",
+         "{ \"nodes\": [] }", "3\n\nO 0 0 0\n", "1\n2\n3\n4\n", "x,y,z\n1,2,3\n", "", "\x89PNG" })
+  {
+    EXPECT_FALSE(isOne("flow.init.vtu", other)) << other;
+    EXPECT_FALSE(isOne("flow.init", other)) << other;
+    EXPECT_FALSE(isOne("flow.vtu.strands", other)) << other;
+  }
+  EXPECT_FALSE(cactus::isFibreFile(cactus_testing::scratchPath("nowhere.strands")));
+}

@@ -12,7 +12,9 @@
 #include "io/TrxFile.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -41,6 +43,14 @@ std::string bytes(const std::vector<Number>& numbers, bool swapped = false)
     cactus::swapBytes(copy.data(), copy.size());
   }
   return { reinterpret_cast<const char*>(copy.data()), copy.size() * sizeof(Number) };
+}
+
+void writeGzip(const std::string& path, const std::string& text)
+{
+  gzFile file = gzopen(path.c_str(), "wb");
+  ASSERT_NE(file, nullptr);
+  EXPECT_EQ(gzwrite(file, text.data(), unsigned(text.size())), int(text.size()));
+  EXPECT_EQ(gzclose(file), Z_OK);
 }
 
 Tractogram tck(const std::string& text)
@@ -100,6 +110,23 @@ TEST(Tck, AWrongCountIsRemarked)
   ASSERT_EQ(tracks.remarks.size(), 1u);
   EXPECT_NE(tracks.remarks[0].find("5 streamlines, and there are 2"), std::string::npos) << tracks.remarks[0];
   EXPECT_TRUE(tck(tckText("Float32LE", "count: 0000000000\n")).remarks.empty()) << "0 is what a run that was stopped leaves";
+}
+
+TEST(Tck, CapitalsAndAMissingTypeAreRead)
+{
+  const std::string whole = tckText("Float32LE", "count: 5\n");
+  const auto with = [&](const std::string& old, const std::string& fresh)
+  {
+    std::string text = whole;
+    return text.replace(text.find(old), old.size(), fresh);
+  };
+  const Doubles wanted = tck(whole).points;
+  EXPECT_EQ(tck(with("datatype: Float32LE", "DataType :FLOAT32le")).points, wanted);
+  EXPECT_EQ(tck(with("count", "Count")).remarks, tck(whole).remarks) << "the count is read, too";
+  const Tractogram without = tck(with("datatype", "kindofit"));
+  EXPECT_EQ(without.points, wanted);
+  ASSERT_EQ(without.remarks.size(), 2u);
+  EXPECT_EQ(without.remarks[0], "its header has no datatype, which is taken as Float32LE");
 }
 
 TEST(Tck, CutOffAnywhereIsAnError)
@@ -230,6 +257,19 @@ TEST(Trk, VersionOneHasTheIdentityAndLps)
   EXPECT_EQ(tracks.remarks.size(), 2u);
 }
 
+TEST(Trk, VersionThreeAndBlanksAreReadWithARemark)
+{
+  const auto file = [] { return TrkText().streamline(1, { 1, 1.5, 2 }); };
+  const Doubles wanted = file().read().points;
+  const Tractogram third = file().put<std::int32_t>(992, { 3 }).read();
+  EXPECT_EQ(third.points, wanted);
+  EXPECT_EQ(third.remarks, (std::vector<std::string>{ "its header has version 3, which is read as version 2" }));
+  const Tractogram blank = file().put(948, "RAS ").read();
+  EXPECT_EQ(blank.points, wanted);
+  EXPECT_EQ(blank.remarks, (std::vector<std::string>{ "its voxel_order 'RAS ' has blanks, which are left out" }));
+  EXPECT_EQ(file().put(948, "    ").read().points, file().put(948, "LPS").read().points) << "as if it were missing";
+}
+
 TEST(Trk, CutOffAnywhereIsAnError)
 {
   TrkText file;
@@ -247,7 +287,7 @@ TEST(Trk, BadHeadersAndNumbersAreErrors)
   EXPECT_NO_THROW(good().read());
   EXPECT_THROW(good().put(0, "TRUCK").read(), FileError);
   EXPECT_THROW(good().put<std::int32_t>(996, { 999 }).read(), FileError);
-  EXPECT_THROW(good().put<std::int32_t>(992, { 3 }).read(), FileError) << "a version that is not known";
+  EXPECT_THROW(good().put<std::int32_t>(992, { 4 }).read(), FileError) << "a version that is not known";
   EXPECT_THROW(good().put<std::int16_t>(36, { -1 }).read(), FileError);
   EXPECT_THROW(good().put<float>(12, { 0 }).read(), FileError) << "a voxel without a size";
   EXPECT_THROW(good().put<float>(440, { 0 }).read(), FileError) << "a vox_to_ras without an inverse";
@@ -320,6 +360,35 @@ TEST(Trx, OtherTypesOfPositionsAndOffsets)
   EXPECT_EQ(tracks.offsets, (Offsets{ 0, 2, 3, 5 }));
 }
 
+TEST(Trx, BackslashesInNamesAreSlashes)
+{
+  Files files = trxFiles();
+  for (auto& [name, text] : files)
+  {
+    std::replace(name.begin(), name.end(), '/', '\\');
+  }
+  const Tractogram tracks = trx(files);
+  ASSERT_EQ(tracks.streamlineValues.size(), 1u);
+  EXPECT_EQ(tracks.streamlineValues[0].name, "colour");
+  EXPECT_EQ(tracks.pointValues.size(), 1u);
+  EXPECT_EQ(tracks.groups.size(), 1u);
+  EXPECT_EQ(tracks.remarks, (std::vector<std::string>{ "names in it have backslashes, which are read as slashes" }));
+}
+
+TEST(Trx, AHeaderWithoutStreamlinesIsEnough)
+{
+  const std::string none = R"({"NB_VERTICES": 0, "NB_STREAMLINES": 0})";
+  for (const Files& files :
+    { Files{ { "header.json", none } }, Files{ { "header.json", none }, { "positions.3.float32", "" }, { "offsets.uint64", "" } },
+      Files{ { "header.json", none }, { "offsets.uint64", bytes(std::vector<std::uint64_t>{ 0 }) } } })
+  {
+    const Tractogram tracks = trx(files);
+    EXPECT_EQ(tracks.offsets, (Offsets{ 0 }));
+    EXPECT_EQ(tracks.remarks, (std::vector<std::string>{ "it holds no streamlines" }));
+  }
+  EXPECT_THROW(trx({ { "header.json", R"({"NB_VERTICES": 3, "NB_STREAMLINES": 0})" } }), FileError);
+}
+
 TEST(Trx, WhatDoesNotFitIsAnError)
 {
   const auto with = [](std::size_t place, const std::string& name, const std::string& text)
@@ -359,6 +428,52 @@ TEST(Tractogram, OtherNamesAreErrors)
   fibres.addPoint({ 0, 0, -1 }, 1.0);
   fibres.addPoint({ 0, 0, 1 }, 1.0);
   EXPECT_THROW(cactus::writeTractogram(fibres, {}, cactus_testing::scratchPath("fibres.trk")), cactus::InvalidInput);
+}
+
+TEST(Tractogram, PackedByGzipIsRead)
+{
+  const std::string plain = tckText("Float32LE");
+  for (const std::string name : { "packed.tck.gz", "Packed.TCK.GZ" })
+  {
+    const std::string path = cactus_testing::scratchPath(name);
+    writeGzip(path, plain);
+    EXPECT_EQ(cactus::readTractogram(path).points, tck(plain).points);
+    EXPECT_TRUE(cactus::isTractogram(path));
+    const auto size = std::filesystem::file_size(path);
+    std::filesystem::resize_file(path, size - 9);
+    EXPECT_THROW(cactus::readTractogram(path), FileError) << "cut off";
+    std::filesystem::remove(path);
+  }
+  EXPECT_THROW(cactus::readTractogram(cactus_testing::scratchPath("nowhere.tck.gz")), FileError);
+  EXPECT_THROW(cactus::readTractogram(cactus_testing::scratchPath("some.trx.gz")), FileError);
+}
+
+TEST(Tractogram, IsKnownByItsContent)
+{
+  const auto isOne = [](const std::string& name, const std::string& content)
+  {
+    const std::string path = cactus_testing::scratchPath(name);
+    std::ofstream(path, std::ios::binary) << content;
+    const bool found = cactus::isTractogram(path);
+    std::filesystem::remove(path);
+    return found;
+  };
+  EXPECT_TRUE(isOne("a.tck", tckText("Float32LE")));
+  EXPECT_TRUE(isOne("run.1.tck", tckText("Float32LE")));
+  EXPECT_TRUE(isOne("run.1.trk", TrkText().text()));
+  EXPECT_TRUE(isOne("run.1.trx", cactus::zipText(trxFiles())));
+  EXPECT_TRUE(isOne("damaged.tck", "hello")) << "the reader says what is wrong with it";
+  EXPECT_FALSE(isOne("x.vtp.trk", "<VTKFile")) << "another format may be meant";
+  EXPECT_FALSE(isOne("x.trk.vtp", "<VTKFile"));
+  EXPECT_FALSE(isOne("x.vtk.trx", cactus::zipText({ { "header.json", "{}" } })));
+  EXPECT_FALSE(isOne("x.vtk.trx", "PK and nothing else"));
+  EXPECT_FALSE(cactus::isTractogram(cactus_testing::scratchPath("nowhere.tck")));
+  const std::string folder = cactus_testing::scratchPath("known.trx");
+  std::filesystem::create_directories(folder);
+  EXPECT_FALSE(cactus::isTractogram(folder));
+  std::ofstream(folder + "/header.json") << trxFiles()[0].second;
+  EXPECT_TRUE(cactus::isTractogram(folder));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Tractogram, OfAWholeHeadIsWritten)

@@ -23,6 +23,7 @@ class CactusGrow(CMakePackage):
     depends_on("libzip")
     depends_on("llvm-openmp")
     depends_on("xxhash@0.8:")
+    depends_on("zlib-api")
 
     def cmake_args(self):
         return ["-DCACTUS_BUILD_PLUGIN=OFF", "-DCACTUS_BUILD_TESTS=OFF", f"-DRANDOM123_INCLUDE_DIR={self.spec['random123'].prefix.include}"]
