@@ -27,7 +27,7 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "fibres. LogLinear: myelin of 0.35 + 0.006 D + 0.024 ln D µm for an axon of diameter D (Lee 2019), with g-ratios limited "
         "to 0.3 to 0.95. Distributed: a g-ratio for each fibre from a normal distribution, truncated at 0.3 and 0.95. "
         "TargetAxonVolumeFraction: one g-ratio for all fibres, chosen so that the axons fill the fraction asked for. A fibre "
-        "that has a g-ratio of its own (cell data TargetGRatio of the fibres) gets that one.")
+        "that has a g-ratio of its own (cell data TargetGRatio of the fibres) gets that one; 1 is an axon without myelin.")
       .add("GRatio", &Options::gRatio, limits::gRatio,
         "g-ratio of all fibres (GRatioModel Constant), or its mean (Distributed, from 0.3 to 0.95). It has no effect in the "
         "other models.")
