@@ -31,7 +31,7 @@ void requireRoomAround(const TriangleMesh& inner, int fibreId, const FibreSurfac
   if (meets)
   {
     throw InvalidInput(text("PeriodicFaces Open: extended to the domain's faces, the inner surface of fibre ", fibreId,
-      " meets its outer one or itself: choose a smaller VoxelSize, or PeriodicFaces Caps"));
+      " meets its outer one or itself: choose PeriodicFaces Caps, or another Seed of BundleInitializer"));
   }
 }
 
