@@ -51,10 +51,11 @@ double McdcOptions::displacement() const
   return 1e6 * std::sqrt(2.0 * diffusivity * echoTime);
 }
 
-McdcSimulation intraSimulation(const McdcOptions& options, const Domain& domain, double smallestRadius)
+McdcSimulation intraSimulation(const McdcOptions& options, const Domain& domain, bool goOn, double smallestRadius)
 {
   const Eigen::Vector3d margin = (0.25 * domain.size()).cwiseMin(options.displacement());
-  return { "intra", std::clamp(smallestRadius, extraStep, longestIntraStep), startBox(domain, margin) };
+  return { "intra", std::clamp(smallestRadius, extraStep, longestIntraStep),
+    startBox(domain, goOn ? alongWalls(domain, margin) : margin) };
 }
 
 McdcSimulation extraSimulation(const McdcOptions& options, const Domain& domain)

@@ -39,8 +39,8 @@ struct McdcSimulation
 
 /// Walkers inside axons: each step is as long as the smallest radius (µm) at most, but no shorter than those outside, and 0.3 µm
 /// at most. The box to start in is off the domain's faces by the free displacement or, if that is less, by a quarter of the side:
-/// axons end there in caps, which reflect.
-McdcSimulation intraSimulation(const McdcOptions& options, const Domain& domain, double smallestRadius);
+/// axons end there in caps, which reflect. Where axons go on through periodic faces (`goOn`), walkers start up to these.
+McdcSimulation intraSimulation(const McdcOptions& options, const Domain& domain, bool goOn, double smallestRadius);
 
 /// Walkers outside fibres: each step is 0.05 µm at most. The box to start in is off the domain's faces by four times the free
 /// displacement or, if that is less, by three eighths of the side: walkers that come to a face leave the substrate.

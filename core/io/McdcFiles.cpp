@@ -112,7 +112,7 @@ void noteLeaving(
 std::vector<McdcSimulation> mcdcSimulations(const SubstrateFolderContents& contents, const std::vector<SubstrateFile>& files)
 {
   std::vector<McdcSimulation> simulations{ intraSimulation(
-    contents.mcdc, contents.domain, smallestRadius(files, innermost(contents))) };
+    contents.mcdc, contents.domain, contents.periodicFaces == PeriodicFaces::Open, smallestRadius(files, innermost(contents))) };
   if (contents.outer.size() > 0)
   {
     simulations.push_back(extraSimulation(contents.mcdc, contents.domain));
@@ -140,7 +140,7 @@ void writeMcdc(const SubstrateFolderContents& contents, const std::vector<McdcSi
       if (file.surface == (isExtra ? "outer" : innermost(contents)))
       {
         paths.push_back(file.path);
-        areClosed = areClosed && file.closed;
+        areClosed = areClosed && (file.closed || contents.periodicFaces == PeriodicFaces::Open);
       }
     }
     const std::string start = "mcdc/" + simulation.compartment;

@@ -37,6 +37,16 @@ enum class SubstrateFormat
 constexpr const char* formatNames[] = { "MC/DC", "Reference program", "Camino", "Disimpy", "RMS", "Surfaces alone", "SpinDoctor",
   "Surfaces by bundle", "MCMRSimulator" };
 
+/// How surfaces end in the faces across which a domain repeats.
+enum class PeriodicFaces
+{
+  Caps = 0, ///< each piece of a fibre is closed
+  Open = 1  ///< without caps, so that copies join to endless surfaces (see openAtPeriodicFaces())
+};
+
+/// Their names, by their numbers.
+constexpr const char* periodicFacesNames[] = { "Caps", "Open" };
+
 /// A sample of a substrate's fibres of which surfaces were made.
 struct SubstrateSample
 {
@@ -56,6 +66,7 @@ struct SubstrateFolderContents
                                          ///< the placement
   Provenance provenance;                 ///< of the surfaces and their output
   bool allowOpenSurfaces = false;        ///< write surfaces that leak, too
+  PeriodicFaces periodicFaces = PeriodicFaces::Caps;
   SubstrateCertificateOptions certificate;
   SubstrateFormat format = SubstrateFormat::Mcdc;
   PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files that no simulator reads, see mayBeBinary()
@@ -72,11 +83,13 @@ inline bool hasStrandFile(const SubstrateFolderContents& contents)
 }
 
 /// Points in each compartment that walkers are to start from. In MC/DC, a walker that it has placed inside meets the walls of its
-/// own axon alone; those who can get out of it have to start from a file.
+/// own axon alone; those who can get out of it have to start from a file. So have walkers among open surfaces, which do not tell
+/// it what is inside.
 inline int startPointCount(const SubstrateFolderContents& contents)
 {
   const bool isPermeable = contents.format == SubstrateFormat::Mcdc && contents.mcdc.permeability > 0.0;
-  return contents.startPositions == 0 && isPermeable ? contents.mcdc.walkers : contents.startPositions;
+  const bool isOpen = contents.format == SubstrateFormat::Mcdc && contents.periodicFaces == PeriodicFaces::Open;
+  return contents.startPositions == 0 && (isPermeable || isOpen) ? contents.mcdc.walkers : contents.startPositions;
 }
 
 /// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
@@ -94,9 +107,9 @@ struct SubstrateFile
   int fibreId = 0;
   int bundleId = 0;
   std::size_t triangles = 0;
-  double volume = 0.0; ///< µm³
+  double volume = 0.0; ///< µm³, with caps
   double area = 0.0;   ///< µm²
-  bool closed = false; ///< a closed 2-manifold that points outward
+  bool closed = false; ///< a closed 2-manifold that points outward; not one that is opened at periodic faces
 };
 
 /// The part of the walkers outside the fibres that leaves the substrate within a simulation.

@@ -14,6 +14,7 @@
 #include "io/McdcFiles.h"
 #include "io/McmrGeometry.h"
 #include "io/NumberedName.h"
+#include "io/OpenSurfaces.h"
 #include "io/PlyFile.h"
 #include "io/RmsFiles.h"
 #include "io/StartFiles.h"
@@ -270,12 +271,20 @@ void writeByBundle(const FibreSurfaces& surfaces, const std::vector<SubstrateFil
 std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents, const std::string& kind,
   const SubstrateCertificate& certificate, FolderWriter& writer, const SharedRun& run, double from, double to)
 {
-  const FibreSurfaces& surfaces = kind == "outer" ? contents.outer : contents.inner;
-  if (surfaces.size() == 0)
+  const FibreSurfaces& closed = kind == "outer" ? contents.outer : contents.inner;
+  if (closed.size() == 0)
   {
     return {};
   }
   auto files = surfaceFiles(contents, kind, certificate);
+  const bool isOpen = contents.periodicFaces == PeriodicFaces::Open;
+  if (isOpen)
+  {
+    const double half = 0.5 * (from + to);
+    describeOpened(contents, kind, files, run.context, run.sharing, from, half);
+    from = half;
+  }
+  const FibreSurfaces surfaces = isOpen ? openedSurfaces(closed, kind, contents.domain) : closed;
   if (isCombined(contents.format))
   {
     run.context.report(from, "Writing surfaces");
@@ -321,6 +330,8 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
       "Format Reference program has both surfaces of each fibre and their centre lines: connect Inner and Fibres");
   }
   requireEncoding(contents.format, contents.encoding);
+  requireOpenable(contents.periodicFaces, contents.format, contents.allowOpenSurfaces);
+  requirePeriodic(contents.periodicFaces, contents.domain);
   requireRoom(contents.format, contents.domain, contents.voxelSize);
   if (contents.format == SubstrateFormat::SpinDoctor && contents.outer.size() == 0)
   {

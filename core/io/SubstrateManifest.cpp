@@ -134,6 +134,7 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   if (contents.domain.isPeriodic())
   {
     manifest["periodic"] = contents.domain.periodic;
+    manifest["periodic_faces"] = periodicFacesNames[std::size_t(contents.periodicFaces)];
   }
   manifest["placement_um_to_mm"] = placementRows(contents.placement);
   manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();

@@ -175,8 +175,10 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
     (hasInner ? "" : " without inner surfaces") + (hasOuter ? "" : " without outer surfaces") +
     ", written by CACTUS " CACTUS_VERSION ".\n\n";
   const std::string scope = certificate.scope();
-  text += certificate.certified() ? "CERTIFIED" + (scope.empty() ? "" : " " + scope) +
-                                      ": every surface is closed, no two meet, and no walker can leak (certificate.csv).\n\n"
+  const std::string closed =
+    contents.periodicFaces == PeriodicFaces::Open ? "closed but for the domain's periodic faces" : "closed";
+  text += certificate.certified() ? "CERTIFIED" + (scope.empty() ? "" : " " + scope) + ": every surface is " + closed +
+                                      ", no two meet, and no walker can leak (certificate.csv).\n\n"
                                   : "NOT CERTIFIED (certificate.csv):\n\n";
   for (const std::string& fault : certificate.faults)
   {
@@ -195,8 +197,14 @@ std::string headText(const SubstrateFolderContents& contents, const SubstrateCer
     text +=
       std::string("It repeats along x") + (contents.domain.periodic[2] ? ", y and z" : " and y") +
       " after the sides of its domain (manifest.json): copies side by side are one tissue, in which surfaces fit together at\n"
-      "the faces, point by point. Each piece of a fibre is closed by a cap there. So walkers outside the fibres see endless\n"
-      "tissue in a simulator that repeats the domain, and those inside a fibre stay in its piece.\n\n";
+      "the faces, point by point. " +
+      (contents.periodicFaces == PeriodicFaces::Open
+          ? "Surfaces are open there: their copies join to endless ones, so that walkers outside and inside\n"
+            "the fibres see endless tissue in a simulator that repeats the domain. Without repeats walkers leak, and inside and\n"
+            "outside cannot be told by counting walls along a line. What was checked are the same surfaces with a cap on each\n"
+            "piece (PeriodicFaces Caps). Volumes in manifest.json are with caps, triangles and areas without.\n\n"
+          : "Each piece of a fibre is closed by a cap there. So walkers outside the fibres see endless\n"
+            "tissue in a simulator that repeats the domain, and those inside a fibre stay in its piece.\n\n");
   }
   if (contents.sample)
   {
@@ -291,9 +299,14 @@ std::string mcdcText(const SubstrateFolderContents& contents, const WrittenSubst
             "larger substrate keeps them in.\n\n";
   }
   text +=
-    "Axons end in closed caps at the boundary, which reflect. So nobody leaves them, but along an axon walkers go no farther "
-    "than\n"
-    "its ends: in times in which they get there, diffusion along it comes out slower than in an axon that goes on.\n\n"
+    contents.periodicFaces == PeriodicFaces::Open && contents.domain.periodic[2]
+      ? "Axons go on through the faces. Keep ini_walkers_file: for ini_walkers_pos MC/DC counts walls along a line, and takes "
+        "the\n"
+        "inside of open surfaces for the outside.\n\n"
+      : "Axons end in closed caps at the boundary, which reflect. So nobody leaves them, but along an axon walkers go no farther "
+        "than\n"
+        "its ends: in times in which they get there, diffusion along it comes out slower than in an axon that goes on.\n\n";
+  text +=
     "What to edit: N (walkers) and num_process first, and pgse.scheme. After a change of duration or diffusivity, change T, too: "
     "a\n"
     "step, the root of 6 diffusivity duration / T, stays below 0.05 micrometres outside, and below the smallest radius (at most\n"

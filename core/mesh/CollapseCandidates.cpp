@@ -48,6 +48,13 @@ bool flattensWall(const EditableSurface& surface, std::int32_t rim, std::int32_t
     });
 }
 
+/// Tells whether an edge is part of a rim: a cap on one side, and the wall on the other.
+bool isAlongRim(const EditableSurface& surface, std::int32_t u, std::int32_t v)
+{
+  return surface.isCap(surface.cornersOf(surface.triangleAlong(u, v))) !=
+         surface.isCap(surface.cornersOf(surface.triangleAlong(v, u)));
+}
+
 } // namespace
 
 CollapseCandidates collapseCandidates(
@@ -63,10 +70,12 @@ CollapseCandidates collapseCandidates(
   const bool isRimV = facesV != 0 && surface.isHeldRim(v);
   if (isRimU || isRimV)
   {
-    // Points of such a rim take in others of theirs, of its cap and of the wall, but do not move.
+    // Points of such a rim take in their neighbours in it, others of its cap and of the wall, but do not move. Across the cap, a
+    // point of the rim would take the one between them off it.
     const auto addInto = [&](std::int32_t into, std::int32_t other, bool isRim, bool isOtherRim)
     {
-      const bool goes = both == surface.facesOf(other) && !(isOtherRim && surface.isToStay(other));
+      const bool goes =
+        both == surface.facesOf(other) && !(isOtherRim && (surface.isToStay(other) || !isAlongRim(surface, u, v)));
       if (isRim && goes && !flattensWall(surface, into, other))
       {
         found.add(surface.at(into));

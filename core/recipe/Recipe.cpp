@@ -2,6 +2,7 @@
 #include "recipe/Recipe.h"
 
 #include "base/Error.h"
+#include "io/OpenSurfaces.h"
 #include "io/SubstrateFolder.h"
 #include "io/TractogramFile.h"
 #include "stages/StageWork.h"
@@ -236,6 +237,7 @@ void checkOptions(const MyelinSurfaceStage& stage)
 void checkOptions(const SubstrateWriterStage& stage)
 {
   requireEncoding(stage.format, stage.encoding);
+  requireOpenable(stage.periodicFaces, stage.format, stage.allowOpenSurfaces);
 }
 
 void checkOptions(const SubstrateProductionStage& stage)

@@ -474,6 +474,7 @@ void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents
   contents.voxelSize = stage.voxelSize;
   contents.startPositions = stage.startPositions;
   contents.seed = stage.seed;
+  contents.periodicFaces = stage.periodicFaces;
   contents.allowOpenSurfaces = stage.allowOpenSurfaces;
   contents.certificate.minimumGap = stage.minimumGap;
 }
@@ -487,6 +488,7 @@ ProductionOrder productionOrder(
   order.surfaces = stage.surfaces;
   order.format = stage.format;
   order.encoding = stage.encoding;
+  order.periodicFaces = stage.periodicFaces;
   order.allowOpenSurfaces = stage.allowOpenSurfaces;
   order.sampledFraction = stage.sampledFraction;
   order.provenance = std::move(provenance);

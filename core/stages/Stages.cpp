@@ -29,6 +29,14 @@ constexpr char encodingMeaning[] =
   "Encoding of PLY files. Binary takes 19 bytes per triangle, half of ASCII, in single precision; the certificate judges the "
   "surfaces with that rounding. Binary is for Format RMS, Surfaces alone, Surfaces by bundle, SpinDoctor and MCMRSimulator. The "
   "other simulators read only ASCII, and Binary is refused for them.";
+const std::vector<std::string> endsInFaces(std::begin(periodicFacesNames), std::end(periodicFacesNames));
+constexpr char periodicFacesMeaning[] =
+  "How surfaces end in the faces of a periodic domain (Border Periodic or Periodic across of BundleInitializer). Caps: each "
+  "piece "
+  "of a fibre is closed, so that walkers inside stay in their piece. Open: without caps in these faces. Copies of the domain, in "
+  "a simulator that repeats it, then join to endless surfaces, and walkers inside the fibres go on, too. The certificate judges "
+  "the surfaces with their caps. Open is for Format MC/DC, Surfaces alone and Surfaces by bundle. It is refused for other "
+  "formats, whose readers need closed surfaces, for a domain that is not periodic, and with AllowOpenSurfaces.";
 constexpr char fileUnit[] = "Unit of the file's lengths. Most readers take them for millimetres, whatever the file says, so "
                             "micrometres give a warning. For data that Placement has placed, micrometres are refused.";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };
@@ -315,6 +323,8 @@ const PropertyList<SubstrateWriterStage>& SubstrateWriterStage::properties()
       .add("Seed", &Stage::seed, limits::seed, "Seed of the random points. The same seed gives the same points.")
       .where("Format", { 0, 1, 2, 3, 5, 7, 8 })
       .whereGiven("StartPositions")
+      .add("PeriodicFaces", &Stage::periodicFaces, endsInFaces, periodicFacesMeaning)
+      .where("Format", { 0, 5, 7 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Also write surfaces that are not closed, outward 2-manifolds. Walkers leak through them.")
       .add("MinimumGap", &Stage::minimumGap, limits::judgedGap,
@@ -340,6 +350,8 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)
       .add("Encoding", &Stage::encoding, encodingNames, encodingMeaning)
+      .add("PeriodicFaces", &Stage::periodicFaces, endsInFaces, periodicFacesMeaning)
+      .where("Format", { 0, 5, 7 })
       .add("AllowOpenSurfaces", &Stage::allowOpenSurfaces,
         "Also write surfaces that are not closed, outward 2-manifolds. Walkers leak through them.")
       .add("SampledFraction", &Stage::sampledFraction, limits::sampledFraction,

@@ -15,6 +15,7 @@
 #include "growth/TargetRadii.h"
 #include "io/FolderReplacement.h"
 #include "io/MadeSurfaces.h"
+#include "io/OpenSurfaces.h"
 #include "io/SubstrateFolder.h"
 #include "io/SurfaceSpool.h"
 #include "surface/SurfaceMaker.h"
@@ -239,6 +240,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   contents.provenance = order.provenance ? order.provenance(spacing, solved.growth) : Provenance();
   contents.format = order.format;
   contents.encoding = order.encoding;
+  contents.periodicFaces = order.periodicFaces;
   contents.voxelSize = spacing;
   contents.allowOpenSurfaces = order.allowOpenSurfaces;
   contents.certificate.minimumGap = order.growth.minimumGap;
@@ -268,8 +270,9 @@ WrittenSubstrate writeMade(const SubstrateFolderContents& contents, const std::s
   }
   catch (const InvalidInput& error)
   {
-    throw InvalidInput(std::string(error.what()) + ". The surfaces are made, and kept in " + workFolderOf(folder) +
-                       ": another Format, Encoding or AllowOpenSurfaces writes them; remove it if you do not want them");
+    throw InvalidInput(
+      std::string(error.what()) + ". The surfaces are made, and kept in " + workFolderOf(folder) +
+      ": another Format, Encoding, PeriodicFaces or AllowOpenSurfaces writes them; remove it if you do not want them");
   }
   catch (const FileError& error)
   {
@@ -293,6 +296,7 @@ void validate(const ProductionOrder& order)
   validate(order.surfaces);
   requireDecimationRoom(order.surfaces, order.growth.surfaceTolerance);
   requireEncoding(order.format, order.encoding);
+  requireOpenable(order.periodicFaces, order.format, order.allowOpenSurfaces);
   requireWithin("SampledFraction", order.sampledFraction, limits::sampledFraction);
   const bool isSample = order.sampledFraction < 1.0;
   require(!isSample || order.format == SubstrateFormat::Surfaces || order.format == SubstrateFormat::Bundles,
@@ -324,6 +328,7 @@ ProducedSubstrate produceSubstrate(
     validate(fibres);
     validate(order);
     order.growth = forFibres(fibres, order.growth);
+    requirePeriodic(order.periodicFaces, fibres.domain);
     requireRoom(order.format, fibres.domain, growthGrid(fibres.domain, order.growth).spacing);
     requireRoomForMyelin(fibres, order);
     require(!folder.empty(), "FolderName is empty: name the folder to write");

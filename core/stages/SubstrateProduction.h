@@ -26,6 +26,7 @@ struct ProductionOrder
   MyelinSurfaceOptions surfaces;
   SubstrateFormat format = SubstrateFormat::Mcdc; ///< voxel labels use growth's voxels
   PlyEncoding encoding = PlyEncoding::Ascii;
+  PeriodicFaces periodicFaces = PeriodicFaces::Caps;
   bool allowOpenSurfaces = false;
   /// The fraction of all fibres whose surfaces are made, drawn at random by the surfaces' seed, each fibre independently: a
   /// larger fraction includes the fibres of a smaller one.
@@ -79,7 +80,7 @@ std::string workFolderOf(const std::string& folder);
 /// Throws the errors of these functions and of validate(), WorkKept, InvalidInput for a work folder of something else and if no
 /// fibre has a surface; and FileError. A request that cannot be met leaves no work folder but an earlier run's. Surfaces that
 /// cannot be written in this way (an open surface, a format that cannot hold it) stay, and the same call with another format,
-/// encoding or allowOpenSurfaces writes them.
+/// encoding, periodicFaces or allowOpenSurfaces writes them.
 ProducedSubstrate produceSubstrate(const Fibres& fibres, const ProductionOrder& order, const std::string& folder,
   const Context& context = {}, Team* team = nullptr);
 

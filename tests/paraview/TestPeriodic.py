@@ -6,7 +6,8 @@ import json
 import os
 
 import numpy as np
-from cactus_testing import CactusTestCase, fetch, main, mesh_oracle
+from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, random_walk
+from paraview import servermanager
 from paraview.simple import (
     BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate, SubstrateStatistics, SubstrateWriter,
 )
@@ -37,7 +38,7 @@ def write_off(path, points, triangles):
 
 class TestPeriodic(CactusTestCase):
     def chain(self, border="Periodic", **options):
-        bundle = BundleInitializer(Side=SIDE, Border=border, MeanDispersion=8, **options)
+        bundle = BundleInitializer(**{"Side": SIDE, "Border": border, "MeanDispersion": 8, **options})
         fibres = CapsuleOptimizer(Input=bundle)
         return fibres, MyelinSurface(Input=FibreRadialGrowth(Input=fibres))
 
@@ -103,6 +104,62 @@ class TestPeriodic(CactusTestCase):
             text = file.read()
         self.assertIn("repeats along x, y and z", text)
         self.assertIn("Fewer than 0.1 %", text)
+
+    @staticmethod
+    def read_ply(path):
+        with open(path, encoding="ascii") as file:
+            head, body = file.read().split("end_header\n", 1)
+        count = int(head.split("element vertex ")[1].split()[0])
+        numbers = np.array(body.split(), float)
+        return numbers[: 3 * count].reshape(-1, 3), numbers[3 * count :].reshape(-1, 4)[:, 1:].astype(int)
+
+    def open_tile(self, **options):
+        """The folder of an open tile, and its manifest."""
+        _, surfaces = self.chain(**options)
+        folder = os.path.join(self.folder, "tile")
+        writer = SubstrateWriter(Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), FolderName=folder, Format="Surfaces alone", PeriodicFaces="Open")
+        writer.UpdatePipeline()
+        with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+            manifest = json.load(file)
+        self.assertEqual((manifest["periodic_faces"], manifest["certified"]), ("Open", True))
+        capped = {(entry["surface"], entry["fibre"]): entry for entry in manifest["files"]}
+        for port, surface in enumerate(("outer", "inner")):
+            points, triangles, fibre = mesh_of(servermanager.Fetch(surfaces, idx=port))
+            low, high = points.min(axis=0), points.max(axis=0)
+            axes = [axis for axis in range(3) if manifest["periodic"][axis]]
+            is_cap = np.any([(points[triangles, axis] == end[axis]).all(axis=1) for axis in axes for end in (low, high)], axis=0)
+            for one in np.unique(fibre):
+                self.assertEqual(capped[surface, one]["triangles"], np.count_nonzero(~is_cap & (fibre == one)), (surface, one))
+                self.assertGreater(np.count_nonzero(is_cap & (fibre == one)), 0)
+        return folder, manifest
+
+    def test_copies_of_an_open_tile_join(self):
+        folder, manifest = self.open_tile()
+        low, high = np.array(manifest["domain"][::2]), np.array(manifest["domain"][1::2]) + SIDE
+        for entry in manifest["files"]:
+            points, triangles = self.read_ply(os.path.join(folder, entry["path"]))
+            self.assertEqual(len(triangles), entry["triangles"])
+            copies = [points[triangles] + SIDE * np.array(copy) for copy in np.ndindex(2, 2, 2)]
+            places, numbers = np.unique(np.concatenate(copies).reshape(-1, 3), axis=0, return_inverse=True)
+            numbers = numbers.reshape(-1, 3)
+            edges = np.sort(np.concatenate([numbers[:, [0, 1]], numbers[:, [1, 2]], numbers[:, [2, 0]]]), axis=1)
+            edges, uses = np.unique(edges, axis=0, return_counts=True)
+            self.assertLessEqual(uses.max(), 2, entry["path"])
+            # An edge with one triangle lies on the outside of all copies.
+            ends = places[edges[uses == 1]]
+            is_outside = np.any([(ends[:, :, axis] == end[axis]).all(axis=1) for axis in range(3) for end in (low, high)], axis=0)
+            self.assertTrue(is_outside.all(), entry["path"])
+
+    def test_walkers_go_on_in_an_open_tile(self):
+        folder, _ = self.open_tile(CalibreVariation=0)
+        # Over three sides along the axons: without walls there the mean of the squares is 2 D t.
+        walked = random_walk(folder, walkers=60, steps=14000, step=0.4, repeats=3)
+        for compartment in ("inner", "myelin", "outside"):
+            self.assertEqual(walked[compartment]["leaked"], 0, compartment)
+        free = 14000 * 0.4**2 / 3
+        self.assertGreater(free, (3 * SIDE) ** 2)
+        self.assertGreater(walked["inner"]["squared_displacement_um2"][2], 0.5 * free)
+        self.assertLess(walked["inner"]["squared_displacement_um2"][0], SIDE**2)
 
     def test_what_cannot_be_is_refused(self):
         for error, options in (

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// cactus_random_walk [--walkers N] [--steps N] [--step LENGTH] [--seed N] FOLDER: tests whether walkers leak.
+// cactus_random_walk [--walkers N] [--steps N] [--step LENGTH] [--seed N] [--repeats N] FOLDER: tests whether walkers leak.
 //
 // Shares no code with the product. Reads every PLY file below FOLDER/outer and FOLDER/inner (µm, ASCII or binary), starts walkers
 // at random inside the inner surfaces, in the myelin (inside an outer surface and no inner one) and outside, and moves them by
 // steps of a fixed length in random directions, which every triangle and the box around all surfaces reflect. Every thousand
 // steps, and at the end, it determines anew which surfaces a walker is inside of, by the number of their crossings with a line to
 // the outside; these must be those that it started in. Prints one JSON object: for each compartment its walkers, those that
-// leaked, how often one was reflected, and mean squared displacements along x, y and z.
+// leaked, how often one was reflected, mean squared displacements along x, y and z, and by how much these grow over the second
+// half of the walk, with standard errors.
+//
+// With --repeats 2 (x and y) or 3 (z, too) the folder is an open tile (PeriodicFaces Open): the box repeats along these axes, and
+// a walker that leaves it enters through the opposite face. Surfaces then have no outside; a walker is inside of those whose back
+// is what it sees first, of all inner ones and of all outer ones, along a line that goes on in the next copies of the box.
 //
 // The result is 0 whatever is found, 1 if a file cannot be read or there is no room to start, 2 for wrong arguments.
 #include <algorithm>
@@ -35,6 +40,7 @@ struct Vector
   double z = 0.0;
 
   double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
 Vector operator+(const Vector& a, const Vector& b)
@@ -60,6 +66,21 @@ double dot(const Vector& a, const Vector& b)
 Vector cross(const Vector& a, const Vector& b)
 {
   return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+Vector randomDirection(std::mt19937_64& random)
+{
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const double z = uniform(random);
+  const double angle = 3.14159265358979323846 * uniform(random);
+  const double across = std::sqrt(1.0 - z * z);
+  return { across * std::cos(angle), across * std::sin(angle), z };
+}
+
+/// The squares of the components.
+Vector squared(const Vector& a)
+{
+  return { a.x * a.x, a.y * a.y, a.z * a.z };
 }
 
 struct Triangle
@@ -118,10 +139,20 @@ std::size_t place(std::istream& file, bool isBinary)
   return number;
 }
 
+/// What a walker meets first.
+struct Hit
+{
+  double fraction = 1.0; ///< of the way
+  Vector normal;         ///< of a triangle, or of a face of the box
+  int axis = -1;         ///< across which a face of the box lies; −1 for a triangle
+  int surface = -1;      ///< of a triangle
+};
+
 class Walls
 {
 public:
-  explicit Walls(const std::filesystem::path& folder)
+  Walls(const std::filesystem::path& folder, int repeats)
+    : Repeats(repeats)
   {
     for (const char* kind : { "outer", "inner" })
     {
@@ -156,35 +187,46 @@ public:
   const Vector& lower() const { return this->Lower; }
   const Vector& upper() const { return this->Upper; }
 
-  /// Finds the first wall, a triangle or a face of the box, on the segment from `from` along `by`: at which fraction of it, and
-  /// its normal. False if there is none.
-  bool firstHit(const Vector& from, const Vector& by, double& fraction, Vector& normal) const
+  /// Tells whether the box repeats along an axis.
+  bool repeats(int axis) const { return axis < this->Repeats; }
+
+  /// How far the walls of the box stand inside it along an axis.
+  double inset(int axis) const { return this->repeats(axis) ? 0.0 : boxInset; }
+
+  /// Finds the first wall, a triangle that `counts` or a face of the box, on the segment from `from` along `by`.
+  template <typename Counts>
+  std::optional<Hit> firstHit(const Vector& from, const Vector& by, Counts&& counts) const
   {
-    bool hit = false;
-    fraction = 1.0;
+    std::optional<Hit> hit;
+    double fraction = 1.0;
     this->alongSegment(from, by,
       [&](int t)
       {
+        const Triangle& triangle = this->Triangles[std::size_t(t)];
         double where = 0.0;
-        if (this->crosses(t, from, by, where) && where <= fraction)
+        if (counts(triangle) && this->crosses(t, from, by, where) && where <= fraction)
         {
-          hit = true;
           fraction = where;
-          normal = this->Triangles[std::size_t(t)].normal;
+          hit = Hit{ where, triangle.normal, -1, triangle.surface };
         }
       });
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double wall = by[axis] < 0.0 ? this->Lower[axis] + boxInset : this->Upper[axis] - boxInset;
+      const double wall = by[axis] < 0.0 ? this->Lower[axis] + this->inset(axis) : this->Upper[axis] - this->inset(axis);
       const double where = by[axis] == 0.0 ? 2.0 : (wall - from[axis]) / by[axis];
       if (where >= 0.0 && where < fraction)
       {
-        hit = true;
         fraction = where;
-        normal = { axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0 };
+        hit = Hit{ where, { axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0 }, axis, -1 };
       }
     }
     return hit;
+  }
+
+  /// Puts a point on a face that repeats, in the sense of `by`, on the opposite one.
+  void goThrough(Vector& point, const Vector& by, int axis) const
+  {
+    point[axis] = by[axis] > 0.0 ? this->Lower[axis] : this->Upper[axis];
   }
 
   /// Returns the surfaces that a point is inside of, by the parity of crossings on lines to beyond the box. The first answer that
@@ -194,8 +236,8 @@ public:
     std::map<std::vector<int>, int> votes;
     for (int line = 0; line < 9; ++line)
     {
-      const std::vector<int> inside = this->aroundAlong(point, random);
-      if (++votes[inside] == 2)
+      const auto inside = this->Repeats > 0 ? this->facingAlong(point, random) : this->aroundAlong(point, random);
+      if (inside && ++votes[*inside] == 2)
       {
         return inside;
       }
@@ -386,7 +428,39 @@ private:
     return where >= 0.0 && where <= 1.0;
   }
 
-  std::vector<int> aroundAlong(const Vector& point, std::mt19937_64& random) const
+  /// Returns the surfaces whose backs are first, of the inner and of the outer ones, along a line through the copies of the box.
+  std::optional<std::vector<int>> facingAlong(const Vector& point, std::mt19937_64& random) const
+  {
+    constexpr int mostFaces = 100;
+    const Vector size = this->Upper - this->Lower;
+    const Vector by = std::max({ size.x, size.y, size.z }) * randomDirection(random);
+    std::vector<int> inside;
+    for (const bool inner : { false, true })
+    {
+      const auto isKind = [this, inner](const Triangle& t) { return this->Surfaces[std::size_t(t.surface)].inner == inner; };
+      const bool hasKind = std::any_of(
+        this->Surfaces.begin(), this->Surfaces.end(), [inner](const Surface& surface) { return surface.inner == inner; });
+      Vector from = point;
+      std::optional<Hit> hit = hasKind ? this->firstHit(from, by, isKind) : std::nullopt;
+      for (int face = 0; hit && hit->axis >= 0 && this->repeats(hit->axis) && face < mostFaces; ++face)
+      {
+        from = from + hit->fraction * by;
+        this->goThrough(from, by, hit->axis);
+        hit = this->firstHit(from, by, isKind);
+      }
+      if (hasKind && (!hit || hit->axis >= 0))
+      {
+        return std::nullopt; // out of the box, or along the fibres
+      }
+      if (hit && dot(by, hit->normal) > 0.0)
+      {
+        inside.push_back(hit->surface);
+      }
+    }
+    return inside;
+  }
+
+  std::optional<std::vector<int>> aroundAlong(const Vector& point, std::mt19937_64& random) const
   {
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const Vector size = this->Upper - this->Lower;
@@ -421,6 +495,7 @@ private:
     return inside;
   }
 
+  int Repeats; ///< number of axes along which the box repeats
   std::vector<Surface> Surfaces;
   std::vector<Triangle> Triangles;
   Vector Lower{ 1e30, 1e30, 1e30 };
@@ -452,6 +527,8 @@ struct Walker
   Vector start;
   std::vector<int> inside; ///< the surfaces that it started inside of
   Vector position;
+  Vector moved;  ///< from its start, in the copies of the box
+  Vector middle; ///< how far it had moved after half of its steps
   bool leaked = false;
   std::size_t reflections = 0;
 };
@@ -462,34 +539,35 @@ struct Options
   std::size_t steps = 100000;
   double step = 0.2; ///< µm
   std::uint64_t seed = 1;
+  int repeats = 0; ///< number of axes
   std::string folder;
 };
-
-Vector randomDirection(std::mt19937_64& random)
-{
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const double z = uniform(random);
-  const double angle = 3.14159265358979323846 * uniform(random);
-  const double across = std::sqrt(1.0 - z * z);
-  return { across * std::cos(angle), across * std::sin(angle), z };
-}
 
 /// Moves a walker by one step, reflected at walls.
 void move(const Walls& walls, Walker& walker, Vector by)
 {
   for (int reflection = 0; reflection < 1000; ++reflection)
   {
-    double fraction = 1.0;
-    Vector normal;
-    if (!walls.firstHit(walker.position, by, fraction, normal))
+    const std::optional<Hit> hit = walls.firstHit(walker.position, by, [](const Triangle&) { return true; });
+    const double length = std::sqrt(dot(by, by));
+    const bool goesThrough = hit && hit->axis >= 0 && walls.repeats(hit->axis);
+    const double part = !hit ? 1.0 : goesThrough ? hit->fraction : std::max(0.0, hit->fraction * length - skin) / length;
+    walker.position = walker.position + part * by;
+    walker.moved = walker.moved + part * by;
+    if (!hit)
     {
-      walker.position = walker.position + by;
       return;
     }
-    const double length = std::sqrt(dot(by, by));
-    walker.position = walker.position + (std::max(0.0, fraction * length - skin) / length) * by;
-    by = (1.0 - fraction) * (by - 2.0 * dot(by, normal) * normal);
-    ++walker.reflections;
+    if (goesThrough)
+    {
+      walls.goThrough(walker.position, by, hit->axis);
+      by = (1.0 - hit->fraction) * by;
+    }
+    else
+    {
+      by = (1.0 - hit->fraction) * (by - 2.0 * dot(by, hit->normal) * hit->normal);
+      ++walker.reflections;
+    }
     if (dot(by, by) == 0.0)
     {
       return;
@@ -503,16 +581,16 @@ std::vector<std::vector<Walker>> start(const Walls& walls, const Options& option
   std::mt19937_64 random(options.seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const Vector size = walls.upper() - walls.lower();
-  constexpr double margin = 2.0 * boxInset;
+  const Vector margin{ 2.0 * walls.inset(0), 2.0 * walls.inset(1), 2.0 * walls.inset(2) };
   std::vector<std::vector<Walker>> walkers(3);
   const auto wanted = [&]
   { return std::any_of(walkers.begin(), walkers.end(), [&options](const auto& here) { return here.size() < options.walkers; }); };
   for (std::size_t attempt = 0; attempt < 200 * options.walkers + 10000 && wanted(); ++attempt)
   {
     Walker walker;
-    walker.start = { walls.lower().x + margin + (size.x - 2.0 * margin) * uniform(random),
-      walls.lower().y + margin + (size.y - 2.0 * margin) * uniform(random),
-      walls.lower().z + margin + (size.z - 2.0 * margin) * uniform(random) };
+    walker.start = { walls.lower().x + margin.x + (size.x - 2.0 * margin.x) * uniform(random),
+      walls.lower().y + margin.y + (size.y - 2.0 * margin.y) * uniform(random),
+      walls.lower().z + margin.z + (size.z - 2.0 * margin.z) * uniform(random) };
     const auto inside = walls.around(walker.start, random);
     if (!inside)
     {
@@ -547,6 +625,7 @@ void walk(const Walls& walls, const Options& options, Walker& walker, std::uint6
   for (std::size_t step = 1; step <= options.steps && !walker.leaked; ++step)
   {
     move(walls, walker, options.step * randomDirection(random));
+    walker.middle = step == options.steps / 2 ? walker.moved : walker.middle;
     if (step % betweenChecks == 0 || step == options.steps)
     {
       const auto inside = walls.around(walker.position, random);
@@ -557,7 +636,7 @@ void walk(const Walls& walls, const Options& options, Walker& walker, std::uint6
 
 void run(const Options& options)
 {
-  const Walls walls(options.folder);
+  const Walls walls(options.folder, options.repeats);
   auto compartments = start(walls, options);
   std::cout.precision(9);
   std::cout << "{\"surfaces\": " << walls.surfaces().size() << ", \"triangles\": " << walls.triangles()
@@ -573,17 +652,27 @@ void run(const Options& options)
     std::size_t leaked = 0;
     std::size_t reflections = 0;
     Vector squares;
+    Vector growth;
+    Vector squaredGrowth;
     for (const Walker& walker : walkers)
     {
-      const Vector moved = walker.position - walker.start;
-      squares = squares + Vector{ moved.x * moved.x, moved.y * moved.y, moved.z * moved.z };
+      const Vector square = squared(walker.moved);
+      const Vector more = square - squared(walker.middle);
+      squares = squares + square;
+      growth = growth + more;
+      squaredGrowth = squaredGrowth + squared(more);
       leaked += walker.leaked ? 1 : 0;
       reflections += walker.reflections;
     }
-    squares = (1.0 / std::max<double>(1.0, double(walkers.size()))) * squares;
+    const double count = std::max<double>(1.0, double(walkers.size()));
+    squares = (1.0 / count) * squares;
+    growth = (1.0 / count) * growth;
+    const Vector variance = (1.0 / count) * squaredGrowth - squared(growth);
     std::cout << ",\n\"" << compartmentNames[c] << "\": {\"walkers\": " << walkers.size() << ", \"leaked\": " << leaked
               << ", \"reflections\": " << reflections << ", \"squared_displacement_um2\": [" << squares.x << ", " << squares.y
-              << ", " << squares.z << "]}";
+              << ", " << squares.z << "], \"second_half_um2\": [" << growth.x << ", " << growth.y << ", " << growth.z
+              << "], \"second_half_error_um2\": [" << std::sqrt(variance.x / count) << ", " << std::sqrt(variance.y / count)
+              << ", " << std::sqrt(variance.z / count) << "]}";
   }
   std::cout << "}\n";
 }
@@ -617,6 +706,10 @@ int main(int argc, char** argv)
       {
         options.step = value;
       }
+      else if (name == "--repeats" && value <= 3.0)
+      {
+        options.repeats = static_cast<int>(value);
+      }
       else if (name == "--seed")
       {
         options.seed = static_cast<std::uint64_t>(value);
@@ -634,7 +727,7 @@ int main(int argc, char** argv)
   }
   catch (const std::logic_error&)
   {
-    std::cerr << "usage: cactus_random_walk [--walkers N] [--steps N] [--step LENGTH] [--seed N] FOLDER\n";
+    std::cerr << "usage: cactus_random_walk [--walkers N] [--steps N] [--step LENGTH] [--seed N] [--repeats N] FOLDER\n";
     return 2;
   }
   try

@@ -306,6 +306,82 @@ TEST_F(SubstrateFolder, HoldsWhatTheManifestSays)
   EXPECT_FALSE(fs::exists(this->Scratch / "s/fibres.strands"));
 }
 
+// Of a periodic substrate, a simulator that repeats it joins the pieces of fibres: the certificate judges them with their caps.
+TEST_F(SubstrateFolder, IsAnOpenTile)
+{
+  this->Contents.domain = cactus::Domain::cube(8.0);
+  this->Contents.domain.periodic = { { true, true, true } };
+  this->Contents.outer =
+    surfacesOf({ 2, 3 }, { example::box({ -1, -1, -4 }, { 1, 1, 4 }), example::box({ 2, 2, -1 }, { 3, 3, 1 }) });
+  this->Contents.inner = surfacesOf({ 2 }, { example::box({ -0.5, -0.5, -3.98 }, { 0.5, 0.5, 3.98 }) });
+  this->Contents.periodicFaces = cactus::PeriodicFaces::Open;
+  const auto written = cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string());
+  EXPECT_TRUE(written.certificate.certified());
+  ASSERT_EQ(written.files.size(), 3u);
+  const auto isAs = [&](std::size_t i, std::size_t triangles, double area, double volume, bool isClosed)
+  {
+    const cactus::SubstrateFile& file = written.files[i];
+    EXPECT_EQ(file.triangles, triangles) << file.path;
+    EXPECT_NEAR(file.area, area, 1e-12) << file.path;
+    EXPECT_NEAR(file.volume, volume, 1e-12) << file.path;
+    EXPECT_EQ(file.closed, isClosed) << file.path;
+  };
+  isAs(0, 8, 64.0, 32.0, false);
+  isAs(1, 12, 10.0, 2.0, true);
+  isAs(2, 8, 32.0, 7.96, false);
+  const std::string axon = contentOf(this->Scratch / "s/inner/fibre_00002.ply");
+  EXPECT_NE(axon.find("element face 8\n"), std::string::npos);
+  EXPECT_NE(axon.find("0.5 0.5 4\n"), std::string::npos);
+  EXPECT_EQ(axon.find("3.98"), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/manifest.json").find("\"periodic_faces\": \"Open\""), std::string::npos);
+  EXPECT_NE(contentOf(this->Scratch / "s/README.txt").find("Surfaces are open there"), std::string::npos);
+  // Walkers start from points up to the faces: by lines, MC/DC could not tell where they are.
+  EXPECT_NE(contentOf(this->Scratch / "s/mcdc/intra.conf").find("ini_walkers_file start/intra.txt"), std::string::npos);
+  std::istringstream starts(contentOf(this->Scratch / "s/start/intra.txt"));
+  double highest = 0.0;
+  for (double x, y, z; starts >> x >> y >> z;)
+  {
+    highest = std::max(highest, z);
+  }
+  EXPECT_GT(highest, 3.9e-3);
+
+  this->Contents.periodicFaces = cactus::PeriodicFaces::Caps;
+  ASSERT_EQ(this->write(this->Scratch / "capped"), "");
+  EXPECT_NE(contentOf(this->Scratch / "capped/manifest.json").find("\"periodic_faces\": \"Caps\""), std::string::npos);
+}
+
+TEST_F(SubstrateFolder, IsNoOpenTileOfOtherThings)
+{
+  this->Contents.periodicFaces = cactus::PeriodicFaces::Open;
+  const auto refused = [&](const std::string& why)
+  {
+    const std::string error = this->write(this->Scratch / "s");
+    EXPECT_NE(error.find(why), std::string::npos) << error;
+    EXPECT_FALSE(fs::exists(this->Scratch / "s"));
+  };
+  refused("this one is not periodic");
+  this->Contents.domain = cactus::Domain::cube(8.0);
+  this->Contents.domain.periodic = { { true, true, true } };
+  for (const auto format : { cactus::SubstrateFormat::Camino, cactus::SubstrateFormat::Disimpy, cactus::SubstrateFormat::Rms,
+         cactus::SubstrateFormat::SpinDoctor, cactus::SubstrateFormat::Mcmr })
+  {
+    this->Contents.format = format;
+    refused(std::string("Format ") + cactus::formatNames[std::size_t(format)] + " needs closed ones");
+  }
+  this->Contents.format = cactus::SubstrateFormat::Surfaces;
+  this->Contents.allowOpenSurfaces = true;
+  refused("with AllowOpenSurfaces they need not be closed");
+  this->Contents.allowOpenSurfaces = false;
+  cactus::TriangleMesh bent = example::box({ -1, -1, -4 }, { 1, 1, 4 });
+  bent.points[7] = { 0.9, 0.9, 4 };
+  this->Contents.outer = surfacesOf({ 2 }, { bent });
+  this->Contents.inner = {};
+  refused("the outer surface of fibre 2 does not end alike in the two faces across z, and copies of it would not join");
+  this->Contents.outer = surfacesOf({ 2 }, { example::box({ -1, -1, -4 }, { 1, 1, 4 }) });
+  this->Contents.inner = surfacesOf({ 2 }, { example::box({ -0.5, -0.5, -3.98 }, { 0.5, 0.5, 3.98 }) });
+  EXPECT_EQ(this->write(this->Scratch / "s"), "");
+}
+
 // The folder's certificate judges the surfaces as stored in its files.
 TEST_F(SubstrateFolder, HoldsItsCertificate)
 {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/OpenSurfaces.h"
+
+#include "base/Bytes.h"
+#include "base/Error.h"
+#include "mesh/OpenTile.h"
+#include "mesh/SurfaceIntersection.h"
+#include "mesh/SurfaceWall.h"
+#include "mesh/TriangleTree.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace cactus
+{
+
+namespace
+{
+
+/// Throws if an opened inner surface, whose ends are moved into the faces, meets the outer one or itself.
+void requireRoomAround(const TriangleMesh& inner, int fibreId, const FibreSurfaces& outer, const Domain& domain)
+{
+  const TriangleTree axon(inner);
+  const auto found = std::lower_bound(outer.fibreIds.begin(), outer.fibreIds.end(), fibreId);
+  const bool hasOuter = found != outer.fibreIds.end() && *found == fibreId;
+  const bool meets =
+    meetsItself(axon) ||
+    (hasOuter &&
+      surfacesMeet(axon, TriangleTree(openAtPeriodicFaces(outer.mesh(std::size_t(found - outer.fibreIds.begin())), domain))));
+  if (meets)
+  {
+    throw InvalidInput(text("PeriodicFaces Open: extended to the domain's faces, the inner surface of fibre ", fibreId,
+      " meets its outer one or itself: choose PeriodicFaces Caps, or another Seed of BundleInitializer"));
+  }
+}
+
+} // namespace
+
+void requireOpenable(PeriodicFaces faces, SubstrateFormat format, bool allowOpenSurfaces)
+{
+  if (faces == PeriodicFaces::Caps)
+  {
+    return;
+  }
+  const bool isAble =
+    format == SubstrateFormat::Mcdc || format == SubstrateFormat::Surfaces || format == SubstrateFormat::Bundles;
+  if (!isAble)
+  {
+    throw InvalidInput(text("PeriodicFaces Open leaves surfaces open, and Format ", formatNames[std::size_t(format)],
+      " needs closed ones to tell inside from outside: choose PeriodicFaces Caps, or Format MC/DC, Surfaces alone or Surfaces by "
+      "bundle"));
+  }
+  require(!allowOpenSurfaces,
+    "PeriodicFaces Open takes the caps off closed surfaces, and with AllowOpenSurfaces they need not be closed: turn that off");
+}
+
+void requirePeriodic(PeriodicFaces faces, const Domain& domain)
+{
+  require(faces == PeriodicFaces::Caps || domain.isPeriodic(),
+    "PeriodicFaces Open is for a periodic Domain, in whose faces surfaces go on, and this one is not periodic: choose "
+    "PeriodicFaces "
+    "Caps, or Border Periodic or Periodic across in BundleInitializer");
+}
+
+FibreSurfaces openedSurfaces(const FibreSurfaces& surfaces, const std::string& kind, const Domain& domain)
+{
+  FibreSurfaces open = surfaces;
+  open.mesh = [mesh = surfaces.mesh, ids = surfaces.fibreIds, kind, domain](std::size_t i)
+  {
+    try
+    {
+      return openAtPeriodicFaces(mesh(i), domain);
+    }
+    catch (const InvalidInput& error)
+    {
+      throw InvalidInput(text("PeriodicFaces Open: the ", kind, " surface of fibre ", ids[i], error.what(),
+        ", and copies of it would not join: choose PeriodicFaces Caps"));
+    }
+  };
+  return open;
+}
+
+void describeOpened(const SubstrateFolderContents& contents, const std::string& kind, std::vector<SubstrateFile>& files,
+  const Context& context, const Sharing& sharing, double from, double to)
+{
+  const FibreSurfaces open = openedSurfaces(kind == "outer" ? contents.outer : contents.inner, kind, contents.domain);
+  const auto describe = [&](std::size_t i)
+  {
+    const TriangleMesh mesh = open.mesh(i);
+    if (kind == "inner")
+    {
+      requireRoomAround(mesh, open.fibreIds[i], contents.outer, contents.domain);
+    }
+    std::vector<std::uint32_t> all(mesh.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    files[i].closed = files[i].closed && mesh.triangles.size() == files[i].triangles;
+    files[i].triangles = mesh.triangles.size();
+    files[i].area = areaOf(mesh, all);
+  };
+  const auto bytesOf = [&](std::size_t i)
+  {
+    ByteWriter put;
+    put(std::uint64_t(files[i].triangles));
+    put(files[i].area);
+    put(files[i].closed);
+    return put.bytes();
+  };
+  const auto take = [&](std::size_t i, const std::string& bytes)
+  {
+    ByteReader get(bytes);
+    std::uint64_t triangles = 0;
+    get(triangles);
+    get(files[i].area);
+    get(files[i].closed);
+    files[i].triangles = triangles;
+  };
+  sharing.loop(open.size(), context, describe, bytesOf, take, "Opening surfaces", from, to);
+}
+
+} // namespace cactus
