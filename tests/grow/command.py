@@ -151,7 +151,7 @@ class Command(unittest.TestCase):
             ({"TractFibres": {}}, r"TractFibres has no streamlines to follow: name a file in TractogramReader$", 2),
             ({"TractogramReader": {}, "TractFibres": {}}, r"TractogramReader: FileName is empty", 2),
             ({"TractogramReader": {"FileName": "missing.trk"}, "TractFibres": {}}, r"cannot open tractogram .*missing\.trk: No such file", 2),
-            ({"TractogramReader": {"FileName": "recipe.json"}, "TractFibres": {}}, r"a tractogram's name ends in \.tck, \.trk or \.trx$", 2),
+            ({"TractogramReader": {"FileName": "recipe.json"}, "TractFibres": {}}, r"a tractogram's name ends in \.tck, \.tck\.gz, \.trk, \.trk\.gz or \.trx$", 2),
             ({**reader, "TractFibres": {"Side": -1}}, r"TractFibres: Side is -1: give 0\.1 to 100000 µm$", 2),
             ({"TractogramReader": {"FileName": "cut.tck"}, "TractFibres": {}}, r"cut\.tck is truncated", 1),
             ({**reader, "TractFibres": {"Select": "Bundle"}}, r"no cell data BundleId|no BundleId", 1),
