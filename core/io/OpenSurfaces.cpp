@@ -24,10 +24,10 @@ void requireRoomAround(const TriangleMesh& inner, int fibreId, const FibreSurfac
   const TriangleTree axon(inner);
   const auto found = std::lower_bound(outer.fibreIds.begin(), outer.fibreIds.end(), fibreId);
   const bool hasOuter = found != outer.fibreIds.end() && *found == fibreId;
-  const bool meets =
-    meetsItself(axon) ||
-    (hasOuter &&
-      surfacesMeet(axon, TriangleTree(openAtPeriodicFaces(outer.mesh(std::size_t(found - outer.fibreIds.begin())), domain))));
+  const TriangleMesh around =
+    hasOuter ? openAtPeriodicFaces(outer.mesh(std::size_t(found - outer.fibreIds.begin())), domain) : TriangleMesh();
+  const bool isBare = areSame(inner, around); // of an axon without myelin both surfaces are the same
+  const bool meets = meetsItself(axon) || (hasOuter && !isBare && surfacesMeet(axon, TriangleTree(around)));
   if (meets)
   {
     throw InvalidInput(text("PeriodicFaces Open: extended to the domain's faces, the inner surface of fibre ", fibreId,
