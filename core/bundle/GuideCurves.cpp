@@ -125,7 +125,7 @@ double bundlesShare(const CurvedBundlesOptions& options)
   double area = 0.0;
   for (int i = 0; i < places; ++i)
   {
-    const std::vector<Eigen::Vector2d> points = guideCurve(options, (i + 0.5 - places / 2) * width).points;
+    const std::vector<Eigen::Vector2d> points = guideCurve(options, (i + 0.5 - 0.5 * places) * width).points;
     for (std::size_t p = 1; p < points.size(); ++p)
     {
       const auto part = domain.clip({ points[p - 1].x(), 0.0, points[p - 1].y() }, { points[p].x(), 0.0, points[p].y() });

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-timeout: 300
 """MyelinSurface with VTK's filters: closed surfaces of the volumes asked for, and whatever is wrong with them is marked."""
 
