@@ -76,16 +76,15 @@ struct Compartments
 /// Returns the index of each axon's outer surface.
 std::vector<std::size_t> outerSurfacesOf(const SubstrateFolderContents& contents)
 {
-  const std::vector<int>& outerIds = contents.outer.fibreIds;
   std::vector<std::size_t> found;
   for (const int id : contents.inner.fibreIds)
   {
-    const auto place = std::lower_bound(outerIds.begin(), outerIds.end(), id);
-    if (place == outerIds.end() || *place != id)
+    const auto place = contents.outer.placeOf(id);
+    if (!place)
     {
       throw InvalidInput(text("fibre ", id, " has an inner surface and no outer one, between which its myelin would be"));
     }
-    found.push_back(static_cast<std::size_t>(place - outerIds.begin()));
+    found.push_back(*place);
   }
   return found;
 }

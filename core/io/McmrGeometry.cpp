@@ -5,7 +5,6 @@
 #include "base/Numbers.h"
 #include "io/PlyFile.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <ostream>
@@ -132,9 +131,8 @@ FibreSurfaces withMyelin(const SubstrateFolderContents& contents)
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < outer.size(); ++i)
   {
-    const auto axon = std::lower_bound(inner.fibreIds.begin(), inner.fibreIds.end(), outer.fibreIds[i]);
-    const bool hasAxon = axon != inner.fibreIds.end() && *axon == outer.fibreIds[i];
-    if (!hasAxon || !areSame(outer.mesh(i), inner.mesh(std::size_t(axon - inner.fibreIds.begin()))))
+    const auto axon = inner.placeOf(outer.fibreIds[i]);
+    if (!axon || !areSame(outer.mesh(i), inner.mesh(*axon)))
     {
       found.fibreIds.push_back(outer.fibreIds[i]);
       found.bundleIds.push_back(outer.bundleIds[i]);

@@ -8,7 +8,6 @@
 #include "mesh/SurfaceWall.h"
 #include "mesh/TriangleTree.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
 
@@ -22,12 +21,10 @@ namespace
 void requireRoomAround(const TriangleMesh& inner, int fibreId, const FibreSurfaces& outer, const Domain& domain)
 {
   const TriangleTree axon(inner);
-  const auto found = std::lower_bound(outer.fibreIds.begin(), outer.fibreIds.end(), fibreId);
-  const bool hasOuter = found != outer.fibreIds.end() && *found == fibreId;
-  const TriangleMesh around =
-    hasOuter ? openAtPeriodicFaces(outer.mesh(std::size_t(found - outer.fibreIds.begin())), domain) : TriangleMesh();
+  const auto place = outer.placeOf(fibreId);
+  const TriangleMesh around = place ? openAtPeriodicFaces(outer.mesh(*place), domain) : TriangleMesh();
   const bool isBare = areSame(inner, around); // of an axon without myelin both surfaces are the same
-  const bool meets = meetsItself(axon) || (hasOuter && !isBare && surfacesMeet(axon, TriangleTree(around)));
+  const bool meets = meetsItself(axon) || (place && !isBare && surfacesMeet(axon, TriangleTree(around)));
   if (meets)
   {
     throw InvalidInput(text("PeriodicFaces Open: extended to the domain's faces, the inner surface of fibre ", fibreId,

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,12 +29,6 @@ struct Candidate
   bool hasMyelin = false;
 };
 
-std::optional<std::size_t> placeIn(const std::vector<int>& ids, int id)
-{
-  const auto found = std::lower_bound(ids.begin(), ids.end(), id);
-  return found != ids.end() && *found == id ? std::optional<std::size_t>(std::size_t(found - ids.begin())) : std::nullopt;
-}
-
 Candidate candidateOf(
   const Domain& domain, const FibreSurfaces& outer, const FibreSurfaces& inner, std::size_t i, const LesionOptions& options)
 {
@@ -48,7 +41,7 @@ Candidate candidateOf(
   const double wall = areaOf(mesh, wallTriangles(mesh, domain, largestInset));
   Candidate found;
   found.length = wall * wall / (4.0 * pi * report.volume);
-  const auto axon = placeIn(inner.fibreIds, outer.fibreIds[i]);
+  const auto axon = inner.placeOf(outer.fibreIds[i]);
   found.hasMyelin = axon && !areSame(inner.mesh(*axon), mesh);
   RandomEngine engine = randomStream(options.seed, RandomStage::Lesion, std::uint64_t(outer.fibreIds[i]));
   found.key = options.order == LesionOrder::Random ? uniform(engine) : wall > 0.0 ? report.volume / wall : 0.0;
@@ -159,12 +152,11 @@ FibreSurfaces outerInLesion(const Lesion& lesion, const FibreSurfaces& outer, co
     }
   }
   FibreSurfaces some = someOf(outer, kept,
-    [fibres = lesion.fibres, &outer, &inner](std::size_t i) {
-      return fibres[i] == FibreInLesion::WithoutMyelin ? inner.mesh(*placeIn(inner.fibreIds, outer.fibreIds[i])) : outer.mesh(i);
-    });
+    [fibres = lesion.fibres, &outer, &inner](std::size_t i)
+    { return fibres[i] == FibreInLesion::WithoutMyelin ? inner.mesh(*inner.placeOf(outer.fibreIds[i])) : outer.mesh(i); });
   for (const int id : outer.wantedIds)
   {
-    const auto place = placeIn(outer.fibreIds, id);
+    const auto place = outer.placeOf(id);
     if (!place || lesion.fibres[*place] != FibreInLesion::Gone)
     {
       some.wantedIds.push_back(id);
@@ -178,7 +170,7 @@ FibreSurfaces innerInLesion(const Lesion& lesion, const FibreSurfaces& outer, co
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < inner.size(); ++i)
   {
-    const auto fibre = placeIn(outer.fibreIds, inner.fibreIds[i]);
+    const auto fibre = outer.placeOf(inner.fibreIds[i]);
     if (!fibre || lesion.fibres[*fibre] != FibreInLesion::Gone)
     {
       kept.push_back(i);

@@ -227,12 +227,6 @@ private:
   std::map<int, std::vector<Eigen::Matrix3d>> BundleTensors;
 };
 
-std::optional<std::size_t> placeOf(const std::vector<int>& ids, int id)
-{
-  const auto found = std::lower_bound(ids.begin(), ids.end(), id);
-  return found != ids.end() && *found == id ? std::optional<std::size_t>(found - ids.begin()) : std::nullopt;
-}
-
 /// Returns the volume (µm³) of each voxel's part in the domain.
 std::vector<double> volumesInDomain(const Domain& domain, const VoxelBoxes& voxels)
 {
@@ -288,8 +282,8 @@ public:
   {
     SampledFibre fibre;
     fibre.fibreId = this->Ids[i];
-    const auto outerPlace = placeOf(this->Outer.fibreIds, fibre.fibreId);
-    const auto innerPlace = placeOf(this->Inner.fibreIds, fibre.fibreId);
+    const auto outerPlace = this->Outer.placeOf(fibre.fibreId);
+    const auto innerPlace = this->Inner.placeOf(fibre.fibreId);
     if (innerPlace)
     {
       fibre.bundleId = this->Inner.bundleIds[*innerPlace];

@@ -3,8 +3,10 @@
 
 #include "mesh/TriangleMesh.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace cactus
@@ -27,6 +29,14 @@ struct FibreSurfaces
   bool given() const { return this->isGiven || !this->fibreIds.empty(); }
 
   std::size_t size() const { return fibreIds.size(); }
+
+  /// Returns the index of a fibre's surface, if it has one.
+  std::optional<std::size_t> placeOf(int fibreId) const
+  {
+    const auto found = std::lower_bound(this->fibreIds.begin(), this->fibreIds.end(), fibreId);
+    const bool isThere = found != this->fibreIds.end() && *found == fibreId;
+    return isThere ? std::optional<std::size_t>(std::size_t(found - this->fibreIds.begin())) : std::nullopt;
+  }
 };
 
 } // namespace cactus
