@@ -14,6 +14,7 @@ namespace
 
 constexpr double leastSeconds = 10.0;
 constexpr double leastFraction = 1e-3;
+constexpr double leastOfAll = 0.04; // what comes before are short parts, of which one fraction takes much longer than another
 constexpr double window = 600.0;
 constexpr double mostPercent = 99.5; // largest with two digits
 
@@ -47,7 +48,7 @@ std::string Pace::at(double seconds, double fraction, const std::string& part)
   }
   const double spent = seconds - this->First->seconds;
   const double done = fraction - this->First->fraction;
-  if (spent < leastSeconds || done < leastFraction)
+  if (spent < leastSeconds || done < leastFraction || fraction < leastOfAll)
   {
     return {};
   }

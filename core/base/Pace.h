@@ -14,8 +14,8 @@ class Pace
 public:
   /// Returns the speed when, at `seconds` of some clock, `fraction` of all the work is done and `part` is running. It is measured
   /// over the last ten to twenty minutes of that part: other parts have another speed, as have a paused job and work that an
-  /// earlier run had done. Empty while too little is known: in the first ten seconds of a part, and before the first thousandth
-  /// of all the work.
+  /// earlier run had done. Empty while too little is known: in the first ten seconds of a part, before a thousandth of all the
+  /// work is done in it, and in the first 4 % of all the work.
   std::string at(double seconds, double fraction, const std::string& part);
 
 private:

@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes one small file of a substrate folder of any size that ParaView opens at once: its fibres as tubes, and three cuts through its surfaces.
 
-Run it with ./cactus preview. Surfaces are read one after the other, so that memory goes with what is shown.
+Run it with ./cactus preview. Each processor reads one surface after the other, so that memory goes with what is shown.
 """
 
 import argparse
 import math
+import multiprocessing
 import os
 import sys
 
 from paraview import servermanager, simple
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkLogger, vtkPoints
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkLogger, vtkPoints, vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPlane, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCutter, vtkTubeFilter
 from vtkmodules.vtkFiltersGeneral import vtkContourTriangulator
+from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkPolyDataWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter
 
@@ -94,19 +96,57 @@ def _filled(mesh, point, normal):
     return triangulator.GetOutput()
 
 
+def _as_bytes(polygons):
+    writer = vtkPolyDataWriter()
+    writer.SetInputData(polygons)
+    writer.SetFileTypeToBinary()
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    return writer.GetOutputStdString()
+
+
+def _from_bytes(content):
+    reader = vtkPolyDataReader()
+    reader.ReadFromInputStringOn()
+    reader.SetBinaryInputString(content, len(content))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def _part_of(manifest, entry):
+    """What of a manifest is about one surface."""
+    return {"domain": manifest["domain"], "sha256": {entry["path"]: manifest["sha256"][entry["path"]]}}
+
+
+def _cuts_of(task):
+    """{axis: bytes} of the cuts through one surface, or why it is refused."""
+    manifest, entry, path, axes = task
+    try:
+        surface = read_surface(manifest, entry, path)
+    except Refusal as refusal:
+        return str(refusal)
+    found = {}
+    for axis in axes:
+        cut = _filled(surface, middle_of(manifest), [float(name == axis) for name in AXES])
+        if cut is not None and cut.GetNumberOfCells() > 0:
+            found[axis] = _as_bytes(with_numbers(cut, FibreId=entry["fibre"], BundleId=entry["bundle"], Compartment=int(entry["surface"] == "inner")))
+    return found
+
+
 def cuts_through(folder, manifest, axes):
     """{axis: {"outer" or "inner": polygons}}: the cross-sections of all surfaces in the planes through the domain's middle, each with the FibreId,
-    BundleId and Compartment (0: fibre, 1: axon) of its surface. Surfaces are read one by one."""
+    BundleId and Compartment (0: fibre, 1: axon) of its surface."""
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)  # the cutter says that it cuts, each time
     together = {axis: {kind: vtkAppendPolyData() for kind in ("outer", "inner")} for axis in axes}
-    for entry, path in surface_files(folder, manifest):
-        surface = read_surface(manifest, entry, path)
-        for axis in axes:
-            normal = [float(name == axis) for name in AXES]
-            cut = _filled(surface, middle_of(manifest), normal)
-            if cut is not None and cut.GetNumberOfCells() > 0:
-                together[axis][entry["surface"]].AddInputData(
-                    with_numbers(cut, FibreId=entry["fibre"], BundleId=entry["bundle"], Compartment=int(entry["surface"] == "inner")))
+    files = surface_files(folder, manifest)
+    tasks = ((_part_of(manifest, entry), entry, path, axes) for entry, path in files)
+    # Processes, since VTK's filters hold Python's lock. A forked process lacks the threads that VTK may have.
+    with multiprocessing.get_context("fork").Pool(len(os.sched_getaffinity(0)), vtkSMPTools.SetBackend, ("Sequential",)) as pool:
+        for (entry, _), found in zip(files, pool.imap(_cuts_of, tasks)):
+            if isinstance(found, str):
+                raise Refusal(found)
+            for axis, content in found.items():
+                together[axis][entry["surface"]].AddInputData(_from_bytes(content))
     cuts = {}
     for axis, kinds in together.items():
         cuts[axis] = {}
@@ -181,8 +221,9 @@ def arguments():
 
 def write_preview(folder, manifest, output, triangles):
     """Writes the file and what it names; the names of its blocks."""
+    cuts = cuts_through(folder, manifest, AXES)
     blocks = [("Fibres", tubes(folder, triangles))]
-    for axis, kinds in cuts_through(folder, manifest, AXES).items():
+    for axis, kinds in cuts.items():
         blocks += [(f"Cut across {axis}, {name}", kinds.get(kind)) for kind, name in (("outer", "fibres"), ("inner", "axons"))]
     blocks = [(name, block) for name, block in blocks if block is not None]
     shown = vtkMultiBlockDataSet()

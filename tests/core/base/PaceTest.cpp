@@ -21,16 +21,25 @@ TEST(Pace, CountsFromWhereItBegan)
 TEST(Pace, IsThatOfThePartAtWork)
 {
   cactus::Pace pace;
-  EXPECT_EQ(pace.at(0.0, 0.0, "looking"), "");
-  EXPECT_EQ(pace.at(360.0, 0.01, "looking"), "10 % an hour, ready in about 9 h 54 min");
+  EXPECT_EQ(pace.at(0.0, 0.3, "looking"), "");
+  EXPECT_EQ(pace.at(360.0, 0.31, "looking"), "10 % an hour, ready in about 6 h 54 min");
   EXPECT_EQ(pace.at(361.0, 0.4, "making"), "") << "what an earlier run had made";
   EXPECT_EQ(pace.at(721.0, 0.42, "making"), "20 % an hour, ready in about 2 h 54 min");
+}
+
+TEST(Pace, IsNotToldOfTheShortPartsAtTheBeginning)
+{
+  cactus::Pace pace;
+  EXPECT_EQ(pace.at(0.0, 0.0, "looking"), "");
+  EXPECT_EQ(pace.at(360.0, 0.01, "looking"), "") << "which would be 9 h 54 min";
+  EXPECT_EQ(pace.at(370.0, 0.035, "making"), "");
+  EXPECT_EQ(pace.at(730.0, 0.045, "making"), "10 % an hour, ready in about 9 h 33 min");
 }
 
 TEST(Pace, ForgetsThatItStoodStill)
 {
   cactus::Pace pace;
-  double fraction = 0.0;
+  double fraction = 0.1;
   double seconds = 0.0;
   const auto goOn = [&](double until)
   {
