@@ -2,6 +2,7 @@
 #include "io/McdcFiles.h"
 
 #include "base/Error.h"
+#include "io/StartFiles.h"
 #include "judge/ExtraAxonalWalk.h"
 
 #include <algorithm>

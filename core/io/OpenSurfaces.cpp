@@ -3,6 +3,7 @@
 
 #include "base/Bytes.h"
 #include "base/Error.h"
+#include "io/FolderFormat.h"
 #include "mesh/OpenTile.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfaceWall.h"
@@ -40,13 +41,11 @@ void requireOpenable(PeriodicFaces faces, SubstrateFormat format, bool allowOpen
   {
     return;
   }
-  const bool isAble =
-    format == SubstrateFormat::Mcdc || format == SubstrateFormat::Surfaces || format == SubstrateFormat::Bundles;
-  if (!isAble)
+  if (!formatOf(format).mayBeOpen())
   {
     throw InvalidInput(text("PeriodicFaces Open leaves surfaces open, and Format ", formatNames[std::size_t(format)],
-      " needs closed ones to tell inside from outside: choose PeriodicFaces Caps, or Format MC/DC, Surfaces alone or Surfaces by "
-      "bundle"));
+      " needs closed ones to tell inside from outside: choose PeriodicFaces Caps, or Format ",
+      formatsThat(&FolderFormat::mayBeOpen)));
   }
   require(!allowOpenSurfaces,
     "PeriodicFaces Open takes the caps off closed surfaces, and with AllowOpenSurfaces they need not be closed: turn that off");

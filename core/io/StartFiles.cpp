@@ -2,7 +2,7 @@
 #include "io/StartFiles.h"
 
 #include "base/Numbers.h"
-#include "io/CombinedSurfaces.h"
+#include "io/FolderFormat.h"
 #include "judge/StartPositions.h"
 
 namespace cactus
@@ -12,23 +12,6 @@ namespace
 {
 
 constexpr int digits = 9;
-
-/// Returns the simulator's lengths per µm.
-double unitOf(SubstrateFormat format)
-{
-  switch (format)
-  {
-  case SubstrateFormat::Mcdc:
-    return 1e-3;
-  case SubstrateFormat::Reference:
-  case SubstrateFormat::Surfaces:
-  case SubstrateFormat::Bundles:
-  case SubstrateFormat::Mcmr:
-    return 1.0;
-  default:
-    return 1e-6;
-  }
-}
 
 std::string pointsText(const std::vector<Eigen::Vector3d>& points, const SurfaceBox& box, double unit)
 {
@@ -77,6 +60,12 @@ StartPositions drawFor(const std::vector<McdcSimulation>& simulations, const Sub
 
 } // namespace
 
+int startPointCount(const SubstrateFolderContents& contents)
+{
+  return contents.startPositions == 0 && formatOf(contents.format).needsStartPositions(contents) ? contents.mcdc.walkers
+                                                                                                 : contents.startPositions;
+}
+
 void writeStartPositions(const SubstrateFolderContents& contents, const std::vector<McdcSimulation>& simulations,
   FolderWriter& writer, const Context& context)
 {
@@ -86,12 +75,9 @@ void writeStartPositions(const SubstrateFolderContents& contents, const std::vec
     return;
   }
   const StartPositions points = drawFor(simulations, contents, static_cast<std::size_t>(count), context);
-  SurfaceBox around; // of everything
-  around.lower = contents.domain.lower;
-  around.upper = contents.domain.upper;
-  const bool isDisimpy = contents.format == SubstrateFormat::Disimpy;
-  const auto boxOf = [&](const FibreSurfaces& surfaces) { return isDisimpy ? surfaceBox(surfaces, context) : around; };
-  const double unit = unitOf(contents.format);
+  const FolderFormat& format = formatOf(contents.format);
+  const auto boxOf = [&](const FibreSurfaces& surfaces) { return format.startBox(surfaces, contents.domain, context); };
+  const double unit = format.startUnit();
   writer.makeFolder("start");
   writer.write(
     "start/intra.txt", pointsText(points.intra, boxOf(contents.inner.size() > 0 ? contents.inner : contents.outer), unit));

@@ -8,6 +8,10 @@
 namespace cactus
 {
 
+/// Returns the number of points in each compartment that walkers are to start from: as asked for, or as many as there are walkers
+/// where the format needs them.
+int startPointCount(const SubstrateFolderContents& contents);
+
 /// Writes `start/intra.txt`, `start/myelin.txt` and `start/extra.txt`, as far as there are these compartments: one point a line,
 /// `x y z`, in the unit of the simulator (MC/DC mm, the reference program µm, Camino and Disimpy m). Disimpy's count from the
 /// lower corner of the box around the surfaces that hold the walkers in: inner ones for intra, outer ones for the others; points

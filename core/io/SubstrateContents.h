@@ -69,10 +69,10 @@ struct SubstrateFolderContents
   PeriodicFaces periodicFaces = PeriodicFaces::Caps;
   SubstrateCertificateOptions certificate;
   SubstrateFormat format = SubstrateFormat::Mcdc;
-  PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files that no simulator reads, see mayBeBinary()
+  PlyEncoding encoding = PlyEncoding::Ascii; ///< of PLY files
   McdcOptions mcdc;
   double voxelSize = 0.1; ///< µm, of label volumes
-  int startPositions = 0; ///< points in each compartment for walkers to start from; see startPointCount()
+  int startPositions = 0; ///< points in each compartment for walkers to start from
   std::uint64_t seed = 1; ///< of their places
 };
 
@@ -80,23 +80,6 @@ struct SubstrateFolderContents
 inline bool hasStrandFile(const SubstrateFolderContents& contents)
 {
   return contents.fibres != nullptr && fitsStrandFile(contents.fibres->domain);
-}
-
-/// Points in each compartment that walkers are to start from. In MC/DC, a walker that it has placed inside meets the walls of its
-/// own axon alone; those who can get out of it have to start from a file. So have walkers among open surfaces, which do not tell
-/// it what is inside.
-inline int startPointCount(const SubstrateFolderContents& contents)
-{
-  const bool isPermeable = contents.format == SubstrateFormat::Mcdc && contents.mcdc.permeability > 0.0;
-  const bool isOpen = contents.format == SubstrateFormat::Mcdc && contents.periodicFaces == PeriodicFaces::Open;
-  return contents.startPositions == 0 && (isPermeable || isOpen) ? contents.mcdc.walkers : contents.startPositions;
-}
-
-/// Whether a format has PLY files that may be binary: the simulators that read any know ASCII only.
-inline bool mayBeBinary(SubstrateFormat format)
-{
-  return format == SubstrateFormat::Rms || format == SubstrateFormat::Surfaces || format == SubstrateFormat::SpinDoctor ||
-         format == SubstrateFormat::Bundles || format == SubstrateFormat::Mcmr;
 }
 
 /// The file of one surface, as listed in the manifest.

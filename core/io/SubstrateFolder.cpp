@@ -3,20 +3,12 @@
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
-#include "base/Memory.h"
-#include "base/Parallel.h"
 #include "fibres/SelectFibres.h"
 #include "io/CertificateText.h"
-#include "io/CombinedSurfaces.h"
-#include "io/ElementFiles.h"
+#include "io/FolderFormat.h"
 #include "io/FolderReplacement.h"
-#include "io/FolderWriter.h"
-#include "io/McdcFiles.h"
-#include "io/McmrGeometry.h"
 #include "io/NumberedName.h"
 #include "io/OpenSurfaces.h"
-#include "io/PlyFile.h"
-#include "io/RmsFiles.h"
 #include "io/StartFiles.h"
 #include "io/StrandFile.h"
 #include "io/SubstrateManifest.h"
@@ -24,14 +16,7 @@
 #include "mesh/SurfaceCheck.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <memory>
 #include <optional>
-#include <set>
-#include <thread>
 
 namespace cactus
 {
@@ -44,7 +29,7 @@ class SurfacePaths
 {
 public:
   explicit SurfacePaths(const SubstrateFolderContents& contents)
-    : Format(contents.format)
+    : Format(formatOf(contents.format))
     , IsMany(std::max(contents.outer.size(), contents.inner.size()) > filesInAFolder)
   {
     for (const FibreSurfaces* surfaces : { &contents.outer, &contents.inner })
@@ -59,20 +44,8 @@ public:
 
   std::string path(const std::string& kind, int id, int bundleId) const
   {
-    const std::string digits = numbered(std::size_t(id), this->LargestFibre);
-    switch (this->Format)
-    {
-    case SubstrateFormat::Reference:
-      return "meshes/simulations/strand_" + digits + '_' + kind + "_erode_0.ply";
-    case SubstrateFormat::Camino:
-      return kind + ".ply";
-    case SubstrateFormat::Disimpy:
-      return kind + "_vertices.npy";
-    case SubstrateFormat::Bundles:
-      return kind + "/bundle_" + numbered(std::size_t(bundleId), this->LargestBundle) + ".ply";
-    default:
-      return kind + '/' + this->thousand(id) + "fibre_" + digits + ".ply";
-    }
+    return this->Format.surfacePath({ kind, this->thousand(id), numbered(std::size_t(id), this->LargestFibre),
+      numbered(std::size_t(bundleId), this->LargestBundle) });
   }
 
 private:
@@ -82,17 +55,11 @@ private:
     return this->IsMany ? numbered(std::size_t(id) / filesInAFolder, this->LargestFibre / filesInAFolder) + '/' : "";
   }
 
-  SubstrateFormat Format;
+  const FolderFormat& Format;
   bool IsMany;
   std::size_t LargestFibre = 0;
   std::size_t LargestBundle = 0;
 };
-
-/// Tells whether all surfaces of one kind go into one file.
-bool isCombined(SubstrateFormat format)
-{
-  return format == SubstrateFormat::Camino || format == SubstrateFormat::Disimpy;
-}
 
 void requireSound(const SurfaceReport& report, const std::string& what, const std::string& wayOut)
 {
@@ -156,118 +123,6 @@ struct SharedRun
   const Recollection& known;
 };
 
-/// Makes the folders of these files, the outer ones first, and lists the files.
-void prepare(const std::vector<SubstrateFile>& files, FolderWriter& writer)
-{
-  std::set<std::string> made = writer.written().folders;
-  std::vector<std::string> paths;
-  for (const SubstrateFile& file : files)
-  {
-    for (std::size_t end = file.path.find('/'); end != std::string::npos; end = file.path.find('/', end + 1))
-    {
-      if (made.insert(file.path.substr(0, end)).second)
-      {
-        writer.makeFolder(file.path.substr(0, end));
-      }
-    }
-    paths.push_back(file.path);
-  }
-  writer.list(paths);
-}
-
-/// Writes each surface to its own file.
-void writeSeparately(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, PlyEncoding encoding,
-  FolderWriter& writer, const SharedRun& run, double from, double to)
-{
-  std::vector<std::string> checksums(surfaces.size());
-  run.sharing.loop(
-    surfaces.size(), run.context,
-    [&](std::size_t i)
-    {
-      const std::string comment = "CACTUS " CACTUS_VERSION ", " + files[i].surface + " surface of fibre " +
-                                  std::to_string(files[i].fibreId) + ", micrometres";
-      checksums[i] = writer.put(files[i].path, plyText(surfaces.mesh(i), comment, encoding));
-    },
-    [&](std::size_t i) { return checksums[i]; }, [&](std::size_t i, const std::string& checksum) { checksums[i] = checksum; },
-    "Writing surfaces", from, to);
-  for (std::size_t i = 0; i < files.size(); ++i)
-  {
-    writer.remember(files[i].path, checksums[i]);
-  }
-}
-
-/// The surfaces of a bundle.
-struct BundleSurfaces
-{
-  FibreSurfaces surfaces;
-  std::vector<std::size_t> places; ///< indices among all
-};
-
-/// Groups the surfaces by bundle. `all` has to outlive the result.
-std::map<int, BundleSurfaces> byBundle(const FibreSurfaces& all)
-{
-  std::map<int, BundleSurfaces> bundles;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    BundleSurfaces& bundle = bundles[all.bundleIds[i]];
-    bundle.surfaces.fibreIds.push_back(all.fibreIds[i]);
-    bundle.surfaces.bundleIds.push_back(all.bundleIds[i]);
-    bundle.places.push_back(i);
-  }
-  for (auto& entry : bundles)
-  {
-    BundleSurfaces& bundle = entry.second;
-    bundle.surfaces.mesh = [&all, &bundle](std::size_t i) { return all.mesh(bundle.places[i]); };
-  }
-  return bundles;
-}
-
-/// Returns a context for several threads: only the thread that made it asks the caller whether to stop.
-Context askedByOne(const Context& context)
-{
-  Context shared = context;
-  shared.cancelled = [&context, own = std::this_thread::get_id(), isStopped = std::make_shared<std::atomic<bool>>(false)]
-  {
-    if (std::this_thread::get_id() == own && context.stopRequested())
-    {
-      *isStopped = true;
-    }
-    return isStopped->load();
-  };
-  return shared;
-}
-
-/// Writes the surfaces of each bundle to a file.
-void writeByBundle(const FibreSurfaces& surfaces, const std::vector<SubstrateFile>& files, PlyEncoding encoding,
-  FolderWriter& writer, const SharedRun& run, double from, double to)
-{
-  const std::map<int, BundleSurfaces> bundles = byBundle(surfaces);
-  std::vector<const BundleSurfaces*> inTurn;
-  inTurn.reserve(bundles.size());
-  for (const auto& entry : bundles)
-  {
-    inTurn.push_back(&entry.second);
-  }
-  const auto fileOf = [&](std::size_t i) -> const SubstrateFile& { return files[inTurn[i]->places.front()]; };
-  const Context context = askedByOne(run.context);
-  std::vector<std::string> checksums(inTurn.size());
-  run.sharing.loop(
-    inTurn.size(), context,
-    [&](std::size_t i)
-    {
-      const SubstrateFile& file = fileOf(i);
-      const std::string comment =
-        "CACTUS " CACTUS_VERSION ", " + file.surface + " surfaces of bundle " + std::to_string(file.bundleId) + ", micrometres";
-      checksums[i] = writeBundleSurfaces(inTurn[i]->surfaces, file.path, comment, encoding, writer, context);
-    },
-    [&](std::size_t i) { return checksums[i]; }, [&](std::size_t i, const std::string& checksum) { checksums[i] = checksum; },
-    "Writing surfaces", from, to);
-  for (std::size_t i = 0; i < inTurn.size(); ++i)
-  {
-    writer.remember(fileOf(i).path, checksums[i]);
-  }
-}
-
 std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents, const std::string& kind,
   const SubstrateCertificate& certificate, FolderWriter& writer, const SharedRun& run, double from, double to)
 {
@@ -285,23 +140,8 @@ std::vector<SubstrateFile> writeSurfaces(const SubstrateFolderContents& contents
     from = half;
   }
   const FibreSurfaces surfaces = isOpen ? openedSurfaces(closed, kind, contents.domain) : closed;
-  if (isCombined(contents.format))
-  {
-    run.context.report(from, "Writing surfaces");
-    if (run.sharing.isFirst())
-    {
-      contents.format == SubstrateFormat::Camino ? writeCaminoSurfaces(surfaces, kind, writer, run.context)
-                                                 : writeDisimpySurfaces(surfaces, kind, writer, run.context);
-    }
-    return files;
-  }
-  if (run.sharing.isFirst())
-  {
-    prepare(files, writer);
-  }
-  run.sharing.exchange();
-  const auto write = contents.format == SubstrateFormat::Bundles ? &writeByBundle : &writeSeparately;
-  write(surfaces, files, contents.encoding, writer, run, from, to);
+  formatOf(contents.format)
+    .writeSurfaces({ surfaces, kind, files, contents.encoding }, writer, { run.context, run.sharing, from, to });
   return files;
 }
 
@@ -324,19 +164,11 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   {
     throw InvalidInput("there are no surfaces to write: connect MyelinSurface's Outer and Inner");
   }
-  if (contents.format == SubstrateFormat::Reference && (contents.fibres == nullptr || contents.inner.size() == 0))
-  {
-    throw InvalidInput(
-      "Format Reference program has both surfaces of each fibre and their centre lines: connect Inner and Fibres");
-  }
+  formatOf(contents.format).requireContents(contents);
   requireEncoding(contents.format, contents.encoding);
   requireOpenable(contents.periodicFaces, contents.format, contents.allowOpenSurfaces);
   requirePeriodic(contents.periodicFaces, contents.domain);
   requireRoom(contents.format, contents.domain, contents.voxelSize);
-  if (contents.format == SubstrateFormat::SpinDoctor && contents.outer.size() == 0)
-  {
-    throw InvalidInput("Format SpinDoctor has a compartment outside the fibres: connect MyelinSurface's Outer");
-  }
 }
 
 /// Writes everything but the surfaces, the manifest last: its existence shows that the folder is complete.
@@ -344,16 +176,11 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
 {
   if (hasStrandFile(contents))
   {
-    const bool isReference = contents.format == SubstrateFormat::Reference;
     // By id, as in certificate and manifest: a strand file has no ids, and the pieces of a fibre have theirs at the end.
     const std::vector<int>& ids = contents.fibres->fibreIds;
     const bool isSorted = std::is_sorted(ids.begin(), ids.end());
-    writer.writeBy(isReference ? "optimized_final.txt" : "fibres.strands", [&](const std::string& path)
+    writer.writeBy(formatOf(contents.format).strandsName(), [&](const std::string& path)
       { writeStrandFile(isSorted ? *contents.fibres : selectFibres(*contents.fibres, orderById(*contents.fibres)), path); });
-  }
-  if (contents.format == SubstrateFormat::Camino)
-  {
-    writer.write("pgse.scheme", mcdcScheme(contents.mcdc)); // in Camino's own format
   }
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
@@ -366,20 +193,6 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
       manifest.stream() << manifestText(contents, substrate, writer.written());
       manifest.commit();
     });
-}
-
-/// Checks the memory for format SpinDoctor, which joins all surfaces in memory.
-void requireMemoryForElements(const SubstrateCertificate& certificate)
-{
-  constexpr double bytesOfTriangle = 80.0; // twice with its part of the points, once with the compartments of its sides
-  double triangles = 0.0;
-  for (const FibreCertificate& fibre : certificate.fibres)
-  {
-    triangles += double(fibre.outer.triangles) + double(fibre.inner.triangles);
-  }
-  requireMemory(bytesOfTriangle * triangles,
-    "Format SpinDoctor, which joins " + std::to_string(std::uint64_t(triangles)) + " triangles,",
-    "choose another Format, or make a smaller substrate");
 }
 
 /// Judges and writes the parts that processes share.
@@ -403,10 +216,7 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
     requireSound(substrate.certificate,
       ", so that nobody knows which StartPositions are inside: mend it, or set them and Permeability to 0");
   }
-  if (contents.format == SubstrateFormat::SpinDoctor)
-  {
-    requireMemoryForElements(substrate.certificate);
-  }
+  formatOf(contents.format).requireMemory(substrate.certificate);
   const double share =
     static_cast<double>(contents.outer.size()) / static_cast<double>(contents.outer.size() + contents.inner.size());
   const double between = judged + (1.0 - judged) * share;
@@ -420,28 +230,12 @@ WrittenSubstrate judgeAndWrite(const SubstrateFolderContents& contents, FolderWr
 void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate, FolderWriter& writer,
   FolderReplacement& replacement, const Context& context)
 {
-  if (contents.format == SubstrateFormat::Rms)
+  const FolderFormat& format = formatOf(contents.format);
+  format.writeOwnFiles(contents, substrate, writer, context);
+  if (format.hasStartPositions())
   {
-    writeRms(contents, substrate, writer, context);
-  }
-  else if (contents.format == SubstrateFormat::SpinDoctor)
-  {
-    substrate.remarks = writeElementFiles(contents, substrate.certificate.smallestGap, writer, context);
-  }
-  else if (contents.format == SubstrateFormat::Mcdc)
-  {
-    const std::vector<McdcSimulation> simulations = mcdcSimulations(contents, substrate.files);
-    const Context last = context.part(1.0, 1.0); // surfaces are written, and progress does not go back
-    writeMcdc(contents, simulations, substrate, writer, last);
-    writeStartPositions(contents, simulations, writer, last);
-  }
-  else
-  {
-    writeStartPositions(contents, {}, writer, context);
-  }
-  if (contents.format == SubstrateFormat::Mcmr)
-  {
-    writeMcmrGeometry(contents, writer, context);
+    // Surfaces are written, and progress does not go back.
+    writeStartPositions(contents, format.startSimulations(contents, substrate.files), writer, context.part(1.0, 1.0));
   }
   if (contents.fibres != nullptr && !hasStrandFile(contents))
   {
@@ -457,21 +251,18 @@ void finish(const SubstrateFolderContents& contents, WrittenSubstrate& substrate
 
 void requireEncoding(SubstrateFormat format, PlyEncoding encoding)
 {
-  require(encoding == PlyEncoding::Ascii || mayBeBinary(format),
-    "Encoding Binary is not for simulators whose readers of PLY files take ASCII only: choose Encoding ASCII, or Format Surfaces "
-    "alone, Surfaces by bundle, RMS, SpinDoctor or MCMRSimulator");
+  if (encoding != PlyEncoding::Ascii && !formatOf(format).mayBeBinary())
+  {
+    throw InvalidInput(
+      "Encoding Binary is not for simulators whose readers of PLY files take ASCII only: choose Encoding ASCII, or "
+      "Format " +
+      formatsThat(&FolderFormat::mayBeBinary));
+  }
 }
 
 void requireRoom(SubstrateFormat format, const Domain& domain, double voxelSize)
 {
-  require(format != SubstrateFormat::Reference || (fitsStrandFile(domain) && isCube(domain)),
-    "Format Reference program has the fibres in a strand file, of which that program reads only those of a cube centred on the "
-    "origin, and the Domain "
-    "is something else: choose another Format");
-  if (format == SubstrateFormat::Rms)
-  {
-    requireRmsVoxels(domain, voxelSize);
-  }
+  formatOf(format).requireRoom(domain, voxelSize);
 }
 
 WrittenSubstrate writeSubstrateFolder(const SubstrateFolderContents& contents, const std::string& folder, const Context& context,

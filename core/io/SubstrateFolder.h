@@ -10,7 +10,7 @@
 namespace cactus
 {
 
-/// Throws InvalidInput if a format's files do not exist in an encoding, see mayBeBinary().
+/// Throws InvalidInput if a format's files do not exist in an encoding.
 void requireEncoding(SubstrateFormat format, PlyEncoding encoding);
 
 /// Throws InvalidInput if a format cannot hold a substrate of this domain: the reference program requires a cube centred on the

@@ -13,6 +13,7 @@
 #include "growth/GrownTiles.h"
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
+#include "io/FolderFormat.h"
 #include "io/FolderReplacement.h"
 #include "io/MadeSurfaces.h"
 #include "io/OpenSurfaces.h"
@@ -299,7 +300,7 @@ void validate(const ProductionOrder& order)
   requireOpenable(order.periodicFaces, order.format, order.allowOpenSurfaces);
   requireWithin("SampledFraction", order.sampledFraction, limits::sampledFraction);
   const bool isSample = order.sampledFraction < 1.0;
-  require(!isSample || order.format == SubstrateFormat::Surfaces || order.format == SubstrateFormat::Bundles,
+  require(!isSample || formatOf(order.format).mayBeSample(),
     "Format is a simulator's, which would take the space of the fibres that SampledFraction leaves out for extra-axonal: choose "
     "Surfaces alone or Surfaces by bundle, or make all surfaces (SampledFraction 1)");
   require(!isSample || order.surfaces.model != GRatioModel::TargetAxonVolumeFraction,
