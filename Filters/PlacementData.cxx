@@ -84,13 +84,25 @@ void changeArray(vtkDataSetAttributes* data, vtkDataArray* array, Change&& chang
   }
 }
 
+/// Tells whether an array has directions: ours by their names, others where they are the data's vectors, normals or tangents.
+bool hasDirections(vtkDataSetAttributes* data, vtkDataArray* array)
+{
+  if (array == nullptr || array->GetNumberOfComponents() != 3 ||
+      (array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE))
+  {
+    return false;
+  }
+  const std::string name = array->GetName() != nullptr ? array->GetName() : "";
+  return array == data->GetVectors() || array == data->GetNormals() || array == data->GetTangents() || name == "MeanDirection" ||
+         name == "Direction";
+}
+
 void turnDirections(vtkDataSetAttributes* data, const Placement& placement)
 {
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i);
-    if (array != nullptr && array->GetNumberOfComponents() == 3 && array->IsNumeric() != 0 &&
-        (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE) && array != data->GetTCoords())
+    if (hasDirections(data, array))
     {
       changeArray(data, array,
         [&](std::vector<double>& tuple)

@@ -37,7 +37,7 @@ bool isPlaceable(vtkDataObject* data);
 void requirePlaceable(vtkDataObject* data);
 
 /// Moves `output`, a shallow copy of data in the substrate's space, into that of the image: points or an image's grid; arrays of
-/// three floating-point numbers, which are directions, are rotated; Radius and TargetRadius become mm; colours of fibres by their
+/// directions are rotated; Radius and TargetRadius become mm; colours of fibres by their
 /// direction follow the image's axes. All other numbers stay, and tables do not change. Throws InvalidInput for data of another
 /// type and for placed data.
 void place(vtkDataObject* output, const Placement& placement);

@@ -4,9 +4,9 @@
  * @brief Places a substrate in an image's space: from its own µm to the scanner's mm, rotated and moved.
  *
  * Input: anything with points (fibres, surfaces), images, tables, and blocks of these in any mixture. Output: the same. Points
- * and the grids of images are moved, with the images' direction matrix; arrays of three floating-point numbers are directions,
- * and rotated; `Radius` and `TargetRadius` become mm. All other arrays stay, including `Domain`, and tables do not change. Data
- * of another type give an error, with an empty vtkPolyData as output; so do empty data.
+ * and the grids of images are moved, with the images' direction matrix; `MeanDirection`, `Direction` and the data's vectors,
+ * normals and tangents are rotated; `Radius` and `TargetRadius` become mm. All other arrays stay, including `Domain`, and tables
+ * do not change. Data of another type give an error, with an empty vtkPolyData as output; so do empty data.
  *
  * Field data `Placement` holds the affine from µm to mm, row by row. Writers of images and tractograms put it into their files,
  * SubstrateWriter into the manifest; filters that work on fibres and surfaces move these back into the substrate's space.

@@ -121,7 +121,12 @@ class Placing(CactusTestCase):
         for _ in range(self.outer.GetNumberOfPoints()):
             normals.InsertNextTuple3(0, 0, 1)
         self.outer.GetPointData().SetNormals(normals)
+        colours = vtkDoubleArray()
+        colours.DeepCopy(normals)
+        colours.SetName("Colours")  # three numbers, and no direction
+        self.outer.GetPointData().AddArray(colours)
         placed = fetch(Placement(Input=produce(self.outer), **PLACE))
+        numpy.testing.assert_array_equal(vtk_to_numpy(placed.GetPointData().GetArray("Colours")), vtk_to_numpy(colours))
         found = vtk_to_numpy(placed.GetPointData().GetNormals())
         numpy.testing.assert_allclose(found, numpy.tile(1e3 * affine()[:3, 2], (len(found), 1)), atol=1e-14)
 
