@@ -122,6 +122,10 @@ inline constexpr Range bundleMarginOrAsNeeded{ bundleMargin.lowest, bundleMargin
 /// Deviation of the logarithm of an axon's radius along it, and the length over which it is correlated.
 inline constexpr Range calibreVariation{ 1e-3, 0.5, "", 0.0 };
 inline constexpr Range calibreCorrelationLength{ 0.3, 20.0, " µm" };
+inline constexpr Range beadAmplitude{ 1e-3, 3.0, "", 0.0 };
+inline constexpr Range beadSpacing{ 0.5, 50.0, " µm" };
+inline constexpr Range beadSpacingDeviation{ 0.0, 50.0, " µm" };
+inline constexpr Range beadLength{ 0.3, 10.0, " µm" };
 inline constexpr Range spacingFactor{ 1e-2, 1e3 };
 inline constexpr Range spacing{ 1e-2, 1e5, " µm" };
 

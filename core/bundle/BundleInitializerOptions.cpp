@@ -116,6 +116,7 @@ void BundleInitializerOptions::validate() const
       limits::fraction.highest, " (no less than FibreVolumeFraction)"));
   }
   radius.validate();
+  calibre.validate();
   if (radius.minimum * this->thinning() < limits::radius.lowest)
   {
     throw InvalidInput(

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bundle/CalibreVariation.h"
 
+#include "base/Error.h"
 #include "base/Limits.h"
+#include "base/Numbers.h"
 
 #include <limits>
 
@@ -13,6 +15,12 @@ const PropertyList<CalibreVariation>& CalibreVariation::properties()
   using Options = CalibreVariation;
   static const auto list =
     PropertyList<Options>()
+      .add("CalibreModel", &Options::model, { "Lognormal", "Beads" },
+        "How a fibre's calibre varies along it. Lognormal: swellings and necks of all sizes (CalibreVariation), as in healthy "
+        "white matter. Beads: swellings of one size (BeadAmplitude, BeadSpacing, BeadLength), with the same radius in between, "
+        "as in injured axons. In both, TargetRadius is the root mean square of a fibre's outer radius, and the myelin is as "
+        "thick "
+        "along the whole fibre.")
       .add("CalibreVariation", &Options::deviation, limits::calibreVariation,
         "Variation of a fibre's calibre along it: standard deviation of the logarithm of the axon's (inner) radius, on average "
         "over the fibres; thick fibres vary less. Axons of the corpus callosum have 0.25 (human) to 0.3 (mouse). The myelin is "
@@ -20,18 +28,44 @@ const PropertyList<CalibreVariation>& CalibreVariation::properties()
         "is the root mean square of a fibre's outer radius. Neighbours alone give fibres that fill 0.9 a variation of 0.15, and "
         "less cannot be had there. Axons of up to 0.2 µm do not vary, since their necks could not be resolved. 0: fibres are as "
         "thick everywhere before they grow.")
+      .where("CalibreModel", { 0 })
       .add("CalibreCorrelationLength", &Options::correlationLength, limits::calibreCorrelationLength,
         "Length in µm along the fibre over which its calibre is similar: the correlation falls to one half at 0.97 times this "
         "length. Axons have 1.2 to 1.5. Control points are at most 0.6 times this length apart.")
-      .whereGiven("CalibreVariation");
+      .whereGiven("CalibreVariation")
+      .where("CalibreModel", { 0 })
+      .add("BeadAmplitude", &Options::beadAmplitude, limits::beadAmplitude,
+        "How much thicker than on average an axon is in a bead: largest over mean inner radius, minus 1. Axons of the mouse have "
+        "0.6. Thin axons have less where the necks between their beads could not be resolved. 0: fibres are as thick everywhere "
+        "before they grow.")
+      .where("CalibreModel", { 1 })
+      .include(&Options::beads, BeadShape::properties());
   return list;
+}
+
+void CalibreVariation::validate() const
+{
+  constexpr double mostCovered = 0.9;
+  const double covered = this->beads.mean() * (1.0 + this->beadAmplitude);
+  if (this->model == CalibreModel::Beads && covered > mostCovered)
+  {
+    throw InvalidInput(text("BeadSpacing is ", this->beads.spacing, " µm: with BeadAmplitude ", this->beadAmplitude,
+      " and BeadLength ", this->beads.length, " µm beads run into each other; give ", this->beads.spacing * covered / mostCovered,
+      " µm or more, or a smaller BeadLength or BeadAmplitude"));
+  }
 }
 
 double longestSpacing(const CalibreVariation& variation)
 {
-  // Distance of control points, in correlation lengths.
-  constexpr double sampling = 0.6;
-  return variation.varies() ? sampling * variation.correlationLength : std::numeric_limits<double>::infinity();
+  // Distances of control points.
+  constexpr double ofCorrelationLength = 0.6;
+  constexpr double ofBeadLength = 0.4;
+  if (!variation.varies())
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  return variation.model == CalibreModel::Lognormal ? ofCorrelationLength * variation.correlationLength
+                                                    : ofBeadLength * variation.beads.length;
 }
 
 } // namespace cactus

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace cactus
@@ -25,14 +26,18 @@ constexpr double highestNormal = 3.0;
 /// too.
 constexpr double shortening = 0.8;
 
+/// Returns the part of the variance that growth to a volume fraction of fibres leaves.
+double keptByGrowth(double fraction)
+{
+  return 1.0 - 0.52 * std::pow(fraction / 0.9, 3.0);
+}
+
 /// Returns the deviation before growth to a volume fraction of fibres that comes out as the one asked for. By measurements of
 /// default bundles (tools/benchmarks/calibre.py): reached² = own² + kept · begun².
 double deviationBeforeGrowth(double asked, double fraction)
 {
-  const double dense = fraction / 0.9;
-  const double own = 0.15 * std::pow(dense, 5.4);
-  const double kept = 1.0 - 0.52 * std::pow(dense, 3.0);
-  return std::sqrt(std::max(0.0, asked * asked - own * own) / kept);
+  const double own = 0.15 * std::pow(fraction / 0.9, 5.4);
+  return std::sqrt(std::max(0.0, asked * asked - own * own) / keptByGrowth(fraction));
 }
 
 /// Returns the radius (µm) of an axon at its thinnest neck before its neighbours' growth to a volume fraction of fibres squeezes
@@ -144,19 +149,109 @@ double meanSquare(double gRatio, double deviation)
   return sum / weights;
 }
 
-} // namespace
-
-void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
+/// The outer radii of one fibre's control points.
+struct FibreLine
 {
-  const double asked = deviationBeforeGrowth(options.calibre.deviation, options.grownFibreVolumeFraction);
-  if (asked == 0.0)
+  std::vector<double> lengths; ///< µm, of the control points from the fibre's beginning
+  double half; ///< µm, that of the middle, from which the calibre is drawn, or half the period of a fibre that repeats
+  bool repeats;
+  double radius; ///< µm, root mean square
+  double gRatio;
+  double thinnest; ///< µm, radius of an axon's thinnest neck
+  int id;
+};
+
+/// Lognormal calibre of all fibres.
+class LognormalCalibre
+{
+public:
+  explicit LognormalCalibre(const BundleInitializerOptions& options)
+    : Asked(deviationBeforeGrowth(options.calibre.deviation, options.grownFibreVolumeFraction))
+    , Typical(this->Asked > 0.0 ? typicalRadius(options.radius, options.seed) : 1.0)
+    , Length(shortening * options.calibre.correlationLength)
+    , Seed(options.seed)
+  {
+  }
+
+  bool varies() const { return this->Asked > 0.0; }
+
+  std::vector<double> radii(const FibreLine& line) const
+  {
+    const double apart = line.lengths.back() / static_cast<double>(line.lengths.size() - 1);
+    // Between control points the radius is interpolated, which takes some of the variance.
+    const double kept = (2.0 + correlationAt(apart / this->Length)) / 3.0;
+    const double narrowest = std::log(line.thinnest / (line.gRatio * line.radius)) / lowestNormal;
+    const double deviation = std::clamp(this->Asked * std::pow(line.radius / this->Typical, -fallOff) / std::sqrt(kept), 0.0,
+      std::clamp(narrowest, 0.0, largestDeviation));
+    const double scale = line.radius / std::sqrt(meanSquare(line.gRatio, deviation));
+    const CalibreProcess process(this->Length, this->Seed, line.id, line.half, line.repeats);
+    std::vector<double> radii;
+    for (const double length : line.lengths)
+    {
+      const double z = std::clamp(process.at(length - line.half), lowestNormal, highestNormal);
+      radii.push_back(scale * (1.0 - line.gRatio + line.gRatio * std::exp(deviation * z)));
+    }
+    return radii;
+  }
+
+private:
+  double Asked;
+  double Typical;
+  double Length;
+  std::uint64_t Seed;
+};
+
+/// Beads of all fibres.
+class BeadedCalibre
+{
+public:
+  explicit BeadedCalibre(const BundleInitializerOptions& options)
+    : Shape(options.calibre.beads)
+    , Height(this->Shape.heightOf(options.calibre.beadAmplitude) / std::sqrt(keptByGrowth(options.grownFibreVolumeFraction)))
+    , Mean(this->Shape.mean())
+    , MeanSquare(this->Shape.meanSquare())
+    , Seed(options.seed)
+  {
+  }
+
+  bool varies() const { return this->Height > 0.0; }
+
+  std::vector<double> radii(const FibreLine& line) const
+  {
+    // Of the axon in units of its mean radius: (1 + a b) / (1 + a ⟨b⟩). A neck has b = 0.
+    const double highest = std::max(0.0, (line.gRatio * line.radius / line.thinnest - 1.0) / this->Mean);
+    const double a = std::min(this->Height, highest);
+    const double mean = 1.0 + a * this->Mean;
+    const double square = (1.0 + 2.0 * a * this->Mean + a * a * this->MeanSquare) / (mean * mean);
+    const double g = line.gRatio;
+    const double scale = line.radius / std::sqrt((1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - g) + g * g * square);
+    const Beads beads(this->Shape, this->Seed, line.id, line.half, line.repeats);
+    std::vector<double> radii;
+    for (const double length : line.lengths)
+    {
+      radii.push_back(scale * (1.0 - g + g * (1.0 + a * beads.at(length - line.half)) / mean));
+    }
+    return radii;
+  }
+
+private:
+  BeadShape Shape;
+  double Height;
+  double Mean;
+  double MeanSquare;
+  std::uint64_t Seed;
+};
+
+/// Varies all fibres' radii by one of the classes above.
+template <typename Calibre>
+void varyBy(const Calibre& calibre, const BundleInitializerOptions& options, Fibres& fibres)
+{
+  if (!calibre.varies())
   {
     return;
   }
-  const double typical = typicalRadius(options.radius, options.seed);
-  const double processLength = shortening * options.calibre.correlationLength;
   const double thinning = options.thinning();
-  const double thinnest = thinnestAxon(options.grownFibreVolumeFraction);
+  const double thinnest = thinnestAxon(options.grownFibreVolumeFraction) * thinning;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     const std::size_t first = fibres.offsets[f];
@@ -170,28 +265,29 @@ void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
     const bool repeats = fibres.domain.periodic[2];
     const std::size_t period = repeats ? periodOf(fibres, f).points : last - first + 1;
     const double half = 0.5 * (repeats ? lengths[period] : lengths.back());
-    const double apart = lengths.back() / static_cast<double>(last - first);
-    // Between control points the radius is interpolated, which takes some of the variance.
-    const double kept = (2.0 + correlationAt(apart / processLength)) / 3.0;
     const double radius = fibres.radii[first];
     const bool isBare = fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio;
     const double gRatio = isBare ? bareGRatio : expectedGRatio(options.radius, radius / thinning);
-    const double narrowest = std::log(thinnest * thinning / (gRatio * radius)) / lowestNormal;
-    const double deviation = std::clamp(
-      asked * std::pow(radius / typical, -fallOff) / std::sqrt(kept), 0.0, std::clamp(narrowest, 0.0, largestDeviation));
-    const double scale = radius / std::sqrt(meanSquare(gRatio, deviation));
-    const CalibreProcess process(processLength, options.seed, fibres.fibreIds[f], half, repeats);
+    const std::vector<double> varied =
+      calibre.radii({ std::move(lengths), half, repeats, radius, gRatio, thinnest, fibres.fibreIds[f] });
     for (std::size_t p = first; p <= last; ++p)
     {
-      if (p - first >= period)
-      {
-        fibres.radii[p] = fibres.radii[p - period];
-        continue;
-      }
-      const double z = std::clamp(process.at(lengths[p - first] - half), lowestNormal, highestNormal);
-      const double varied = scale * (1.0 - gRatio + gRatio * std::exp(deviation * z));
-      fibres.radii[p] = std::clamp(varied, limits::radius.lowest, limits::radius.highest);
+      fibres.radii[p] = std::clamp(varied[(p - first) % period], limits::radius.lowest, limits::radius.highest);
     }
+  }
+}
+
+} // namespace
+
+void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
+{
+  if (options.calibre.model == CalibreModel::Beads)
+  {
+    varyBy(BeadedCalibre(options), options, fibres);
+  }
+  else
+  {
+    varyBy(LognormalCalibre(options), options, fibres);
   }
 }
 

@@ -246,7 +246,8 @@ std::string remarksOnBundle(const BundleInitializerOptions& options, const Bundl
   {
     told += text(told.empty() ? "" : "; ", "axons without myelin will end thicker than asked for, since thick fibres that ",
       options.calibre.varies() ? "swell" : "grow much", " leave them no place and growth fills what is left: choose ",
-      options.calibre.varies() ? "CalibreVariation 0" : "", options.calibre.varies() && growsMuch ? " and " : "",
+      options.calibre.varies() ? options.calibre.model == CalibreModel::Beads ? "BeadAmplitude 0" : "CalibreVariation 0" : "",
+      options.calibre.varies() && growsMuch ? " and " : "",
       growsMuch ? text("FibreVolumeFraction ", littleGrowth * options.grownFibreVolumeFraction,
                     " or more, or a smaller GrownFibreVolumeFraction")
                 : std::string());
