@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 # ctest-ranks: 2
 # ctest-timeout: 300

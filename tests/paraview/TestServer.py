@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 # ctest-timeout: 200
 """Client and server: a bad value gets its message, a good one after it the result, and neither waits for the other for ever."""

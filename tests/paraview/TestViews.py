@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# ctest-extended
 # ctest-needs: display
 """What a render view shows of each stage without a setting: tubes in their box, a section, axons in their myelin, seen at an angle."""
 
