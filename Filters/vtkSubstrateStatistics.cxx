@@ -75,6 +75,8 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("MeanInnerCalibreVariation", s.meanInnerCalibreVariation);
   number("MeanAxonDiffusivityRatio", s.meanDiffusivityRatio);
   number("MeanAxonAreaFluctuation_um", s.meanAreaFluctuation);
+  number("MeanBeadAmplitude", s.meanBeadAmplitude);
+  number("MeanBeadSpacing_um", s.meanBeadSpacing);
   number("EffectiveRadius_um", s.effectiveRadius);
   number("MiddleEffectiveRadius_um", s.middleEffectiveRadius);
   number("IntraAxonalSurfaceToVolume_um-1", s.intraSurfaceToVolume);
@@ -146,6 +148,8 @@ void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fib
   number("AxonAreaVariance", [](const Fibre& f) { return f.axon.areaVariance; });
   number("AxonAreaFluctuation_um", [](const Fibre& f) { return f.axon.areaFluctuation; });
   number("AxonDiffusivityRatio", [](const Fibre& f) { return f.axon.diffusivityRatio; });
+  number("BeadAmplitude", [](const Fibre& f) { return f.axon.beadAmplitude; });
+  number("BeadSpacing_um", [](const Fibre& f) { return f.axon.beadSpacing; });
   number("EffectiveRadius_um", [](const Fibre& f) { return f.axon.effectiveRadius; });
   number("AxonSurfaceToVolume_um-1", [](const Fibre& f) { return f.axonSurfaceToVolume(); });
 }

@@ -216,9 +216,49 @@ double EffectiveRadius::value() const
   return this->Squares > 0.0 ? std::sqrt(std::sqrt(this->SixthPowers / this->Squares)) : notANumber;
 }
 
+namespace
+{
+
+/// Sets the measures of beads.
+void measureBeads(const std::vector<FibreCut>& cuts, double spacing, AxonShape& shape)
+{
+  constexpr double swollen = 1.1; // of the mean radius
+  double mean = 0.0;
+  for (const FibreCut& cut : cuts)
+  {
+    mean += equivalentRadius(cut) / static_cast<double>(cuts.size());
+  }
+  std::vector<const FibreCut*> beads; // the thickest cut of each
+  bool isInside = false;
+  for (const FibreCut& cut : cuts)
+  {
+    const bool isSwollen = equivalentRadius(cut) > swollen * mean;
+    if (isSwollen && !isInside)
+    {
+      beads.push_back(&cut);
+    }
+    else if (isSwollen && cut.area > beads.back()->area)
+    {
+      beads.back() = &cut;
+    }
+    isInside = isSwollen;
+  }
+  double amplitudes = 0.0;
+  for (const FibreCut* bead : beads)
+  {
+    amplitudes += equivalentRadius(*bead) / mean - 1.0;
+  }
+  const auto count = static_cast<double>(beads.size());
+  shape.beadAmplitude = beads.empty() ? notANumber : amplitudes / count;
+  shape.beadSpacing =
+    beads.size() < 2 ? notANumber : spacing * static_cast<double>(beads.back()->number - beads.front()->number) / (count - 1.0);
+}
+
+} // namespace
+
 AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing)
 {
-  AxonShape shape{ notANumber, notANumber, notANumber, notANumber, notANumber };
+  AxonShape shape{ notANumber, notANumber, notANumber, notANumber, notANumber, notANumber, notANumber };
   if (cuts.empty())
   {
     return shape;
@@ -247,6 +287,7 @@ AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing)
   shape.areaFluctuation = cuts.size() >= 3 ? std::norm(wave) * spacing / count : notANumber;
   shape.diffusivityRatio = 1.0 / (area * inverse);
   shape.effectiveRadius = effective.value();
+  measureBeads(cuts, spacing, shape);
   return shape;
 }
 

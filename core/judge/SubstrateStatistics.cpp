@@ -229,6 +229,8 @@ void sumUpCuts(SubstrateStatistics& result)
   result.meanInnerCalibreVariation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerCalibreVariation(); });
   result.meanDiffusivityRatio = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.diffusivityRatio; });
   result.meanAreaFluctuation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.areaFluctuation; });
+  result.meanBeadAmplitude = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.beadAmplitude; });
+  result.meanBeadSpacing = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.beadSpacing; });
 }
 
 } // namespace

@@ -90,11 +90,13 @@ struct SubstrateStatistics
   double trianglesPerArea = 0.0;        ///< µm⁻², over all surfaces
   double smallestAngle = 0.0;           ///< degrees, over all surfaces
   double largestSquaredEdgeRatio = 0.0; ///< over all surfaces
-  double meanTortuosity = 0.0;          ///< over fibres that have one, like the next four
+  double meanTortuosity = 0.0;          ///< over fibres that have one, like the next six
   double meanOuterCalibreVariation = 0.0;
   double meanInnerCalibreVariation = 0.0;
   double meanDiffusivityRatio = 0.0;   ///< AxonShape::diffusivityRatio
   double meanAreaFluctuation = 0.0;    ///< µm, AxonShape::areaFluctuation: an estimate of Γ(k → 0)
+  double meanBeadAmplitude = 0.0;      ///< AxonShape::beadAmplitude
+  double meanBeadSpacing = 0.0;        ///< µm, AxonShape::beadSpacing
   double effectiveRadius = 0.0;        ///< µm, over all cuts of all axons; one without a cut counts with its radius
   double middleEffectiveRadius = 0.0;  ///< µm, over the middle cut of each axon, as in a section through the bundle
   double intraSurfaceToVolume = 0.0;   ///< µm⁻¹, walls of the axons over their volume

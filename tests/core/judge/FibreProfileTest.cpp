@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -59,6 +60,26 @@ double tortuosity(const std::vector<Eigen::Vector3d>& points, double side)
     fibres.addPoint(point, 1.0);
   }
   return cactus::tortuosityInDomain(fibres, 0);
+}
+
+TEST(AxonShape, TellsBeads)
+{
+  // Radius 1, and three beads of 1.5 at the cuts 20, 60 and 80, two cuts wide on either side.
+  std::vector<cactus::FibreCut> cuts;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 100; ++i)
+  {
+    const std::size_t distance = std::min({ i > 20 ? i - 20 : 20 - i, i > 60 ? i - 60 : 60 - i, i > 80 ? i - 80 : 80 - i });
+    const double radius = distance == 0 ? 1.5 : distance <= 2 ? 1.3 : 1.0;
+    cuts.push_back({ i, cactus::pi * radius * radius, 1.0 });
+    sum += radius;
+  }
+  const auto shape = cactus::axonShape(cuts, 0.25);
+  EXPECT_NEAR(shape.beadAmplitude, 1.5 / (sum / 100.0) - 1.0, 1e-12);
+  EXPECT_NEAR(shape.beadSpacing, 0.25 * 30.0, 1e-12);
+
+  const auto pipe = cactus::axonShape({ { 0, 2.0, 1.0 }, { 1, 2.0, 1.0 }, { 2, 2.0, 1.0 } }, 0.25);
+  EXPECT_TRUE(std::isnan(pipe.beadAmplitude) && std::isnan(pipe.beadSpacing));
 }
 
 } // namespace
