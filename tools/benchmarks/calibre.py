@@ -2,6 +2,7 @@
 """Prints how the calibre of axons varies along them on final surfaces, as rows of a Markdown table.
 
     ./cactus pvpython tools/benchmarks/calibre.py --side 20 --seeds 3 --fractions 0.6 0.8 0.9 --variations 0.1 0.2 0.3 0.4
+    ./cactus pvpython tools/benchmarks/calibre.py --side 20 --seeds 3 --fractions 0.6 0.8 0.9 --beads 0.3 0.6
 
 Inner surfaces are cut every 0.25 µm. From differences of ln r at distances along an axon (the variogram, which needs no mean and so is not biased for
 short axons): its deviation, and the distance at which the correlation falls to one half. Beside them: the diffusivity along axons, 1/<1/α> of those
@@ -74,15 +75,17 @@ def main():
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--fractions", type=float, nargs="+", default=[0.6, 0.8, 0.9])
     parser.add_argument("--variations", type=float, nargs="+", default=[0.1, 0.2, 0.3, 0.4])
+    parser.add_argument("--beads", type=float, nargs="+", default=[], metavar="AMPLITUDE", help="CalibreModel Beads, in place of --variations")
     parser.add_argument("--voxel", type=float, default=0.1)
     options = parser.parse_args()
-    print("| fraction | asked | seed | outer ln r before, after | inner ln r | half at (µm) | 1/<1/α> | Γ0 (µm) | FVF | radii: KS, mean | iterations, pairs | not as asked | s |")
-    print("|---" * 13 + "|")
+    print("| fraction | asked | seed | outer ln r before, after | inner ln r | half at (µm) | 1/<1/α> | Γ0 (µm) | beads: amplitude, spacing (µm) | FVF | radii: KS, mean | iterations, pairs | not as asked | s |")
+    print("|---" * 14 + "|")
     for fraction in options.fractions:
-        for variation in options.variations:
+        for variation in options.beads or options.variations:
+            asked = {"CalibreModel": "Beads", "BeadAmplitude": variation} if options.beads else {"CalibreVariation": variation}
             for seed in range(1, options.seeds + 1):
                 begin = time.time()
-                before = BundleInitializer(Side=options.side, Seed=seed, GrownFibreVolumeFraction=fraction, CalibreVariation=variation)
+                before = BundleInitializer(Side=options.side, Seed=seed, GrownFibreVolumeFraction=fraction, **asked)
                 before.FibreVolumeFraction = min(0.6, 0.8 * fraction)
                 optimised = CapsuleOptimizer(Input=before)
                 fibres = OutputPort(optimised, 0)
@@ -119,6 +122,7 @@ def main():
                     "{1:.2f}".format(*measure(lines["inner"])),
                     f"{np.average(ratios[inside], weights=lengths[inside]):.3f}",
                     f"{value('MeanAxonAreaFluctuation_um'):.2f}",
+                    f"{value('MeanBeadAmplitude'):.2f}, {value('MeanBeadSpacing_um'):.1f}",
                     f"{value('FVF'):.4f}",
                     f"{distance(measured[whole], targets[whole]):.3f}, {value('MeanOuterRadius_um') / value('MeanTargetRadius_um'):.3f}",
                     f"{rows}, {pairs:g}",
