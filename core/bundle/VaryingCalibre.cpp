@@ -150,7 +150,7 @@ double meanSquare(double gRatio, double deviation)
 }
 
 /// The outer radii of one fibre's control points.
-struct FibreLine
+struct CalibredFibre
 {
   std::vector<double> lengths; ///< µm, of the control points from the fibre's beginning
   double half; ///< µm, that of the middle, from which the calibre is drawn, or half the period of a fibre that repeats
@@ -175,7 +175,7 @@ public:
 
   bool varies() const { return this->Asked > 0.0; }
 
-  std::vector<double> radii(const FibreLine& line) const
+  std::vector<double> radii(const CalibredFibre& line) const
   {
     const double apart = line.lengths.back() / static_cast<double>(line.lengths.size() - 1);
     // Between control points the radius is interpolated, which takes some of the variance.
@@ -216,7 +216,7 @@ public:
 
   bool varies() const { return this->Height > 0.0; }
 
-  std::vector<double> radii(const FibreLine& line) const
+  std::vector<double> radii(const CalibredFibre& line) const
   {
     // Of the axon in units of its mean radius: (1 + a b) / (1 + a ⟨b⟩). A neck has b = 0.
     const double highest = std::max(0.0, (line.gRatio * line.radius / line.thinnest - 1.0) / this->Mean);
