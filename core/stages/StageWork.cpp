@@ -385,6 +385,24 @@ StageRecord strandRecord(const StrandReaderStage& stage)
   return record;
 }
 
+NiftiHeader niftiHeaderOf(const NiftiReaderStage& stage)
+{
+  if (stage.fileName.empty())
+  {
+    throw InvalidInput("FileName is empty: name the image to read");
+  }
+  return readNiftiHeader(stage.fileName);
+}
+
+StageRecord niftiRecord(const NiftiReaderStage& stage)
+{
+  StageRecord record;
+  record.filter = "NiftiReader";
+  record.properties = NiftiReaderStage::properties().states(stage);
+  record.files.push_back({ "FileName", stage.fileName });
+  return record;
+}
+
 std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
   int iterations, double penetration, StopReason reason, bool isResult)
 {

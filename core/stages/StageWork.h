@@ -13,6 +13,7 @@
 #include "fibres/Fibres.h"
 #include "growth/GrowthTarget.h"
 #include "io/FibreFile.h"
+#include "io/NiftiFile.h"
 #include "io/SubstrateContents.h"
 #include "io/Tractogram.h"
 #include "optimiser/CapsuleOptimizer.h"
@@ -64,6 +65,10 @@ std::string remarksOnTract(const TractFibresReport& report);
 /// The fibres of the file. Throws InvalidInput where none is named, and as readFibreFile() does.
 FibresOfFile strandsOf(const StrandReaderStage& stage);
 StageRecord strandRecord(const StrandReaderStage& stage);
+
+/// Reads the header of the file. Throws InvalidInput if no file is named, and as readNiftiHeader() does.
+NiftiHeader niftiHeaderOf(const NiftiReaderStage& stage);
+StageRecord niftiRecord(const NiftiReaderStage& stage);
 
 /// Returns the record of an optimisation, or of an intermediate state.
 std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
