@@ -9,7 +9,8 @@
  * the volumes of a series, the numbers of a vector, the coefficients of spherical harmonics, or red, green and blue. Its values
  * are those that the header means by its scale.
  *
- * VTK's own reader (vtkNIFTIImageReader) takes every header at its word, and gives place and scale apart from the image.
+ * It stands on vtkNIFTIImageReader, which gives place and scale apart from the image, and takes a header at its word: what that
+ * would not survive is refused before.
  */
 #ifndef vtkNiftiReader_h
 #define vtkNiftiReader_h

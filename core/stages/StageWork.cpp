@@ -385,15 +385,6 @@ StageRecord strandRecord(const StrandReaderStage& stage)
   return record;
 }
 
-NiftiHeader niftiHeaderOf(const NiftiReaderStage& stage)
-{
-  if (stage.fileName.empty())
-  {
-    throw InvalidInput("FileName is empty: name the image to read");
-  }
-  return readNiftiHeader(stage.fileName);
-}
-
 StageRecord niftiRecord(const NiftiReaderStage& stage)
 {
   StageRecord record;

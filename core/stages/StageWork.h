@@ -13,7 +13,6 @@
 #include "fibres/Fibres.h"
 #include "growth/GrowthTarget.h"
 #include "io/FibreFile.h"
-#include "io/NiftiFile.h"
 #include "io/SubstrateContents.h"
 #include "io/Tractogram.h"
 #include "optimiser/CapsuleOptimizer.h"
@@ -66,8 +65,7 @@ std::string remarksOnTract(const TractFibresReport& report);
 FibresOfFile strandsOf(const StrandReaderStage& stage);
 StageRecord strandRecord(const StrandReaderStage& stage);
 
-/// Reads the header of the file. Throws InvalidInput if no file is named, and as readNiftiHeader() does.
-NiftiHeader niftiHeaderOf(const NiftiReaderStage& stage);
+/// Returns the record of an image that was read.
 StageRecord niftiRecord(const NiftiReaderStage& stage);
 
 /// Returns the record of an optimisation, or of an intermediate state.
