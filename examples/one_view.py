@@ -13,7 +13,6 @@ import struct
 import sys
 
 from paraview import servermanager, simple
-from nifti import read_image
 from output_folder import make_folder
 from picture import white_view
 from tract import SIDE, look, write_tract
@@ -64,8 +63,8 @@ def show_slice(image, view):
     cut.SliceType.Origin, cut.SliceType.Normal = [0.0, 9.0, 0.0], [0.0, 1.0, 0.0]
     shown = simple.Show(cut, view)
     shown.Ambient, shown.Diffuse = 1.0, 0.0
-    simple.ColorBy(shown, ("POINTS", "NIFTI"))
-    greys = simple.GetColorTransferFunction("NIFTI")
+    simple.ColorBy(shown, ("POINTS", "image"))
+    greys = simple.GetColorTransferFunction("image")
     greys.ApplyPreset("Grayscale", True)
     greys.RescaleTransferFunction(0.0, 255.0)
     shown.LookupTable = greys
@@ -110,7 +109,7 @@ def main():
     simple.SaveData(files["fibres.tck"], proxy=placed)
     sampled = simple.Placement(Input=simple.SubstrateSampler(Outer=outer, VoxelSize=1), **place)
     simple.SaveData(files["avf.nii.gz"], proxy=sampled, Array="AVF")
-    draw(read_image(files["image.nii.gz"]), tract, placed, simple.Placement(Input=outer, **place), files["one-view.png"])
+    draw(simple.NiftiReader(FileName=files["image.nii.gz"]), tract, placed, simple.Placement(Input=outer, **place), files["one-view.png"])
     print("at " + ", ".join(f"{coordinate:.3g}" for coordinate in middle) + " mm")
 
 

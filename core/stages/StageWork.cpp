@@ -386,6 +386,15 @@ StageRecord strandRecord(const StrandReaderStage& stage)
   return record;
 }
 
+StageRecord niftiRecord(const NiftiReaderStage& stage)
+{
+  StageRecord record;
+  record.filter = "NiftiReader";
+  record.properties = NiftiReaderStage::properties().states(stage);
+  record.files.push_back({ "FileName", stage.fileName });
+  return record;
+}
+
 std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
   int iterations, double penetration, StopReason reason, bool isResult)
 {

@@ -65,6 +65,9 @@ std::string remarksOnTract(const TractFibresReport& report);
 FibresOfFile strandsOf(const StrandReaderStage& stage);
 StageRecord strandRecord(const StrandReaderStage& stage);
 
+/// Returns the record of an image that was read.
+StageRecord niftiRecord(const NiftiReaderStage& stage);
+
 /// Returns the record of an optimisation, or of an intermediate state.
 std::vector<std::pair<std::string, PropertyValue>> optimiserReached(
   int iterations, double penetration, StopReason reason, bool isResult);

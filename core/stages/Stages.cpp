@@ -409,6 +409,18 @@ const PropertyList<PlacementStage>& PlacementStage::properties()
   return list;
 }
 
+const PropertyList<NiftiReaderStage>& NiftiReaderStage::properties()
+{
+  using Stage = NiftiReaderStage;
+  static const auto list = PropertyList<Stage>()
+                             .add("FileName", &Stage::fileName, "Image to read: .nii or .hdr, which may be packed by gzip.")
+                             .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" },
+                               "Unit of the output's lengths: millimetres, as in images and for substrates that Placement has "
+                               "placed, or micrometres, as in all "
+                               "stages of CACTUS.");
+  return list;
+}
+
 const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
 {
   using Stage = NiftiWriterStage;
@@ -433,7 +445,7 @@ std::vector<StageDescription> describeStages()
     description<HistologyRadiiStage>("HistologyRadii"), description<SubstrateWriterStage>("SubstrateWriter"),
     description<SubstrateProductionStage>("SubstrateProduction"), description<PlacementStage>("Placement"),
     description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
-    description<NiftiWriterStage>("NiftiWriter") };
+    description<NiftiReaderStage>("NiftiReader"), description<NiftiWriterStage>("NiftiWriter") };
 }
 
 } // namespace cactus

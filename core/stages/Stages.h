@@ -243,6 +243,14 @@ struct PlacementStage
   static const PropertyList<PlacementStage>& properties();
 };
 
+struct NiftiReaderStage
+{
+  std::string fileName;
+  LengthUnit lengthUnit = LengthUnit::Millimetre; ///< of the output
+
+  static const PropertyList<NiftiReaderStage>& properties();
+};
+
 struct NiftiWriterStage
 {
   std::string fileName;

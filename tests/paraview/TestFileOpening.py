@@ -99,13 +99,16 @@ class FileOpening(CactusTestCase):
         session = servermanager.ActiveConnection.Session
 
         def offers(path):
-            return {name for name in ("StrandReader", "TractogramReader") if factory.CanReadFile(path, "sources", name, session)}
+            return {name for name in ("StrandReader", "TractogramReader", "NiftiReader") if factory.CanReadFile(path, "sources", name, session)}
 
         table = "cell_type cell_id X Y Z outer_radius\naxon 0 0 0 0 1\naxon 0 0 0 1 1\n"
         self.assertEqual(offers(self.write("spheres.swc", table)), {"StrandReader"})
         self.assertEqual(offers(self.write("config_output_1.json", '{"voxelSize": 3, "axons": []}')), {"StrandReader"})
         self.assertEqual(offers(self.write("notes.json", '{"name": "of something else"}')), set())
         self.assertEqual(offers(self.write("tracks.tck", tck())), {"TractogramReader"})
+        SaveData(self.path("image.nii.gz"), proxy=Wavelet())
+        self.assertEqual(offers(self.path("image.nii.gz")), {"NiftiReader"})
+        self.assertEqual(offers(self.write("radiance.hdr", "#?RADIANCE\n")), set())
 
 
 if __name__ == "__main__":

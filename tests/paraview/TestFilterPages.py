@@ -52,6 +52,8 @@ class FilterPages(CactusTestCase):
         simple.SaveData(tract, proxy=fibres)
         mask = simple.HistologyMask(Outer=outer)
         streamlines = simple.TractogramReader(FileName=tract)
+        image = os.path.join(self.folder, "NAME.nii.gz")  # which names the array
+        simple.SaveData(image, proxy=grown)
         return {
             "BundleInitializer": bundle,
             "CurvedBundles": simple.CurvedBundles(Side=5, MinimumRadius=0.4),
@@ -70,6 +72,7 @@ class FilterPages(CactusTestCase):
             "Placement": simple.Placement(Input=fibres),
             "StrandReader": simple.StrandReader(FileName=strands),
             "TractogramReader": streamlines,
+            "NiftiReader": simple.NiftiReader(FileName=image),
             "TractFibres": simple.TractFibres(Input=streamlines, Side=5, MinimumRadius=0.4),
         }
 

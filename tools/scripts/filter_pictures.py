@@ -17,6 +17,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path += [os.path.join(ROOT, "examples"), os.path.join(ROOT, "examples", "figures")]
 import numpy  # noqa: E402  (folders first)
 from paper_figure import columns, image, pyplot  # noqa: E402
+from one_view import show_slice, write_image  # noqa: E402
 from paraview import servermanager, simple  # noqa: E402
 from paraview.vtk.util.numpy_support import vtk_to_numpy  # noqa: E402
 from picture import AXON, MYELIN, below, show, white_view  # noqa: E402
@@ -155,6 +156,18 @@ def tractogram_reader():
     return pictures_beside(("", look(view)))
 
 
+def nifti_reader():
+    """A slice of an image, and the tract beside it."""
+    path = scratch("image.nii.gz")
+    write_image(path)
+    view = white_view(PIXELS, PIXELS)
+    show_slice(simple.NiftiReader(FileName=path), view)
+    shown = simple.Show(simple.TractogramReader(FileName=tract(), LengthUnit="Millimetre"), view)
+    shown.DiffuseColor = shown.AmbientColor = [0.95, 0.75, 0.1]
+    shown.LineWidth = 2.5
+    return pictures_beside(("", look(view, position=(0.9, -2.0, 0.8))))
+
+
 def capsule_optimizer():
     untouched = simple.CapsuleOptimizer(Input=bundle(), MaximumIterations=0)  # which warns that fibres overlap
     deepest = columns(untouched, 1)["MaximumPenetration"][0]
@@ -261,7 +274,7 @@ def placement():
 PICTURES = {
     "".join(part.capitalize() for part in function.__name__.split("_")): function
     for function in (
-        bundle_initializer, curved_bundles, tract_fibres, strand_reader, tractogram_reader, capsule_optimizer, fibre_radial_growth, myelin_surface,
+        bundle_initializer, curved_bundles, tract_fibres, strand_reader, tractogram_reader, nifti_reader, capsule_optimizer, fibre_radial_growth, myelin_surface,
         fibre_field, substrate_production, substrate_statistics, substrate_certificate, substrate_sampler, lesion, histology_mask, histology_radii,
         placement,
     )
