@@ -112,6 +112,11 @@ public:
       }
       few.push_back(next);
     }
+    if (few.size() < this->fewest(line) && count > few.size())
+    {
+      const std::size_t farthest = this->farthest(line, few[1]);
+      few.insert(std::upper_bound(few.begin(), few.end(), farthest), farthest);
+    }
     return few;
   }
 
@@ -141,6 +146,36 @@ private:
         return line;
       }
     }
+  }
+
+  /// Returns how many points stay at least, so that the cap beside the line does not vanish: a loop ends in its first point, and
+  /// a line with both ends on one edge of the box encloses the cap with that edge.
+  std::size_t fewest(const RimLine& line) const
+  {
+    const unsigned others = ~(3U << (2 * this->Axis));
+    const auto facesOf = [this](std::int32_t point) { return unsigned(this->Surface.faces[std::size_t(point)]); };
+    const bool isOnOneEdge = (facesOf(line.points.front()) & facesOf(line.points.back()) & others) != 0;
+    return line.isLoop ? 4 : isOnOneEdge ? 3 : 2;
+  }
+
+  /// Returns the point of a line that is farthest from the chord between the first one and another.
+  std::size_t farthest(const RimLine& line, std::size_t to) const
+  {
+    const Vector2d a = this->at(line.points.front());
+    const Vector2d along = this->at(line.points[to % line.points.size()]) - a;
+    std::size_t found = 0;
+    double largest = -1.0;
+    for (std::size_t i = 1; i < line.points.size(); ++i)
+    {
+      const Vector2d off = this->at(line.points[i]) - a;
+      const double distance = std::abs(along.x() * off.y() - along.y() * off.x());
+      if (i != to && distance > largest)
+      {
+        largest = distance;
+        found = i;
+      }
+    }
+    return found;
   }
 
   /// Tells whether the points between two of a line are near their chord, and in order along it.

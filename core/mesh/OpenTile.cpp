@@ -2,11 +2,13 @@
 #include "mesh/OpenTile.h"
 
 #include "base/Error.h"
+#include "base/SinglePrecision.h"
 #include "mesh/CappedSurface.h"
 #include "mesh/SurfaceWall.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -43,7 +45,9 @@ public:
     {
       outermost = std::max(outermost, sense * point[axis]);
     }
-    if (sense * placeOfFace(domain, face) - outermost > largestInset)
+    this->Face = placeOfFace(domain, face);
+    this->Inset = sense * this->Face - outermost;
+    if (this->Inset > largestInset)
     {
       return;
     }
@@ -60,7 +64,21 @@ public:
     return this->holds(std::size_t(t[0])) && this->holds(std::size_t(t[1])) && this->holds(std::size_t(t[2]));
   }
 
+  /// Returns where a point at `place` along the axis goes when the end is moved into the face.
+  double extended(std::size_t point, double place) const
+  {
+    const double before = std::abs(this->Face - place);
+    if (this->holds(point) || !(before < 2.0 * this->Inset))
+    {
+      return this->holds(point) ? this->Face : place;
+    }
+    const double moved = inSinglePrecision(this->Face + (place - this->Face) * (2.0 - 2.0 * this->Inset / before));
+    return place < this->Face ? std::min(moved, this->Face) : std::max(moved, this->Face);
+  }
+
 private:
+  double Face = 0.0;
+  double Inset = 0.0;     ///< µm before the face
   std::vector<char> IsIn; ///< per point; empty if the surface ends nowhere near the face
 };
 
@@ -125,12 +143,16 @@ void requireEqualRims(const std::vector<Eigen::Vector3d>& points, const std::vec
   }
 }
 
-} // namespace
-
-TriangleMesh openAtPeriodicFaces(const TriangleMesh& mesh, const Domain& domain)
+/// A surface without its caps in periodic faces.
+struct OpenedSurface
 {
-  TriangleMesh opened{ mesh.points, {} };
-  std::vector<TileTriangle> otherCaps;
+  TriangleMesh mesh;                   ///< the wall
+  std::vector<TileTriangle> otherCaps; ///< in other faces
+};
+
+OpenedSurface opened(const TriangleMesh& mesh, const Domain& domain)
+{
+  OpenedSurface result{ { mesh.points, {} }, {} };
   std::array<bool, tileFaces> isOpen{};
   std::vector<TileEnd> ends;
   for (std::size_t face = 0; face < tileFaces; ++face)
@@ -150,21 +172,40 @@ TriangleMesh openAtPeriodicFaces(const TriangleMesh& mesh, const Domain& domain)
     }
     if (!isDropped)
     {
-      (isOtherCap ? otherCaps : opened.triangles).push_back(t);
+      (isOtherCap ? result.otherCaps : result.mesh.triangles).push_back(t);
     }
   }
   for (std::size_t face = 0; face < tileFaces; ++face)
   {
     for (std::size_t p = 0; isOpen[face] && p < mesh.points.size(); ++p)
     {
-      double& place = opened.points[p][Eigen::Index(face / 2)];
-      place = ends[face].holds(p) ? placeOfFace(domain, face) : place;
+      double& place = result.mesh.points[p][Eigen::Index(face / 2)];
+      place = ends[face].extended(p, place);
     }
   }
-  requireEqualRims(opened.points, openEdges(opened.triangles, otherCaps), domain);
-  opened.triangles.insert(opened.triangles.end(), otherCaps.begin(), otherCaps.end());
-  dropUnusedPoints(opened, nullptr);
-  return opened;
+  return result;
+}
+
+TriangleMesh whole(OpenedSurface&& surface)
+{
+  TriangleMesh mesh = std::move(surface.mesh);
+  mesh.triangles.insert(mesh.triangles.end(), surface.otherCaps.begin(), surface.otherCaps.end());
+  dropUnusedPoints(mesh, nullptr);
+  return mesh;
+}
+
+} // namespace
+
+TriangleMesh openAtPeriodicFaces(const TriangleMesh& mesh, const Domain& domain)
+{
+  OpenedSurface surface = opened(mesh, domain);
+  requireEqualRims(surface.mesh.points, openEdges(surface.mesh.triangles, surface.otherCaps), domain);
+  return whole(std::move(surface));
+}
+
+TriangleMesh withoutPeriodicCaps(const TriangleMesh& mesh, const Domain& domain)
+{
+  return whole(opened(mesh, domain));
 }
 
 } // namespace cactus

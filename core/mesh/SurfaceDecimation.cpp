@@ -226,7 +226,7 @@ private:
     const double part = this->partOf(u, v);
     const double limit = 4.0 * part * part * this->Reach * this->Reach;
     this->removeBetween(u, v, limit);
-    if (!this->Mesh.isDead(triangle))
+    if (!this->Mesh.isDead(triangle) && !this->Mesh.isDeadPoint(u) && !this->Mesh.isDeadPoint(v))
     {
       this->tryCollapse(std::min(u, v), std::max(u, v), limit, true);
     }

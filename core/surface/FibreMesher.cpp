@@ -2,6 +2,7 @@
 #include "surface/FibreMesher.h"
 
 #include "base/Constants.h"
+#include "mesh/OpenTile.h"
 #include "mesh/SurfaceCheck.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfacePieces.h"
@@ -71,7 +72,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Spacing(image->grid().spacing)
   , Contours(Field, std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing),
       nudgeFor(Spacing, facts.surfaceTolerance), filters)
-  , Finishing(options.decimationError, options.minimumAngle, Spacing, filters)
+  , Finishing(options.decimationError, options.minimumAngle, Spacing, Field.box(), filters)
   , Withdrawal(0.5 * std::max(0.0, leastRoom - image->gap()))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
   , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + lostInFiles)
@@ -244,8 +245,7 @@ bool FibreMesher::keepsInner(FibreSurfacePair& pair) const
     return false;
   }
   const TriangleTree wall(pair.outer, this->wallOf(pair.outer));
-  if (!liesInside(pair.inner, pair.innerReport, TriangleTree(pair.outer)) ||
-      smallestGap(TriangleTree(pair.inner), wall, this->PromisedMyelin).found())
+  if (!liesInside(pair.inner, pair.innerReport, TriangleTree(pair.outer)) || this->gapTo(wall, pair.inner).found())
   {
     return false;
   }
@@ -307,7 +307,7 @@ void FibreMesher::finishInside(const AxonSearch& search, MyelinState state, Axon
       state = search.find(within, axon);
       continue;
     }
-    const SurfaceGap gap = isSound ? smallestGap(TriangleTree(inner), wall, this->PromisedMyelin) : SurfaceGap();
+    const SurfaceGap gap = isSound ? this->gapTo(wall, inner) : SurfaceGap();
     if (isSound && !gap.found())
     {
       break;
@@ -370,6 +370,19 @@ void FibreMesher::finishByFilters(const AxonSearch& search, MyelinState state, A
     state = pair.innerReport.volume < wanted ? MyelinState::Thicker : MyelinState::Thinner;
   }
   pair.state = pair.inner.triangles.empty() ? MyelinState::NoAxon : state;
+}
+
+/// Returns the gap between the wall of an outer surface and an inner one, also where the latter is extended to periodic faces, if
+/// it is less than promised.
+SurfaceGap FibreMesher::gapTo(const TriangleTree& wall, const TriangleMesh& inner) const
+{
+  SurfaceGap gap = smallestGap(TriangleTree(inner), wall, this->PromisedMyelin);
+  if (!gap.found() && this->Field.heldFaces() != 0)
+  {
+    const TriangleMesh extended = withoutPeriodicCaps(inner, this->Field.box());
+    gap = smallestGap(TriangleTree(extended), wall, this->PromisedMyelin);
+  }
+  return gap;
 }
 
 /// Returns the triangles of an outer surface that are no caps on the faces of the box.

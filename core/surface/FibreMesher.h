@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mesh/SurfaceDistance.h"
 #include "surface/AxonSearch.h"
 #include "surface/FibreContours.h"
 #include "surface/FibreField.h"
@@ -75,6 +76,7 @@ private:
   AxonLevels axonLevels(const SmoothedField& field, double volume) const;
   void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   void finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
+  SurfaceGap gapTo(const TriangleTree& wall, const TriangleMesh& inner) const;
   std::vector<std::uint32_t> wallOf(const TriangleMesh& outer) const;
 
   const LabelImageFacts& Facts;

@@ -5,6 +5,7 @@
 #include "mesh/EvenFans.h"
 #include "mesh/HeldRims.h"
 #include "mesh/NeedleSplitting.h"
+#include "mesh/OpenTile.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/SurfacePieces.h"
 #include "mesh/SurfaceRemeshing.h"
@@ -62,22 +63,6 @@ std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const Tria
   return places;
 }
 
-/// Returns the same, and where it cuts or touches the container of its target, which is recorded.
-std::vector<Eigen::Vector3d> placesThatMeet(const TriangleMesh& mesh, const SurfaceTarget& target, SurfaceChange& change)
-{
-  const TriangleTree tree(mesh);
-  std::vector<Eigen::Vector3d> places = placesThatMeet(mesh, tree);
-  if (target.container != nullptr)
-  {
-    for (const auto& pair : meetingTriangles(tree, *target.container))
-    {
-      places.push_back(centreOf(mesh, pair.first));
-      change.isHemmedIn = true;
-    }
-  }
-  return places;
-}
-
 /// Tells whether a point is nearer to a face of the box than `distance` (µm): a regular grid bevels the edges of caps, and of the
 /// box.
 bool isBeside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p, double distance)
@@ -113,10 +98,12 @@ std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& pl
   return bounds;
 }
 
-SurfaceFinishing::SurfaceFinishing(double decimationError, double minimumAngle, double spacing, const SurfaceFilters* filters)
+SurfaceFinishing::SurfaceFinishing(
+  double decimationError, double minimumAngle, double spacing, const Domain& box, const SurfaceFilters* filters)
   : DecimationError(decimationError)
   , MinimumAngle(minimumAngle)
   , Spacing(spacing)
+  , Box(box)
   , Filters(filters)
 {
 }
@@ -149,7 +136,7 @@ bool SurfaceFinishing::finish(const SmoothedField& field, const SurfaceTarget& t
     this->even(surface, report);
   }
   surface.faces.clear(); // they count the points of before
-  return placesThatMeet(surface.mesh, target, change).empty();
+  return this->faultsOf(surface, target, change).empty();
 }
 
 void SurfaceFinishing::finishMoved(CappedSurface& surface) const
@@ -176,6 +163,30 @@ void SurfaceFinishing::even(CappedSurface& surface, SurfaceReport& report) const
     this->even(surface);
     report = checkSurface(surface.mesh);
   }
+}
+
+/// Returns places that meet, where the surface is to end in periodic faces too (see openAtPeriodicFaces), and where it cuts or
+/// touches the container of its target, which is recorded.
+std::vector<Eigen::Vector3d> SurfaceFinishing::faultsOf(
+  const CappedSurface& surface, const SurfaceTarget& target, SurfaceChange& change) const
+{
+  const TriangleTree tree(surface.mesh);
+  std::vector<Eigen::Vector3d> places = placesThatMeet(surface.mesh, tree);
+  if (target.container == nullptr)
+  {
+    return places;
+  }
+  for (const auto& pair : meetingTriangles(tree, *target.container))
+  {
+    places.push_back(centreOf(surface.mesh, pair.first));
+    change.isHemmedIn = true;
+  }
+  if (surface.held != 0)
+  {
+    const std::vector<Eigen::Vector3d> more = placesThatMeet(withoutPeriodicCaps(surface.mesh, this->Box));
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  return places;
 }
 
 /// Leaves the surface as it is, and returns false, if it cannot be coarsened.
@@ -207,7 +218,7 @@ bool SurfaceFinishing::coarsen(const SmoothedField& field, const SurfaceTarget& 
     splitNeedles(trial, largestSquaredEdgeRatio);
     target.hasEvenFans ? this->even(trial) : roundPoints(trial.mesh, trial.box);
     report = checkSurface(trial.mesh);
-    const std::vector<Eigen::Vector3d> places = placesThatMeet(trial.mesh, target, change);
+    const std::vector<Eigen::Vector3d> places = this->faultsOf(trial, target, change);
     if (places.empty() && report.degenerateTriangles == 0 && report.sound())
     {
       surface = std::move(trial);

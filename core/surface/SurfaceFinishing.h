@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Domain.h"
 #include "mesh/SurfaceDecimation.h"
 #include "mesh/TriangleTree.h"
 #include "surface/FibreSurfacePair.h"
@@ -33,9 +34,9 @@ struct SurfaceTarget
 class SurfaceFinishing
 {
 public:
-  /// `decimationError` and `minimumAngle` as in MyelinSurfaceOptions; `spacing` is that of the voxels. With `filters` these
-  /// coarsen. All arguments passed by reference have to outlive the object.
-  SurfaceFinishing(double decimationError, double minimumAngle, double spacing, const SurfaceFilters* filters);
+  /// `decimationError` and `minimumAngle` as in MyelinSurfaceOptions; `spacing` is that of the voxels in `box`. With `filters`
+  /// these coarsen. All arguments passed by reference have to outlive the object.
+  SurfaceFinishing(double decimationError, double minimumAngle, double spacing, const Domain& box, const SurfaceFilters* filters);
 
   /// Coarsens a contour, moves it to its volume, and checks the result. A faulty surface is made again with less coarsening
   /// around its faults; if that does not help it stays as contoured, without pieces that enclose no volume, which may leave an
@@ -57,11 +58,13 @@ private:
 
   /// Does so if the surface is a closed manifold, and measures it again.
   void even(CappedSurface& surface, SurfaceReport& report) const;
+  std::vector<Eigen::Vector3d> faultsOf(const CappedSurface& surface, const SurfaceTarget& target, SurfaceChange& change) const;
   void reshape(CappedSurface& surface, const SurfaceDecimationOptions& decimation) const;
 
   double DecimationError;
   double MinimumAngle; ///< degrees
   double Spacing;
+  const Domain& Box;
   const SurfaceFilters* Filters; ///< null for decimate()
 };
 

@@ -70,6 +70,40 @@ TEST(OpenTile, ExtendsEndsToTheFaces)
   EXPECT_TRUE(std::all_of(opened.points.begin(), opened.points.end(), [](const Vector3d& p) { return std::abs(p.z()) == 4.0; }));
 }
 
+// What lies nearer to a face than twice the distance at which the surface ends is stretched with it: nothing comes to lie beyond
+// anything else.
+TEST(OpenTile, StretchesWhatLiesBeforeTheFaces)
+{
+  TriangleMesh axon;
+  const double heights[] = { -3.875, -3.75, 3.0, 3.8125, 3.875 };
+  for (const double z : heights)
+  {
+    for (const auto& [x, y] : { std::pair(-0.5, -0.5), std::pair(0.5, -0.5), std::pair(0.0, 0.5) })
+    {
+      axon.points.emplace_back(x, y, z);
+    }
+  }
+  for (std::int32_t ring = 0; ring < 12; ring += 3)
+  {
+    for (std::int32_t i = 0; i < 3; ++i)
+    {
+      const std::int32_t j = (i + 1) % 3;
+      axon.triangles.push_back({ { ring + i, ring + j, ring + 3 + i } });
+      axon.triangles.push_back({ { ring + j, ring + 3 + j, ring + 3 + i } });
+    }
+  }
+  axon.triangles.push_back({ { 0, 2, 1 } });
+  axon.triangles.push_back({ { 12, 13, 14 } });
+  const TriangleMesh opened = openAtPeriodicFaces(axon, periodicCube(8.0));
+  ASSERT_EQ(opened.points.size(), axon.points.size());
+  EXPECT_EQ(opened.triangles.size(), axon.triangles.size() - 2);
+  const double extended[] = { -4.0, -3.75, 3.0, 3.875, 4.0 };
+  for (std::size_t p = 0; p < opened.points.size(); ++p)
+  {
+    EXPECT_EQ(opened.points[p], Vector3d(axon.points[p].x(), axon.points[p].y(), extended[p / 3])) << p;
+  }
+}
+
 // Its flat ends are no caps: they do not lie at a face.
 TEST(OpenTile, LeavesASurfaceInTheMiddle)
 {
