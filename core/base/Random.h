@@ -22,7 +22,8 @@ enum class RandomStage : std::uint32_t
   ExtraAxonalWalk = 8,
   Sample = 9,
   Calibre = 10,
-  Lesion = 11
+  Lesion = 11,
+  Nodes = 12
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere. The distributions of
