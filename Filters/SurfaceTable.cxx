@@ -27,6 +27,9 @@ void fillSurfaceTable(vtkTable* table, const std::vector<FibreSurfacePair>& fibr
   number("Thickness_um", [](const Fibre& f) { return f.thickness; });
   number("TargetGRatio", [](const Fibre& f) { return f.targetGRatio; });
   number("GRatio", [](const Fibre& f) { return f.gRatio; });
+  integer("Nodes", [](const Fibre& f) { return long(f.nodes); });
+  number("InternodeLength_um", [](const Fibre& f) { return f.internodeLength; });
+  number("LostMyelin", [](const Fibre& f) { return f.lostMyelin(); });
   integer("Myelin", [](const Fibre& f) { return long(f.state); });
   integer("OuterTriangles", [](const Fibre& f) { return long(f.outerReport.triangles); });
   integer("InnerTriangles", [](const Fibre& f) { return long(f.innerReport.triangles); });

@@ -71,8 +71,9 @@ void releaseImage(vtkAlgorithm* consumer)
   }
 }
 
-/// The properties that outer surfaces do not depend on.
-const std::set<std::string> ofInner = { "GRatioModel", "GRatio", "GRatioDeviation", "TargetAxonVolumeFraction", "Seed" };
+/// The properties that outer surfaces without nodes of Ranvier do not depend on.
+const std::set<std::string> ofInner = { "GRatioModel", "GRatio", "GRatioDeviation", "TargetAxonVolumeFraction",
+  "MyelinFollowsAxon", "Seed" };
 
 /// A source of fibres' surfaces from an output.
 class OutputSurfaces : public cactus::SurfaceSource
@@ -287,7 +288,11 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   cactus::validate(options);
   auto* image = cactus::requireImage(input);
   this->Fibres = cactus::fibresOfImage(this, 0);
-  const cactus::LabelImageInput labels = cactus::labelImageFrom(image);
+  cactus::LabelImageInput labels = cactus::labelImageFrom(image);
+  if (options.followsLines() && this->Fibres != nullptr)
+  {
+    labels.facts.centreLines = std::make_shared<const cactus::Fibres>(cactus::fibresFrom(this->Fibres));
+  }
   const cactus::LabelImageFacts& facts = labels.facts;
   if (sharing.size() > 1)
   {
@@ -335,7 +340,7 @@ std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
   cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output, const cactus::Sharing& sharing)
 {
   const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
-  const std::string demand = cactus::valuesForResult(stage, ofInner);
+  const std::string demand = cactus::valuesForResult(stage, stage.options.hasNodes() ? std::set<std::string>() : ofInner);
   const std::size_t count = maker.fibres().size();
   cactus::SurfacesInMemory inner(count);
   if (!sharing.isEverywhere(this->Kept != nullptr && this->Kept->inputTime == inputTime && this->Kept->demand == demand))

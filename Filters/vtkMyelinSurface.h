@@ -17,8 +17,8 @@
  * One warning counts the deviations. Field data `WantedFibres` of output 0, the ids of the fibres that were to have a surface,
  * and `MinimumGap` of both (µm) let a certificate detect missing surfaces.
  *
- * Outer surfaces do not depend on g-ratios. They are kept, and not made again if only GRatioModel, GRatio, GRatioDeviation,
- * TargetAxonVolumeFraction or Seed changes.
+ * Without nodes of Ranvier, outer surfaces do not depend on g-ratios. They are kept, and not made again if only GRatioModel,
+ * GRatio, GRatioDeviation, TargetAxonVolumeFraction, MyelinFollowsAxon or Seed changes.
  *
  * On several ranks each makes the surfaces of its fibres from the whole image, which all need. They then have all surfaces, the
  * same as on one rank. If each is asked for its piece, it gives consecutive fibres with about the same number of triangles, and
@@ -64,6 +64,12 @@ public:
   CACTUS_NUMBER_PROPERTY(GRatio)
   CACTUS_NUMBER_PROPERTY(GRatioDeviation)
   CACTUS_NUMBER_PROPERTY(TargetAxonVolumeFraction)
+  CACTUS_SWITCH_PROPERTY(MyelinFollowsAxon)
+  CACTUS_NUMBER_PROPERTY(NodeLength)
+  CACTUS_NUMBER_PROPERTY(InternodeFactor)
+  CACTUS_NUMBER_PROPERTY(ParanodeLength)
+  CACTUS_NUMBER_PROPERTY(NodeConstriction)
+  CACTUS_WHOLE_PROPERTY(NodeSeed)
   CACTUS_WHOLE_PROPERTY(SmoothingIterations)
   CACTUS_NUMBER_PROPERTY(DecimationError)
   CACTUS_NUMBER_PROPERTY(MinimumAngle)

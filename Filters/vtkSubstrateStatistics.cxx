@@ -128,6 +128,7 @@ void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fib
   number("OuterCircularity", [](const Fibre& f) { return f.outerRadius.circularity; });
   number("InnerCircularity", [](const Fibre& f) { return f.innerRadius.circularity; });
   number("GRatio", [](const Fibre& f) { return f.gRatio; });
+  number("GRatioDeviation", [](const Fibre& f) { return f.gRatioDeviation(); });
   number("Length_um", [](const Fibre& f) { return f.length; });
   number("OuterVolume_um3", [](const Fibre& f) { return f.outer.volume; });
   number("InnerVolume_um3", [](const Fibre& f) { return f.inner.volume; });

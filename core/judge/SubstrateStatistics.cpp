@@ -84,6 +84,24 @@ double gRatioOf(double innerVolume, double outerVolume)
   return innerVolume > 0.0 && outerVolume > 0.0 ? std::sqrt(innerVolume / outerVolume) : 0.0;
 }
 
+double FibreStatistics::gRatioDeviation() const
+{
+  double count = 0.0;
+  double mean = 0.0;
+  double squares = 0.0; // of the ways from the mean (Welford 1962)
+  for (const ProfilePoint& point : profilesOf({ *this }, 1.0))
+  {
+    if (!std::isnan(point.gRatio))
+    {
+      count += 1.0;
+      const double way = point.gRatio - mean;
+      mean += way / count;
+      squares += way * (point.gRatio - mean);
+    }
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : notANumber;
+}
+
 double FibreStatistics::axonSurfaceToVolume() const
 {
   return this->hasInner && this->inner.volume > 0.0 ? this->innerWallArea / this->inner.volume : notANumber;

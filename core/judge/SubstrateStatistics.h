@@ -51,6 +51,8 @@ struct FibreStatistics
   std::vector<FibreCut> outerCuts;
   std::vector<FibreCut> innerCuts;
 
+  /// Returns the standard deviation of the cuts' g-ratios, of diameters, along the fibre; NaN where none cuts both surfaces.
+  double gRatioDeviation() const;
   double outerCalibreVariation() const { return this->outerRadius.deviation / this->outerRadius.mean; }
   double innerCalibreVariation() const { return this->innerRadius.deviation / this->innerRadius.mean; }
   /// Returns the area of the axon's wall over its volume (µm⁻¹): 2/r for a straight circular one; NaN without an axon.

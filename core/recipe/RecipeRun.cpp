@@ -303,6 +303,7 @@ private:
   {
     GrownImage grown = std::move(*this->Grown);
     this->Grown.reset();
+    grown.facts.centreLines = stage.options.followsLines() ? std::make_shared<const Fibres>(grown.fibres) : nullptr;
     const LabelImageView view{ grown.image.grid, grown.image.fibreId.data(), grown.image.depth.data(), grown.gap };
     SurfaceMaker maker(std::make_shared<LabelImageInMemory>(view), grown.facts, stage.options, this->contextFor(stage.threads));
     auto made = std::make_unique<MadeSurfaces>(maker.fibres().size());

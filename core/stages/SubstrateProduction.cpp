@@ -85,7 +85,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   {
     sum.add(fibres.domain.periodic.data(), sizeof(fibres.domain.periodic));
   }
-  const std::string values = "CACTUS " CACTUS_VERSION ", journal 10\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 11\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)
   {
@@ -215,6 +215,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
+  facts.centreLines = order.surfaces.followsLines() ? std::make_shared<const Fibres>(made) : nullptr;
   const Context making = context.part(growthSolved, surfacesMade);
   SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
   maker.makeOuter(spool.outer(), spool.inner());

@@ -2,6 +2,7 @@
 #include "surface/FibreMesher.h"
 
 #include "base/Constants.h"
+#include "base/Error.h"
 #include "mesh/OpenTile.h"
 #include "mesh/SurfaceCheck.h"
 #include "mesh/SurfaceDistance.h"
@@ -32,6 +33,11 @@ constexpr double smallestInset = 0.05;
 constexpr double leastRoom = 0.01;
 /// Relative change of an outer surface's volume, when it is kept apart from others, below which the inner one stays.
 constexpr double negligibleChange = 2e-4;
+
+/// Largest voxel, in parts of a node's or a paranode's length.
+constexpr double voxelInNode = 0.5;
+/// Room (in SurfaceTolerances) in nodes, beside the promised thickness of the myelin, for surfaces that move.
+constexpr double roomInNodes = 4.0;
 
 /// Returns the least distance of the field from its level at a sample, µm.
 double nudgeFor(double spacing, double tolerance)
@@ -83,9 +89,33 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
       " would change the rims in its faces, which have to fit those of the opposite ones: ",
       filters != nullptr ? "leave Meshing at CACTUS" : "leave MinimumAngle at 0"));
   }
+  if (options.followsLines())
+  {
+    this->findLines();
+  }
   if (options.smoothingIterations > 0)
   {
     this->Thin.emplace(this->Field, this->Places.thinnerThan(ThinFibres::thickTarget * this->Spacing, context, sharing, known));
+  }
+}
+
+void FibreMesher::findLines()
+{
+  require(this->Filters == nullptr, "Meshing VTK filters makes myelin of the same thickness along a fibre: leave "
+                                    "MyelinFollowsAxon off and NodeLength at 0, or choose Meshing CACTUS");
+  require(this->Facts.centreLines != nullptr, "the centre lines of the fibres are not at hand, and MyelinFollowsAxon and "
+                                              "NodeLength need them: give the label image directly from FibreRadialGrowth");
+  const double shortest = std::min(this->Options.nodeLength, this->Options.paranodeLength);
+  if (this->Options.hasNodes() && this->Spacing > voxelInNode * shortest)
+  {
+    throw InvalidInput(text("voxels of ", this->Spacing, " µm cannot show nodes with a NodeLength of ", this->Options.nodeLength,
+      " µm and a ParanodeLength of ", this->Options.paranodeLength, " µm: choose a VoxelSize of at most ", voxelInNode * shortest,
+      " in FibreRadialGrowth, or longer ones"));
+  }
+  const std::vector<int>& ids = this->Facts.centreLines->fibreIds;
+  for (std::size_t f = 0; f < ids.size(); ++f)
+  {
+    this->Lines.emplace(ids[f], f);
   }
 }
 
@@ -106,52 +136,105 @@ SmoothedField FibreMesher::smoothed(std::int32_t fibreId) const
     this->Thin ? &*this->Thin : nullptr);
 }
 
-void FibreMesher::makeOuter(
-  const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds, double deeper) const
+std::unique_ptr<MyelinProfile> FibreMesher::profileOf(const SmoothedField& field, const FibreSurfacePair& pair) const
+{
+  if (!this->Options.followsLines() || pair.isBare() || field.blocks().empty())
+  {
+    return nullptr;
+  }
+  const auto line = this->Lines.find(pair.fibreId);
+  if (line == this->Lines.end())
+  {
+    throw InvalidInput(text("fibre ", pair.fibreId, " of the label image has no centre line among the fibres given with it"));
+  }
+  auto profile = std::make_unique<MyelinProfile>(field, *this->Facts.centreLines, line->second, this->Options);
+  return this->Options.myelinFollowsAxon || profile->hasNodes() ? std::move(profile) : nullptr;
+}
+
+void FibreMesher::letInNodes(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
+  const std::function<double(double volume)>& gRatio) const
+{
+  const OuterContour outer = this->contourOuter(field, 0.0);
+  pair.targetGRatio = gRatio(outer.volume);
+  const double part = pair.targetGRatio * pair.targetGRatio;
+  const SmoothedField even = this->Options.myelinFollowsAxon ? profile.evened(part, outer.right, this->ThinnestMyelin) : field;
+  AxonContour axon;
+  MyelinState state = MyelinState::NoAxon;
+  if (outer.volume > 0.0)
+  {
+    const AxonLevels levels = this->axonLevels(even, part * outer.volume);
+    const AxonSearch search(this->Contours, even, part * outer.volume, levels, this->Spacing, this->movesContours());
+    state = levels.highest > levels.lowest ? search.find(nullptr, axon) : MyelinState::NoAxon;
+  }
+  if (state == MyelinState::NoAxon)
+  {
+    profile.forgetNodes();
+    return;
+  }
+  profile.letInNodes(axon.level, this->PromisedMyelin + roomInNodes * this->Facts.surfaceTolerance);
+  pair.nodes = profile.nodeCount();
+  pair.internodeLength = profile.internodeLength();
+  pair.wholeMyelin = outer.volume - axon.volume;
+}
+
+FibreMesher::OuterContour FibreMesher::contourOuter(const SmoothedField& field, double deeper) const
 {
   // Smoothing removes more from ridges than it fills in; the surface moves out until it has the fibre's original volume.
   const double furthest = this->Options.smoothingIterations > 0 ? this->Facts.surfaceTolerance : 0.0;
   const double highest = this->Withdrawal + deeper;
-  double level = highest - usualPart * furthest;
+  OuterContour outer;
+  outer.level = highest - usualPart * furthest;
+  outer.surface = this->Contours.outerAt(field, outer.level, outer.dropped);
+  if (outer.surface.mesh.triangles.empty())
+  {
+    return outer;
+  }
+  SurfaceMeasure now = measure(outer.surface);
+  outer.volume = now.volume;
+  outer.right = outer.level;
+  if (furthest > 0.0 && now.freeArea > 0.0) // otherwise it consists of caps only
+  {
+    outer.volume = measure(this->Contours.unsmoothed(field)).volume - deeper * now.freeArea;
+    outer.right = std::clamp(outer.level - (outer.volume - now.volume) / now.freeArea, highest - furthest, highest);
+    // The move after coarsening does the rest.
+    const double rest = restPart * furthest;
+    if (!this->movesContours() || outer.surface.held != 0) // whose rims cannot be moved
+    {
+      if (std::abs(outer.right - outer.level) > rest)
+      {
+        outer.level = outer.right;
+        outer.surface = this->Contours.outerAt(field, outer.level, outer.dropped);
+        now = measure(outer.surface);
+      }
+      outer.right = outer.level;
+    }
+    const double there = now.volume + (outer.level - outer.right) * now.freeArea;
+    outer.volume = std::clamp(outer.volume, there - rest * now.freeArea, there + rest * now.freeArea);
+  }
+  return outer;
+}
+
+void FibreMesher::makeOuter(
+  const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds, double deeper) const
+{
   pair.outer = TriangleMesh(); // of an earlier attempt
   pair.outerReport = SurfaceReport();
   pair.outerChange = SurfaceChange();
   pair.state = MyelinState::NoFibre;
-  CappedSurface surface = this->Contours.outerAt(field, level, pair.outerChange.droppedVolume);
-  if (surface.mesh.triangles.empty())
+  OuterContour contour = this->contourOuter(field, deeper);
+  pair.outerChange.droppedVolume = contour.dropped;
+  if (contour.surface.mesh.triangles.empty())
   {
     return;
   }
-  SurfaceMeasure now = measure(surface);
-  double volume = now.volume;
-  double right = level;
-  if (furthest > 0.0 && now.freeArea > 0.0) // otherwise it consists of caps only
-  {
-    volume = measure(this->Contours.unsmoothed(field)).volume - deeper * now.freeArea;
-    right = std::clamp(level - (volume - now.volume) / now.freeArea, highest - furthest, highest);
-    // The move after coarsening does the rest.
-    const double rest = restPart * furthest;
-    if (!this->movesContours() || surface.held != 0) // whose rims cannot be moved
-    {
-      if (std::abs(right - level) > rest)
-      {
-        level = right;
-        pair.outerChange = SurfaceChange();
-        surface = this->Contours.outerAt(field, level, pair.outerChange.droppedVolume);
-        now = measure(surface);
-      }
-      right = level;
-    }
-    const double there = now.volume + (level - right) * now.freeArea;
-    volume = std::clamp(volume, there - rest * now.freeArea, there + rest * now.freeArea);
-  }
   // A surface that is made again is one that did not bear to be moved, and will be moved again.
   const bool isMadeAgain = !bounds.empty() || deeper > 0.0;
-  const bool isSound = this->Finishing.finish(
-    field, { level, right, volume, nullptr, bounds, !isMadeAgain }, surface, pair.outerReport, pair.outerChange);
+  const bool isSound =
+    this->Finishing.finish(field, { contour.level, contour.right, contour.volume, nullptr, bounds, !isMadeAgain },
+      contour.surface, pair.outerReport, pair.outerChange);
   pair.isFlawed = pair.isFlawed || !isSound;
-  pair.outer = packed(std::move(surface.mesh));
-  pair.outerLevel = right;
+  pair.outer = packed(std::move(contour.surface.mesh));
+  pair.outerLevel = contour.right;
   pair.state = pair.outer.triangles.empty() ? MyelinState::NoFibre : MyelinState::NoAxon;
 }
 
@@ -216,7 +299,7 @@ void FibreMesher::forgetInner(FibreSurfacePair& pair)
   pair.isInnerMade = false;
 }
 
-void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) const
+void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair, MyelinProfile* profile) const
 {
   if (pair.isBare())
   {
@@ -227,15 +310,20 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair) 
     pair.state = MyelinState::AsAsked;
     return;
   }
+  if (profile != nullptr && profile->hasNodes())
+  {
+    this->makeInnerWithNodes(*profile, pair);
+    return;
+  }
   if (pair.outerReport.volume != pair.volumeAsMade && hasVolumeAsMade(pair))
   {
-    this->makeInnerWithin(pair.volumeAsMade, field, pair);
+    this->makeInnerWithin(pair.volumeAsMade, field, pair, profile);
     if (hasFreeInner(pair))
     {
       return;
     }
   }
-  this->makeInnerWithin(pair.outerReport.volume, field, pair);
+  this->makeInnerWithin(pair.outerReport.volume, field, pair, profile);
 }
 
 bool FibreMesher::keepsInner(FibreSurfacePair& pair) const
@@ -254,22 +342,48 @@ bool FibreMesher::keepsInner(FibreSurfacePair& pair) const
 }
 
 /// Makes the inner surface for an outer one as if that had `outerVolume` (µm³).
-void FibreMesher::makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair) const
+void FibreMesher::makeInnerWithin(
+  double outerVolume, const SmoothedField& field, FibreSurfacePair& pair, MyelinProfile* profile) const
 {
   forgetInner(pair);
-  const double wanted = pair.targetGRatio * pair.targetGRatio * outerVolume;
+  const double part = pair.targetGRatio * pair.targetGRatio;
+  const double wanted = part * outerVolume;
   if (!(wanted > 0.0))
   {
     return; // an outer surface, made elsewhere, that encloses no volume
   }
-  const AxonLevels levels = this->axonLevels(field, wanted);
+  std::optional<SmoothedField> even;
+  if (profile != nullptr && this->Options.myelinFollowsAxon)
+  {
+    even.emplace(profile->evened(part, pair.outerLevel, this->ThinnestMyelin));
+  }
+  const SmoothedField& own = even ? *even : field;
+  const AxonLevels levels = this->axonLevels(own, wanted);
   if (levels.highest <= levels.lowest)
   {
     return;
   }
-  const AxonSearch search(this->Contours, field, wanted, levels, this->Spacing, this->movesContours());
+  const AxonSearch search(this->Contours, own, wanted, levels, this->Spacing, this->movesContours());
   AxonContour axon;
   const MyelinState state = search.find(nullptr, axon);
+  this->finish(search, state, axon, pair);
+}
+
+/// Makes the inner surface for which the profile's nodes were let in: it has the volume of its contour.
+void FibreMesher::makeInnerWithNodes(const MyelinProfile& profile, FibreSurfacePair& pair) const
+{
+  forgetInner(pair);
+  AxonLevels levels{ this->ThinnestMyelin, this->Contours.innerVolumes(profile.inner(), profile.level()).deepest(),
+    profile.level() };
+  AxonContour axon =
+    AxonSearch(this->Contours, profile.inner(), 0.0, levels, this->Spacing, this->movesContours()).at(profile.level(), nullptr);
+  const AxonSearch search(this->Contours, profile.inner(), axon.volume, levels, this->Spacing, this->movesContours());
+  const MyelinState state = search.find(nullptr, axon);
+  this->finish(search, state, axon, pair);
+}
+
+void FibreMesher::finish(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const
+{
   if (state != MyelinState::NoAxon)
   {
     this->Filters != nullptr ? this->finishByFilters(search, state, axon, pair) : this->finishInside(search, state, axon, pair);

@@ -7,6 +7,7 @@
 #include "surface/FibreField.h"
 #include "surface/FibrePlaces.h"
 #include "surface/FibreSurfacePair.h"
+#include "surface/MyelinProfile.h"
 #include "surface/MyelinSurfaceOptions.h"
 #include "surface/SurfaceFilters.h"
 #include "surface/SurfaceFinishing.h"
@@ -15,6 +16,8 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -40,6 +43,15 @@ public:
 
   SmoothedField smoothed(std::int32_t fibreId) const;
 
+  /// Returns how the surfaces of the pair's fibre depend on the place along it; null if they do not. `field` is smoothed() of the
+  /// fibre and has to outlive the profile.
+  std::unique_ptr<MyelinProfile> profileOf(const SmoothedField& field, const FibreSurfacePair& pair) const;
+
+  /// Lets the nodes of a profile that has some into the fields. gRatio(volume) returns the g-ratio of the internodes, which is
+  /// recorded in the pair, for a fibre whose outer surface would have that volume (µm³) without nodes.
+  void letInNodes(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
+    const std::function<double(double volume)>& gRatio) const;
+
   /// Makes the outer surface, coarsened within `bounds`, and moved `deeper` (µm) than necessary. Sets the pair's state to NoFibre
   /// if there is none, else to NoAxon.
   void makeOuter(const SmoothedField& field, FibreSurfacePair& pair, const std::vector<LocalErrorBound>& bounds = {},
@@ -61,18 +73,32 @@ public:
   /// Makes the inner surface for the pair's targetGRatio, inside its outer one: with thicker myelin if it would otherwise leave
   /// the outer one or come nearer to its wall than promised, and without an axon if no thickness prevents that. If the outer one
   /// was moved and nearly kept its volume (volumeAsMade), the old inner one is kept, unless it is in the way. Of a fibre without
-  /// myelin the inner surface is the outer one.
-  void makeInner(const SmoothedField& field, FibreSurfacePair& pair) const;
+  /// myelin the inner surface is the outer one. With a profile, the myelin is as thick as that says along the fibre; if it has
+  /// nodes, the axon is the one for which they were let in.
+  void makeInner(const SmoothedField& field, FibreSurfacePair& pair, MyelinProfile* profile = nullptr) const;
 
   /// Tells whether the pair's inner surface is the same that makeInner() would make now that the outer one was moved. Sets the
   /// g-ratio if so.
   bool keepsInner(FibreSurfacePair& pair) const;
 
 private:
+  void findLines();
   Eigen::AlignedBox3d box() const;
   /// Tells whether contours slightly beside their target are moved there, rather than made again.
   bool movesContours() const;
-  void makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair) const;
+  /// An outer surface before coarsening, and what it is to be moved to.
+  struct OuterContour
+  {
+    CappedSurface surface;
+    double level = 0.0;   ///< of the contour, µm
+    double right = 0.0;   ///< at which it should lie, µm
+    double volume = 0.0;  ///< that it should have, µm³
+    double dropped = 0.0; ///< µm³
+  };
+  OuterContour contourOuter(const SmoothedField& field, double deeper) const;
+  void makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair, MyelinProfile* profile) const;
+  void makeInnerWithNodes(const MyelinProfile& profile, FibreSurfacePair& pair) const;
+  void finish(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   AxonLevels axonLevels(const SmoothedField& field, double volume) const;
   void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   void finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
@@ -84,7 +110,8 @@ private:
   const SurfaceFilters* Filters; ///< null for core's own means
   FibreField Field;
   FibrePlaces Places;
-  std::optional<ThinFibres> Thin; ///< if surfaces are smoothed
+  std::optional<ThinFibres> Thin;            ///< if surfaces are smoothed
+  std::map<std::int32_t, std::size_t> Lines; ///< numbers of the fibres among those with centre lines, if surfaces depend on these
   double Spacing;
   FibreContours Contours;
   SurfaceFinishing Finishing;

@@ -50,8 +50,11 @@ struct FibreSurfacePair
   double thickness = 0.0;  ///< µm, depth of the inner surface below the outer one: the difference of the field
   double ownGRatio = std::numeric_limits<double>::quiet_NaN(); ///< the TargetGRatio of the fibre itself; NaN if it has none
   double targetGRatio = 0.0;
-  double gRatio = 0.0;  ///< the one reached: sqrt(inner volume / outer volume); 0 without an axon
-  bool isWanted = true; ///< false only if the centre line is known to pass outside the domain
+  int nodes = 0;                ///< number of nodes of Ranvier in the box
+  double internodeLength = 0.0; ///< µm; 0 if the fibre has no node
+  double wholeMyelin = 0.0;     ///< µm³, volume that the myelin would have without nodes; 0 if the fibre has no node
+  double gRatio = 0.0;          ///< the one reached: sqrt(inner volume / outer volume); 0 without an axon
+  bool isWanted = true;         ///< false only if the centre line is known to pass outside the domain
   /// Whether a surface has a fault that could not be repaired: it meets itself or the other one, or is nearer than MinimumGap
   /// (and leastSeparation) to another fibre.
   bool isFlawed = false;
@@ -61,6 +64,12 @@ struct FibreSurfacePair
   bool hasOwnGRatio() const { return !std::isnan(this->ownGRatio); }
   /// Tells whether the fibre is an axon without myelin.
   bool isBare() const { return this->ownGRatio == bareGRatio; }
+  /// Returns the part of the myelin's volume that nodes have taken.
+  double lostMyelin() const
+  {
+    const double left = this->outerReport.volume - this->innerReport.volume;
+    return this->wholeMyelin > 0.0 && this->innerReport.volume > 0.0 ? 1.0 - left / this->wholeMyelin : 0.0;
+  }
   /// Combine the values of both surfaces.
   double largestMove() const { return std::max(this->outerChange.largestMove, this->innerChange.largestMove); }
   double droppedVolume() const { return this->outerChange.droppedVolume + this->innerChange.droppedVolume; }

@@ -14,6 +14,10 @@ namespace
 
 /// Angles of triangles; 0 means any. Equilateral ones have 60°, and some have little above 25° wherever edge lengths change.
 constexpr Range smallestAngles{ 5.0, 25.0, "°", 0.0 };
+constexpr Range nodeLengths{ 0.3, 5.0, " µm", 0.0 };
+constexpr Range internodeFactors{ 1.0, 500.0 };
+constexpr Range paranodeLengths{ 0.5, 6.0, " µm" };
+constexpr Range constrictions{ 0.3, 1.0 };
 
 } // namespace
 
@@ -39,6 +43,31 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "Fraction of the domain that the axons should fill, for instance 0.4. It has no effect unless GRatioModel is "
         "TargetAxonVolumeFraction.")
       .where("GRatioModel", { 3 })
+      .add("MyelinFollowsAxon", &Options::myelinFollowsAxon,
+        "Make myelin thicker where the fibre is thicker, so that each cross-section of a fibre has its g-ratio. If off, the "
+        "myelin "
+        "of a fibre is equally thick along it. It needs the fibres' centre lines: connect MyelinSurface directly to "
+        "FibreRadialGrowth.")
+      .add("NodeLength", &Options::nodeLength, nodeLengths,
+        "Length in µm of nodes of Ranvier; 1 is usual, 0 makes none. In a node the fibre's outer surface comes down to the axon, "
+        "up to a wall of MinimumGap and four times the SurfaceTolerance, and the space around it is left to the extra-axonal "
+        "space. The g-ratio is then that of internodes. Nodes need the fibres' centre lines, as MyelinFollowsAxon does, and a "
+        "GRatioModel other than TargetAxonVolumeFraction.")
+      .add("InternodeFactor", &Options::internodeFactor, internodeFactors,
+        "Length of internodes in outer diameters of the fibre (twice its TargetRadius), at least four ParanodeLengths. It is 100 "
+        "to 200 in tissue. The first node of a fibre lies at a random place, the others follow at equal distances. In a domain "
+        "that is periodic along z, distances change so that a whole number fits.")
+      .whereGiven("NodeLength")
+      .add("ParanodeLength", &Options::paranodeLength, paranodeLengths,
+        "Length in µm of paranodes: on either side of a node, myelin and axon become as thick as in the internode over this "
+        "length.")
+      .whereGiven("NodeLength")
+      .add("NodeConstriction", &Options::nodeConstriction, constrictions,
+        "Diameter of the axon in a node, in parts of that in the internode. 1: the axon is not constricted.")
+      .whereGiven("NodeLength")
+      .add("NodeSeed", &Options::nodeSeed, limits::seed,
+        "Seed of the nodes' places along the fibres. The same seed gives a fibre the same nodes.")
+      .whereGiven("NodeLength")
       .add("SmoothingIterations", &Options::smoothingIterations, limits::smoothingIterations,
         "Number of times that a fibre's depth is averaged over neighbouring voxels before its surface is contoured, at most 20. "
         "Smoothing rounds creases and keeps the gap between fibres; n steps blur by about the square root of n / 2 voxels. "
@@ -71,6 +100,9 @@ void validate(const MyelinSurfaceOptions& options)
   {
     throw InvalidInput("MinimumAngle moves surfaces by up to DecimationError, which is 0: give it 0.005 µm, say");
   }
+  require(!options.hasNodes() || options.model != GRatioModel::TargetAxonVolumeFraction,
+    "nodes of Ranvier are as deep as the g-ratio makes myelin, and the one for TargetAxonVolumeFraction depends on the outer "
+    "surfaces with their nodes: choose another GRatioModel, or leave NodeLength at 0");
   if (options.model == GRatioModel::TargetAxonVolumeFraction && options.targetAxonVolumeFraction == 0.0)
   {
     throw InvalidInput(text("TargetAxonVolumeFraction is 0: give ", limits::fraction.lowest, " to ", limits::fraction.highest,

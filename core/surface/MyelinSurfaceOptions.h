@@ -7,6 +7,7 @@
 #include "surface/GRatio.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace cactus
@@ -29,6 +30,18 @@ struct MyelinSurfaceOptions
   double gRatioDeviation = 0.04;
   /// Fraction of the box that the axons are to fill (TargetAxonVolumeFraction), 0.0001 to 0.999.
   double targetAxonVolumeFraction = 0.0;
+  /// Make myelin as thick for the fibre's calibre everywhere along it, so that each cross-section has the g-ratio; otherwise it
+  /// is equally thick everywhere.
+  bool myelinFollowsAxon = false;
+  /// Length of nodes of Ranvier along the fibre; 0: none.
+  double nodeLength = 0.0;
+  /// Length of an internode over the fibre's outer diameter.
+  double internodeFactor = 100.0;
+  /// Length, on either side of a node, over which the myelin and the axon reach their full thickness.
+  double paranodeLength = 2.0;
+  /// Diameter of the axon in a node over that in the internode beside it.
+  double nodeConstriction = 0.7;
+  std::uint64_t nodeSeed = 1;
   /// Smoothing passes of the fields before they are contoured (see SmoothedField), 0 to 20 (see Limits.h); 0: none.
   int smoothingIterations = 2;
   /// Distance by which coarsening may move a surface, at most the tolerance that growth kept, as an aim and no strict bound (see
@@ -41,6 +54,10 @@ struct MyelinSurfaceOptions
   std::uint64_t seed = 1;
 
   static const PropertyList<MyelinSurfaceOptions>& properties();
+
+  bool hasNodes() const { return nodeLength > 0.0; }
+  /// Tells whether surfaces depend on where along the fibre they are, so that centre lines have to be known.
+  bool followsLines() const { return myelinFollowsAxon || hasNodes(); }
 };
 
 /// Throws InvalidInput, naming the parameter, for a value out of range.
@@ -61,7 +78,8 @@ struct LabelImageFacts
   ColumnTable columns;             ///< of the fibres, see fibreColumns()
   /// Length (µm) of each fibre's centre line inside the domain: 0 for one that only passes outside. Empty if unknown.
   std::vector<double> lengths;
-  bool isSample = false; ///< the image also has other fibres, of which no surfaces are made
+  std::shared_ptr<const Fibres> centreLines; ///< the fibres, for myelin that varies along them; null if unknown
+  bool isSample = false;                     ///< the image also has other fibres, of which no surfaces are made
 };
 
 /// Returns the facts of the image that these options grow from the fibres. Lengths are left empty.

@@ -315,6 +315,42 @@ void SmoothedField::unsmoothedValues(double smallest, const NodeRange& around, f
   this->copyBlock(&BlockPlace::unsmoothed, 0.0, smallest, around, out);
 }
 
+Eigen::Vector3d SmoothedField::sampleAt(const std::array<int, 3>& node) const
+{
+  Eigen::Vector3d nodes;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const int samples = this->Cells[axis] - 1;
+    const int sample = this->Repeats[axis] ? ((node[axis] - 1) % samples + samples) % samples
+                                           : std::clamp(node[axis] - 1, 0, std::max(0, samples - 1));
+    nodes[Eigen::Index(axis)] = sample + 1.0;
+  }
+  return this->FirstNode + nodes / this->NodesPerLength;
+}
+
+SmoothedField SmoothedField::lowered(const NodeNumbers& by) const
+{
+  SmoothedField result = *this;
+  result.Values.clear();
+  for (std::size_t b = 0; b < this->Blocks.size(); ++b)
+  {
+    BlockPlace& place = result.Places[std::size_t(this->placeOf(indexOf(this->Lattice, this->Blocks[b])) - this->Places.data())];
+    const std::size_t size = by[b].size();
+    float* room = result.Values.emplace_back(new float[2 * size]).get();
+    const auto lower = [&](float*& held, float* to)
+    {
+      for (std::size_t n = 0; n < size; ++n)
+      {
+        to[n] = held[n] > farOutside ? held[n] - by[b][n] : held[n];
+      }
+      held = to;
+    };
+    lower(place.values, room);
+    lower(place.unsmoothed, room + size);
+  }
+  return result;
+}
+
 void SmoothedField::copyBlock(float* BlockPlace::*held, double level, double smallest, const NodeRange& around, float* out) const
 {
   Index block;

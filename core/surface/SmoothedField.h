@@ -47,6 +47,15 @@ public:
   /// Does the same for the unsmoothed field, at level 0.
   void unsmoothedValues(double smallest, const NodeRange& around, float* out) const;
 
+  /// Returns the position (µm) of the sample from which a node has its value; samples beyond a periodic face are those inside the
+  /// opposite one.
+  Eigen::Vector3d sampleAt(const std::array<int, 3>& node) const;
+
+  /// Numbers for the nodes of each of blocks() and one node beyond on every side, x fastest.
+  using NodeNumbers = std::vector<std::vector<float>>;
+  /// Returns the field, smoothed and unsmoothed, minus a number for each node.
+  SmoothedField lowered(const NodeNumbers& by) const;
+
   /// Returns the field at a point of the blocks: trilinear, and along each axis corrected for the curvature that the samples on
   /// either side agree on, as in contour(). A point beyond the outermost samples has the value of the nearest point among them;
   /// far from the fibre it is very low, or minus infinity.
@@ -101,7 +110,7 @@ private:
   std::vector<std::uint32_t> Blocks;
   Eigen::Vector3d FirstNode;                    ///< µm
   double NodesPerLength;                        ///< per µm
-  std::vector<std::unique_ptr<float[]>> Values; ///< of blocks that were smoothed together
+  std::vector<std::shared_ptr<float[]>> Values; ///< of blocks that were smoothed together
   Index First{ { 0, 0, 0 } };                   ///< first one of the box of stored blocks
   Index Count{ { 0, 0, 0 } };                   ///< and their number
   Index Cells{ { 0, 0, 0 } };                   ///< of the lattice

@@ -111,6 +111,12 @@ std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs
   return order;
 }
 
+/// Returns the field whose contour is the outer surface.
+const SmoothedField& outerOf(const SmoothedField& field, const MyelinProfile* profile)
+{
+  return profile != nullptr && profile->hasNodes() ? profile->outer() : field;
+}
+
 std::string bytesOf(const std::vector<Eigen::Vector3d>& points)
 {
   ByteWriter put;
@@ -247,7 +253,8 @@ void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
   this->isCommon() ? this->makeInnerOfCommonVolume(outer, inner) : this->makeEachInner(outer, inner);
 }
 
-double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const
+/// Returns the g-ratio of a fibre whose outer surface has this volume (µm³).
+double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair, double volume) const
 {
   if (pair.hasOwnGRatio())
   {
@@ -259,7 +266,7 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
     return this->Options.gRatio;
   case GRatioModel::LogLinear:
     // Another library's filters may leave a surface without a volume.
-    return pair.volumeAsMade > 0.0 ? logLinearGRatio(this->Mesher.equivalentDiameter(field, pair.volumeAsMade)) : smallestGRatio;
+    return volume > 0.0 ? logLinearGRatio(this->Mesher.equivalentDiameter(field, volume)) : smallestGRatio;
   case GRatioModel::Distributed:
     return distributedGRatio(this->Options.gRatio, this->Options.gRatioDeviation, this->Options.seed, pair.fibreId);
   default:
@@ -267,15 +274,29 @@ double SurfaceMaker::targetGRatio(const SmoothedField& field, const FibreSurface
   }
 }
 
+/// Calls body(field, profile) with the field of a fibre and how its surfaces vary along it; null if they do not.
+template <typename Body>
+void SurfaceMaker::withField(FibreSurfacePair& pair, Body&& body) const
+{
+  const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
+  const std::unique_ptr<MyelinProfile> profile = this->Mesher.profileOf(field, pair);
+  if (profile != nullptr && profile->hasNodes())
+  {
+    this->Mesher.letInNodes(field, *profile, pair, [&](double volume) { return this->targetGRatio(field, pair, volume); });
+  }
+  body(field, profile.get());
+}
+
 /// Makes the inner surface of a fibre whose outer one is in its pair.
-void SurfaceMaker::putInner(std::size_t i, const SmoothedField& field, SurfaceStore& inner)
+void SurfaceMaker::putInner(std::size_t i, const SmoothedField& field, MyelinProfile* profile, SurfaceStore& inner)
 {
   FibreSurfacePair& pair = this->Pairs[i];
-  if (!this->isCommon())
+  const bool isKnown = profile != nullptr && profile->hasNodes(); // that of the internodes
+  if (!this->isCommon() && !isKnown)
   {
-    pair.targetGRatio = this->targetGRatio(field, pair);
+    pair.targetGRatio = this->targetGRatio(field, pair, pair.volumeAsMade);
   }
-  this->Mesher.makeInner(field, pair);
+  this->Mesher.makeInner(field, pair, profile);
   inner.put(i, std::exchange(pair.inner, TriangleMesh()));
 }
 
@@ -291,17 +312,20 @@ void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
         return;
       }
       FibreSurfacePair& pair = this->Pairs[i];
-      const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
-      this->Mesher.makeOuter(field, pair);
-      if (pair.state != MyelinState::NoFibre)
-      {
-        pair.volumeAsMade = pair.outerReport.volume;
-        if (!this->isCommon())
+      this->withField(pair,
+        [&](const SmoothedField& field, MyelinProfile* profile)
         {
-          this->putInner(i, field, inner);
-          pair.isInnerMade = true;
-        }
-      }
+          this->Mesher.makeOuter(outerOf(field, profile), pair);
+          if (pair.state != MyelinState::NoFibre)
+          {
+            pair.volumeAsMade = pair.outerReport.volume;
+            if (!this->isCommon())
+            {
+              this->putInner(i, field, profile, inner);
+              pair.isInnerMade = true;
+            }
+          }
+        });
       outer.put(i, std::exchange(pair.outer, TriangleMesh()));
       this->Journal.noteOuter(i, pair);
     },
@@ -416,7 +440,8 @@ void SurfaceMaker::makeAgain(
       pair.isFlawed = false; // of the old surface
       FibreMesher::forgetInner(pair);
       pair.outer = *outer.get(i);
-      this->Mesher.makeOuter(this->Mesher.smoothed(pair.fibreId), pair, bounds.at(i), deeper);
+      this->withField(pair, [&](const SmoothedField& field, MyelinProfile* profile)
+        { this->Mesher.makeOuter(outerOf(field, profile), pair, bounds.at(i), deeper); });
       outer.put(i, std::exchange(pair.outer, TriangleMesh()));
     });
 }
@@ -470,7 +495,8 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
       if (pair.state != MyelinState::NoFibre)
       {
         pair.outer = *outer.get(i);
-        this->putInner(i, this->Mesher.smoothed(pair.fibreId), inner);
+        this->withField(
+          pair, [&](const SmoothedField& field, MyelinProfile* profile) { this->putInner(i, field, profile, inner); });
         pair.outer = TriangleMesh();
       }
       else

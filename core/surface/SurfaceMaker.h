@@ -63,9 +63,11 @@ private:
   void forEachOf(const std::vector<std::size_t>& which, const Changed& stores, Body&& body);
   template <typename IsMade, typename Body>
   void forEachFibre(IsMade&& isMade, Body&& body, const Changed& stores, const char* message, double from, double to);
-  double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair) const;
+  double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair, double volume) const;
+  template <typename Body>
+  void withField(FibreSurfacePair& pair, Body&& body) const;
   bool isCommon() const { return this->Options.model == GRatioModel::TargetAxonVolumeFraction; }
-  void putInner(std::size_t i, const SmoothedField& field, SurfaceStore& inner);
+  void putInner(std::size_t i, const SmoothedField& field, MyelinProfile* profile, SurfaceStore& inner);
   void contour(SurfaceStore& outer, SurfaceStore& inner);
   void spaceOut(SurfaceStore& outer, const SurfaceSource& inner);
   void evenOuter(const std::vector<std::size_t>& which, SurfaceStore& outer);

@@ -35,6 +35,9 @@ void visitPair(Pair& pair, Visit&& visit)
   visit(pair.thickness);
   visit(pair.ownGRatio);
   visit(pair.targetGRatio);
+  visit(pair.nodes);
+  visit(pair.internodeLength);
+  visit(pair.wholeMyelin);
   visit(pair.gRatio);
   visit(pair.isWanted);
   visit(pair.isFlawed);

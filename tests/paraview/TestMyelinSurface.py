@@ -409,6 +409,7 @@ class MyelinSurfaceTest(CactusTestCase):
             {"GRatioModel": "LogLinear"},
             {"GRatioModel": "Distributed", "Seed": 7},
             {"GRatioDeviation": 0.1},
+            {"MyelinFollowsAxon": 1},
             {"GRatioModel": "TargetAxonVolumeFraction", "TargetAxonVolumeFraction": 0.3},
         ):
             told.update(change)
@@ -426,6 +427,12 @@ class MyelinSurfaceTest(CactusTestCase):
         with self.assertError("TargetAxonVolumeFraction 0.9 cannot be reached"):
             after(TargetAxonVolumeFraction=0.9)
         self.assertEqual(after(TargetAxonVolumeFraction=0.3) & again, set())
+        self.assertEqual(self.digest(kept), self.digest(MyelinSurface(Input=growth, **told)))
+        # Nodes of Ranvier are as deep as the g-ratio makes myelin.
+        told.update(GRatioModel="Constant", GRatio=0.6, NodeLength=1, InternodeFactor=1, ParanodeLength=0.5)
+        after(**told)
+        told["GRatio"] = 0.65
+        self.assertLessEqual({"making surfaces", spaces}, after(GRatio=0.65))
         self.assertEqual(self.digest(kept), self.digest(MyelinSurface(Input=growth, **told)))
 
     def test_outer_surfaces_of_vtk_are_kept_too(self):

@@ -70,6 +70,7 @@ class Statistics(CactusTestCase):
         self.assertEqual(table["TargetRadius_um"], [1.0, 1.5])
         for value, wanted in zip(table["OuterVolume_um3"], (10 * POLYGON, 22.5 * POLYGON)):
             self.assertAlmostEqual(value, wanted, places=4)
+        self.assertLess(max(table["GRatioDeviation"]), 1e-5)
         for value, wanted in zip(table["GRatio"], (0.7, 0.6)):
             self.assertAlmostEqual(value, wanted, places=5)
         self.assertEqual(table["OuterClosed"], [1, 1])

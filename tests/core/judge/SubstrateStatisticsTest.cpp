@@ -97,6 +97,18 @@ TEST(CrossSection, OnlyTheLoopAroundThePoint)
   EXPECT_NEAR(cactus::polygonArea(sections.outlineAround({ 4, 0, 0.1 }, up, 1.0), up), 4.0 * polygonFactor(24), 1e-9);
 }
 
+TEST(FibreStatistics, GRatiosDeviateAlongAFibre)
+{
+  cactus::FibreStatistics fibre;
+  EXPECT_TRUE(std::isnan(fibre.gRatioDeviation()));
+  for (const std::size_t number : { 0, 1, 2 })
+  {
+    fibre.outerCuts.push_back({ number, 4.0, 1.0 });
+  }
+  fibre.innerCuts = { { 0, 0.36 * 4.0, 1.0 }, { 2, 0.64 * 4.0, 1.0 } };
+  EXPECT_NEAR(fibre.gRatioDeviation(), 0.1, 1e-12) << "of 0.6 and 0.8";
+}
+
 // Guarantee 3: fractions and radii are those of the final meshes.
 TEST(SubstrateStatistics, StraightTubes)
 {

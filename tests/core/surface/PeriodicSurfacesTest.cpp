@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ struct PeriodicTissue
     this->facts.targetRadii = this->fibres.targetRadii;
     this->facts.minimumGap = this->growth.minimumGap;
     this->facts.surfaceTolerance = this->growth.surfaceTolerance;
+    this->facts.centreLines = std::make_shared<Fibres>(this->fibres);
   }
 
   LabelImage image(double margin = 0.0) const
@@ -140,10 +142,15 @@ TEST(PeriodicSurfaces, RimsOfOppositeFacesHaveTheSamePoints)
   for (const Border border : { Border::Periodic, Border::PeriodicAcross })
   {
     const PeriodicTissue tissue(border);
-    for (const double error : { 0.005, 0.0 })
+    MyelinSurfaceOptions fine;
+    fine.decimationError = 0.0;
+    MyelinSurfaceOptions nodes;
+    nodes.myelinFollowsAxon = true;
+    nodes.nodeLength = 0.8;
+    nodes.paranodeLength = 0.8;
+    nodes.internodeFactor = 2.0;
+    for (const MyelinSurfaceOptions& options : { MyelinSurfaceOptions(), fine, nodes })
     {
-      MyelinSurfaceOptions options;
-      options.decimationError = error;
       const std::vector<FibreSurfacePair> pairs = tissue.surfaces(options);
       for (const auto kind : { &FibreSurfacePair::outer, &FibreSurfacePair::inner })
       {
@@ -167,6 +174,8 @@ TEST(PeriodicSurfaces, RimsOfOppositeFacesHaveTheSamePoints)
         EXPECT_GT(points[1], 200u);
         EXPECT_GT(points[2], 200u);
       }
+      const auto hasNodes = [](const FibreSurfacePair& pair) { return pair.nodes > 0; };
+      EXPECT_EQ(std::any_of(pairs.begin(), pairs.end(), hasNodes), options.hasNodes());
     }
   }
 }

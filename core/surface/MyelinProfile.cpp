@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/MyelinProfile.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cactus
+{
+
+MyelinProfile::MyelinProfile(
+  const SmoothedField& field, const Fibres& fibres, std::size_t fibre, const MyelinSurfaceOptions& options)
+  : Field(field)
+  , Options(options)
+  , Line(fibres, fibre)
+  , Depths(field, this->Line)
+{
+  if (options.hasNodes())
+  {
+    this->Nodes.emplace(options, fibres.fibreIds[fibre], 2.0 * fibres.targetRadii[fibre], this->Line.period());
+    if (!this->Nodes->reachInto(this->Depths.first(), this->Depths.last()))
+    {
+      this->Nodes.reset();
+    }
+  }
+}
+
+SmoothedField MyelinProfile::evened(double part, double outer, double thinnest)
+{
+  const AlongLine depth = this->Depths.depthOfPart(part, outer);
+  const auto atLeast = [depth, thinnest](double along) { return std::max(depth(along), thinnest); };
+  const double mean = this->Depths.mean(atLeast);
+  this->Deeper = [atLeast, mean](double along) { return atLeast(along) - mean; };
+  return this->Depths.lowered(this->Deeper);
+}
+
+int MyelinProfile::nodeCount() const
+{
+  int count = 0;
+  if (this->Nodes)
+  {
+    for (const double middle : this->Nodes->between(this->Depths.first(), this->Depths.last()))
+    {
+      const Eigen::Vector3d point = this->Line.point(middle);
+      bool isInside = true;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const std::vector<double>& planes = this->Field.lattice().planes[axis];
+        const double at = point[Eigen::Index(axis)];
+        const bool isAcross = this->Field.repeats(axis) && axis < 2; // the line goes on beyond these faces
+        isInside = isInside && (isAcross || (at >= planes.front() && at < planes.back()));
+      }
+      count += isInside ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+double MyelinProfile::internodeLength() const
+{
+  return this->Nodes ? this->Nodes->spacing() - this->Options.nodeLength : 0.0;
+}
+
+void MyelinProfile::letInNodes(double level, double wall)
+{
+  this->Level = level;
+  const AlongLine whole = [this, level](double along) { return level + (this->Deeper ? this->Deeper(along) : 0.0); };
+  const double area = this->Options.nodeConstriction * this->Options.nodeConstriction;
+  const AlongLine constricted = area < 1.0 ? this->Depths.depthOfPartBelow(area, whole) : whole;
+  const AlongLine axon = [&](double along)
+  {
+    const double bare = 1.0 - this->Nodes->myelinPart(along);
+    return bare > 0.0 ? whole(along) + bare * (constricted(along) - whole(along)) : whole(along);
+  };
+  this->Inner = this->Depths.lowered([&](double along) { return axon(along) - level; });
+  this->Outer = this->Depths.lowered(
+    [&](double along) { return std::max(0.0, (1.0 - this->Nodes->myelinPart(along)) * (axon(along) - wall)); });
+}
+
+} // namespace cactus

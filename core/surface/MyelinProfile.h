@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fibres/Fibres.h"
+#include "surface/DepthsAlong.h"
+#include "surface/FibreLine.h"
+#include "surface/MyelinSurfaceOptions.h"
+#include "surface/NodesOfRanvier.h"
+#include "surface/SmoothedField.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace cactus
+{
+
+/// How the surfaces of one fibre depend on the place along its centre line (see MyelinSurfaceOptions).
+///
+/// Contours of one level become surfaces of varying depth by lowering the field, at each sample by a depth for its place along
+/// the line. Where a fibre has no node, its outer surface lies where it would without any; within nodes and paranodes fields are
+/// only ever lowered for it. So the fields of two fibres still sum to at most -gap, and outer surfaces keep it.
+class MyelinProfile
+{
+public:
+  /// The fibre is number `fibre` of those that have grown. The field has to outlive the object.
+  MyelinProfile(const SmoothedField& field, const Fibres& fibres, std::size_t fibre, const MyelinSurfaceOptions& options);
+
+  MyelinProfile(const MyelinProfile&) = delete;
+  MyelinProfile& operator=(const MyelinProfile&) = delete;
+
+  /// Returns the field whose contour at one level leaves an axon of this part of each cross-section's area above `outer` (µm),
+  /// if the fibre had no nodes: about at the level of that contour in the field given. No myelin is thinner than `thinnest` (µm).
+  SmoothedField evened(double part, double outer, double thinnest);
+
+  /// Tells whether a node or a paranode lies in the fibre.
+  bool hasNodes() const { return this->Nodes.has_value(); }
+  /// Takes the nodes away from a fibre without an axon, to which they could not come down.
+  void forgetNodes() { this->Nodes.reset(); }
+  /// Returns the number of nodes whose middle lies in the box, and the length (µm) of an internode; 0 without nodes.
+  int nodeCount() const;
+  double internodeLength() const;
+  /// Puts the axon at this level of the field (evened(), if that was called), and the myelin's thickness in nodes at `wall` (µm).
+  void letInNodes(double level, double wall);
+  /// Returns the fields after letInNodes(): for the outer surface at the levels as without nodes, and for the axon at `level`.
+  const SmoothedField& outer() const { return *this->Outer; }
+  const SmoothedField& inner() const { return *this->Inner; }
+  double level() const { return this->Level; }
+
+private:
+  const SmoothedField& Field;
+  const MyelinSurfaceOptions& Options;
+  FibreLine Line;
+  DepthsAlong Depths;
+  AlongLine Deeper; ///< µm by which the axon lies deeper than its level, without nodes; empty: nowhere
+  std::optional<NodesOfRanvier> Nodes;
+  std::optional<SmoothedField> Outer;
+  std::optional<SmoothedField> Inner;
+  double Level = 0.0; ///< µm
+};
+
+} // namespace cactus
