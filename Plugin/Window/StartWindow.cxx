@@ -2,6 +2,7 @@
 #include "BarUnits.h"
 #include "ErrorColours.h"
 #include "FirstLook.h"
+#include "InheritedLook.h"
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
 #include "WholePanels.h"
@@ -23,6 +24,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
       {
         new cactus::QuickLaunch(core);
         new cactus::FirstLook(core);
+        new cactus::InheritedLook(core);
         new cactus::ErrorColours(core);
         new cactus::WholePanels(core);
         new cactus::BarUnits(core);

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "InheritedLook.h"
+
+#include "AfterUpdate.h"
+#include "PluginProxies.h"
+
+#include <pqDataRepresentation.h>
+#include <pqObjectBuilder.h>
+#include <pqOutputPort.h>
+#include <pqPVApplicationCore.h>
+#include <pqPipelineFilter.h>
+#include <pqPropertiesPanel.h>
+#include <pqView.h>
+#include <vtkDataObject.h>
+#include <vtkNew.h>
+#include <vtkPVDataInformation.h>
+#include <vtkSMPVRepresentationProxy.h>
+#include <vtkSMParaViewPipelineControllerWithRendering.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMViewProxy.h>
+
+#include <QApplication>
+#include <QWidget>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+
+namespace cactus
+{
+namespace
+{
+
+constexpr int ifHidden = 2;                     ///< pqPipelineFilter::replaceInput(): if the input would hide the result
+constexpr char inherited[] = "cactusInherited"; ///< dynamic property of a representation that has its look from its input
+constexpr char direction[] = "Direction";       ///< point data that colour tubes
+
+/// The look of a representation that no array colours.
+struct Look
+{
+  std::array<double, 3> colour{ { 1.0, 1.0, 1.0 } };
+  bool byDirection = false;
+};
+
+/// Our types of representation (xml/views/Representations.xml), each with the property that has its colour.
+constexpr std::array<std::array<const char*, 2>, 3> ourTypes{ { { { "Myelin", "MyelinColor" } }, { { "Axons", "AxonColor" } },
+  { { "Tubes", "DiffuseColor" } } } };
+
+const char* colourPropertyOf(vtkSMProxy* representation)
+{
+  const char* type = vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
+  const auto* found = std::find_if(
+    ourTypes.begin(), ourTypes.end(), [type](const auto& one) { return type != nullptr && std::string(one[0]) == type; });
+  return found != ourTypes.end() ? (*found)[1] : nullptr;
+}
+
+/// Returns the look of our representations, and of those that have it from them.
+std::optional<Look> lookOf(pqDataRepresentation* shown)
+{
+  vtkSMProxy* proxy = shown->getProxy();
+  const char* colour = colourPropertyOf(proxy);
+  if (colour == nullptr && shown->property(inherited).toBool())
+  {
+    colour = "DiffuseColor";
+  }
+  if (colour == nullptr || proxy->GetProperty(colour) == nullptr)
+  {
+    return std::nullopt;
+  }
+  Look look;
+  vtkSMPropertyHelper(proxy, colour).Get(look.colour.data(), 3);
+  look.byDirection = vtkSMPropertyHelper(proxy, "DirectionColors", true).GetAsInt() != 0;
+  return look;
+}
+
+double opacityOf(vtkSMProxy* representation)
+{
+  return vtkSMPropertyHelper(representation, "Opacity", true).GetAsDouble();
+}
+
+void giveLook(pqDataRepresentation* shown, const Look& look, double opacity)
+{
+  vtkSMProxy* proxy = shown->getProxy();
+  if (proxy->GetProperty("DiffuseColor") == nullptr || colourPropertyOf(proxy) != nullptr)
+  {
+    return; // a volume, or one of our own
+  }
+  for (const char* name : { "DiffuseColor", "AmbientColor" })
+  {
+    vtkSMPropertyHelper(proxy, name, true).Set(look.colour.data(), 3);
+  }
+  vtkSMPropertyHelper(proxy, "Opacity", true).Set(opacity);
+  const bool hasDirections =
+    shown->getOutputPortFromInput()->getDataInformation()->GetArrayInformation(direction, vtkDataObject::POINT) != nullptr;
+  if (look.byDirection && hasDirections && !vtkSMPVRepresentationProxy::GetUsingScalarColoring(proxy))
+  {
+    vtkSMPVRepresentationProxy::SetScalarColoring(proxy, direction, vtkDataObject::POINT);
+    vtkSMPropertyHelper(proxy, "MapScalars", true).Set(0); // red, green and blue as they are
+  }
+  proxy->UpdateVTKObjects();
+  shown->setProperty(inherited, true);
+}
+
+void takePlace(pqPipelineFilter* filter, pqOutputPort* input, pqDataRepresentation* result, pqView* view)
+{
+  pqDataRepresentation* before = input->getRepresentation(view);
+  const std::optional<Look> look = before != nullptr ? lookOf(before) : std::nullopt;
+  if (!look)
+  {
+    return;
+  }
+  const double opacity = opacityOf(before->getProxy());
+  giveLook(result, *look, opacity);
+  if (filter->replaceInput() == ifHidden && opacity >= 1.0)
+  {
+    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+    controller->Hide(vtkSMSourceProxy::SafeDownCast(input->getSourceProxy()), input->getPortNumber(), view->getViewProxy());
+  }
+  view->render();
+}
+
+} // namespace
+
+InheritedLook::InheritedLook(pqPVApplicationCore* core)
+  : QObject(core)
+{
+  QObject::connect(core->getObjectBuilder(), &pqObjectBuilder::filterCreated, this,
+    [this](pqPipelineSource* created) { this->Created.append(created); });
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    for (pqPropertiesPanel* panel : window->findChildren<pqPropertiesPanel*>())
+    {
+      QObject::connect(panel, QOverload<>::of(&pqPropertiesPanel::applied), this, &InheritedLook::afterApply);
+    }
+  }
+}
+
+void InheritedLook::afterApply()
+{
+  QList<QPointer<pqPipelineSource>> waiting;
+  waiting.swap(this->Created);
+  for (const QPointer<pqPipelineSource>& created : waiting)
+  {
+    pqPipelineFilter* filter = qobject_cast<pqPipelineFilter*>(created);
+    if (filter != nullptr && filter->modifiedState() == pqProxy::UNINITIALIZED)
+    {
+      this->Created.append(created); // Apply was for the panel of another
+    }
+    else if (filter != nullptr && filter->replaceInput() != 0 && !isOfThisPlugin(filter->getProxy()))
+    {
+      forEachShown(filter,
+        [filter](pqDataRepresentation* shown, pqOutputPort*, pqView* view)
+        {
+          for (pqOutputPort* input : filter->getAllInputs())
+          {
+            takePlace(filter, input, shown, view);
+          }
+        });
+    }
+  }
+}
+
+} // namespace cactus
