@@ -30,7 +30,7 @@ struct CalibreVariation
   double deviation = 0.25;
   /// µm, ℓ of the final surfaces: z has 0.8 of it, since later stages smooth it.
   double correlationLength = 1.3;
-  /// Of beads: how much larger than its mean an axon's radius is in one, as a fraction of that mean, on final surfaces.
+  /// How much larger than its mean an axon's radius is in a bead, as a fraction of that mean, on final surfaces.
   double beadAmplitude = 0.6;
   BeadShape beads;
 

@@ -90,8 +90,8 @@ struct AxonShape
   /// 1962, J Chem Phys 36:2410).
   double diffusivityRatio = 0.0;
   double effectiveRadius = 0.0; ///< µm, see EffectiveRadius
-  /// Of beads, which are stretches of cuts thicker than 1.1 times the mean radius: mean over them of the largest radius over the
-  /// mean radius, minus 1; NaN without a bead.
+  /// Mean over the axon's beads, which are stretches of cuts thicker than 1.1 times the mean radius, of the largest radius over
+  /// the mean radius, minus 1; NaN without a bead.
   double beadAmplitude = 0.0;
   double beadSpacing = 0.0; ///< µm, mean distance of the thickest places of neighbouring beads; NaN for fewer than two
 };
