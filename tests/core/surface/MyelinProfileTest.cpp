@@ -243,7 +243,7 @@ TEST(MyelinProfile, EachCrossSectionHasTheGRatio)
 TEST(MyelinProfile, AFibreComesDownToItsAxonInNodes)
 {
   const double radius = 0.6;
-  const double side = 16.0;
+  const double side = 11.0;
   const GrownFibres grown = singleFibre(side, radius, [&](double) { return radius; });
   MyelinSurfaceOptions options = withNodes(4.0);
   const auto whole = grown.surfaces(MyelinSurfaceOptions());
@@ -260,7 +260,7 @@ TEST(MyelinProfile, AFibreComesDownToItsAxonInNodes)
       const NodesOfRanvier nodes(options, 1, 2.0 * radius, 0.0);
       EXPECT_EQ(pair.nodes, int(nodes.between(1.0, side + 1.0).size())); // its line begins 1 µm outside
       EXPECT_GE(pair.nodes, 2);
-      EXPECT_NEAR(pair.internodeLength, 4.8, 1e-9);
+      EXPECT_NEAR(pair.internodeLength, 4.8, 1e-9); // four diameters
       EXPECT_EQ(pair.targetGRatio, 0.7);
       const auto axonAt = [&](double along)
       { return 0.7 * radius * (1.0 - (1.0 - constriction) * (1.0 - nodes.myelinPart(along))); };
@@ -292,11 +292,11 @@ TEST(MyelinProfile, AFibreComesDownToItsAxonInNodes)
   }
 }
 
-/// A bundle of 8 µm with nodes every few µm, optimised and grown.
+/// A bundle with nodes every few µm, optimised and grown.
 GrownFibres bundleWithNodes()
 {
   BundleBetweenWalls bundle;
-  bundle.side = 8.0;
+  bundle.side = 6.0;
   bundle.meanDispersion = 10.0;
   GrownFibres grown;
   *grown.fibres = initialiseBundles(bundle);
