@@ -59,6 +59,7 @@ NAMES = {
         "Seed": 1,
         "NumberOfThreads": 0,
     },
+    "MyelinSurface": {"MyelinFollowsAxon": 0, "NodeLength": 0, "InternodeFactor": 100, "ParanodeLength": 2, "NodeConstriction": 0.7},
     "SubstrateCertificate": {"MinimumGap": -1, "CutSpacing": 1.0},
     "SubstrateStatistics": {},
     "StrandReader": {"FileName": None},
@@ -72,6 +73,7 @@ CHOICES = {
     ("BundleInitializer", "Border"): ["Cut", "Walls", "Periodic across", "Periodic"],
     ("BundleInitializer", "Mixing"): ["Interpenetrating", "Layers"],
     ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],
+    ("BundleInitializer", "CalibreModel"): ["Lognormal", "Beads"],
     ("CurvedBundles", "Shape"): ["Bend", "Fan", "Kiss"],
 }
 PORTS = {
