@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: of the rim of a cap that is thinner than the error enough points stay for the cap not to vanish, in either face.
+// Guarantees: of the rim of a cap that is thinner than the rimError enough points stay for the cap not to vanish, in either face.
 #include "mesh/HeldRims.h"
 
 #include "mesh/ExampleContours.h"
@@ -18,7 +18,7 @@ namespace
 
 using namespace cactus;
 
-constexpr double error = 0.0025;
+constexpr double rimError = 0.0025;
 
 /// Faces across all axes.
 constexpr std::uint8_t allFaces = 0x3f;
@@ -34,7 +34,7 @@ TEST(HeldRims, ASliverAtAnEdgeOfTheBoxStays)
   const double across = std::sqrt(0.8 * 0.8 - 0.3 * 0.3);
   CappedSurface surface = example::ballInBox({ 0.0, 1.0 + across - 0.002, 0.7 });
   surface.held = allFaces;
-  const auto places = HeldRims(surface, error, 1.0).stays();
+  const auto places = HeldRims(surface, rimError, 1.0).stays();
   ASSERT_NE(places, nullptr);
   EXPECT_EQ(countIf(*places, [](const auto& p) { return p[2] == 1.0 && p[1] == 1.0; }), 2u);
   EXPECT_EQ(
@@ -48,7 +48,7 @@ TEST(HeldRims, ASliverAmidAFaceStays)
   CappedSurface surface = contour(lattice, example::allBlocks(lattice),
     example::sampled([](int i, int j, int) { return std::min(0.001 - 0.1 * std::abs(j - 10), 0.32 - 0.1 * std::abs(i - 10)); }));
   surface.held = allFaces;
-  const auto places = HeldRims(surface, error, 1.0).stays();
+  const auto places = HeldRims(surface, rimError, 1.0).stays();
   ASSERT_NE(places, nullptr);
   EXPECT_EQ(countIf(*places, [](const auto& p) { return p[2] == -1.0; }), 3u);
   EXPECT_EQ(countIf(*places, [](const auto& p) { return p[2] == 1.0; }), 3u);
