@@ -302,6 +302,16 @@ void addColumns(const Fibres& fibres, const std::string& prefix, vtkFieldData* d
   }
 }
 
+std::array<unsigned char, 3> directionColour(const Eigen::Vector3d& direction)
+{
+  std::array<unsigned char, 3> colour{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    colour[axis] = static_cast<unsigned char>(std::lround(255.0 * std::abs(direction[Eigen::Index(axis)])));
+  }
+  return colour;
+}
+
 void addDirectionColours(vtkPolyData* fibres)
 {
   auto colours = makeArray<vtkUnsignedCharArray>("Direction", static_cast<std::size_t>(fibres->GetNumberOfPoints()), 3);
@@ -320,11 +330,8 @@ void addDirectionColours(vtkPolyData* fibres)
       fibres->GetPoint(ids[std::min(i + 1, count - 1)], after.data());
       const Eigen::Vector3d along = after - before;
       const double length = along.norm();
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const double part = length > 0.0 ? std::abs(along[axis]) / length : 0.0;
-        colours->SetTypedComponent(ids[i], axis, static_cast<unsigned char>(std::lround(255.0 * part)));
-      }
+      const Eigen::Vector3d direction = length > 0.0 ? Eigen::Vector3d(along / length) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+      colours->SetTypedTuple(ids[i], directionColour(direction).data());
     }
   }
   fibres->GetPointData()->AddArray(colours);

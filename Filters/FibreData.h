@@ -7,6 +7,9 @@
 
 #include <vtkType.h>
 
+#include <Eigen/Core>
+
+#include <array>
 #include <string>
 #include <vector>
 
@@ -49,6 +52,9 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output);
 
 /// Adds the columns that the fibres have (see fibreColumns()), their names after this prefix.
 void addColumns(const Fibres& fibres, const std::string& prefix, vtkFieldData* data);
+
+/// Returns the colour of a direction of length 1: red, green and blue are its parts along x, y and z.
+std::array<unsigned char, 3> directionColour(const Eigen::Vector3d& direction);
 
 /// Adds the colours `Direction` to polylines (red, green and blue are the parts of the tangent along x, y and z, as in diffusion
 /// imaging), which views show if no array is chosen.

@@ -6,14 +6,18 @@
 #include "InputBlocks.h"
 #include "base/Error.h"
 #include "base/SphericalHarmonics.h"
+#include "mesh/SurfaceDirection.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
+#include <vtkIntArray.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -26,6 +30,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <map>
 #include <vector>
 
 namespace cactus
@@ -140,6 +145,51 @@ void turnOrientations(vtkDataSetAttributes* data, const Placement& placement)
   }
 }
 
+/// The directions of fibres by their ids, as their surfaces have them.
+using Directions = std::map<int, SurfaceDirection>;
+
+/// Returns those of surfaces that have colours of them, not yet placed.
+Directions surfaceDirections(vtkPolyData* surfaces)
+{
+  Directions directions;
+  auto* ids = vtkIntArray::SafeDownCast(surfaces->GetCellData()->GetArray("FibreId"));
+  auto* colours = vtkUnsignedCharArray::SafeDownCast(surfaces->GetCellData()->GetArray("Direction"));
+  if (ids == nullptr || colours == nullptr || surfaces->GetNumberOfPolys() != surfaces->GetNumberOfCells() ||
+      !hasDomain(surfaces))
+  {
+    return directions;
+  }
+  const Domain domain = domainFrom(surfaces);
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < surfaces->GetNumberOfCells(); ++cell)
+  {
+    surfaces->GetPolys()->GetCellAtId(cell, corners);
+    const auto corner = [&](vtkIdType i) { return Eigen::Vector3d(surfaces->GetPoint(corners->GetId(i))); };
+    if (corners->GetNumberOfIds() == 3)
+    {
+      directions[ids->GetValue(cell)].add(domain, corner(0), corner(1), corner(2));
+    }
+  }
+  return directions;
+}
+
+void setSurfaceColours(vtkPolyData* surfaces, const Directions& directions, const Placement& placement)
+{
+  std::map<int, std::array<unsigned char, 3>> colours;
+  for (const auto& fibre : directions)
+  {
+    colours[fibre.first] = directionColour(placement.axes * fibre.second.direction());
+  }
+  auto* ids = vtkIntArray::SafeDownCast(surfaces->GetCellData()->GetArray("FibreId"));
+  const auto count = static_cast<std::size_t>(surfaces->GetNumberOfCells());
+  const auto placed = makeArray<vtkUnsignedCharArray>("Direction", count, 3);
+  for (vtkIdType cell = 0; cell < surfaces->GetNumberOfCells(); ++cell)
+  {
+    placed->SetTypedTuple(cell, colours[ids->GetValue(cell)].data());
+  }
+  surfaces->GetCellData()->AddArray(placed);
+}
+
 void scaleLengths(vtkDataSetAttributes* data, const char* name, double scale)
 {
   vtkDataArray* array = data->GetArray(name);
@@ -230,6 +280,8 @@ void place(vtkDataObject* output, const Placement& placement)
     return; // a table
   }
   requireNotPlaced(output);
+  auto* surfaces = vtkPolyData::SafeDownCast(output);
+  const Directions directions = surfaces != nullptr ? surfaceDirections(surfaces) : Directions();
   if (auto* image = vtkImageData::SafeDownCast(output))
   {
     placeGrid(image, placement);
@@ -242,6 +294,7 @@ void place(vtkDataObject* output, const Placement& placement)
   turnDirections(data->GetCellData(), placement);
   turnOrientations(data->GetPointData(), placement);
   scaleLengths(data->GetPointData(), "Radius", placement.scale);
+  scaleLengths(data->GetCellData(), "Radius", placement.scale);
   scaleLengths(data->GetCellData(), "TargetRadius", placement.scale);
   if (auto* lines = vtkPolyData::SafeDownCast(output))
   {
@@ -250,6 +303,10 @@ void place(vtkDataObject* output, const Placement& placement)
     {
       addDirectionColours(lines);
     }
+  }
+  if (!directions.empty())
+  {
+    setSurfaceColours(surfaces, directions, placement);
   }
   setPlacement(output, placement);
 }

@@ -12,6 +12,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -19,9 +20,11 @@
 #include <vtkPolyData.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -280,6 +283,32 @@ void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* ou
   for (const auto& column : columns)
   {
     output->GetCellData()->AddArray(column);
+  }
+}
+
+void addFibreValues(vtkPolyData* surfaces, const std::map<int, FibreValues>& valuesOf)
+{
+  auto* ids = vtkIntArray::SafeDownCast(surfaces->GetCellData()->GetArray("FibreId"));
+  const auto count = static_cast<std::size_t>(ids != nullptr ? ids->GetNumberOfValues() : 0);
+  const auto radius = makeArray<vtkFloatArray>("Radius", count);
+  const auto gRatio = makeArray<vtkFloatArray>("GRatio", count);
+  const auto direction = makeArray<vtkUnsignedCharArray>("Direction", count, 3);
+  FibreValues values;
+  int last = 0; // triangles of a fibre follow each other
+  for (vtkIdType cell = 0; cell < static_cast<vtkIdType>(count); ++cell)
+  {
+    if (ids->GetValue(cell) != last)
+    {
+      last = ids->GetValue(cell);
+      values = valuesOf.at(last);
+    }
+    radius->SetValue(cell, values.radius);
+    gRatio->SetValue(cell, values.gRatio);
+    direction->SetTypedTuple(cell, values.colour.data());
+  }
+  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{ radius, gRatio, direction })
+  {
+    surfaces->GetCellData()->AddArray(array);
   }
 }
 

@@ -6,9 +6,11 @@
 #include "mesh/FibreSurfaces.h"
 #include "mesh/TriangleMesh.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,17 @@ struct NamedSurface
 /// at most `mostInShort` of them and of points, and 64-bit ones otherwise.
 void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* output,
   std::size_t mostInShort = std::size_t(std::numeric_limits<std::int32_t>::max()));
+
+/// What is known of a fibre beside its surface.
+struct FibreValues
+{
+  float radius = 0.0F; ///< µm, of the tube around its centre line that has its volume in the domain; NaN if unknown
+  float gRatio = 0.0F; ///< the one reached
+  std::array<unsigned char, 3> colour{}; ///< of its direction, see directionColour()
+};
+
+/// Adds the values of each triangle's fibre as cell data `Radius`, `GRatio` and `Direction`, in single precision and in bytes.
+void addFibreValues(vtkPolyData* surfaces, const std::map<int, FibreValues>& valuesOf);
 
 /// Throws InvalidInput if `surfaces` has field data Domain that differs from `domain` by more than 1e-6 µm. Null means no
 /// surfaces.

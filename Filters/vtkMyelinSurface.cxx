@@ -15,11 +15,14 @@
 #include "VtkMeshing.h"
 #include "WholeData.h"
 #include "base/Bytes.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/EvenParts.h"
 #include "base/Numbers.h"
+#include "base/Parallel.h"
 #include "base/Sharing.h"
 #include "judge/SurfaceFaults.h"
+#include "mesh/SurfaceDirection.h"
 #include "mesh/SurfaceStore.h"
 #include "stages/Stages.h"
 #include "surface/SurfaceMaker.h"
@@ -40,7 +43,10 @@
 #include <vtkTable.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <limits>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -123,8 +129,46 @@ bool isAskedForOwnPiece(vtkInformation* request, vtkInformationVector* outputs, 
          info->Get(Pipeline::UPDATE_PIECE_NUMBER()) == sharing.place();
 }
 
+using ValuesOfFibres = std::map<int, cactus::FibreValues>;
+
+/// Returns what cell data say of each fibre, by its id. `outer` are all outer surfaces.
+ValuesOfFibres valuesOf(const std::vector<cactus::FibreSurfacePair>& fibres, const OutputSurfaces& outer,
+  const cactus::LabelImageFacts& facts, const cactus::Domain& domain, const cactus::Context& context)
+{
+  std::map<int, double> lengths;
+  for (std::size_t f = 0; f < facts.lengths.size(); ++f)
+  {
+    lengths[facts.fibreIds[f]] = facts.lengths[f];
+  }
+  std::vector<cactus::FibreValues> each(fibres.size());
+  const auto measure = [&](std::size_t i)
+  {
+    const cactus::FibreSurfacePair& fibre = fibres[i];
+    const auto length = lengths.find(fibre.fibreId);
+    const double radius = length != lengths.end() ? std::sqrt(fibre.outerReport.volume / (cactus::pi * length->second)) : 0.0;
+    // Of a fibre that only just reaches into the domain, volume over length says nothing.
+    const bool isKnown = length != lengths.end() && length->second > radius;
+    cactus::SurfaceDirection direction;
+    const std::shared_ptr<const cactus::TriangleMesh> mesh = outer.get(i);
+    for (const auto& triangle : mesh->triangles)
+    {
+      const auto corner = [&](std::size_t c) { return mesh->points[std::size_t(triangle[c])]; };
+      direction.add(domain, corner(0), corner(1), corner(2));
+    }
+    each[i] = { isKnown ? float(radius) : std::numeric_limits<float>::quiet_NaN(), float(fibre.gRatio),
+      cactus::directionColour(direction.direction()) };
+  };
+  cactus::parallelFor(fibres.size(), context, measure);
+  ValuesOfFibres values;
+  for (std::size_t i = 0; i < fibres.size(); ++i)
+  {
+    values[fibres[i].fibreId] = each[i];
+  }
+  return values;
+}
+
 /// Copies the surfaces of the fibres with ids from `first` to `last`.
-void copyPart(vtkPolyData* whole, int kind, int first, int last, vtkPolyData* part)
+void copyPart(vtkPolyData* whole, int kind, int first, int last, const ValuesOfFibres& values, vtkPolyData* part)
 {
   const cactus::FibreSurfaces surfaces = cactus::surfacesFrom(whole, kind == 0 ? "Outer" : "Inner", kind);
   std::vector<cactus::NamedSurface> named;
@@ -136,6 +180,7 @@ void copyPart(vtkPolyData* whole, int kind, int first, int last, vtkPolyData* pa
     }
   }
   cactus::toPolyData(std::move(named), kind, part);
+  cactus::addFibreValues(part, values);
   part->GetFieldData()->ShallowCopy(whole->GetFieldData());
 }
 
@@ -179,6 +224,7 @@ struct vtkMyelinSurface::Result
   vtkNew<vtkPolyData> outer;
   vtkNew<vtkPolyData> inner;
   vtkNew<vtkTable> table;
+  ValuesOfFibres values;
   // Ids of the fibres in the piece of this rank.
   int first = 1;
   int last = 0;
@@ -253,8 +299,8 @@ int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector*
       auto* inner = vtkPolyData::GetData(outputs, 1);
       if (isAskedForOwnPiece(request, outputs, sharing))
       {
-        copyPart(this->Made->outer, 0, this->Made->first, this->Made->last, outer);
-        copyPart(this->Made->inner, 1, this->Made->first, this->Made->last, inner);
+        copyPart(this->Made->outer, 0, this->Made->first, this->Made->last, this->Made->values, outer);
+        copyPart(this->Made->inner, 1, this->Made->first, this->Made->last, this->Made->values, inner);
       }
       else if (cactus::ownsWholeOutput(request, outputs))
       {
@@ -307,10 +353,6 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   }
   auto made = std::make_unique<Result>();
   made->inputTime = cactus::changeTime(image);
-  for (vtkDataObject* data : std::initializer_list<vtkDataObject*>{ made->outer, made->inner, made->table })
-  {
-    data->GetFieldData()->ShallowCopy(image->GetFieldData()); // as the pipeline passes it on to outputs
-  }
   cactus::SurfaceMaker maker(std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context,
     byVtk ? &filters : nullptr, nullptr, sharing);
   auto fibres = this->makeSurfaces(maker, made->inputTime, made->outer, sharing);
@@ -326,7 +368,12 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
     releaseImage(this);
   }
   made->split(fibres, sharing);
+  made->values = valuesOf(fibres, OutputSurfaces(this->Kept->surfaces, fibres), facts, domain, context);
   giveOut(fibres, &cactus::FibreSurfacePair::inner, 1, made->inner);
+  for (vtkPolyData* surfaces : { made->outer.Get(), made->inner.Get() })
+  {
+    cactus::addFibreValues(surfaces, made->values);
+  }
   addSurfaceFacts(fibres, facts.minimumGap, domain, provenance, made->outer, made->inner, made->table);
   made->parameterTime = this->GetMTime(); // only now: being stopped modifies the filter
   this->Made = std::move(made);

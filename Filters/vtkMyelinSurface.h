@@ -4,8 +4,9 @@
  * @brief Closed outer and inner surfaces of all fibres of a label image, with myelin of the requested thickness.
  *
  * Input: the image that vtkFibreRadialGrowth makes, with its field data. Output 0 `Outer` and 1 `Inner`: triangles with cell data
- * `FibreId`, `BundleId` and `Surface` (0 outer, 1 inner), in increasing order of fibres, which share no points; field data
- * `Domain` and `Provenance`. Output 2 `Fibre statistics`: a table with one row per fibre of the image's FibreTable.
+ * `FibreId`, `BundleId` and `Surface` (0 outer, 1 inner), in increasing order of fibres, which share no points, and
+ * `Radius`, `GRatio` and `Direction` (a colour) of their fibre; field data `Domain` and `Provenance`, none of the image's.
+ * Output 2 `Fibre statistics`: a table with one row per fibre of the image's FibreTable.
  *
  * Each surface is a closed, outward 2-manifold, cut off flat at the faces of the domain; inner caps lie a little inside the outer
  * ones. The method, its guarantees and its limits are in core/surface/MyelinSurface.h; the contouring is core/mesh/Isosurface.h,

@@ -5,9 +5,12 @@
 #include "ObliqueCamera.h"
 
 #include <vtkAlgorithmOutput.h>
+#include <vtkMapper.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkTrivialProducer.h>
+
+#include <string>
 
 vtkStandardNewMacro(vtkFibreSurfaceRepresentation);
 
@@ -30,6 +33,18 @@ bool vtkFibreSurfaceRepresentation::AddToView(vtkView* view)
 {
   cactus::lookObliquely(view);
   return this->Superclass::AddToView(view);
+}
+
+void vtkFibreSurfaceRepresentation::UpdateColoringParameters()
+{
+  this->Superclass::UpdateColoringParameters();
+  for (vtkMapper* mapper : { this->Mapper, this->LODMapper })
+  {
+    if (mapper->GetScalarVisibility() && std::string(mapper->GetArrayName()) == "Direction")
+    {
+      mapper->SetColorModeToDirectScalars(); // they are colours
+    }
+  }
 }
 
 void vtkFibreSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent)

@@ -40,6 +40,7 @@ protected:
   ~vtkFibreSurfaceRepresentation() override;
 
   bool AddToView(vtkView* view) override;
+  void UpdateColoringParameters() override;
 
 private:
   vtkFibreSurfaceRepresentation(const vtkFibreSurfaceRepresentation&) = delete;

@@ -8,7 +8,7 @@ import os
 
 import numpy
 from cactus_testing import UNPARTED, CactusTestCase, fetch, main, mesh_oracle, produce
-from paraview.simple import FibreRadialGrowth, MyelinSurface, OutputPort, StrandReader, SubstrateCertificate, SubstrateStatistics, TrivialProducer
+from paraview.simple import FibreRadialGrowth, MyelinSurface, OutputPort, Placement, StrandReader, SubstrateCertificate, SubstrateStatistics, TrivialProducer
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference, vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkStaticCellLocator
@@ -472,6 +472,28 @@ class MyelinSurfaceTest(CactusTestCase):
             self.assertEqual([output.GetFieldData().GetArray("Domain").GetValue(i) for i in range(6)], 3 * [-1.5, 1.5])
             stages = output.GetFieldData().GetAbstractArray("Provenance")
             self.assertIn("MyelinSurface", stages.GetValue(stages.GetNumberOfValues() - 1))
+
+    def test_triangles_have_the_values_of_their_fibre(self):
+        length, along = 4 / 0.8, numpy.array([0.6, 0, 0.8])  # from the lower to the upper face
+        lines = [(0.5, [(along[0] * t, y, along[2] * t) for t in (-3, 3)]) for y in (-0.7, 0.7)]
+        surface = MyelinSurface(Input=self.growth(strands(4, lines), VoxelSize=0.05), GRatio=0.6)
+        outer, inner = (parts(fetch(surface, port)) for port in (0, 1))
+        for port in (0, 1):
+            data = fetch(surface, port)
+            ids = vtk_to_numpy(data.GetCellData().GetArray("FibreId"))
+            values = {name: vtk_to_numpy(data.GetCellData().GetArray(name)) for name in ("Radius", "GRatio", "Direction")}
+            self.assertEqual(values["Radius"].dtype, numpy.float32)
+            for fibre in outer:
+                own = {name: numpy.unique(array[ids == fibre], axis=0) for name, array in values.items()}
+                self.assertEqual([len(array) for array in own.values()], [1, 1, 1])
+                self.assertAlmostEqual(own["Radius"][0], math.sqrt(volume(outer[fibre]) / (math.pi * length)), delta=1e-4)
+                self.assertAlmostEqual(own["GRatio"][0], math.sqrt(volume(inner[fibre]) / volume(outer[fibre])), delta=1e-5)
+                numpy.testing.assert_allclose(own["Direction"][0], 255 * along, atol=2)
+            facts = data.GetFieldData()
+            self.assertEqual({facts.GetArrayName(i) for i in range(facts.GetNumberOfArrays())}, {"Domain", "MinimumGap", "Provenance", "WantedFibres"})
+        placed = fetch(Placement(Input=OutputPort(surface, 0), RotationY=90))
+        numpy.testing.assert_allclose(vtk_to_numpy(placed.GetCellData().GetArray("Direction"))[0], (204, 0, 153), atol=2)
+        self.assertAlmostEqual(placed.GetCellData().GetArray("Radius").GetValue(0), 5e-4, delta=2e-5)
 
     def test_bad_properties(self):
         growth = self.growth(hexagonal(3.0), GrowthIterations=1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: of the rim of a cap that is thinner than the rimError enough points stay for the cap not to vanish, in either face.
+// Guarantees: of the rim of a cap that is thinner than the error enough points stay for the cap not to vanish, in either face.
 #include "mesh/HeldRims.h"
 
 #include "mesh/ExampleContours.h"
