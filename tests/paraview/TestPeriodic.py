@@ -37,10 +37,10 @@ def write_off(path, points, triangles):
 
 
 class TestPeriodic(CactusTestCase):
-    def chain(self, border="Periodic", **options):
+    def chain(self, border="Periodic", voxel=0.1, **options):
         bundle = BundleInitializer(**{"Side": SIDE, "Border": border, "MeanDispersion": 8, **options})
         fibres = CapsuleOptimizer(Input=bundle)
-        return fibres, MyelinSurface(Input=FibreRadialGrowth(Input=fibres))
+        return fibres, MyelinSurface(Input=FibreRadialGrowth(Input=fibres, VoxelSize=voxel))
 
     def test_copies_are_one_tissue(self):
         fibres, surfaces = self.chain()
@@ -133,12 +133,33 @@ class TestPeriodic(CactusTestCase):
                 self.assertGreater(np.count_nonzero(is_cap & (fibre == one)), 0)
         return folder, manifest
 
+    def check_rims(self, points, triangles, name):
+        """The open edges lie in the domain's faces, and those of two opposite faces are the same to the bit, the other way round."""
+        edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+        senses, uses = np.unique(edges, axis=0, return_counts=True)
+        self.assertEqual(uses.max(), 1, name)
+        known = set(map(tuple, senses.tolist()))
+        open_edges = points[[edge for edge in known if edge[::-1] not in known]]
+        in_faces = 0
+        for axis in range(3):
+            rims = []
+            for face in (-SIDE / 2, SIDE / 2):
+                rim = open_edges[(open_edges[:, :, axis] == face).all(axis=1)]
+                rims.append(np.delete(rim, axis, axis=2))
+            in_faces += len(rims[0]) + len(rims[1])
+            lower, upper = (sorted(rim.reshape(-1, 4).tolist()) for rim in (rims[0], rims[1][:, ::-1]))
+            self.assertEqual(lower, upper, (name, axis))
+        self.assertEqual(in_faces, len(open_edges), name)
+        return in_faces
+
     def test_copies_of_an_open_tile_join(self):
-        folder, manifest = self.open_tile()
+        folder, manifest = self.open_tile(voxel=0.08)
         low, high = np.array(manifest["domain"][::2]), np.array(manifest["domain"][1::2]) + SIDE
+        rims = 0
         for entry in manifest["files"]:
             points, triangles = self.read_ply(os.path.join(folder, entry["path"]))
             self.assertEqual(len(triangles), entry["triangles"])
+            rims += self.check_rims(points, triangles, entry["path"])
             copies = [points[triangles] + SIDE * np.array(copy) for copy in np.ndindex(2, 2, 2)]
             places, numbers = np.unique(np.concatenate(copies).reshape(-1, 3), axis=0, return_inverse=True)
             numbers = numbers.reshape(-1, 3)
@@ -149,6 +170,7 @@ class TestPeriodic(CactusTestCase):
             ends = places[edges[uses == 1]]
             is_outside = np.any([(ends[:, :, axis] == end[axis]).all(axis=1) for axis in range(3) for end in (low, high)], axis=0)
             self.assertTrue(is_outside.all(), entry["path"])
+        self.assertGreater(rims, 4000)
 
     def test_walkers_go_on_in_an_open_tile(self):
         folder, _ = self.open_tile(CalibreVariation=0)

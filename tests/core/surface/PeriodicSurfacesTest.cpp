@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantees: the label image of a periodic domain goes on beyond its faces; the rims of surfaces in two opposite faces have the
-// same points, bit for bit, also where surfaces are coarsened; copies of the domain side by side fit together.
+// same points, bit for bit, also where surfaces are coarsened; copies of the domain side by side fit together; without their caps
+// axons reach to the faces and meet neither themselves nor their outer surfaces.
 #include "BundleBetweenWalls.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"
+#include "mesh/OpenTile.h"
+#include "mesh/SurfaceIntersection.h"
 #include "optimiser/CapsuleOptimizer.h"
 #include "surface/FibreField.h"
 #include "surface/MyelinSurface.h"
@@ -176,6 +179,12 @@ TEST(PeriodicSurfaces, RimsOfOppositeFacesHaveTheSamePoints)
       }
       const auto hasNodes = [](const FibreSurfacePair& pair) { return pair.nodes > 0; };
       EXPECT_EQ(std::any_of(pairs.begin(), pairs.end(), hasNodes), options.hasNodes());
+      for (const FibreSurfacePair& pair : border == Border::Periodic ? pairs : std::vector<FibreSurfacePair>())
+      {
+        const TriangleMesh inner = openAtPeriodicFaces(pair.inner, tissue.fibres.domain);
+        EXPECT_FALSE(meetsItself(inner)) << pair.fibreId;
+        EXPECT_FALSE(surfacesMeet(inner, openAtPeriodicFaces(pair.outer, tissue.fibres.domain))) << pair.fibreId;
+      }
     }
   }
 }
