@@ -27,15 +27,16 @@ RandomEngine streamOfBead(std::uint64_t seed, int fibreId, std::int64_t bead)
     seed, RandomStage::Calibre, (std::uint64_t(std::uint32_t(fibreId)) << 32) | std::uint32_t(static_cast<std::int32_t>(bead)));
 }
 
-/// Returns the distance (µm) from a bead to the next one, away from the fibre's middle.
-double gapAfter(const BeadShape& shape, RandomEngine& engine)
+/// Returns the distance (µm) from a bead to the next one, away from the fibre's middle, or of the two about it. A place is in a
+/// gap as often as that is long, so that this one's distribution is weighted by length.
+double gapAfter(const BeadShape& shape, RandomEngine& engine, bool isMiddle = false)
 {
   if (shape.spacingDeviation == 0.0)
   {
     return shape.spacing;
   }
   const double scale = shape.spacingDeviation * shape.spacingDeviation / shape.spacing;
-  return gammaVariate(shape.spacing / scale, scale, engine);
+  return gammaVariate(shape.spacing / scale + (isMiddle ? 1.0 : 0.0), scale, engine);
 }
 
 } // namespace
@@ -84,7 +85,7 @@ Beads::Beads(const BeadShape& shape, std::uint64_t seed, int fibreId, double hal
 {
   RandomEngine middle = streamOfBead(seed, fibreId, 0);
   const double before = uniformFromZero(middle); // the part of the gap about the middle that lies before it
-  const double gap = gapAfter(shape, middle);
+  const double gap = gapAfter(shape, middle, true);
   if (repeats)
   {
     const auto count = std::max(std::int64_t(1), static_cast<std::int64_t>(std::llround(2.0 * half / shape.spacing)));

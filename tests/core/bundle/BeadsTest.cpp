@@ -68,6 +68,18 @@ TEST(Beads, HaveTheLengthAndTheMoments)
   EXPECT_NEAR(shape.meanSquare(), width * std::sqrt(M_PI) / 7.0, 2e-3);
 }
 
+TEST(Beads, AreAsManyInTheMiddleAsElsewhere)
+{
+  const BeadShape shape;
+  double sum = 0.0;
+  constexpr int fibres = 4000;
+  for (int fibre = 1; fibre <= fibres; ++fibre)
+  {
+    sum += Beads(shape, 1, fibre, 1.0, false).at(0.0) / fibres;
+  }
+  EXPECT_NEAR(sum, shape.mean(), 0.02);
+}
+
 TEST(Beads, OfALongerFibreAreTheSameInItsMiddle)
 {
   const Beads shorter(BeadShape(), 3, 7, 20.0, false);
