@@ -16,13 +16,13 @@ namespace
 
 using namespace cactus;
 
-/// Returns the places of the maxima of b at steps of 0.01 µm.
+/// Returns the places of the maxima of b, above the ends of Gaussians, at steps of 0.01 µm.
 std::vector<double> maximaOf(const Beads& beads, double half)
 {
   std::vector<double> maxima;
   for (double s = -half + 0.01; s < half; s += 0.01)
   {
-    if (beads.at(s) > beads.at(s - 0.01) && beads.at(s) >= beads.at(s + 0.01))
+    if (beads.at(s) > 0.5 && beads.at(s) > beads.at(s - 0.01) && beads.at(s) >= beads.at(s + 0.01))
     {
       maxima.push_back(s);
     }
