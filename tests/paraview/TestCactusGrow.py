@@ -19,10 +19,8 @@ BUNDLE = {"Side": 4, "Border": "Walls", "FibreVolumeFraction": 0.25, "MinimumRad
 OTHER = {**BUNDLE, "RadiusDistribution": "Lognormal", "Seed": 2}
 TABLE = {**BUNDLE, "RadiusDistribution": "Table", "DispersionModel": "Watson"}
 GROWTH = {"VoxelSize": 0.2, "GrowthIterations": 1, "Seed": 3}
-SURFACES = {
-    **{"GRatioModel": "Distributed", "GRatioDeviation": 0.05, "Seed": 9, "MyelinFollowsAxon": 1},
-    **{"NodeLength": 0.8, "InternodeFactor": 1, "ParanodeLength": 0.5, "NodeConstriction": 0.8, "NodeSeed": 5},
-}
+NODES = {"NodeLength": 0.8, "InternodeFactor": 1, "ParanodeLength": 0.5, "NodeConstriction": 0.8, "NodeSeed": 5}
+SURFACES = {"GRatioModel": "Distributed", "GRatioDeviation": 0.05, "Seed": 9, "MyelinFollowsAxon": True, **NODES}
 
 
 class CactusGrow(CactusTestCase):
