@@ -80,19 +80,9 @@ public:
   vtkNIFTIImageHeader& header() const { return *this->Reader->GetNIFTIHeader(); }
   std::size_t size(int axis) const { return static_cast<std::size_t>(std::max<vtkTypeInt64>(1, this->dimension(axis + 1))); }
   /// Numbers of a voxel: volumes of a series, of a vector, of a colour or of a complex number.
-  int components() const
-  {
-    return vtkDataObject::GetActiveFieldInformation(
-      this->Reader->GetOutputInformation(0), vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS)
-      ->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS());
-  }
+  int components() const { return this->stored()->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS()); }
   /// VTK's type of the numbers stored.
-  int storedType() const
-  {
-    return vtkDataObject::GetActiveFieldInformation(
-      this->Reader->GetOutputInformation(0), vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS)
-      ->Get(vtkDataObject::FIELD_ARRAY_TYPE());
-  }
+  int storedType() const { return this->stored()->Get(vtkDataObject::FIELD_ARRAY_TYPE()); }
   /// A value is slope times the number stored, plus the intercept.
   bool isScaled() const { return this->Slope != 1.0 || this->Intercept != 0.0; }
   double slope() const { return this->Slope; }
@@ -149,9 +139,16 @@ private:
     }
   }
 
+  /// What VTK's reader says of the numbers before it reads them.
+  vtkInformation* stored() const
+  {
+    return vtkDataObject::GetActiveFieldInformation(
+      this->Reader->GetOutputInformation(0), vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  }
+
   vtkTypeInt64 dimension(int i) const { return this->header().GetDim(i); }
 
-  /// VTK's reader takes these at their word.
+  /// Refuses what VTK's reader takes at its word.
   void validate()
   {
     vtkNIFTIImageHeader& header = this->header();
@@ -160,26 +157,12 @@ private:
     {
       this->fail("this is no NIfTI image");
     }
-    const std::string name = fs::path(this->Path).filename().string();
-    if (magic[1] == 'i' && name.find(".nii") != std::string::npos)
+    const bool hasOwnFile = magic[1] == 'i'; // of its voxels
+    if (hasOwnFile && fs::path(this->Path).filename().string().find(".nii") != std::string::npos)
     {
       this->fail("its voxels are in another file: name header and voxels alike, NAME.hdr and NAME.img");
     }
-    const vtkTypeInt64 rank = header.GetDim(0);
-    for (int i = 0; i <= rank; ++i)
-    {
-      if (header.GetDim(i) < 1 || (i > 5 && header.GetDim(i) > 1) || rank > 7)
-      {
-        this->fail(i == 0 || rank > 7 ? cactus::text("its header gives the image ", rank, " dimensions")
-                   : i > 5            ? cactus::text("it has ", rank,
-                                          " dimensions: images of three, series (the fourth) and vectors (the fifth) can be read")
-                           : cactus::text("its header gives the image ", header.GetDim(i), " voxels along dimension ", i));
-      }
-    }
-    if (rank < 1)
-    {
-      this->fail(cactus::text("its header gives the image ", rank, " dimensions"));
-    }
+    this->validateDimensions();
     constexpr std::array<std::array<int, 2>, 14> types{ { { 2, 8 }, { 4, 16 }, { 8, 32 }, { 16, 32 }, { 32, 64 }, { 64, 64 },
       { 128, 24 }, { 256, 8 }, { 512, 16 }, { 768, 32 }, { 1024, 64 }, { 1280, 64 }, { 1792, 128 }, { 2304, 32 } } };
     const std::array<int, 2> type{ header.GetDataType(), header.GetBitPix() };
@@ -189,14 +172,35 @@ private:
         " bits: whole numbers of 8 to 64 bits, floating-point and complex numbers of single and double precision and colours can "
         "be read"));
     }
-    const bool isSecond = magic[2] == '2';
-    const vtkTypeInt64 least = magic[1] == 'i' ? 0 : isSecond ? 544 : 352; // behind the header and the mark of extensions
+    const vtkTypeInt64 least = hasOwnFile ? 0 : magic[2] == '2' ? 544 : 352; // behind the header and the mark of extensions
     if (header.GetVoxOffset() < least)
     {
       this->fail(cactus::text("its header places the voxels at byte ", header.GetVoxOffset(), " of the file"));
     }
     this->readScale(type[0]);
     this->readPlace();
+  }
+
+  /// VTK's reader itself refuses more than seven, and negative ones.
+  void validateDimensions() const
+  {
+    const vtkTypeInt64 rank = this->dimension(0);
+    if (rank < 1)
+    {
+      this->fail(cactus::text("its header gives the image ", rank, " dimensions"));
+    }
+    for (int i = 1; i <= rank; ++i)
+    {
+      if (this->dimension(i) < 1)
+      {
+        this->fail(cactus::text("its header gives the image ", this->dimension(i), " voxels along dimension ", i));
+      }
+      if (i > 5 && this->dimension(i) > 1)
+      {
+        this->fail(
+          cactus::text("it has ", rank, " dimensions: images of three, series (the fourth) and vectors (the fifth) can be read"));
+      }
+    }
   }
 
   void readScale(int type)

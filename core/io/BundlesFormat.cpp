@@ -66,11 +66,7 @@ public:
 
   void writeSurfaces(const SurfacesToWrite& written, FolderWriter& writer, const WritingRun& run) const override
   {
-    if (run.sharing.isFirst())
-    {
-      prepareFiles(written.files, writer);
-    }
-    run.sharing.exchange();
+    prepareFiles(written.files, writer, run);
     const std::map<int, BundleSurfaces> bundles = byBundle(written.surfaces);
     std::vector<const BundleSurfaces*> inTurn;
     inTurn.reserve(bundles.size());

@@ -23,11 +23,7 @@ std::string FolderFormat::surfacePath(const SurfaceName& name) const
 
 void FolderFormat::writeSurfaces(const SurfacesToWrite& written, FolderWriter& writer, const WritingRun& run) const
 {
-  if (run.sharing.isFirst())
-  {
-    prepareFiles(written.files, writer);
-  }
-  run.sharing.exchange();
+  prepareFiles(written.files, writer, run);
   std::vector<std::string> checksums(written.surfaces.size());
   run.sharing.loop(
     written.surfaces.size(), run.context,
@@ -100,7 +96,10 @@ std::string formatsThat(bool (FolderFormat::*may)() const)
   return text;
 }
 
-void prepareFiles(const std::vector<SubstrateFile>& files, FolderWriter& writer)
+namespace
+{
+
+void makeFolders(const std::vector<SubstrateFile>& files, FolderWriter& writer)
 {
   std::set<std::string> made = writer.written().folders;
   std::vector<std::string> paths;
@@ -116,6 +115,17 @@ void prepareFiles(const std::vector<SubstrateFile>& files, FolderWriter& writer)
     paths.push_back(file.path);
   }
   writer.list(paths);
+}
+
+} // namespace
+
+void prepareFiles(const std::vector<SubstrateFile>& files, FolderWriter& writer, const WritingRun& run)
+{
+  if (run.sharing.isFirst())
+  {
+    makeFolders(files, writer);
+  }
+  run.sharing.exchange();
 }
 
 std::string numberWords(const Eigen::Vector3d& values, const char* between)

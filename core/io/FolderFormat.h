@@ -70,7 +70,8 @@ public:
 
   // Points for walkers to start from.
   virtual bool hasStartPositions() const { return true; }
-  virtual bool needsStartPositions(const SubstrateFolderContents& contents) const; ///< even where nobody asked for them
+  /// Tells whether its reader cannot do without them, so that they are also written if StartPositions is 0.
+  virtual bool needsStartPositions(const SubstrateFolderContents& contents) const;
   /// Returns the simulations in whose boxes they are; none: in the domain.
   virtual std::vector<McdcSimulation> startSimulations(
     const SubstrateFolderContents& contents, const std::vector<SubstrateFile>& files) const;
@@ -101,8 +102,8 @@ const FolderFormat& rmsFormat();
 const FolderFormat& spinDoctorFormat();
 const FolderFormat& surfacesFormat();
 
-/// Makes the folders of these files, the outer ones first, and lists the files.
-void prepareFiles(const std::vector<SubstrateFile>& files, FolderWriter& writer);
+/// Makes the folders of these files, the outer ones first, and lists the files, for all processes of the run.
+void prepareFiles(const std::vector<SubstrateFile>& files, FolderWriter& writer, const WritingRun& run);
 
 /// µm: steps outside the fibres that are longer make diffusion there too slow, see docs/simulators/mcdc.md.
 constexpr double longestStep = 0.05;
