@@ -272,6 +272,7 @@ class Chains:
             bundle = stage("BundleInitializer")
             fibres = simple.OutputPort(stage("CapsuleOptimizer", Input=bundle), 0)
             grown = stage("FibreRadialGrowth", Input=fibres)
+            outside = self._outside(grown)
             surfaces = stage("MyelinSurface", Input=grown)
             outer, inner = simple.OutputPort(surfaces, 0), simple.OutputPort(surfaces, 1)
             with contextlib.suppress(Unclipped):
@@ -280,7 +281,7 @@ class Chains:
             stage("SubstrateWriter", Fibres=fibres, Outer=outer, Inner=inner, FolderName=folder)
         except Refused as refused:
             return self._refused(refused)
-        return self._compare(drawn, surfaces, certificate, warnings, folder)
+        return self._compare(drawn, surfaces, outside, certificate, warnings, folder)
 
     def _refused(self, refused):
         from torture.answers import CPLUSPLUS, PIPELINE
@@ -295,7 +296,7 @@ class Chains:
             faults.append(f"{refused.stage} calls it a fault of its own: {refused.errors[0]}")
         return faults
 
-    def _compare(self, drawn, surfaces, certificate, warnings, folder):
+    def _compare(self, drawn, surfaces, outside, certificate, warnings, folder):
         from cactus_testing import fetch, mesh_oracle
 
         gap = drawn["FibreRadialGrowth"]["MinimumGap"]
@@ -325,12 +326,12 @@ class Chains:
             faults.append(f"the certificate blames fibres {sorted(blamed)}, the oracle {found}")
         if flawed != blamed:
             faults.append(f"Flawed are {sorted(flawed)}, the certificate blames {sorted(blamed)}")
-        return faults + self._told(made, fibres, gap, flawed, self._outside(surfaces), warnings["MyelinSurface"])
+        return faults + self._told(made, fibres, gap, flawed, outside, warnings["MyelinSurface"])
 
     @staticmethod
-    def _outside(surfaces):
+    def _outside(grown):
         """Fibres that do not run through the domain, of which no surface is wanted."""
-        data = surfaces.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
+        data = grown.GetClientSideObject().GetOutputDataObject(0).GetFieldData()
         ids, lengths = data.GetArray("FibreTable.FibreId"), data.GetArray("FibreTable.LengthInDomain")
         return {ids.GetTuple1(i) for i in range(ids.GetNumberOfTuples()) if lengths.GetTuple1(i) <= 0}
 
