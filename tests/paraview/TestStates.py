@@ -23,7 +23,7 @@ class States(CactusTestCase):
     expected = r"fibres are not as asked"  # in so small a domain, of the thinnest
 
     def run_script(self, *arguments):
-        return subprocess.run(["pvpython", SCRIPT, "--side", "6", "--voxel-size", "0.1", "--output", self.folder, *arguments], capture_output=True, text=True, check=False)
+        return subprocess.run(["pvpython", SCRIPT, "--side", "7", "--voxel-size", "0.1", "--output", self.folder, *arguments], capture_output=True, text=True, check=False)
 
     def test_every_preset_has_a_file_of_its_own(self):
         names = states.known()
@@ -42,7 +42,7 @@ class States(CactusTestCase):
         self.assertEqual(set(found), {"BundleInitializer", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface"})
         for name in ("BundleInitializer", "FibreRadialGrowth", "MyelinSurface"):
             self.assertEqual(found[name].Preset, PRESET)
-        self.assertEqual((found["BundleInitializer"].Side, found["FibreRadialGrowth"].MinimumGap), (6, 0.04))
+        self.assertEqual((found["BundleInitializer"].Side, found["FibreRadialGrowth"].MinimumGap), (7, 0.04))
         (view,) = simple.GetRenderViews()
         self.assertEqual([name for name, _ in simple.GetLayouts()], [PRESET])
         view.ViewSize = [400, 400]
