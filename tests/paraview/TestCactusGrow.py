@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# ctest-timeout: 300
+# ctest-timeout: 600
 """cactus-grow, which knows nothing of ParaView, writes the folders that the filters write, byte for byte."""
 
 import json

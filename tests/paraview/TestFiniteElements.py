@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 300
+# ctest-extended
 """Folders for SpinDoctor: read line by line as its reader does, and filled with tetrahedra by tetgen, whose compartments have the right volumes."""
 
 import csv
