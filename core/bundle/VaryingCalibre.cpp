@@ -152,7 +152,8 @@ double meanSquare(double gRatio, double deviation)
 /// The outer radii of one fibre's control points.
 struct CalibredFibre
 {
-  std::vector<double> lengths; ///< µm, of the control points from the fibre's beginning
+  std::vector<double> lengths; ///< µm, of the control points from the fibre's beginning, or of those of its first period
+  double apart;                ///< µm, mean distance of neighbouring control points
   double half; ///< µm, that of the middle, from which the calibre is drawn, or half the period of a fibre that repeats
   bool repeats;
   double radius; ///< µm, root mean square
@@ -177,9 +178,8 @@ public:
 
   std::vector<double> radii(const CalibredFibre& line) const
   {
-    const double apart = line.lengths.back() / static_cast<double>(line.lengths.size() - 1);
     // Between control points the radius is interpolated, which takes some of the variance.
-    const double kept = (2.0 + correlationAt(apart / this->Length)) / 3.0;
+    const double kept = (2.0 + correlationAt(line.apart / this->Length)) / 3.0;
     const double narrowest = std::log(line.thinnest / (line.gRatio * line.radius)) / lowestNormal;
     const double deviation = std::clamp(this->Asked * std::pow(line.radius / this->Typical, -fallOff) / std::sqrt(kept), 0.0,
       std::clamp(narrowest, 0.0, largestDeviation));
@@ -265,11 +265,13 @@ void varyBy(const Calibre& calibre, const BundleInitializerOptions& options, Fib
     const bool repeats = fibres.domain.periodic[2];
     const std::size_t period = repeats ? periodOf(fibres, f).points : last - first + 1;
     const double half = 0.5 * (repeats ? lengths[period] : lengths.back());
+    const double apart = lengths.back() / static_cast<double>(lengths.size() - 1);
+    lengths.resize(std::min(period, lengths.size()));
     const double radius = fibres.radii[first];
     const bool isBare = fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio;
     const double gRatio = isBare ? bareGRatio : expectedGRatio(options.radius, radius / thinning);
     const std::vector<double> varied =
-      calibre.radii({ std::move(lengths), half, repeats, radius, gRatio, thinnest, fibres.fibreIds[f] });
+      calibre.radii({ std::move(lengths), apart, half, repeats, radius, gRatio, thinnest, fibres.fibreIds[f] });
     for (std::size_t p = first; p <= last; ++p)
     {
       fibres.radii[p] = std::clamp(varied[(p - first) % period], limits::radius.lowest, limits::radius.highest);
