@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 300
-# ctest-extended
 """Folders for SpinDoctor: read line by line as its reader does, and filled with tetrahedra by tetgen, whose compartments have the right volumes."""
 
 import csv

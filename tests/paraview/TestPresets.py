@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # ctest-timeout: 300
-# ctest-extended
 """Presets: one choice gives all stages their values, names only what is so, and never takes from a user what he has set."""
 
 import os
