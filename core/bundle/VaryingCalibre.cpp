@@ -266,7 +266,7 @@ void varyBy(const Calibre& calibre, const BundleInitializerOptions& options, Fib
     const std::size_t period = repeats ? periodOf(fibres, f).points : last - first + 1;
     const double half = 0.5 * (repeats ? lengths[period] : lengths.back());
     const double apart = lengths.back() / static_cast<double>(lengths.size() - 1);
-    lengths.resize(std::min(period, lengths.size()));
+    lengths.resize(period);
     const double radius = fibres.radii[first];
     const bool isBare = fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio;
     const double gRatio = isBare ? bareGRatio : expectedGRatio(options.radius, radius / thinning);
