@@ -62,8 +62,9 @@ std::string leavingRemark(const LeavingWalkers& leaving, const McdcOptions& opti
   {
     return "";
   }
-  const auto borne = static_cast<std::size_t>(std::floor(bearable * double(leaving.walkers)));
-  const double distance = leaving.distances[borne]; // what free walkers have moved when one too many leaves
+  // What free walkers have moved when one too many leaves.
+  const auto borne = static_cast<std::size_t>(std::floor(bearable * double(leaving.early)));
+  const double distance = borne < leaving.distances.size() ? leaving.distances[borne] : leaving.until;
   const double wider = options.displacement() / distance;
   const double milliseconds = 1e3 * options.echoTime / (wider * wider);
   return text(percent(leaving.share()), " of the walkers of mcdc/extra.conf leave the substrate within its ",

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -427,10 +428,11 @@ LeavingWalkers walkUntilLeaving(const Domain& domain, const Domain& start, const
   std::uint64_t seed, const Context& context)
 {
   constexpr std::size_t walkers = 1000;
+  constexpr std::size_t first = 200;
+  constexpr std::size_t many = 30;
   constexpr double longestStep = 0.5;
   const double side = domain.size().minCoeff();
   LeavingWalk order{ start, std::min(longestStep, std::max(side / 25.0, distance / 50.0)), 0, seed };
-  order.steps = static_cast<std::uint64_t>(std::ceil(3.0 * std::pow(distance / order.step, 2)));
   // A walker in steps that are even between -1 and 1 along an axis meets a face 0.298 of one later than a continuous one does
   // (Comtet & Majumdar 2005, J Stat Mech P06013).
   constexpr double late = 0.29795;
@@ -445,23 +447,40 @@ LeavingWalkers walkUntilLeaving(const Domain& domain, const Domain& start, const
   const TriangleTree tree(mesh);
   const Outside space(box, tree);
   LeavingWalkers found;
-  RandomEngine first = randomStream(seed, RandomStage::ExtraAxonalWalk);
-  if (!Walker(space, first, Faces::LetOut).startIn(start))
+  RandomEngine engine = randomStream(seed, RandomStage::ExtraAxonalWalk);
+  if (!Walker(space, engine, Faces::LetOut).startIn(start))
   {
     return found; // and a thousand of them would look long
   }
-  std::vector<double> distances(walkers);
-  parallelFor(
-    walkers, context, [&](std::size_t i) { distances[i] = leavingDistance(space, order, i); }, "Walking out");
-  for (const double one : distances)
+  const auto walkOut = [&](std::size_t from, std::size_t to)
   {
-    found.walkers += std::isnan(one) ? 0 : 1;
-    if (std::isfinite(one))
-    {
-      found.distances.push_back(one);
-    }
+    order.steps = static_cast<std::uint64_t>(std::ceil(3.0 * std::pow(found.until / order.step, 2) - 1e-6));
+    std::vector<double> distances(to - from);
+    parallelFor(
+      distances.size(), context, [&](std::size_t i) { distances[i] = leavingDistance(space, order, from + i); }, "Walking out");
+    found.early +=
+      static_cast<std::size_t>(std::count_if(distances.begin(), distances.end(), [](double one) { return !std::isnan(one); }));
+    std::copy_if(
+      distances.begin(), distances.end(), std::back_inserter(found.distances), [](double one) { return std::isfinite(one); });
+    std::sort(found.distances.begin(), found.distances.end());
+  };
+  const auto count = [&]
+  {
+    found.walkers = found.early;
+    found.leaving = found.distances.size();
+  };
+  found.until = distance;
+  walkOut(0, first);
+  count();
+  if (found.leaving <= many)
+  {
+    walkOut(first, walkers);
+    count();
+    return found;
   }
-  std::sort(found.distances.begin(), found.distances.end());
+  found.until = found.distances[many];
+  found.distances.resize(many + 1);
+  walkOut(first, walkers);
   return found;
 }
 

@@ -261,7 +261,7 @@ class Command(unittest.TestCase):
 
     def stop(self, wait_for, number):
         """The command, stopped by a signal once it shows what is waited for: long before the end, however busy the machine."""
-        recipe = self.recipe({"BundleInitializer": {"Side": 45}}, "large.json")
+        recipe = self.recipe({"BundleInitializer": {"Side": 18}}, "large.json")
         master, slave = pty.openpty()
         with subprocess.Popen([PROGRAM, recipe, "-o", "large"], stdout=slave, stderr=slave, cwd=self.folder) as process:
             os.close(slave)
@@ -288,7 +288,8 @@ class Command(unittest.TestCase):
                 self.assertEqual(os.listdir(self.folder), ["large.json"])
 
     def test_goes_on_with_what_a_stopped_run_has_left(self):
-        recipe = self.recipe({"BundleInitializer": {"Side": 14}, "SubstrateProduction": {"TargetFibreVolumeFraction": 0.8}})
+        production = {"TargetFibreVolumeFraction": 0.8, "VoxelSize": 0.15, "Format": "Surfaces alone"}
+        recipe = self.recipe({"BundleInitializer": {"Side": 8}, "SubstrateProduction": production})
         made = os.path.join(self.folder, "recipe.work", "outer", "*", "*.surface")
         with subprocess.Popen([PROGRAM, recipe, "-t", "1"], stderr=subprocess.PIPE, text=True, cwd=self.folder) as process:
             while not glob.glob(made):
@@ -306,9 +307,9 @@ class Command(unittest.TestCase):
         self.assertEqual(*(files(os.path.join(self.folder, name)) for name in ("recipe", "at-once")))
 
     def test_progress_in_the_log_of_a_job(self):
-        quiet = {**SMALL, "SubstrateWriter": {"Format": "Surfaces alone"}}
-        self.assertEqual(self.run_it(self.recipe(quiet)).stderr, "", "shorter than a minute")
-        recipe = self.recipe({"BundleInitializer": {"Side": 20}})
+        writer = {"SubstrateWriter": {"Format": "Surfaces alone"}}
+        self.assertEqual(self.run_it(self.recipe({**SMALL, **writer})).stderr, "", "shorter than a minute")
+        recipe = self.recipe({"BundleInitializer": {"Side": 8}, "FibreRadialGrowth": {"VoxelSize": 0.15}, **writer})
         started = time.monotonic()
         done = self.run_it(recipe, "--progress", "1", "--threads", "1")
         lines = [line for line in done.stderr.splitlines() if "warning" not in line]

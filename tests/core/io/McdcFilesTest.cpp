@@ -179,7 +179,7 @@ TEST_F(McdcFiles, FolderSaysHowManyWalkersLeaveAndWhatWouldDo)
   // Two thin fibres in 20 µm hardly hold anybody back.
   const Domain start = extraSimulation(this->Contents.mcdc, this->Contents.domain).start;
   const double free = freeLeavingShare(this->Contents.domain, start, this->Contents.mcdc.displacement());
-  EXPECT_NEAR(written.leaving->share, free, 0.03);
+  EXPECT_NEAR(written.leaving->share, free, 0.05);
   EXPECT_GT(free, 0.9);
   ASSERT_EQ(written.remarks.size(), 1u);
   const std::string& remark = written.remarks[0];
@@ -196,7 +196,7 @@ TEST_F(McdcFiles, FolderSaysHowManyWalkersLeaveAndWhatWouldDo)
 
   const std::string readme = this->text("README.txt");
   EXPECT_NE(readme.find(remark), std::string::npos);
-  EXPECT_NE(readme.find(" % of the walkers of extra.conf leave the substrate within its 35 ms, by a walk of 1000 walkers"),
+  EXPECT_NE(readme.find(" % of the walkers of extra.conf leave the substrate within its 35 ms, by a walk of 200 walkers"),
     std::string::npos)
     << readme;
   EXPECT_NE(this->text("manifest.json").find("\"extra_walkers_leaving\": 0.9"), std::string::npos);

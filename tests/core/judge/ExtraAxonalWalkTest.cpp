@@ -158,15 +158,26 @@ TEST(LeavingWalk, AsManyLeaveAnEmptyBoxAsTheoryHasIt)
 {
   const Domain domain = Domain::cube(20.0);
   const Domain start = middle(8.0);
-  const LeavingWalkers found = walkUntilLeaving(domain, start, tinyFibre(), 8.0, 1);
-  ASSERT_EQ(found.walkers, 1000u);
+  const auto tolerance = [](double share, std::size_t walkers)
+  { return 3.0 * std::sqrt(share * (1.0 - share) / double(walkers)); };
   for (const double distance : { 2.5, 4.0, 6.0, 8.0 })
   {
-    // The distances say when each has left.
-    const auto left = std::upper_bound(found.distances.begin(), found.distances.end(), distance) - found.distances.begin();
+    const LeavingWalkers found = walkUntilLeaving(domain, start, tinyFibre(), distance, 1);
     const double theory = freeLeavingShare(domain, start, distance);
-    EXPECT_NEAR(double(left) / 1000.0, theory, 3.0 * std::sqrt(theory * (1.0 - theory) / 1000.0)) << distance;
+    EXPECT_EQ(found.walkers, theory > 0.15 ? 200u : 1000u) << distance;
+    EXPECT_NEAR(found.share(), theory, tolerance(theory, found.walkers)) << distance;
+    // The distances say when each of the first has left.
+    EXPECT_EQ(found.early, 1000u);
+    ASSERT_FALSE(found.distances.empty()) << distance;
+    const double half = 0.5 * (found.distances.front() + found.until);
+    for (const double early : { half, found.until })
+    {
+      const auto left = std::upper_bound(found.distances.begin(), found.distances.end(), early) - found.distances.begin();
+      const double earlyTheory = freeLeavingShare(domain, start, early);
+      EXPECT_NEAR(double(left) / 1000.0, earlyTheory, tolerance(earlyTheory, 1000)) << distance << ", " << early;
+    }
   }
+  EXPECT_LT(freeLeavingShare(domain, start, 2.5), 0.1) << "or all would walk alike";
   EXPECT_GT(freeLeavingShare(domain, start, 8.0) - freeLeavingShare(domain, start, 4.0), 0.5) << "or the test would see nothing";
 }
 
@@ -180,7 +191,7 @@ TEST(LeavingWalk, WallsHoldWalkers)
   Domain open = domain;
   open.lower[1] = -1e3;
   open.upper[1] = 1e3;
-  EXPECT_NEAR(between.share(), freeLeavingShare(open, middle(4.0), 8.0), 0.04);
+  EXPECT_NEAR(between.share(), freeLeavingShare(open, middle(4.0), 8.0), 0.08);
   EXPECT_LT(between.share(), freeLeavingShare(domain, middle(4.0), 8.0) - 0.1);
   const FibreSurfaces full = example::surfacesOf({ 1 }, { example::box({ -9.0, -9.0, -9.0 }, { 9.0, 9.0, 9.0 }) });
   const LeavingWalkers none = walkUntilLeaving(domain, middle(4.0), full, 8.0, 1);
