@@ -5,6 +5,7 @@
 #include "InheritedLook.h"
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
+#include "StopButton.h"
 #include "WholePanels.h"
 #include "WriteButtons.h"
 
@@ -28,6 +29,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::ErrorColours(core);
         new cactus::WholePanels(core);
         new cactus::BarUnits(core);
+        new cactus::StopButton(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
         core->interfaceTracker()->addInterface(new cactus::WriteButtons(core));
       }
