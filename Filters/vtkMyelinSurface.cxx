@@ -207,6 +207,20 @@ void addSurfaceFacts(const std::vector<cactus::FibreSurfacePair>& fibres, double
   }
 }
 
+/// Adds the parts of the domain that all fibres and all axons fill.
+void addFractions(const std::vector<cactus::FibreSurfacePair>& fibres, const cactus::Domain& domain, vtkTable* table)
+{
+  double outer = 0.0;
+  double inner = 0.0;
+  for (const auto& fibre : fibres)
+  {
+    outer += fibre.outerReport.volume;
+    inner += fibre.innerReport.volume;
+  }
+  cactus::addNumber(table->GetFieldData(), "FVF", outer / domain.volume());
+  cactus::addNumber(table->GetFieldData(), "AVF", inner / domain.volume());
+}
+
 } // namespace
 
 struct vtkMyelinSurface::KeptOuter
@@ -375,6 +389,10 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
     cactus::addFibreValues(surfaces, made->values);
   }
   addSurfaceFacts(fibres, facts.minimumGap, domain, provenance, made->outer, made->inner, made->table);
+  if (options.clipToDomain)
+  {
+    addFractions(fibres, domain, made->table);
+  }
   made->parameterTime = this->GetMTime(); // only now: being stopped modifies the filter
   this->Made = std::move(made);
   if (!remarks.empty() && sharing.isFirst())

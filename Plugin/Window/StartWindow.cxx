@@ -5,6 +5,7 @@
 #include "InheritedLook.h"
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
+#include "ReachedLine.h"
 #include "StopButton.h"
 #include "WholePanels.h"
 #include "WriteButtons.h"
@@ -30,6 +31,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::WholePanels(core);
         new cactus::BarUnits(core);
         new cactus::StopButton(core);
+        new cactus::ReachedLine(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
         core->interfaceTracker()->addInterface(new cactus::WriteButtons(core));
       }

@@ -141,6 +141,9 @@ class ChainTest(CactusTestCase):
         fvf, avf = outer_volume.sum() / volume, inner_volume.sum() / volume
         self.assertAlmostEqual(fvf, fraction, delta=0.005)
         self.assertAlmostEqual(np.sqrt(avf / fvf), 0.7, delta=0.005)
+        told = fetch(surfaces, 2).GetFieldData()
+        self.assertAlmostEqual(told.GetArray("FVF").GetValue(0), fvf, places=9)
+        self.assertAlmostEqual(told.GetArray("AVF").GetValue(0), avf, places=9)
         statistics = SubstrateStatistics(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1))
         reached = row(statistics)
         self.assertAlmostEqual(reached["FVF"], fvf, places=9)

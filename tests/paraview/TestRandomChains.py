@@ -381,10 +381,10 @@ class Unclipped(Refused):
 def parse(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", default=os.environ.get("CACTUS_CHAINS_SEED") or str(int(time.time())))
-    parser.add_argument("--cases", type=int, default=20)
+    parser.add_argument("--cases", type=int, default=14)
     parser.add_argument("--only", action="append", default=[], metavar="INDEX")
     parser.add_argument("--workers", type=int, default=min(4, len(os.sched_getaffinity(0))))
-    parser.add_argument("--seconds", type=float, default=60.0, help="that a chain may take")
+    parser.add_argument("--seconds", type=float, default=150.0, help="that a chain may take")
     parser.add_argument("--report", help="file to which every chain is written as it ends")
     parser.add_argument("--worker", type=int, help=argparse.SUPPRESS)
     return parser.parse_args(arguments)

@@ -2,7 +2,7 @@
 # cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window.cmake: plays SCRIPT in the ParaView window, which has to save fibres in FOLDER, and its
 # state with a chart and a spreadsheet of the statistics; ParaView warns of nothing.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(100)
+play()
 if (output MATCHES "error:|warning: ")
   message(FATAL_ERROR "the window warned:\n${output}")
 endif ()

@@ -3,7 +3,7 @@
 # somebody else clicks on the abort button as soon as growth works. A message has to say that it was stopped, and the next Apply has to grow.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
 set(RUN "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/window_click.py" "${RUN}")
-play(100)
+play()
 if (NOT output MATCHES "stopped by the user, and nothing is kept")
   message(FATAL_ERROR "a message was to say that growth was stopped:\n${output}")
 endif ()

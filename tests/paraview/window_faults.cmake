@@ -2,7 +2,7 @@
 # cmake -DRUN=... -DSCRIPT=... -DNOTES_SCRIPT=... -DFOLDER=... -P window_faults.cmake: plays SCRIPT, which makes a slip in each stage
 # and corrects it, in the ParaView window. Each has to give one error, nothing, and then something.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(150)
+play()
 foreach (stage IN ITEMS BundleInitializer FibreRadialGrowth MyelinSurface CapsuleOptimizer)
   string(REGEX MATCHALL "error: vtk${stage} " errors "${output}")
   list(LENGTH errors count)

@@ -2,7 +2,7 @@
 # cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window_first_look.cmake: plays SCRIPT in the ParaView window. Fibres of 12 µm that come after a
 # slip, of 24 µm after these, and growth of 48 µm that comes after another slip, have to be seen whole, from outside, and growth in colours of its depth, as those of a first Apply are.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(100)
+play()
 file(READ "${FOLDER}/window.pvsm" state)
 if (NOT state MATCHES "<Property name=\"CameraPosition\"[^>]*>[^<]*<Element index=\"0\" value=\"([-0-9.e]+)\"")
   message(FATAL_ERROR "the state has no camera")

@@ -2,7 +2,7 @@
 # cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window_look.cmake: plays SCRIPT in the ParaView window. Fibres and surfaces have to be hidden once
 # ParaView's own filters have taken a part of them, and the parts have to be in their colours.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(150)
+play()
 file(READ "${FOLDER}/window.pvsm" state)
 string(REGEX REPLACE "[][;]" "" state "${state}")
 string(REPLACE "<Proxy group=" ";<Proxy group=" proxies "${state}")

@@ -2,7 +2,7 @@
 # cmake -DRUN=... -DSCRIPT=... -DNOTES_SCRIPT=... -DFOLDER=... -P window_presets.cmake: plays SCRIPT, which chooses presets, in the ParaView
 # window. The filters have to take that of the bundle, and one whose values are changed by hand is no preset.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(100)
+play()
 if (output MATCHES "error:")
   message(FATAL_ERROR "the window reported an error:\n${output}\n${notes}")
 endif ()

@@ -2,7 +2,7 @@
 # cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window_save.cmake: plays SCRIPT in the ParaView window, which has to save the substrate of
 # Seed 1 in two ways, and then makes that of Seed 2, which nobody has saved.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(100)
+play()
 foreach (name IN ITEMS saved.substrate written)
   if (NOT EXISTS "${FOLDER}/${name}/manifest.json")
     message(FATAL_ERROR "${name} was not saved:\n${output}")

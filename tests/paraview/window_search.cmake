@@ -14,7 +14,7 @@ configure_file("${SCRIPT}" "${script}" @ONLY)
 set(SCRIPT "${script}")
 
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(100)
+play()
 if (output MATCHES "error:")
   message(FATAL_ERROR "the window reported an error:\n${output}\n${notes}")
 endif ()

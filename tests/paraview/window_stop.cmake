@@ -3,7 +3,7 @@
 # in the ParaView window. One message has to say so, the state that it tells of has to be the one shown, without advice to somebody who wanted
 # just this; the next Apply has to part the fibres, and growth to take them.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
-play(100)
+play()
 if (output MATCHES "error:")
   message(FATAL_ERROR "the window reported an error:\n${output}")
 endif ()
