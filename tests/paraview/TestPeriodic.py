@@ -47,7 +47,7 @@ class TestPeriodic(CactusTestCase):
         data = fetch(fibres)
         self.assertEqual(vtk_to_numpy(data.GetFieldData().GetArray("Periodic")).tolist(), [1, 1, 1])
         self.assertEqual(data.GetFieldData().GetArray("Converged").GetValue(0), 1)
-        reached = row(SubstrateStatistics(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), ExtraAxonalWalkers=200, WalkDistance=6))
+        reached = row(SubstrateStatistics(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), ExtraAxonalWalkers=50, WalkDistance=6))
         self.assertAlmostEqual(reached["FVF"], 0.9, delta=0.01)
         self.assertAlmostEqual(reached["CapsuleVolumeFraction"], 0.6, delta=0.01)
         self.assertEqual(reached["Fibres"], data.GetNumberOfCells())
@@ -175,7 +175,7 @@ class TestPeriodic(CactusTestCase):
     def test_walkers_go_on_in_an_open_tile(self):
         folder, _ = self.open_tile(CalibreVariation=0)
         # Over three sides along the axons: without walls there the mean of the squares is 2 D t.
-        walked = random_walk(folder, walkers=60, steps=14000, step=0.4, repeats=3)
+        walked = random_walk(folder, walkers=24, steps=14000, step=0.4, repeats=3)
         for compartment in ("inner", "myelin", "outside"):
             self.assertEqual(walked[compartment]["leaked"], 0, compartment)
         free = 14000 * 0.4**2 / 3

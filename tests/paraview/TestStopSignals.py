@@ -22,8 +22,8 @@ from paraview.simple import *
 folder, number = sys.argv[1], int(sys.argv[2])
 if len(sys.argv) > 3:
     signal.signal(number, lambda *_: print("heard", flush=True))
-fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=6, GrownFibreVolumeFraction=0.85))
-made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1)
+fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=5, GrownFibreVolumeFraction=0.85))
+made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1, Format="Surfaces alone")
 filter = made.GetClientSideObject()
 def stop(*_):
     if number and 0.5 < filter.GetProgress() < 1: # VTK says 1 when the work is done
@@ -106,7 +106,7 @@ class StopSignalsTest(CactusTestCase):
         self.assertFalse(os.path.exists(folder + ".work"))
         path = os.path.join(self.folder, "all.py")
         with open(path, "w", encoding="utf-8") as file:
-            file.write(SCRIPT.replace("os.kill(os.getpid(), number)", "print('half', flush=True)").replace("Side=6", "Side=30"))
+            file.write(SCRIPT.replace("os.kill(os.getpid(), number)", "print('half', flush=True)").replace("Side=5", "Side=12"))
         folder = os.path.join(self.folder, "all")
         with subprocess.Popen(["mpiexec", "-n", "2", "pvbatch", path, folder, "1"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, env=environment_of_its_own()) as process:

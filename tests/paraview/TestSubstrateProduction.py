@@ -26,7 +26,7 @@ from paraview.simple import *
 print("process", os.getpid(), flush=True)
 side, folder, margin = float(sys.argv[1]), sys.argv[2], float(sys.argv[3])
 fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=side, GrownFibreVolumeFraction=0.85))
-made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1, Margin=margin)
+made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1, Margin=margin, Format="Surfaces alone")
 made.TargetFibreVolumeFraction = 0.85
 made.GRatioModel, made.TargetAxonVolumeFraction = "TargetAxonVolumeFraction", 0.4 # inner surfaces after all outer ones
 filter = made.GetClientSideObject()
@@ -41,7 +41,7 @@ import os, sys
 from paraview.simple import *
 folder = sys.argv[2]
 fibres = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=float(sys.argv[1]), GrownFibreVolumeFraction=0.85))
-made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1)
+made = SubstrateProduction(Input=OutputPort(fibres, 0), FolderName=folder, NumberOfThreads=1, Format="Surfaces alone")
 filter = made.GetClientSideObject()
 observer = filter.AddObserver("ProgressEvent", lambda *_: filter.SetAbortExecute(1) if 0.3 < filter.GetProgress() < 0.9 else None)
 made.UpdatePipeline()
@@ -178,7 +178,7 @@ class SubstrateProductionTest(CactusTestCase):
         path = os.path.join(self.folder, "script.py")
         with open(path, "w") as file:
             file.write(SCRIPT)
-        return subprocess.Popen(["pvpython", path, "6", folder, str(margin)], stdout=subprocess.PIPE, text=True)
+        return subprocess.Popen(["pvpython", path, "5", folder, str(margin)], stdout=subprocess.PIPE, text=True)
 
     def test_keeps_the_folder_where_only_the_input_changes(self):
         bundle = BundleInitializer(Border="Walls", Side=4, GrownFibreVolumeFraction=0.85)
@@ -195,7 +195,7 @@ class SubstrateProductionTest(CactusTestCase):
         self.assertNotEqual(after["fibres.strands"], before["fibres.strands"])
         self.assertEqual(fetch(produced, 0).GetNumberOfRows(), sum(name.endswith(".ply") for name in after))
 
-    def on_ranks(self, count, folder, script=SCRIPT, arguments=("6", "0")):
+    def on_ranks(self, count, folder, script=SCRIPT, arguments=("5", "0")):
         """A script in pvbatch on so many ranks."""
         path = os.path.join(self.folder, f"ranks-{count}.py")
         with open(path, "w") as file:
