@@ -8,9 +8,11 @@
 #include "vtkFibreRadialGrowth.h"
 #include "vtkMyelinSurface.h"
 #include "vtkPlacement.h"
+#include "vtkSubstrateReader.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataObject.h>
+#include <vtkPolyData.h>
 
 #include <cstring>
 
@@ -29,6 +31,13 @@ vtkDataObject* connectedTo(vtkAlgorithm* consumer, int port)
 vtkDataObject* unlessReleased(vtkDataObject* data)
 {
   return data != nullptr && data->GetDataReleased() == 0 ? data : nullptr;
+}
+
+/// Returns null for data without cells, as a reader gives out for what its folder does not have.
+vtkDataObject* unlessEmpty(vtkDataObject* data)
+{
+  auto* cells = vtkPolyData::SafeDownCast(unlessReleased(data));
+  return cells != nullptr && cells->GetNumberOfCells() > 0 ? cells : nullptr;
 }
 
 /// Returns the filter that made the data at a port, as its output `wantedOutput`; null if it is no `Filter`. It looks through
@@ -58,25 +67,28 @@ vtkDataObject* fibresOfImage(vtkAlgorithm* consumer, int port)
 SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort)
 {
   SubstrateData data{ connectedTo(self, outerPort), connectedTo(self, innerPort), connectedTo(self, fibrePort) };
-  auto* surfaces = makerOf<vtkMyelinSurface>(self, outerPort, 0);
-  if (surfaces == nullptr)
+  vtkDataObject* inner = nullptr;
+  vtkDataObject* fibres = nullptr;
+  if (auto* surfaces = makerOf<vtkMyelinSurface>(self, outerPort, 0))
   {
-    return data;
+    inner = unlessReleased(surfaces->GetOutputDataObject(1));
+    fibres = surfaces->GrownFibres();
   }
-  if (data.inner == nullptr)
+  else if (auto* reader = makerOf<vtkSubstrateReader>(self, outerPort, 0))
   {
-    data.inner = unlessReleased(surfaces->GetOutputDataObject(1));
+    inner = unlessEmpty(reader->GetOutputDataObject(1));
+    fibres = unlessEmpty(reader->GetOutputDataObject(2));
   }
-  if (data.fibres == nullptr)
-  {
-    data.fibres = surfaces->GrownFibres();
-  }
+  data.inner = data.inner == nullptr ? inner : data.inner;
+  data.fibres = data.fibres == nullptr ? fibres : data.fibres;
   return data;
 }
 
 SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, int innerPort)
 {
-  if (connectedTo(self, outerPort) != nullptr || makerOf<vtkMyelinSurface>(self, fibrePort, 0) == nullptr)
+  const bool isMade =
+    makerOf<vtkMyelinSurface>(self, fibrePort, 0) != nullptr || makerOf<vtkSubstrateReader>(self, fibrePort, 0) != nullptr;
+  if (connectedTo(self, outerPort) != nullptr || !isMade)
   {
     return { connectedTo(self, outerPort), connectedTo(self, innerPort), connectedTo(self, fibrePort) };
   }

@@ -6,7 +6,9 @@
 #include "InputBlocks.h"
 #include "PlacementData.h"
 #include "SurfaceFacts.h"
+#include "base/Constants.h"
 #include "base/Error.h"
+#include "mesh/SurfaceDirection.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -23,6 +25,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
@@ -284,6 +287,19 @@ void toPolyData(std::vector<NamedSurface> surfaces, int surface, vtkPolyData* ou
   {
     output->GetCellData()->AddArray(column);
   }
+}
+
+FibreValues fibreValues(const TriangleMesh& mesh, double volume, double length, double gRatio, const Domain& domain)
+{
+  SurfaceDirection direction;
+  for (const auto& triangle : mesh.triangles)
+  {
+    const auto corner = [&](std::size_t c) { return mesh.points[std::size_t(triangle[c])]; };
+    direction.add(domain, corner(0), corner(1), corner(2));
+  }
+  const double radius = std::sqrt(volume / (pi * length));
+  return { length > radius ? float(radius) : std::numeric_limits<float>::quiet_NaN(), float(gRatio),
+    directionColour(direction.direction()) };
 }
 
 void addFibreValues(vtkPolyData* surfaces, const std::map<int, FibreValues>& valuesOf)

@@ -52,6 +52,10 @@ struct FibreValues
   std::array<unsigned char, 3> colour{}; ///< of its direction, see directionColour()
 };
 
+/// Returns the values of a fibre from its surface, whose volume (µm³) counts with caps, and the length (µm) of its centre line in
+/// the domain; NaN if that is unknown. Of a fibre that only just reaches into the domain, volume over length says nothing.
+FibreValues fibreValues(const TriangleMesh& mesh, double volume, double length, double gRatio, const Domain& domain);
+
 /// Adds the values of each triangle's fibre as cell data `Radius`, `GRatio` and `Direction`, in single precision and in bytes.
 void addFibreValues(vtkPolyData* surfaces, const std::map<int, FibreValues>& valuesOf);
 

@@ -15,14 +15,12 @@
 #include "VtkMeshing.h"
 #include "WholeData.h"
 #include "base/Bytes.h"
-#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/EvenParts.h"
 #include "base/Numbers.h"
 #include "base/Parallel.h"
 #include "base/Sharing.h"
 #include "judge/SurfaceFaults.h"
-#include "mesh/SurfaceDirection.h"
 #include "mesh/SurfaceStore.h"
 #include "stages/Stages.h"
 #include "surface/SurfaceMaker.h"
@@ -43,7 +41,6 @@
 #include <vtkTable.h>
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <map>
@@ -145,18 +142,8 @@ ValuesOfFibres valuesOf(const std::vector<cactus::FibreSurfacePair>& fibres, con
   {
     const cactus::FibreSurfacePair& fibre = fibres[i];
     const auto length = lengths.find(fibre.fibreId);
-    const double radius = length != lengths.end() ? std::sqrt(fibre.outerReport.volume / (cactus::pi * length->second)) : 0.0;
-    // Of a fibre that only just reaches into the domain, volume over length says nothing.
-    const bool isKnown = length != lengths.end() && length->second > radius;
-    cactus::SurfaceDirection direction;
-    const std::shared_ptr<const cactus::TriangleMesh> mesh = outer.get(i);
-    for (const auto& triangle : mesh->triangles)
-    {
-      const auto corner = [&](std::size_t c) { return mesh->points[std::size_t(triangle[c])]; };
-      direction.add(domain, corner(0), corner(1), corner(2));
-    }
-    each[i] = { isKnown ? float(radius) : std::numeric_limits<float>::quiet_NaN(), float(fibre.gRatio),
-      cactus::directionColour(direction.direction()) };
+    each[i] = cactus::fibreValues(*outer.get(i), fibre.outerReport.volume,
+      length != lengths.end() ? length->second : std::numeric_limits<double>::quiet_NaN(), fibre.gRatio, domain);
   };
   cactus::parallelFor(fibres.size(), context, measure);
   ValuesOfFibres values;

@@ -49,6 +49,7 @@ class CaminoFormat : public FolderFormat
 public:
   bool hasSurfaceFolders() const override { return false; }
   double startUnit() const override { return inMetres; }
+  double surfaceUnit() const override { return 1.0 / inMetres; }
 
   std::string surfacePath(const SurfaceName& name) const override { return name.kind + ".ply"; }
 

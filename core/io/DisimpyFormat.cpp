@@ -13,6 +13,7 @@ class DisimpyFormat : public FolderFormat
 public:
   bool hasSurfaceFolders() const override { return false; }
   double startUnit() const override { return 1e-6; }
+  bool isReadable() const override { return false; } // the place of their box is lost
 
   /// Disimpy moves a mesh to the lower corner of its box.
   SurfaceBox startBox(const FibreSurfaces& surfaces, const Domain& /*domain*/, const Context& context) const override

@@ -64,6 +64,8 @@ public:
   /// Called by all processes.
   virtual void writeSurfaces(const SurfacesToWrite& written, FolderWriter& writer, const WritingRun& run) const;
   virtual std::string strandsName() const { return "fibres.strands"; }
+  virtual bool isReadable() const { return true; }   ///< its surfaces can be read again: they are PLY files
+  virtual double surfaceUnit() const { return 1.0; } ///< µm in one unit of these files
   /// Writes all else that only this format has, and adds remarks and notes to `substrate`. Called by the first process.
   virtual void writeOwnFiles(
     const SubstrateFolderContents& contents, WrittenSubstrate& substrate, FolderWriter& writer, const Context& context) const;

@@ -377,6 +377,15 @@ const PropertyList<StrandReaderStage>& StrandReaderStage::properties()
   return list;
 }
 
+const PropertyList<SubstrateReaderStage>& SubstrateReaderStage::properties()
+{
+  using Stage = SubstrateReaderStage;
+  static const auto list = PropertyList<Stage>().add("FileName", &Stage::fileName,
+    "Substrate folder to read, or its manifest.json. What it gives is in µm and in the substrate's own space, even if the "
+    "substrate was placed in an image.");
+  return list;
+}
+
 const PropertyList<StrandWriterStage>& StrandWriterStage::properties()
 {
   using Stage = StrandWriterStage;
@@ -449,7 +458,8 @@ std::vector<StageDescription> describeStages()
     description<HistologyRadiiStage>("HistologyRadii"), description<SubstrateWriterStage>("SubstrateWriter"),
     description<SubstrateProductionStage>("SubstrateProduction"), description<PlacementStage>("Placement"),
     description<StrandWriterStage>("StrandWriter"), description<TractogramWriterStage>("TractogramWriter"),
-    description<NiftiReaderStage>("NiftiReader"), description<NiftiWriterStage>("NiftiWriter") };
+    description<NiftiReaderStage>("NiftiReader"), description<NiftiWriterStage>("NiftiWriter"),
+    description<SubstrateReaderStage>("SubstrateReader") };
 }
 
 } // namespace cactus

@@ -212,6 +212,13 @@ struct StrandReaderStage
   static const PropertyList<StrandReaderStage>& properties();
 };
 
+struct SubstrateReaderStage
+{
+  std::string fileName;
+
+  static const PropertyList<SubstrateReaderStage>& properties();
+};
+
 struct StrandWriterStage
 {
   std::string fileName;

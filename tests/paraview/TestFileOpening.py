@@ -14,6 +14,7 @@ from paraview import servermanager
 from paraview.simple import Delete, OpenDataFile, SaveData, Sphere, TractogramReader, UnstructuredCellTypes, Wavelet
 
 STRANDS = "30\n1\n2\n0 0 -15 0.5\n0 0 15 0.5\n"
+READERS = ("StrandReader", "TractogramReader", "NiftiReader", "SubstrateReader")
 POINTS = numpy.array([[0, 0, 0], [1, 2, 3]], "<f4")
 
 
@@ -63,7 +64,7 @@ class FileOpening(CactusTestCase):
             wanted = self.reader(plain)
             with open(plain, "rb") as file:
                 content = file.read()
-            for part in ("init", "partial", "strands", "tck", "trk", "trx", "tck.gz"):
+            for part in ("init", "partial", "strands", "tck", "trk", "trx", "tck.gz", "json", "substrate"):
                 with self.subTest(extension=extension, part=part):
                     self.assertEqual(self.reader(self.write(f"flow.{part}.{extension}", content)), wanted)
 
@@ -99,12 +100,14 @@ class FileOpening(CactusTestCase):
         session = servermanager.ActiveConnection.Session
 
         def offers(path):
-            return {name for name in ("StrandReader", "TractogramReader", "NiftiReader") if factory.CanReadFile(path, "sources", name, session)}
+            return {name for name in READERS if factory.CanReadFile(path, "sources", name, session)}
 
         table = "cell_type cell_id X Y Z outer_radius\naxon 0 0 0 0 1\naxon 0 0 0 1 1\n"
         self.assertEqual(offers(self.write("spheres.swc", table)), {"StrandReader"})
         self.assertEqual(offers(self.write("config_output_1.json", '{"voxelSize": 3, "axons": []}')), {"StrandReader"})
         self.assertEqual(offers(self.write("notes.json", '{"name": "of something else"}')), set())
+        self.assertEqual(offers(self.write("manifest.json", '{"format": "of something else"}')), set())
+        self.assertEqual(offers(self.write("manifest.json", '{"format": "CACTUS substrate folder"}')), {"SubstrateReader"})
         self.assertEqual(offers(self.write("tracks.tck", tck())), {"TractogramReader"})
         SaveData(self.path("image.nii.gz"), proxy=Wavelet())
         self.assertEqual(offers(self.path("image.nii.gz")), {"NiftiReader"})

@@ -54,6 +54,7 @@ class FilterPages(CactusTestCase):
         streamlines = simple.TractogramReader(FileName=tract)
         image = os.path.join(self.folder, "NAME.nii.gz")  # which names the array
         simple.SaveData(image, proxy=grown)
+        simple.SubstrateWriter(Outer=outer, FolderName=os.path.join(self.folder, "read")).UpdatePipeline()
         return {
             "BundleInitializer": bundle,
             "CurvedBundles": simple.CurvedBundles(Side=5, MinimumRadius=0.4),
@@ -71,6 +72,7 @@ class FilterPages(CactusTestCase):
             "HistologyRadii": simple.HistologyRadii(Input=mask, LeaveOutBorder=0),
             "Placement": simple.Placement(Input=fibres),
             "StrandReader": simple.StrandReader(FileName=strands),
+            "SubstrateReader": simple.SubstrateReader(FileName=os.path.join(self.folder, "read")),
             "TractogramReader": streamlines,
             "NiftiReader": simple.NiftiReader(FileName=image),
             "TractFibres": simple.TractFibres(Input=streamlines, Side=5, MinimumRadius=0.4),

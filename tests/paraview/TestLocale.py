@@ -17,6 +17,7 @@ from paraview.simple import (
     OutputPort,
     SaveData,
     StrandReader,
+    SubstrateReader,
     SubstrateWriter,
 )
 
@@ -65,6 +66,8 @@ class Locale(CactusTestCase):
                 path = os.path.join(root, file)
                 with open(path, "rb") as content:
                     files[os.path.relpath(path, place)] = hashlib.sha256(content.read()).hexdigest()
+        read = fetch(SubstrateReader(FileName=folder)).GetPoints().GetData()
+        files["read again"] = [read.GetTuple3(i) for i in range(read.GetNumberOfTuples())]
         outputs = [fetch(bundle), fetch(optimizer), fetch(surface), table]
         origins = [data.GetFieldData().GetAbstractArray("Provenance") for data in outputs]
         said = [[array.GetValue(i) for i in range(array.GetNumberOfValues())] for array in origins if array is not None]

@@ -63,6 +63,7 @@ NAMES = {
     "SubstrateCertificate": {"MinimumGap": -1, "CutSpacing": 1.0},
     "SubstrateStatistics": {},
     "StrandReader": {"FileName": None},
+    "SubstrateReader": {"FileName": None},
     "NiftiReader": {"FileName": None, "LengthUnit": "Millimetre"},
     "CurvedBundles": {"Shape": "Bend", "BendRadius": 30, "FanAngle": 30, "KissDistance": 0, "Side": 30, "Margin": 3, "Seed": 1},
     "SubstrateWriter": {"MinimumGap": -1},

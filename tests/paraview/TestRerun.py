@@ -12,7 +12,7 @@ import subprocess
 from cactus_testing import CactusTestCase, main
 from paraview import servermanager, simple
 from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort,
-                             SaveData, StrandReader, SubstrateWriter, TractFibres, TractogramReader)
+                             SaveData, StrandReader, SubstrateReader, SubstrateWriter, TractFibres, TractogramReader)
 
 SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "scripts", "rerun.py")
 
@@ -89,8 +89,12 @@ class Rerun(CactusTestCase):
             file.write("5\n2\n2\n-1 0 -4 0.7\n-1 0 4 0.7\n2\n0.3 0 -4 0.7\n0.2 0 4 0.7\n")
         # VTK's surfaces may be at fault; that is said, and no matter here.
         manifest = self.write(StrandReader(FileName=path), surface={"Meshing": "VTK filters", "TargetReduction": 0.5})
+        read = os.path.join(self.folder, "read")
+        SubstrateWriter(Outer=SubstrateReader(FileName=manifest), FolderName=read).UpdatePipeline()
         self._messages = [message for message in self._messages if "not certified" not in message and "not as asked" not in message]
         self.assertSame(manifest)
+        # Of a folder that was read, the surfaces are read again, and not made.
+        self.assertSame(os.path.join(read, "manifest.json"))
 
     def test_a_run_that_ran_out_of_time_takes_as_many_iterations(self):
         with self.assertError("overlaps remain: TimeBudget ran out"):

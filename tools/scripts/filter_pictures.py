@@ -168,6 +168,15 @@ def nifti_reader():
     return pictures_beside(("", look(view, position=(0.9, -2.0, 0.8))))
 
 
+def substrate_reader():
+    """What a folder gives, one beside the other."""
+    path = scratch("small.substrate")
+    few = simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=5, FibreVolumeFraction=0.5, MinimumRadius=0.4))
+    simple.SaveData(path, proxy=simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=simple.OutputPort(few, 0))))
+    read = simple.SubstrateReader(FileName=path)
+    return pictures_beside(*[(name, tubes(simple.OutputPort(read, port))) for port, name in enumerate(("Outer", "Inner", "Fibres"))])
+
+
 def capsule_optimizer():
     untouched = simple.CapsuleOptimizer(Input=bundle(), MaximumIterations=0)  # which warns that fibres overlap
     deepest = columns(untouched, 1)["MaximumPenetration"][0]
@@ -274,8 +283,8 @@ def placement():
 PICTURES = {
     "".join(part.capitalize() for part in function.__name__.split("_")): function
     for function in (
-        bundle_initializer, curved_bundles, tract_fibres, strand_reader, tractogram_reader, nifti_reader, capsule_optimizer, fibre_radial_growth, myelin_surface,
-        fibre_field, substrate_production, substrate_statistics, substrate_certificate, substrate_sampler, lesion, histology_mask, histology_radii,
+        bundle_initializer, curved_bundles, tract_fibres, strand_reader, tractogram_reader, nifti_reader, substrate_reader, capsule_optimizer, fibre_radial_growth,
+        myelin_surface, fibre_field, substrate_production, substrate_statistics, substrate_certificate, substrate_sampler, lesion, histology_mask, histology_radii,
         placement,
     )
 }  # fmt: skip

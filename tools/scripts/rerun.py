@@ -16,7 +16,7 @@ from substrate_folder import Refusal, ended, manifest_path, read_manifest, sha25
 
 # What a manifest may name: a manifest may come from anybody, and must not run or write anything else.
 WRITERS = ("SubstrateWriter", "SubstrateProduction")
-STAGES = ("BundleInitializer", "CurvedBundles", "StrandReader", "TractogramReader", "TractFibres", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", "Placement", *WRITERS)
+STAGES = ("BundleInitializer", "CurvedBundles", "StrandReader", "TractogramReader", "TractFibres", "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface", "SubstrateReader", "Placement", *WRITERS)
 # Files with a line that says which version has written them.
 NAME_THE_VERSION = (".ply", ".node", ".poly", "setup_substrate.m")
 KEPT_NOWHERE = ("CheckpointFile", "Resume", "FolderName")

@@ -19,7 +19,7 @@ namespace
 TEST(Stages, DescribeTheirProperties)
 {
   const auto stages = cactus::describeStages();
-  EXPECT_EQ(stages.size(), 22u);
+  EXPECT_EQ(stages.size(), 23u);
   for (const cactus::StageDescription& stage : stages)
   {
     EXPECT_NO_THROW(cactus::validate(stage.properties)) << stage.name;

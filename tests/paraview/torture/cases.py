@@ -71,7 +71,7 @@ COSTLY = {
     "BundleInitializer": [{"FibreVolumeFraction": 0.84}, {"MeanDispersion": 45}, {"MeanDispersion": 1e-300}, {"Margin": 20}],
 }
 # Whose arrays are those that came in, as they are.
-PASSING_ON = {"Placement"}
+PASSING_ON = {"NiftiReader", "Placement"}
 MEGABYTES = (0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64)
 SERVER_SECONDS = 120  # for a client to start and to run a chain three times; a server that hangs never comes back
 COLD_MEGABYTES = (2, 5, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240)
@@ -205,11 +205,12 @@ class Bench:
         return result
 
     def good_file(self, target):
-        """A file that the reader reads: what the writer for its extension makes of the good fibres."""
+        """A file that the reader reads: what the writer for its extension makes of good data."""
         if target.name not in self.files:
-            path = os.path.join(self.folder, "good." + target.reads)
-            simple.SaveData(path, proxy=produce(self.small["fibres"]))
-            self.files[target.name] = path
+            kind, extension = {"NiftiReader": ("image", "nii"), "SubstrateReader": ("outer", "substrate")}.get(target.name, ("fibres", target.reads))
+            path = os.path.join(self.folder, "good." + extension)
+            simple.SaveData(path, proxy=produce(self.small[kind]))
+            self.files[target.name] = os.path.join(path, "manifest.json") if os.path.isdir(path) else path
         return self.files[target.name]
 
     def stand(self, name, **overrides):
