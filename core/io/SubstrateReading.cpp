@@ -158,7 +158,7 @@ SubstrateDescription describeSubstrate(const std::string& path)
 
 std::string fileAsWritten(const SubstrateDescription& substrate, const std::string& name)
 {
-  const std::string path = (std::filesystem::path(substrate.folder) / name).string();
+  std::string path = (std::filesystem::path(substrate.folder) / name).string();
   const auto checksum = substrate.written.checksums.find(name);
   if (checksum == substrate.written.checksums.end())
   {
