@@ -7,6 +7,7 @@
 #include "StageProperties.h"
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "base/SinglePrecision.h"
 #include "io/SubstrateReading.h"
@@ -42,7 +43,7 @@ vtkStandardNewMacro(vtkSubstrateReader);
 namespace
 {
 
-constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
+using cactus::notANumber;
 
 /// Gives this thread the C locale, in which VTK reads numbers of files, until the end of its life.
 class PlainNumbers

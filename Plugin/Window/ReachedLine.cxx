@@ -2,18 +2,18 @@
 #include "ReachedLine.h"
 
 #include "AfterUpdate.h"
+#include "ProgressBar.h"
 
 #include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
+#include <pqProgressWidget.h>
 #include <vtkDataObject.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMProxy.h>
 
-#include <QApplication>
 #include <QLabel>
-#include <QMainWindow>
 #include <QStatusBar>
 #include <QString>
 
@@ -118,24 +118,13 @@ QString reachedBy(pqPipelineSource* source)
                                                                                          : QString();
 }
 
-QStatusBar* statusBar()
-{
-  for (QWidget* widget : QApplication::topLevelWidgets())
-  {
-    if (QMainWindow* window = qobject_cast<QMainWindow*>(widget))
-    {
-      return window->statusBar();
-    }
-  }
-  return nullptr;
-}
-
 } // namespace
 
 ReachedLine::ReachedLine(pqPVApplicationCore* core)
   : QObject(core)
 {
-  QStatusBar* bar = statusBar();
+  pqProgressWidget* progress = progressBar();
+  auto* bar = progress != nullptr ? qobject_cast<QStatusBar*>(progress->parentWidget()) : nullptr;
   if (bar == nullptr)
   {
     return; // an application of another kind

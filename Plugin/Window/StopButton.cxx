@@ -2,6 +2,7 @@
 #include "StopButton.h"
 
 #include "PluginProxies.h"
+#include "ProgressBar.h"
 
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -15,7 +16,6 @@
 #include <QApplication>
 #include <QCursor>
 #include <QEvent>
-#include <QMainWindow>
 #include <QToolButton>
 
 namespace cactus
@@ -25,19 +25,6 @@ namespace
 
 constexpr qint64 pauseBetweenClicks = 100; // ms
 constexpr int takingClicks = 30;           // ms; without a time Qt serves one event only, which may be another
-
-pqProgressWidget* progressBar()
-{
-  for (QWidget* window : QApplication::topLevelWidgets())
-  {
-    auto* bar = qobject_cast<QMainWindow*>(window) == nullptr ? nullptr : window->findChild<pqProgressWidget*>();
-    if (bar != nullptr)
-    {
-      return bar;
-    }
-  }
-  return nullptr;
-}
 
 } // namespace
 
