@@ -285,7 +285,8 @@ cactus::Provenance provenanceOf(const cactus::SubstrateReaderStage& stage, const
 }
 
 /// Returns what the user has to know of the folder, in sentences.
-std::vector<std::string> remarksOn(const cactus::SubstrateDescription& substrate, bool hasFibres)
+std::vector<std::string> remarksOn(
+  const cactus::SubstrateDescription& substrate, const std::optional<cactus::Fibres>& fibres, std::size_t known)
 {
   std::vector<std::string> remarks;
   if (substrate.isOpen)
@@ -297,7 +298,13 @@ std::vector<std::string> remarksOn(const cactus::SubstrateDescription& substrate
     remarks.push_back(cactus::text(
       "the surfaces are those of a sample: the substrate has ", substrate.sampledFibres, " fibres, and fractions are too small"));
   }
-  if (!hasFibres && !substrate.strands.empty())
+  if (fibres && fibres->size() < known)
+  {
+    remarks.push_back(cactus::text("Fibres lacks the centre lines of ", known - fibres->size(),
+      " fibres, whose surfaces reach into the domain where the lines do not: which lines of ", substrate.strands,
+      " they are is not told"));
+  }
+  if (!fibres && !substrate.strands.empty())
   {
     remarks.push_back("Fibres is empty: certificate_fibres.csv does not tell whose the lines in " + substrate.strands + " are");
   }
@@ -371,7 +378,7 @@ int vtkSubstrateReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
       {
         cactus::setProvenance(vtkDataObject::GetData(outputs, port), provenance, port);
       }
-      for (const std::string& remark : remarksOn(substrate, fibres.has_value()))
+      for (const std::string& remark : remarksOn(substrate, fibres, known.size()))
       {
         vtkWarningMacro(<< stage.fileName << ": " << remark);
       }
