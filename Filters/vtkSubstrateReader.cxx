@@ -81,24 +81,23 @@ void readTable(const std::string& path, vtkTable* table)
   table->ShallowCopy(reader->GetOutput());
 }
 
-/// Returns the fibres of `certificate_fibres.csv`. Versions before 0.3.0 do not tell lengths.
-std::vector<cactus::FibreOfFolder> fibresOf(vtkTable* table, const std::string& path)
+/// Returns the fibres of `certificate_fibres.csv` and their lengths (µm), NaN where it does not tell, as in versions before
+/// 0.3.0.
+std::map<int, double> lengthsOf(vtkTable* table, const std::string& path)
 {
   const auto column = [&](const char* name) { return vtkDataArray::SafeDownCast(table->GetColumnByName(name)); };
   vtkDataArray* ids = column("FibreId");
-  vtkDataArray* bundles = column("BundleId");
   vtkDataArray* lengths = column("Length_um");
-  if (ids == nullptr || bundles == nullptr)
+  if (ids == nullptr)
   {
-    throw cactus::FileError(path + " has no columns FibreId and BundleId");
+    throw cactus::FileError(path + " has no column FibreId");
   }
-  std::vector<cactus::FibreOfFolder> fibres;
+  std::map<int, double> known;
   for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
   {
-    fibres.push_back({ cactus::idFrom(ids, row), static_cast<int>(bundles->GetComponent(row, 0)),
-      lengths != nullptr ? lengths->GetComponent(row, 0) : notANumber });
+    known[cactus::idFrom(ids, row)] = lengths != nullptr ? lengths->GetComponent(row, 0) : notANumber;
   }
-  return fibres;
+  return known;
 }
 
 /// Returns the least distance (µm) that the folder's certificate required; 0 if it does not tell.
@@ -220,13 +219,8 @@ std::vector<cactus::TriangleMesh> surfacesOf(const cactus::SubstrateDescription&
 
 /// Returns what cell data say of each fibre.
 std::map<int, cactus::FibreValues> valuesOf(const cactus::SubstrateDescription& substrate,
-  const std::vector<cactus::TriangleMesh>& meshes, const std::vector<cactus::FibreOfFolder>& fibres)
+  const std::vector<cactus::TriangleMesh>& meshes, const std::map<int, double>& lengths)
 {
-  std::map<int, double> lengths;
-  for (const cactus::FibreOfFolder& fibre : fibres)
-  {
-    lengths[fibre.fibreId] = fibre.length;
-  }
   std::map<int, double> outerVolumes;
   std::map<int, double> innerVolumes;
   std::map<int, const cactus::TriangleMesh*> surfaces;
@@ -285,8 +279,7 @@ cactus::Provenance provenanceOf(const cactus::SubstrateReaderStage& stage, const
 }
 
 /// Returns what the user has to know of the folder, in sentences.
-std::vector<std::string> remarksOn(
-  const cactus::SubstrateDescription& substrate, const std::optional<cactus::Fibres>& fibres, std::size_t known)
+std::vector<std::string> remarksOn(const cactus::SubstrateDescription& substrate)
 {
   std::vector<std::string> remarks;
   if (substrate.isOpen)
@@ -298,15 +291,10 @@ std::vector<std::string> remarksOn(
     remarks.push_back(cactus::text(
       "the surfaces are those of a sample: the substrate has ", substrate.sampledFibres, " fibres, and fractions are too small"));
   }
-  if (fibres && fibres->size() < known)
+  if (substrate.strandFibres.empty() && !substrate.strands.empty())
   {
-    remarks.push_back(cactus::text("Fibres lacks the centre lines of ", known - fibres->size(),
-      " fibres, whose surfaces reach into the domain where the lines do not: which lines of ", substrate.strands,
-      " they are is not told"));
-  }
-  if (!fibres && !substrate.strands.empty())
-  {
-    remarks.push_back("Fibres is empty: certificate_fibres.csv does not tell whose the lines in " + substrate.strands + " are");
+    remarks.push_back(
+      "Fibres is empty: the folder is of an older CACTUS, which did not tell whose the lines in " + substrate.strands + " are");
   }
   return remarks;
 }
@@ -353,13 +341,13 @@ int vtkSubstrateReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
       const std::string fibrePath = cactus::fileAsWritten(substrate, "certificate_fibres.csv");
       readTable(cactus::fileAsWritten(substrate, "certificate.csv"), certificate);
       readTable(fibrePath, fibreTable);
-      const std::vector<cactus::FibreOfFolder> known = fibresOf(fibreTable, fibrePath);
-      const std::optional<cactus::Fibres> fibres = cactus::centreLines(substrate, known);
+      const std::map<int, double> lengths = lengthsOf(fibreTable, fibrePath);
+      const std::optional<cactus::Fibres> fibres = cactus::centreLines(substrate);
       std::vector<cactus::TriangleMesh> meshes = surfacesOf(substrate, cactus::contextFor(this));
-      const std::map<int, cactus::FibreValues> values = valuesOf(substrate, meshes, known);
+      const std::map<int, cactus::FibreValues> values = valuesOf(substrate, meshes, lengths);
 
       std::vector<int> wanted;
-      std::transform(known.begin(), known.end(), std::back_inserter(wanted), [](const auto& fibre) { return fibre.fibreId; });
+      std::transform(lengths.begin(), lengths.end(), std::back_inserter(wanted), [](const auto& fibre) { return fibre.first; });
       const double minimumGap = minimumGapOf(certificate);
       for (int port = 0; port < 2; ++port)
       {
@@ -378,7 +366,7 @@ int vtkSubstrateReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
       {
         cactus::setProvenance(vtkDataObject::GetData(outputs, port), provenance, port);
       }
-      for (const std::string& remark : remarksOn(substrate, fibres, known.size()))
+      for (const std::string& remark : remarksOn(substrate))
       {
         vtkWarningMacro(<< stage.fileName << ": " << remark);
       }

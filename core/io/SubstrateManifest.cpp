@@ -3,6 +3,7 @@
 
 #include "base/JsonText.h"
 #include "base/Sha256.h"
+#include "fibres/SelectFibres.h"
 
 #include <array>
 #include <vector>
@@ -138,6 +139,16 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   }
   manifest["placement_um_to_mm"] = placementRows(contents.placement);
   manifest["fibres"] = contents.fibres != nullptr ? Json(contents.fibres->size()) : Json();
+  if (hasStrandFile(contents))
+  {
+    Json& ids = manifest["strand_fibres"] = Json::array();
+    Json& bundles = manifest["strand_bundles"] = Json::array();
+    for (const std::size_t fibre : orderById(*contents.fibres))
+    {
+      ids.push_back(contents.fibres->fibreIds[fibre]);
+      bundles.push_back(contents.fibres->bundleIds[fibre]);
+    }
+  }
   if (contents.sample)
   {
     manifest["sample_of_fibres"] = contents.sample->fibres;

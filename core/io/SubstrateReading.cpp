@@ -5,7 +5,6 @@
 #include "base/JsonText.h"
 #include "base/PosixFile.h"
 #include "io/FolderFormat.h"
-#include "judge/FibreProfile.h"
 
 #include <algorithm>
 #include <array>
@@ -93,6 +92,8 @@ void describe(const Json& manifest, const std::string& path, SubstrateDescriptio
   const FolderFormat& format = formatNamed(manifest.at("simulator").get<std::string>(), path);
   substrate.unit = format.surfaceUnit();
   substrate.strands = substrate.written.checksums.count(format.strandsName()) > 0 ? format.strandsName() : "";
+  substrate.strandFibres = manifest.value("strand_fibres", substrate.strandFibres);
+  substrate.strandBundles = manifest.value("strand_bundles", substrate.strandBundles);
   substrate.domain = domainOf(manifest);
   substrate.isOpen = manifest.value("periodic_faces", "") == periodicFacesNames[std::size_t(PeriodicFaces::Open)];
   substrate.sampledFibres = manifest.value("sample_of_fibres", std::size_t(0));
@@ -171,40 +172,22 @@ std::string fileAsWritten(const SubstrateDescription& substrate, const std::stri
   return path;
 }
 
-std::optional<Fibres> centreLines(const SubstrateDescription& substrate, const std::vector<FibreOfFolder>& table)
+std::optional<Fibres> centreLines(const SubstrateDescription& substrate)
 {
-  if (substrate.strands.empty())
+  if (substrate.strands.empty() || substrate.strandFibres.empty())
   {
     return std::nullopt;
   }
-  Fibres read = readStrandFile(fileAsWritten(substrate, substrate.strands));
-  read.domain = substrate.domain;
-  // Usually the table has a length for every line. It lacks lines outside the domain that were to have no surface.
-  for (const bool onlyInDomain : { false, true })
+  const std::string path = fileAsWritten(substrate, substrate.strands);
+  Fibres fibres = readStrandFile(path);
+  if (fibres.size() != substrate.strandFibres.size() || fibres.size() != substrate.strandBundles.size())
   {
-    std::vector<FibreOfFolder> fibres;
-    std::copy_if(table.begin(), table.end(), std::back_inserter(fibres),
-      [=](const FibreOfFolder& fibre) { return onlyInDomain ? fibre.length > 0.0 : fibre.length >= 0.0; });
-    std::vector<std::size_t> lines;
-    for (std::size_t f = 0; f < read.size(); ++f)
-    {
-      if (!onlyInDomain || lengthInDomain(read, f) > 0.0)
-      {
-        lines.push_back(f);
-      }
-    }
-    if (lines.size() == fibres.size() && !lines.empty())
-    {
-      Fibres numbered = read.emptyCopy();
-      for (std::size_t i = 0; i < lines.size(); ++i)
-      {
-        numbered.addFibre(fibres[i].fibreId, fibres[i].bundleId, read.targetRadii[lines[i]]);
-        numbered.addPoints(read, read.offsets[lines[i]], read.offsets[lines[i] + 1]);
-      }
-      return numbered;
-    }
+    refuseFile(path, "does not hold the centre lines that the manifest lists");
   }
-  return std::nullopt;
+  fibres.domain = substrate.domain;
+  fibres.fibreIds = substrate.strandFibres;
+  fibres.bundleIds = substrate.strandBundles;
+  return fibres;
 }
 
 } // namespace cactus

@@ -20,22 +20,16 @@ namespace cactus
 struct SubstrateDescription
 {
   std::string folder;
-  std::string strands; ///< file with the centre lines; empty without one
-  double unit = 1.0;   ///< µm in one unit of the surfaces' files
+  std::string strands;            ///< file with the centre lines; empty without one
+  std::vector<int> strandFibres;  ///< whose lines these are; empty in folders of versions before 0.3.0
+  std::vector<int> strandBundles; ///< likewise
+  double unit = 1.0;              ///< µm in one unit of the surfaces' files
   Domain domain;
   std::vector<SubstrateFile> files; ///< the surfaces, those in the same file in its order
   std::size_t sampledFibres = 0;    ///< number of all fibres, if the surfaces are those of a sample; else 0
   bool isOpen = false;              ///< whether surfaces lack their caps in periodic faces
   Provenance provenance;            ///< up to the writer of the folder
   WrittenFiles written;
-};
-
-/// A fibre of the folder's table of fibres.
-struct FibreOfFolder
-{
-  int fibreId = 0;
-  int bundleId = 0;
-  double length = 0.0; ///< µm, of the centre line in the domain; NaN if it has none
 };
 
 /// Returns the manifest of a path that is a manifest or a substrate folder.
@@ -51,9 +45,8 @@ SubstrateDescription describeSubstrate(const std::string& path);
 /// Returns the path of a file of the folder. Throws FileError, naming it, if it is missing or was changed.
 std::string fileAsWritten(const SubstrateDescription& substrate, const std::string& name);
 
-/// Reads the centre lines and numbers them: a strand file has no ids, but is sorted by them. Lines outside the domain that the
-/// table does not list are left out. Returns nothing if the table does not fit the lines, or if there is no file of them. Throws
-/// as readStrandFile() and fileAsWritten() do.
-std::optional<Fibres> centreLines(const SubstrateDescription& substrate, const std::vector<FibreOfFolder>& table);
+/// Reads the centre lines with the ids of their fibres, which a strand file does not have. Returns nothing if the folder has no
+/// such file, or does not tell whose lines they are. Throws as readStrandFile() and fileAsWritten() do.
+std::optional<Fibres> centreLines(const SubstrateDescription& substrate);
 
 } // namespace cactus

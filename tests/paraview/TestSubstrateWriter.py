@@ -378,6 +378,16 @@ class Reader(CactusTestCase):
                 self.assertEqual(fetch(reader, 4).GetNumberOfRows(), fetch(fibres).GetNumberOfCells())
                 self.assertEqual(row_of(fetch(SubstrateStatistics(Fibres=OutputPort(reader, 0))))["Fibres"], certificate["Fibres"])
 
+    def test_lines_outside_a_cut_domain_come_back(self):
+        self.expected += "|so small a domain"
+        fibres = BundleInitializer(Side=4.1, FibreVolumeFraction=0.3, MinimumRadius=0.4, CalibreVariation=0, GrownFibreVolumeFraction=0)
+        made = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
+        reader = SubstrateReader(FileName=self.write(OutputPort(made, 0), Fibres=fibres))
+        wanted, found = arrays_of(fetch(fibres)), arrays_of(fetch(reader, 2))
+        self.assertGreater(len(wanted["FibreId"]), len(set(arrays_of(fetch(made))["FibreId"])), "none is outside")
+        for array in ("points", "corners", "Radius", "FibreId", "BundleId"):
+            numpy.testing.assert_allclose(found[array], wanted[array], rtol=1e-8, atol=1e-8, err_msg=array)
+
     def test_written_once_more(self):
         """Of a folder, the same files, and it says where they come from. Placement is not in them."""
         fibres, outer, inner = two_tubes(inset=0.1)

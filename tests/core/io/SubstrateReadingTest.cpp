@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,10 +73,11 @@ TEST_F(ReadSubstrate, DescribesItsSurfaces)
   EXPECT_THROW(cactus::fileAsWritten(substrate, "manifest.json"), cactus::FileError);
 }
 
+/// Line 40 is outside the domain.
 TEST_F(ReadSubstrate, LinesGetTheirIdsBack)
 {
-  const cactus::Fibres fibres = fibresAt({ { 9, 1.0 }, { 2, -1.0 }, { 40, 3.0 } });
-  const auto read = cactus::centreLines(this->write(fibres), { { 2, 3, 10.0 }, { 9, 10, 10.0 }, { 40, 41, 10.0 } });
+  const cactus::Fibres fibres = fibresAt({ { 9, 1.0 }, { 2, -1.0 }, { 40, 8.0 } });
+  const auto read = cactus::centreLines(this->write(fibres));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->fibreIds, (std::vector<int>{ 2, 9, 40 }));
   EXPECT_EQ(read->bundleIds, (std::vector<int>{ 3, 10, 41 }));
@@ -85,14 +85,11 @@ TEST_F(ReadSubstrate, LinesGetTheirIdsBack)
   EXPECT_EQ(read->points[2].x(), 1.0);
 }
 
-TEST_F(ReadSubstrate, LinesOutsideTheDomainMayBeUnknown)
+TEST_F(ReadSubstrate, LinesOfOlderFoldersAreNobodys)
 {
-  const cactus::SubstrateDescription substrate = this->write(fibresAt({ { 2, -8.0 }, { 9, 1.0 }, { 40, 3.0 } }));
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const auto read = cactus::centreLines(substrate, { { 5, 1, none }, { 9, 10, 10.0 }, { 40, 41, 10.0 } });
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->fibreIds, (std::vector<int>{ 9, 40 }));
-  EXPECT_EQ(read->points[0].x(), 1.0);
-  EXPECT_FALSE(cactus::centreLines(substrate, { { 9, 10, 10.0 } })) << "nothing tells which of two lines it is";
-  EXPECT_FALSE(cactus::centreLines(substrate, {}));
+  cactus::SubstrateDescription substrate = this->write(fibresAt({ { 2, -1.0 }, { 9, 1.0 } }));
+  substrate.strandFibres.pop_back();
+  EXPECT_THROW(cactus::centreLines(substrate), cactus::FileError) << "one for each line";
+  substrate.strandFibres.clear();
+  EXPECT_FALSE(cactus::centreLines(substrate));
 }
