@@ -70,7 +70,10 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("TrianglesPerArea_um-2", s.trianglesPerArea);
   number("SmallestAngle_deg", s.smallestAngle);
   number("LargestSquaredEdgeRatio", s.largestSquaredEdgeRatio);
-  number("MeanTortuosity", s.meanTortuosity);
+  number("MeanSinuosity", s.meanSinuosity);
+  number("MeanUndulation_um", s.meanUndulation);
+  number("MeanOuterAxisRatio", s.meanOuterAxisRatio);
+  number("MeanInnerAxisRatio", s.meanInnerAxisRatio);
   number("MeanOuterCalibreVariation", s.meanOuterCalibreVariation);
   number("MeanInnerCalibreVariation", s.meanInnerCalibreVariation);
   number("MeanAxonDiffusivityRatio", s.meanDiffusivityRatio);
@@ -127,6 +130,8 @@ void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fib
   number("InnerRadiusDeviation_um", [](const Fibre& f) { return f.innerRadius.deviation; });
   number("OuterCircularity", [](const Fibre& f) { return f.outerRadius.circularity; });
   number("InnerCircularity", [](const Fibre& f) { return f.innerRadius.circularity; });
+  number("OuterAxisRatio", [](const Fibre& f) { return f.outerRadius.axisRatio; });
+  number("InnerAxisRatio", [](const Fibre& f) { return f.innerRadius.axisRatio; });
   number("GRatio", [](const Fibre& f) { return f.gRatio; });
   number("GRatioDeviation", [](const Fibre& f) { return f.gRatioDeviation(); });
   number("Length_um", [](const Fibre& f) { return f.length; });
@@ -142,7 +147,8 @@ void fillFibres(vtkTable* table, const std::vector<cactus::FibreStatistics>& fib
   integer("InnerTriangles", [](const Fibre& f) { return f.inner.triangles; });
   integer("OuterCuts", [](const Fibre& f) { return f.outerRadius.cuts; });
   integer("InnerCuts", [](const Fibre& f) { return f.innerRadius.cuts; });
-  number("Tortuosity", [](const Fibre& f) { return f.tortuosity; });
+  number("Sinuosity", [](const Fibre& f) { return f.line.sinuosity; });
+  number("Undulation_um", [](const Fibre& f) { return f.line.undulation; });
   number("OuterCalibreVariation", [](const Fibre& f) { return f.outerCalibreVariation(); });
   number("InnerCalibreVariation", [](const Fibre& f) { return f.innerCalibreVariation(); });
   number("MeanInverseAxonArea_um-2", [](const Fibre& f) { return f.axon.meanInverseArea; });
@@ -166,6 +172,8 @@ void fillProfiles(vtkTable* table, const std::vector<cactus::ProfilePoint>& poin
   number("InnerDiameter_um", &Point::innerDiameter);
   number("OuterCircularity", &Point::outerCircularity);
   number("InnerCircularity", &Point::innerCircularity);
+  number("OuterAxisRatio", &Point::outerAxisRatio);
+  number("InnerAxisRatio", &Point::innerAxisRatio);
   number("MyelinThickness_um", &Point::myelinThickness);
   number("GRatio", &Point::gRatio);
 }

@@ -85,7 +85,8 @@ std::vector<FibreCut> cutsAlongFibre(const Fibres& fibres, std::size_t fibre, co
     {
       const double area = polygonArea(outline, place.direction);
       const double perimeter = polygonPerimeter(outline);
-      cuts.push_back({ place.number, area, 4.0 * pi * area / (perimeter * perimeter) });
+      cuts.push_back(
+        { place.number, area, 4.0 * pi * area / (perimeter * perimeter), polygonAxisRatio(outline, place.direction) });
     }
   }
   return cuts;
@@ -98,7 +99,7 @@ double equivalentRadius(const FibreCut& cut)
 
 RadiusAlongFibre radiusAlong(const std::vector<FibreCut>& cuts)
 {
-  RadiusAlongFibre result{ cuts.size(), notANumber, notANumber, notANumber };
+  RadiusAlongFibre result{ cuts.size(), notANumber, notANumber, notANumber, notANumber };
   if (cuts.empty())
   {
     return result;
@@ -106,13 +107,16 @@ RadiusAlongFibre radiusAlong(const std::vector<FibreCut>& cuts)
   const auto count = static_cast<double>(cuts.size());
   double sum = 0.0;
   double circularities = 0.0;
+  double axisRatios = 0.0;
   for (const FibreCut& cut : cuts)
   {
     sum += equivalentRadius(cut);
     circularities += cut.circularity;
+    axisRatios += cut.axisRatio;
   }
   result.mean = sum / count;
   result.circularity = circularities / count;
+  result.axisRatio = axisRatios / count;
   double squares = 0.0;
   for (const FibreCut& cut : cuts)
   {
@@ -303,7 +307,7 @@ double lengthInDomain(const Fibres& fibres, std::size_t fibre)
   return length;
 }
 
-double tortuosityInDomain(const Fibres& fibres, std::size_t fibre)
+CentreLineShape centreLineShape(const Fibres& fibres, std::size_t fibre)
 {
   const std::vector<double> arc = arcLengths(fibres, fibre);
   double entered = notANumber;
@@ -320,12 +324,39 @@ double tortuosityInDomain(const Fibres& fibres, std::size_t fibre)
       left = arc[segment] + to * length;
     }
   }
+  CentreLineShape shape{ notANumber, notANumber };
   if (!(left > entered))
   {
-    return notANumber;
+    return shape;
   }
-  const double distance = (positionAt(fibres, fibre, arc, left) - positionAt(fibres, fibre, arc, entered)).norm();
-  return distance > 0.0 ? std::max(1.0, (left - entered) / distance) : notANumber;
+  const Eigen::Vector3d start = positionAt(fibres, fibre, arc, entered);
+  const Eigen::Vector3d chord = positionAt(fibres, fibre, arc, left) - start;
+  if (!(chord.norm() > 0.0))
+  {
+    return shape;
+  }
+  shape.sinuosity = std::max(1.0, (left - entered) / chord.norm());
+  const Eigen::Vector3d direction = chord.normalized();
+  const auto offsetAt = [&](double s) -> Eigen::Vector3d
+  {
+    const Eigen::Vector3d way = positionAt(fibres, fibre, arc, s) - start;
+    return way - way.dot(direction) * direction;
+  };
+  // Offsets a to b along a piece have a mean square of (a² + ab + b²)/3.
+  double squares = 0.0;
+  for (std::size_t segment = 0; segment + 1 < arc.size(); ++segment)
+  {
+    const double from = std::max(entered, arc[segment]);
+    const double to = std::min(left, arc[segment + 1]);
+    if (to > from)
+    {
+      const Eigen::Vector3d a = offsetAt(from);
+      const Eigen::Vector3d b = offsetAt(to);
+      squares += (to - from) * (a.squaredNorm() + a.dot(b) + b.squaredNorm()) / 3.0;
+    }
+  }
+  shape.undulation = std::sqrt(squares / (left - entered));
+  return shape;
 }
 
 } // namespace cactus

@@ -29,6 +29,7 @@ struct FibreCut
   std::size_t number = 0;   ///< of its place, see FibrePlace
   double area = 0.0;        ///< µm²
   double circularity = 0.0; ///< 4π · area / perimeter²: 1 for circles, 0.91 for hexagons, 0.79 for squares
+  double axisRatio = 0.0;   ///< minor over major axis, see polygonAxisRatio()
 };
 
 /// Returns the cross-sections of a surface at every `spacing` µm along fibre number `fibre`'s centre line, orthogonal to it, in
@@ -47,6 +48,7 @@ struct RadiusAlongFibre
   double mean = 0.0;        ///< µm, of the equivalent radius; without a cut, see radiusAlongFibre()
   double deviation = 0.0;   ///< µm, standard deviation of the equivalent radius along the fibre
   double circularity = 0.0; ///< mean over the cuts
+  double axisRatio = 0.0;   ///< likewise
 };
 
 RadiusAlongFibre radiusAlong(const std::vector<FibreCut>& cuts);
@@ -103,8 +105,15 @@ AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing);
 /// Returns the length (µm) of fibre number `fibre`'s centre line inside the domain.
 double lengthInDomain(const Fibres& fibres, std::size_t fibre);
 
-/// Returns the length of fibre number `fibre`'s centre line from its first entry into the domain to its last exit, over the
-/// distance of these two points: 1 for a straight fibre. NaN for a fibre that is not in the domain or ends where it began.
-double tortuosityInDomain(const Fibres& fibres, std::size_t fibre);
+/// How a centre line runs from its first entry into the domain to its last exit; NaN if it is not in the domain or ends where it
+/// began.
+struct CentreLineShape
+{
+  double sinuosity = 0.0;  ///< its length over the distance of these two points: 1 for a straight one
+  double undulation = 0.0; ///< µm, root mean square of its distance from the straight line through them
+};
+
+/// Returns the shape of fibre number `fibre`'s centre line.
+CentreLineShape centreLineShape(const Fibres& fibres, std::size_t fibre);
 
 } // namespace cactus

@@ -17,6 +17,7 @@ void visitRadius(Radius& radius, Visit&& visit)
   visit(radius.mean);
   visit(radius.deviation);
   visit(radius.circularity);
+  visit(radius.axisRatio);
 }
 
 /// Calls visit(number) for every number of a fibre, which may be const.

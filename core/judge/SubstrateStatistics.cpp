@@ -242,7 +242,10 @@ void sumUpCuts(SubstrateStatistics& result)
   }
   result.effectiveRadius = all.value();
   result.middleEffectiveRadius = middle.value();
-  result.meanTortuosity = meanOver(result.fibres, [](const FibreStatistics& f) { return f.tortuosity; });
+  result.meanSinuosity = meanOver(result.fibres, [](const FibreStatistics& f) { return f.line.sinuosity; });
+  result.meanUndulation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.line.undulation; });
+  result.meanOuterAxisRatio = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerRadius.axisRatio; });
+  result.meanInnerAxisRatio = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerRadius.axisRatio; });
   result.meanOuterCalibreVariation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerCalibreVariation(); });
   result.meanInnerCalibreVariation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerCalibreVariation(); });
   result.meanDiffusivityRatio = meanOver(result.fibres, [](const FibreStatistics& f) { return f.axon.diffusivityRatio; });
@@ -277,7 +280,7 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
                              const std::string& name, SurfaceMeasures measures)
       {
         const auto found = index.find(fibre.fibreId);
-        measures.radius = { 0, notANumber, notANumber };
+        measures.radius = radiusAlong({});
         if (found != index.end())
         {
           const std::string what = "the " + name + " surface of fibre " + std::to_string(fibre.fibreId);
@@ -290,7 +293,7 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
       fibre.hasInner =
         measure(inner, innerIndex, "inner", { fibre.inner, fibre.innerRadius, fibre.innerWallArea, fibre.innerCuts });
       fibre.axon = axonShape(fibre.innerCuts, options.cutSpacing);
-      fibre.tortuosity = tortuosityInDomain(fibres, f);
+      fibre.line = centreLineShape(fibres, f);
       fibre.gRatio = fibre.hasOuter && fibre.hasInner ? gRatioOf(fibre.inner.volume, fibre.outer.volume) : notANumber;
     },
     "Measuring surfaces");
@@ -340,6 +343,8 @@ std::vector<ProfilePoint> profilesOf(const std::vector<FibreStatistics>& fibres,
       point.innerDiameter = isInner ? 2.0 * equivalentRadius(*inner) : notANumber;
       point.outerCircularity = isOuter ? outer->circularity : notANumber;
       point.innerCircularity = isInner ? inner->circularity : notANumber;
+      point.outerAxisRatio = isOuter ? outer->axisRatio : notANumber;
+      point.innerAxisRatio = isInner ? inner->axisRatio : notANumber;
       point.myelinThickness = 0.5 * (point.outerDiameter - point.innerDiameter);
       point.gRatio = point.innerDiameter / point.outerDiameter;
       points.push_back(point);

@@ -43,8 +43,8 @@ struct FibreStatistics
   SurfaceReport inner;
   RadiusAlongFibre outerRadius;
   RadiusAlongFibre innerRadius;
-  double gRatio = 0.0;        ///< gRatioOf() the two volumes, NaN without both surfaces; 1 of an axon without myelin only
-  double tortuosity = 0.0;    ///< tortuosityInDomain()
+  double gRatio = 0.0; ///< gRatioOf() the two volumes, NaN without both surfaces; 1 of an axon without myelin only
+  CentreLineShape line;
   double outerWallArea = 0.0; ///< µm², without the caps by which the domain ends the surface
   double innerWallArea = 0.0; ///< µm²
   AxonShape axon;             ///< of the inner surface
@@ -92,7 +92,10 @@ struct SubstrateStatistics
   double trianglesPerArea = 0.0;        ///< µm⁻², over all surfaces
   double smallestAngle = 0.0;           ///< degrees, over all surfaces
   double largestSquaredEdgeRatio = 0.0; ///< over all surfaces
-  double meanTortuosity = 0.0;          ///< over fibres that have one, like the next six
+  double meanSinuosity = 0.0;           ///< over fibres that have one, like the next nine
+  double meanUndulation = 0.0;          ///< µm, CentreLineShape::undulation
+  double meanOuterAxisRatio = 0.0;
+  double meanInnerAxisRatio = 0.0;
   double meanOuterCalibreVariation = 0.0;
   double meanInnerCalibreVariation = 0.0;
   double meanDiffusivityRatio = 0.0;   ///< AxonShape::diffusivityRatio
@@ -125,6 +128,8 @@ struct ProfilePoint
   double innerDiameter = 0.0;    ///< µm
   double outerCircularity = 0.0; ///< see FibreCut
   double innerCircularity = 0.0;
+  double outerAxisRatio = 0.0; ///< see FibreCut
+  double innerAxisRatio = 0.0;
   double myelinThickness = 0.0; ///< µm, half the difference of the diameters
   double gRatio = 0.0;          ///< their ratio
 };

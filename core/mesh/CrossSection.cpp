@@ -227,6 +227,31 @@ double polygonArea(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vec
   return 0.5 * twice;
 }
 
+double polygonAxisRatio(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& normal)
+{
+  Eigen::Matrix<double, 2, 3> axes;
+  axes.row(0) = normal.unitOrthogonal();
+  axes.row(1) = normal.cross(axes.row(0).transpose());
+  // Of the triangles from the first point on: one with corners at 0, p, q has the moments A/12 (pp' + qq' + (p + q)(p + q)').
+  double area = 0.0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+  {
+    const Eigen::Vector2d p = axes * (polygon[i - 1] - polygon[0]);
+    const Eigen::Vector2d q = axes * (polygon[i] - polygon[0]);
+    const Eigen::Vector2d sum = p + q;
+    const double part = 0.5 * (p.x() * q.y() - p.y() * q.x());
+    area += part;
+    first += part / 3.0 * sum;
+    second += part / 12.0 * (p * p.transpose() + q * q.transpose() + sum * sum.transpose());
+  }
+  second -= first * first.transpose() / area;
+  const double mean = 0.5 * second.trace();
+  const double spread = std::hypot(0.5 * (second(0, 0) - second(1, 1)), second(0, 1));
+  return std::sqrt(std::max(0.0, mean - spread) / (mean + spread));
+}
+
 double polygonPerimeter(const std::vector<Eigen::Vector3d>& polygon)
 {
   double length = 0.0;

@@ -41,6 +41,10 @@ private:
 /// Returns the area (µm²) of a plane polygon, positive if it runs counter-clockwise seen against unit `normal`.
 double polygonArea(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& normal);
 
+/// Returns the ratio of the minor to the major axis of the ellipse with the second moments of area of a plane polygon: 1 for
+/// circles and all regular polygons. Precondition: a positive polygonArea().
+double polygonAxisRatio(const std::vector<Eigen::Vector3d>& polygon, const Eigen::Vector3d& normal);
+
 /// Returns the perimeter (µm) of a polygon.
 double polygonPerimeter(const std::vector<Eigen::Vector3d>& polygon);
 

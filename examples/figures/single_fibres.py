@@ -16,9 +16,9 @@ TARGET = 1.5  # outer diameter of the paper's three fibres, µm; their inner one
 
 def chosen(fibre, side):
     """Places of three fibres whose target is nearest to the paper's and which reach from face to face: least, middle, most tortuous."""
-    whole = [i for i, cuts in enumerate(fibre["OuterCuts"]) if cuts > 0.8 * side and math.isfinite(fibre["Tortuosity"][i])]
+    whole = [i for i, cuts in enumerate(fibre["OuterCuts"]) if cuts > 0.8 * side and math.isfinite(fibre["Sinuosity"][i])]
     alike = sorted(whole, key=lambda i: abs(2 * fibre["TargetRadius_um"][i] - TARGET))[:12]
-    alike.sort(key=lambda i: fibre["Tortuosity"][i])
+    alike.sort(key=lambda i: fibre["Sinuosity"][i])
     return alike[0], alike[len(alike) // 2], alike[-1]
 
 
@@ -91,12 +91,12 @@ with figure.substrate("histology-4", DispersionModel="Watson", MeanDispersion=10
         target = 2 * fibre["TargetRadius_um"][i]
         measured = [[value for value in values if math.isfinite(value)] for values in (outer, inner)]
         figure.row(
-            fibre=name, tortuosity=f"{fibre['Tortuosity'][i]:.4f}", paper_outer_diameter_um=1.5, paper_inner_diameter_um=1.1, target_outer_diameter_um=target,
+            fibre=name, sinuosity=f"{fibre['Sinuosity'][i]:.4f}", paper_outer_diameter_um=1.5, paper_inner_diameter_um=1.1, target_outer_diameter_um=target,
             target_inner_diameter_um=target * made.whole["AggregateGRatio"],
             **{f"{kind}_diameter_um": float(numpy.mean(values)) for kind, values in zip(("outer", "inner"), measured)},
             **{f"{kind}_deviation_um": float(numpy.std(values)) for kind, values in zip(("outer", "inner"), measured)},
         )
-        place(axes[name], portrait(made, number), f"tortuosity {fibre['Tortuosity'][i]:.3f}")
+        place(axes[name], portrait(made, number), f"sinuosity {fibre['Sinuosity'][i]:.3f}")
         style = {"left": "-", "middle": "--", "right": ":"}[name]
         for values, colour, label in ((outer, RED, "outer"), (inner, BLUE, "inner")):
             axes["along"].plot([profile["ArcLength_um"][k] for k in rows], values, style, color=colour, label=f"{label}, {name}")

@@ -100,7 +100,9 @@ class Statistics(CactusTestCase):
 
     def test_what_diffusion_reads(self):
         row = {name: values[0] for name, values in columns(fetch(self.measure())).items()}
-        self.assertAlmostEqual(row["MeanTortuosity"], 1)
+        self.assertAlmostEqual(row["MeanSinuosity"], 1)
+        self.assertAlmostEqual(row["MeanUndulation_um"], 0)
+        self.assertAlmostEqual(row["MeanInnerAxisRatio"], 1, places=5)
         self.assertAlmostEqual(row["MeanOuterCalibreVariation"], 0, places=5)
         self.assertAlmostEqual(row["MeanAxonAreaFluctuation_um"], 0, places=5)
         effective = ((0.7**6 + 0.9**6) / (0.7**2 + 0.9**2)) ** 0.25 * EQUIVALENT
@@ -112,7 +114,8 @@ class Statistics(CactusTestCase):
         self.assertAlmostEqual(row["ExtraAxonalSurfaceToVolume_um-1"], wall / (1000 - POLYGON * 3.25 * 10), places=5)
         table = columns(fetch(self.measure(), 1))
         for i, radius in enumerate((0.7, 0.9)):
-            self.assertAlmostEqual(table["Tortuosity"][i], 1)
+            self.assertAlmostEqual(table["Sinuosity"][i], 1)
+            self.assertAlmostEqual(table["OuterAxisRatio"][i], 1, places=5)
             self.assertAlmostEqual(table["MeanInverseAxonArea_um-2"][i], 1 / (POLYGON * radius**2), places=4)
             self.assertAlmostEqual(table["AxonAreaVariance"][i], 0, places=6)
             self.assertAlmostEqual(table["AxonDiffusivityRatio"][i], 1, places=6)
@@ -121,7 +124,7 @@ class Statistics(CactusTestCase):
 
     def test_profiles(self):
         table = columns(fetch(self.measure(), 3))
-        names = ["FibreId", "ArcLength_um", "OuterDiameter_um", "InnerDiameter_um", "OuterCircularity", "InnerCircularity", "MyelinThickness_um", "GRatio"]
+        names = ["FibreId", "ArcLength_um", "OuterDiameter_um", "InnerDiameter_um", "OuterCircularity", "InnerCircularity", "OuterAxisRatio", "InnerAxisRatio", "MyelinThickness_um", "GRatio"]
         self.assertEqual(list(table), names)
         self.assertEqual(table["FibreId"], [3] * 10 + [5] * 10)
         # The centre lines begin 1 µm before the domain.

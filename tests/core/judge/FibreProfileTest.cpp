@@ -49,8 +49,8 @@ cactus::TriangleMesh wavyTube(double radius, double part, int waves)
   return mesh;
 }
 
-/// The tortuosity of one fibre along these points, in a cube of this side.
-double tortuosity(const std::vector<Eigen::Vector3d>& points, double side)
+/// The shape of one fibre along these points, in a cube of this side.
+cactus::CentreLineShape lineShape(const std::vector<Eigen::Vector3d>& points, double side)
 {
   cactus::Fibres fibres;
   fibres.domain = cactus::Domain::cube(side);
@@ -59,7 +59,7 @@ double tortuosity(const std::vector<Eigen::Vector3d>& points, double side)
   {
     fibres.addPoint(point, 1.0);
   }
-  return cactus::tortuosityInDomain(fibres, 0);
+  return cactus::centreLineShape(fibres, 0);
 }
 
 TEST(AxonShape, TellsBeads)
@@ -164,13 +164,13 @@ TEST(AxonShape, NeedsCuts)
 {
   const auto none = cactus::axonShape({}, 1.0);
   EXPECT_TRUE(std::isnan(none.meanInverseArea) && std::isnan(none.areaFluctuation) && std::isnan(none.effectiveRadius));
-  const auto two = cactus::axonShape({ { 0, 1.0, 1.0 }, { 1, 3.0, 1.0 } }, 1.0);
+  const auto two = cactus::axonShape({ { 0, 1.0, 1.0, 1.0 }, { 1, 3.0, 1.0, 1.0 } }, 1.0);
   EXPECT_TRUE(std::isnan(two.areaFluctuation));
   EXPECT_NEAR(two.meanInverseArea, 2.0 / 3.0, 1e-15);
   EXPECT_NEAR(two.areaVariance, 0.25, 1e-15);
 }
 
-TEST(Tortuosity, OfAHelixAndOfBends)
+TEST(CentreLineShape, OfAHelixAndOfBends)
 {
   const double radius = 2.0;
   const double pitch = 5.0;
@@ -180,14 +180,20 @@ TEST(Tortuosity, OfAHelixAndOfBends)
     const double turn = i / 10000.0;
     helix.emplace_back(radius * std::cos(2.0 * pi * turn), radius * std::sin(2.0 * pi * turn), pitch * (turn - 1.5));
   }
-  EXPECT_NEAR(tortuosity(helix, 40.0), std::hypot(2.0 * pi * radius, pitch) / pitch, 1e-6);
-  EXPECT_EQ(tortuosity({ { 0, 0, -3 }, { 0, 0, 1 }, { 0, 0, 4 } }, 10.0), 1.0);
+  EXPECT_NEAR(lineShape(helix, 40.0).sinuosity, std::hypot(2.0 * pi * radius, pitch) / pitch, 1e-6);
+  // Its ends lie at the same angle: the straight line through them is on the cylinder, at a mean square distance of 2 radius².
+  EXPECT_NEAR(lineShape(helix, 40.0).undulation, std::sqrt(2.0) * radius, 1e-6);
+  EXPECT_EQ(lineShape({ { 0, 0, -3 }, { 0, 0, 1 }, { 0, 0, 4 } }, 10.0).sinuosity, 1.0);
+  EXPECT_NEAR(lineShape({ { 0, 0, -3 }, { 0, 0, 1 }, { 0, 0, 4 } }, 10.0).undulation, 0.0, 1e-12);
+  // A triangle of height 3, continued straight outside.
+  EXPECT_NEAR(
+    lineShape({ { 0, 0, -9 }, { 0, 0, -5 }, { 0, 3, 0 }, { 0, 0, 5 }, { 0, 0, 9 } }, 10.0).undulation, std::sqrt(3.0), 1e-12);
   // Legs of 3 and 7 µm are in the domain; the line continues outside.
-  EXPECT_NEAR(tortuosity({ { 2, 1, -9 }, { 2, 1, -2 }, { -9, 1, -2 } }, 10.0), 10.0 / std::sqrt(58.0), 1e-12);
+  EXPECT_NEAR(lineShape({ { 2, 1, -9 }, { 2, 1, -2 }, { -9, 1, -2 } }, 10.0).sinuosity, 10.0 / std::sqrt(58.0), 1e-12);
   // It leaves the domain (through x = 5) and comes back: the part in between counts.
-  EXPECT_NEAR(tortuosity({ { 4, 0, -3 }, { 8, 0, -3 }, { 8, 0, 3 }, { 4, 0, 3 } }, 10.0), 14.0 / 6.0, 1e-12);
-  EXPECT_TRUE(std::isnan(tortuosity({ { 8, 0, 0 }, { 9, 0, 0 } }, 10.0)));
-  EXPECT_TRUE(std::isnan(tortuosity({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 0 } }, 10.0)));
+  EXPECT_NEAR(lineShape({ { 4, 0, -3 }, { 8, 0, -3 }, { 8, 0, 3 }, { 4, 0, 3 } }, 10.0).sinuosity, 14.0 / 6.0, 1e-12);
+  EXPECT_TRUE(std::isnan(lineShape({ { 8, 0, 0 }, { 9, 0, 0 } }, 10.0).sinuosity));
+  EXPECT_TRUE(std::isnan(lineShape({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 0 } }, 10.0).sinuosity));
 }
 
 // Caps are no walls: neither those in the domain's faces, nor those of axons a little before them.
@@ -214,7 +220,7 @@ TEST(SubstrateStatistics, SurfaceToVolumeWithoutCaps)
   const double sixth = (std::pow(0.5, 6) + 1.0) / (0.25 + 1.0);
   EXPECT_NEAR(result.effectiveRadius, std::pow(sixth, 0.25) * std::sqrt(sectionOfOne() / pi), 1e-9);
   EXPECT_NEAR(result.middleEffectiveRadius, result.effectiveRadius, 1e-9);
-  EXPECT_NEAR(result.meanTortuosity, 1.0, 1e-12);
+  EXPECT_NEAR(result.meanSinuosity, 1.0, 1e-12);
 
   const auto bare = cactus::measureSubstrate(fibres, outer, {});
   EXPECT_TRUE(std::isnan(bare.intraSurfaceToVolume) && std::isnan(bare.effectiveRadius));

@@ -143,6 +143,28 @@ TEST(SubstrateStatistics, StraightTubes)
   EXPECT_NEAR(fibre.outerRadius.circularity, (pi / 24.0) / std::tan(pi / 24.0), 1e-9);
 }
 
+/// A square prism stretched along x, at any angle to the axes.
+TEST(SubstrateStatistics, AxisRatioOfPrisms)
+{
+  auto fibres = twoFibres();
+  fibres.domain = cactus::Domain::cube(40.0);
+  for (const double stretch : { 1.0, 1.6, 3.0 })
+  {
+    for (const double angle : { 0.0, 0.3, 1.2 })
+    {
+      auto mesh = tube(-2, 0, 1.0, 5.0, 4);
+      for (auto& point : mesh.points)
+      {
+        const double x = stretch * (point.x() + 2.0);
+        const double y = point.y();
+        point.x() = -2.0 + std::cos(angle) * x - std::sin(angle) * y;
+        point.y() = std::sin(angle) * x + std::cos(angle) * y;
+      }
+      EXPECT_NEAR(cactus::radiusAlong(cactus::cutsAlongFibre(fibres, 0, mesh, 1.0)).axisRatio, 1.0 / stretch, 1e-9);
+    }
+  }
+}
+
 TEST(SubstrateStatistics, CircularityOfPrisms)
 {
   const auto fibres = twoFibres();

@@ -20,7 +20,7 @@ CLASS_MISMATCH = re.compile(r"^Input for connection index \d+ on input port inde
 # Measures that need not exist: of cuts where none lies wholly inside the domain, of axons without any, over an edge of no length, of
 # bends where all is straight, directions of which a voxel has fewer (NaN, as MRtrix writes them).
 MAY_BE_MISSING = re.compile(
-    r"row\..*(Radius|Circularity|SmallestMyelin|GRatio|EdgeRatio|Aspect|Tortuosity|CalibreVariation|AxonArea|DiffusivityRatio|SurfaceToVolume|Diameter|MyelinThickness)"
+    r"row\..*(Radius|Circularity|SmallestMyelin|GRatio|EdgeRatio|Aspect|Sinuosity|Undulation|AxisRatio|CalibreVariation|AxonArea|DiffusivityRatio|SurfaceToVolume|Diameter|MyelinThickness)"
     r"|field\.Smallest(Bend|Curvature)Radius|point\.Peaks$")
 THINGS = re.compile(
     r"fibre|point|cell|array|tractogram|header|truncated|field data|Domain|voxel|surface|triangle|input|block|image|extent|polyline|segment|file|line|folder|link|memory|grey value|axons|Radius|Side|Id\b",
