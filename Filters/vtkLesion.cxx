@@ -9,9 +9,13 @@
 #include "SurfaceData.h"
 #include "SurfaceFacts.h"
 #include "WholeData.h"
+#include "base/Constants.h"
 #include "base/Error.h"
 #include "fibres/SelectFibres.h"
+#include "judge/FibreProfile.h"
 #include "judge/Lesion.h"
+#include "judge/SubstrateStatistics.h"
+#include "mesh/SurfaceCheck.h"
 #include "stages/Stages.h"
 
 #include <vtkInformation.h>
@@ -19,6 +23,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -28,7 +33,38 @@ vtkStandardNewMacro(vtkLesion);
 namespace
 {
 
-void giveSurfaces(const cactus::FibreSurfaces& surfaces, int kind, const cactus::Domain& domain, vtkPolyData* output)
+/// Returns what cell data say of each fibre that is left.
+std::map<int, cactus::FibreValues> valuesOf(
+  const cactus::FibreSurfaces& outer, const cactus::FibreSurfaces& inner, const cactus::Substrate& substrate)
+{
+  std::map<int, double> lengths;
+  for (std::size_t f = 0; substrate.fibres && f < substrate.fibres->size(); ++f)
+  {
+    lengths[substrate.fibres->fibreIds[f]] = cactus::lengthInDomain(*substrate.fibres, f);
+  }
+  std::map<int, double> axons;
+  std::map<int, cactus::FibreValues> values;
+  for (std::size_t i = 0; i < inner.size(); ++i)
+  {
+    const cactus::TriangleMesh mesh = inner.mesh(i);
+    axons[inner.fibreIds[i]] = cactus::checkSurface(mesh).volume;
+    values[inner.fibreIds[i]] = // of one without an outer surface
+      cactus::fibreValues(mesh, cactus::notANumber, cactus::notANumber, cactus::notANumber, substrate.domain);
+  }
+  for (std::size_t i = 0; i < outer.size(); ++i)
+  {
+    const int id = outer.fibreIds[i];
+    const cactus::TriangleMesh mesh = outer.mesh(i);
+    const double volume = cactus::checkSurface(mesh).volume;
+    const double gRatio = axons.count(id) > 0 ? cactus::gRatioOf(axons[id], volume) : cactus::notANumber;
+    const double length = lengths.count(id) > 0 ? lengths[id] : cactus::notANumber;
+    values[id] = cactus::fibreValues(mesh, volume, length, gRatio, substrate.domain);
+  }
+  return values;
+}
+
+void giveSurfaces(const cactus::FibreSurfaces& surfaces, int kind, const std::map<int, cactus::FibreValues>& values,
+  const cactus::Domain& domain, vtkPolyData* output)
 {
   std::vector<cactus::NamedSurface> named;
   named.reserve(surfaces.size());
@@ -37,6 +73,7 @@ void giveSurfaces(const cactus::FibreSurfaces& surfaces, int kind, const cactus:
     named.push_back({ surfaces.fibreIds[i], surfaces.bundleIds[i], surfaces.mesh(i) });
   }
   cactus::toPolyData(std::move(named), kind, output);
+  cactus::addFibreValues(output, values);
   cactus::setSurfaceFacts(output, surfaces.wantedIds, surfaces.promisedGap);
   cactus::setDomain(output, domain);
 }
@@ -113,8 +150,11 @@ int vtkLesion::RequestData(vtkInformation* request, vtkInformationVector**, vtkI
       auto* outer = vtkPolyData::GetData(outputs, 0);
       auto* inner = vtkPolyData::GetData(outputs, 1);
       auto* fibres = vtkPolyData::GetData(outputs, 2);
-      giveSurfaces(cactus::outerInLesion(lesion, substrate.outer, substrate.inner), 0, substrate.domain, outer);
-      giveSurfaces(cactus::innerInLesion(lesion, substrate.outer, substrate.inner), 1, substrate.domain, inner);
+      const cactus::FibreSurfaces outerLeft = cactus::outerInLesion(lesion, substrate.outer, substrate.inner);
+      const cactus::FibreSurfaces innerLeft = cactus::innerInLesion(lesion, substrate.outer, substrate.inner);
+      const std::map<int, cactus::FibreValues> values = valuesOf(outerLeft, innerLeft, substrate);
+      giveSurfaces(outerLeft, 0, values, substrate.domain, outer);
+      giveSurfaces(innerLeft, 1, values, substrate.domain, inner);
       if (substrate.fibres)
       {
         cactus::toPolyData(fibresLeft(*substrate.fibres, substrate.outer, lesion), fibres);

@@ -60,6 +60,13 @@ class Unmyelinated(CactusTestCase):
         with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
             self.assertEqual(json.load(file)["unmyelinated_fibres"], (bare & there).sum())
 
+    def fibre_values(self, surfaces):
+        """Radius, g-ratio and colour of each fibre, from its triangles."""
+        cells = fetch(surfaces).GetCellData()
+        ids, *columns = (vtk_to_numpy(cells.GetArray(name)) for name in ("FibreId", "Radius", "GRatio", "Direction"))
+        fibres, first = numpy.unique(ids, return_index=True)
+        return dict(zip(fibres, numpy.column_stack(columns)[first]))
+
     def test_a_lesion_is_a_twin(self):
         fibres, surfaces = self.chain()
         healthy = {"Outer": OutputPort(surfaces, 0), "Inner": OutputPort(surfaces, 1), "Fibres": fibres}
@@ -68,6 +75,14 @@ class Unmyelinated(CactusTestCase):
         certificate = fetch(SubstrateCertificate(**ill), 0)
         self.assertEqual(value(certificate, "Certified"), 1)
         self.assertGreater(value(certificate, "Unmyelinated"), 5)
+        # Cell data are those of MyelinSurface, but of axons that have lost their myelin.
+        wanted, found = self.fibre_values(healthy["Outer"]), self.fibre_values(ill["Outer"])
+        self.assertLess(set(found), set(wanted))
+        lost = [fibre for fibre in found if found[fibre][1] == 1 and wanted[fibre][1] < 1]
+        self.assertGreater(len(lost), 5)
+        for fibre in found:
+            if fibre not in lost:
+                numpy.testing.assert_allclose(found[fibre], wanted[fibre], rtol=2e-3, err_msg=str(fibre))
         folders = {}
         for name, given in (("healthy", healthy), ("ill", ill)):
             folders[name] = os.path.join(self.folder, name)
