@@ -16,7 +16,9 @@
 #include <QLabel>
 #include <QStatusBar>
 #include <QString>
+#include <QTimer>
 
+#include <algorithm>
 #include <optional>
 
 namespace cactus
@@ -118,6 +120,14 @@ QString reachedBy(pqPipelineSource* source)
                                                                                          : QString();
 }
 
+/// Tells whether a source or filter feeds another, through others perhaps.
+bool feeds(pqPipelineSource* source, const pqPipelineSource* other)
+{
+  const QList<pqPipelineSource*> consumers = source->getAllConsumers();
+  return std::any_of(consumers.begin(), consumers.end(),
+    [other](pqPipelineSource* consumer) { return consumer == other || feeds(consumer, other); });
+}
+
 } // namespace
 
 ReachedLine::ReachedLine(pqPVApplicationCore* core)
@@ -138,6 +148,13 @@ ReachedLine::ReachedLine(pqPVApplicationCore* core)
   afterUpdate(core, this,
     [this](pqPipelineSource* source)
     {
+      // One Apply may update several, in any order: the last one of the chain has the say.
+      if (this->Told != nullptr && feeds(source, this->Told))
+      {
+        return;
+      }
+      this->Told = source;
+      QTimer::singleShot(0, this, [this] { this->Told = nullptr; });
       const QString reached = reachedBy(source);
       this->Line->setText(reached.isEmpty() ? QString() : source->getSMName() + ": " + reached);
       this->Line->setToolTip(this->Line->text());

@@ -21,6 +21,7 @@ public:
 
 private:
   QPointer<QLabel> Line;
+  QPointer<pqPipelineSource> Told; ///< whose line it is, until the window waits for the user again
 };
 
 } // namespace cactus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BarUnits.h"
+#include "ChainButton.h"
 #include "ErrorColours.h"
 #include "FirstLook.h"
 #include "InheritedLook.h"
@@ -32,6 +33,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::BarUnits(core);
         new cactus::StopButton(core);
         new cactus::ReachedLine(core);
+        new cactus::ChainButton(core);
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
         core->interfaceTracker()->addInterface(new cactus::WriteButtons(core));
       }
