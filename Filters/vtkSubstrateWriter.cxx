@@ -13,6 +13,7 @@
 #include "base/Numbers.h"
 #include "base/Sharing.h"
 #include "io/SubstrateFolder.h"
+#include "io/SubstrateReading.h"
 #include "stages/StageWork.h"
 
 #include <vtkDataObject.h>
@@ -24,6 +25,7 @@
 #include <vtkTable.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +34,16 @@ vtkStandardNewMacro(vtkSubstrateWriter);
 
 namespace
 {
+
+/// Returns the folder that is meant by a name chosen in a dialog, which walks into a folder that is there already and adds its
+/// name once more: that folder, if it is a substrate folder.
+std::string chosenFolder(const std::string& name)
+{
+  const std::filesystem::path path(name);
+  const std::filesystem::path parent = path.parent_path();
+  return path.has_filename() && path.filename() == parent.filename() && cactus::isSubstrate(parent.string()) ? parent.string()
+                                                                                                             : name;
+}
 
 /// Returns when any input, connected or not, was last changed.
 vtkMTimeType newestInput(vtkSubstrateWriter* self)
@@ -132,6 +144,7 @@ void vtkSubstrateWriter::WriteFolder(const cactus::Sharing& all)
 
 int vtkSubstrateWriter::Write()
 {
+  this->SetFolderName(chosenFolder(this->GetFolderName()).c_str());
   const bool isWritten = cactus::writeNow(this);
   this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // SetErrorCode() would count as a
                                                                                            // change

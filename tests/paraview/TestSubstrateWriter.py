@@ -388,6 +388,17 @@ class Reader(CactusTestCase):
         for array in ("points", "corners", "Radius", "FibreId", "BundleId"):
             numpy.testing.assert_allclose(found[array], wanted[array], rtol=1e-8, atol=1e-8, err_msg=array)
 
+    def test_a_folder_chosen_in_the_dialog_is_replaced(self):
+        """ParaView's dialog walks into a folder that is there, and adds its name once more."""
+        saved = os.path.join(self.folder, "one.substrate")
+        two, one = produce(two_tubes()[1]), produce(surfaces({3: tube(-2, 0, 0.9, 10)}, 0, 10))
+        SaveData(saved, proxy=two)
+        SaveData(os.path.join(saved, "one.substrate"), proxy=one)
+        SaveData(os.path.join(saved, "other.substrate"), proxy=two)
+        self.assertEqual(fetch(SubstrateReader(FileName=saved), 4).GetNumberOfRows(), 1)
+        self.assertFalse(os.path.exists(os.path.join(saved, "one.substrate")))
+        self.assertTrue(os.path.exists(os.path.join(saved, "other.substrate", "manifest.json")), "one of another name is meant to be in it")
+
     def test_written_once_more(self):
         """Of a folder, the same files, and it says where they come from. Placement is not in them."""
         fibres, outer, inner = two_tubes(inset=0.1)
