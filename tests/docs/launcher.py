@@ -24,6 +24,8 @@ for word; do
 done""",
     "ctest": "echo ctest",
     "dpkg-query": "echo installed",
+    "mpiexec": 'echo mpiexec "$@"',
+    "pvserver": 'echo pvserver "$@"',
 }
 
 
@@ -56,6 +58,11 @@ class Launcher(unittest.TestCase):
         self.assertEqual(self.cactus("build", CI="true")[1], [])
         self.assertEqual(self.cactus("build")[1], [f"cmake --preset release {off}"])
         self.assertEqual(self.cactus("build")[1], [])
+
+    def test_a_server_runs_on_as_many_ranks_as_asked(self):
+        self.cactus("build")
+        for words, wanted in (((), "pvserver --server-port=9"), (("-np", "3"), "mpiexec -n 3 pvserver --server-port=9")):
+            self.assertEqual(self.cactus("pvserver", *words, "--server-port=9", DISPLAY=":1")[0].splitlines()[-1], wanted)
 
     def test_a_check_of_nothing_is_none(self):
         self.assertEqual(self.cactus("check", "style"), ("cactus: style is judged with clang 14, which is not here: left out\n", []))
