@@ -11,6 +11,7 @@
 #include "WholeData.h"
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "base/Parallel.h"
 #include "fibres/SelectFibres.h"
 #include "judge/FibreProfile.h"
 #include "judge/Lesion.h"
@@ -34,31 +35,38 @@ namespace
 {
 
 /// Returns what cell data say of each fibre that is left.
-std::map<int, cactus::FibreValues> valuesOf(
-  const cactus::FibreSurfaces& outer, const cactus::FibreSurfaces& inner, const cactus::Substrate& substrate)
+std::map<int, cactus::FibreValues> valuesOf(const cactus::FibreSurfaces& outer, const cactus::FibreSurfaces& inner,
+  const cactus::Substrate& substrate, const cactus::Context& context)
 {
   std::map<int, double> lengths;
   for (std::size_t f = 0; substrate.fibres && f < substrate.fibres->size(); ++f)
   {
     lengths[substrate.fibres->fibreIds[f]] = cactus::lengthInDomain(*substrate.fibres, f);
   }
-  std::map<int, double> axons;
-  std::map<int, cactus::FibreValues> values;
-  for (std::size_t i = 0; i < inner.size(); ++i)
+  std::vector<cactus::FibreValues> each(outer.size());
+  const auto measure = [&](std::size_t i)
   {
-    const cactus::TriangleMesh mesh = inner.mesh(i);
-    axons[inner.fibreIds[i]] = cactus::checkSurface(mesh).volume;
-    values[inner.fibreIds[i]] = // of one without an outer surface
-      cactus::fibreValues(mesh, cactus::notANumber, cactus::notANumber, cactus::notANumber, substrate.domain);
-  }
-  for (std::size_t i = 0; i < outer.size(); ++i)
-  {
-    const int id = outer.fibreIds[i];
     const cactus::TriangleMesh mesh = outer.mesh(i);
     const double volume = cactus::checkSurface(mesh).volume;
-    const double gRatio = axons.count(id) > 0 ? cactus::gRatioOf(axons[id], volume) : cactus::notANumber;
-    const double length = lengths.count(id) > 0 ? lengths[id] : cactus::notANumber;
-    values[id] = cactus::fibreValues(mesh, volume, length, gRatio, substrate.domain);
+    const auto axon = inner.placeOf(outer.fibreIds[i]);
+    const double gRatio = axon ? cactus::gRatioOf(cactus::checkSurface(inner.mesh(*axon)).volume, volume) : cactus::notANumber;
+    const auto length = lengths.find(outer.fibreIds[i]);
+    each[i] =
+      cactus::fibreValues(mesh, volume, length != lengths.end() ? length->second : cactus::notANumber, gRatio, substrate.domain);
+  };
+  cactus::parallelFor(outer.size(), context, measure);
+  std::map<int, cactus::FibreValues> values;
+  for (std::size_t i = 0; i < outer.size(); ++i)
+  {
+    values[outer.fibreIds[i]] = each[i];
+  }
+  for (std::size_t i = 0; i < inner.size(); ++i)
+  {
+    if (values.count(inner.fibreIds[i]) == 0) // a lone inner surface
+    {
+      values[inner.fibreIds[i]] =
+        cactus::fibreValues(inner.mesh(i), cactus::notANumber, cactus::notANumber, cactus::notANumber, substrate.domain);
+    }
   }
   return values;
 }
@@ -145,14 +153,15 @@ int vtkLesion::RequestData(vtkInformation* request, vtkInformationVector**, vtkI
         throw cactus::InvalidInput(
           "there are no inner surfaces, and without them no myelin to lose: connect MyelinSurface's Inner");
       }
-      const cactus::Lesion lesion = cactus::fibresInLesion(
-        substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));
+      const cactus::Context context = cactus::contextFor(this, stage.threads);
+      const cactus::Lesion lesion =
+        cactus::fibresInLesion(substrate.domain, substrate.outer, substrate.inner, stage.options, context);
       auto* outer = vtkPolyData::GetData(outputs, 0);
       auto* inner = vtkPolyData::GetData(outputs, 1);
       auto* fibres = vtkPolyData::GetData(outputs, 2);
       const cactus::FibreSurfaces outerLeft = cactus::outerInLesion(lesion, substrate.outer, substrate.inner);
       const cactus::FibreSurfaces innerLeft = cactus::innerInLesion(lesion, substrate.outer, substrate.inner);
-      const std::map<int, cactus::FibreValues> values = valuesOf(outerLeft, innerLeft, substrate);
+      const std::map<int, cactus::FibreValues> values = valuesOf(outerLeft, innerLeft, substrate, context);
       giveSurfaces(outerLeft, 0, values, substrate.domain, outer);
       giveSurfaces(innerLeft, 1, values, substrate.domain, inner);
       if (substrate.fibres)

@@ -6,9 +6,10 @@ import json
 import os
 
 import numpy
-from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import (BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, Lesion, MyelinSurface, OutputPort, SubstrateCertificate,
-                             SubstrateStatistics, SubstrateWriter)
+from cactus_testing import CactusTestCase, fetch, main, produce
+from paraview.simple import (BundleInitializer, CapsuleOptimizer, ExtractSurface, FibreRadialGrowth, Lesion, MyelinSurface, OutputPort,
+                             SubstrateCertificate, SubstrateStatistics, SubstrateWriter, Threshold)
+from surfaces import two_tubes
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -60,9 +61,9 @@ class Unmyelinated(CactusTestCase):
         with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
             self.assertEqual(json.load(file)["unmyelinated_fibres"], (bare & there).sum())
 
-    def fibre_values(self, surfaces):
+    def fibre_values(self, surfaces, port=0):
         """Radius, g-ratio and colour of each fibre, from its triangles."""
-        cells = fetch(surfaces).GetCellData()
+        cells = fetch(surfaces, port).GetCellData()
         ids, *columns = (vtk_to_numpy(cells.GetArray(name)) for name in ("FibreId", "Radius", "GRatio", "Direction"))
         fibres, first = numpy.unique(ids, return_index=True)
         return dict(zip(fibres, numpy.column_stack(columns)[first]))
@@ -76,7 +77,7 @@ class Unmyelinated(CactusTestCase):
         self.assertEqual(value(certificate, "Certified"), 1)
         self.assertGreater(value(certificate, "Unmyelinated"), 5)
         # Cell data are those of MyelinSurface, but of axons that have lost their myelin.
-        wanted, found = self.fibre_values(healthy["Outer"]), self.fibre_values(ill["Outer"])
+        wanted, found = self.fibre_values(surfaces), self.fibre_values(lesion)
         self.assertLess(set(found), set(wanted))
         lost = [fibre for fibre in found if found[fibre][1] == 1 and wanted[fibre][1] < 1]
         self.assertGreater(len(lost), 5)
@@ -105,6 +106,14 @@ class Unmyelinated(CactusTestCase):
         self.assertLess(value(after, "MVF"), value(before, "MVF"))
         self.assertGreater(value(after, "UnmyelinatedFraction"), 0)
         self.assertEqual(value(before, "UnmyelinatedFraction"), 0)
+
+    def test_an_inner_surface_without_an_outer_one_stays(self):
+        _, outer, inner = two_tubes()
+        outer = Threshold(Input=produce(outer), Scalars=["CELLS", "FibreId"], LowerThreshold=3, UpperThreshold=3)
+        lesion = Lesion(Outer=ExtractSurface(Input=outer), Inner=produce(inner))
+        values = self.fibre_values(lesion, 1)
+        self.assertEqual(sorted(values), [3, 5])
+        self.assertTrue(numpy.isnan(values[5][1]))
 
     def test_a_bad_value_is_named_and_the_next_good_one_is_used(self):
         _, surfaces = self.chain()
