@@ -159,6 +159,7 @@ inline constexpr Range voxelSize{ 1e-3, 10.0, " µm" };
 inline constexpr Range targetFraction{ 0.0, 0.999, "", -1.0 };
 inline constexpr Range growthIterations{ 0.0, 1e3 };
 inline constexpr Range surfaceRoughness{ 0.0, 0.5 };
+inline constexpr Range sectionAxisRatio{ 0.7, 1.0 };
 inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 
 // Lesion.

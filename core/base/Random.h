@@ -23,7 +23,8 @@ enum class RandomStage : std::uint32_t
   Sample = 9,
   Calibre = 10,
   Lesion = 11,
-  Nodes = 12
+  Nodes = 12,
+  Sections = 13
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere. The distributions of

@@ -33,6 +33,8 @@ struct CalibreVariation
   /// How much larger than its mean an axon's radius is in a bead, as a fraction of that mean, on final surfaces.
   double beadAmplitude = 0.6;
   BeadShape beads;
+  /// Mean axis ratio of the axons' sections on final surfaces, in [0.7, 1]. 1: growth alone shapes them.
+  double sectionAxisRatio = 1.0;
 
   static const PropertyList<CalibreVariation>& properties();
   /// Throws InvalidInput for beads that are too near to each other. Precondition: validateProperties().

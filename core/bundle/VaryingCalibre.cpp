@@ -291,6 +291,10 @@ void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
   {
     varyBy(LognormalCalibre(options), options, fibres);
   }
+  for (std::size_t f = 0; f < fibres.size() && options.calibre.sectionAxisRatio < 1.0; ++f)
+  {
+    fibres.columns.set(targetAxisRatioColumn.name, f, options.calibre.sectionAxisRatio);
+  }
 }
 
 void varyCalibreInDomain(const BundleInitializerOptions& options, Fibres& fibres)

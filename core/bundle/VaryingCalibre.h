@@ -15,7 +15,7 @@ namespace cactus
 /// deviation of a thin fibre is at most such that its axon's necks have a radius of 0.12 µm (0.22 µm in a
 /// bundle of 0.9, where neighbours squeeze them), which images of 0.1 µm resolve. The process depends on seed, fibre id and the
 /// length from the fibre's middle, so that a longer fibre has the same calibre where a shorter one is. Radii stay within
-/// limits::radius.
+/// limits::radius. Fibres get the TargetAxisRatio that is asked for.
 void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres);
 
 /// Does the same, and keeps the volume of all fibres in the domain by a common factor: few fibres may be thicker or thinner there

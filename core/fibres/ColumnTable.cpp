@@ -18,7 +18,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<ColumnFacts>& fibreColumns()
 {
-  static const std::vector<ColumnFacts> columns{ targetGRatioColumn };
+  static const std::vector<ColumnFacts> columns{ targetAxisRatioColumn, targetGRatioColumn };
   return columns;
 }
 

@@ -28,6 +28,10 @@ inline constexpr ColumnFacts targetGRatioColumn{ "TargetGRatio", "g-ratio that t
 /// The g-ratio of an axon without myelin. One surface bounds it: its outer surface and its inner one are the same, bit for bit.
 inline constexpr double bareGRatio = limits::gRatioOrBare.highest;
 
+/// Mean axis ratio that the sections of a fibre's axon are to have, see SectionShape.
+inline constexpr ColumnFacts targetAxisRatioColumn{ "TargetAxisRatio",
+  "minor over major axis that sections of the fibre's axon are to have; 1: growth alone shapes them", limits::sectionAxisRatio };
+
 /// Returns the columns that stages pass on from fibres to fibres, by name.
 const std::vector<ColumnFacts>& fibreColumns();
 

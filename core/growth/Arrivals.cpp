@@ -52,7 +52,7 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   relevance.secondReach = reach;
   relevance.contrast = options.gap();
   const CapsuleField field(
-    fibres, { options.surfaceRoughness, options.seed }, grid.box(), reach + options.gap() + grid.spacing, context.threadCount());
+    fibres, seedOptions(fibres, options), grid.box(), reach + options.gap() + grid.spacing, context.threadCount());
   const auto gap = static_cast<float>(options.gap());
   field.sweep(partOf(grid, sharing), relevance, sweeping, 0.3, 0.5, "finding the growth that reaches the target",
     [&](const FieldCell& cell, int thread)

@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Random.h"
+#include "growth/CubicSpline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ constexpr double linearLength = 1.0;
 
 } // namespace
 
-Calibre::Calibre(const CalibreOptions& options)
+Calibre::Calibre(const SeedOptions& options)
   : Options(options)
 {
   if (!(options.surfaceRoughness >= 0.0 && options.surfaceRoughness <= 0.5))
@@ -59,8 +60,7 @@ double FibreCalibre::narrowing(double length)
   const double knots = length / knotSpacing;
   const double whole = std::floor(knots);
   const double t = knots - whole;
-  const double weights[4] = { (1.0 - t) * (1.0 - t) * (1.0 - t) / 6.0, (4.0 + t * t * (3.0 * t - 6.0)) / 6.0,
-    (1.0 + 3.0 * t * (1.0 + t * (1.0 - t))) / 6.0, t * t * t / 6.0 };
+  const std::array<double, 4> weights = cubicSplineWeights(t);
   this->moveTo(whole);
   double sum = 0.0;
   for (std::size_t k = 0; k < 4; ++k)

@@ -8,13 +8,15 @@
 namespace cactus
 {
 
-/// Options of a fibre's calibre.
-struct CalibreOptions
+/// Options of a fibre's seed.
+struct SeedOptions
 {
   /// How far, as a fraction of the local radius, the seeded shape may fall short of the capsule: 0 seeds the capsule itself,
   /// larger values make the calibre uneven. In [0, 0.5].
   double surfaceRoughness = 0.0;
   std::uint64_t seed = 1;
+  /// Fraction of the domain that the fibres are grown to, see SectionShape; 0 if it is not known.
+  double grownFraction = 0.0;
 };
 
 /// A fibre's thickness along its axis: the radius of its seed, as a fraction of that of its capsules, at each length from its
@@ -28,7 +30,7 @@ class Calibre
 {
 public:
   /// Checks the options; throws InvalidInput if one is out of range.
-  explicit Calibre(const CalibreOptions& options);
+  explicit Calibre(const SeedOptions& options);
 
   /// Tells whether the fraction differs from 1 anywhere.
   bool varies() const { return this->Options.surfaceRoughness > 0.0; }
@@ -43,7 +45,7 @@ public:
 private:
   friend class FibreCalibre;
 
-  CalibreOptions Options;
+  SeedOptions Options;
 };
 
 /// The calibre of one fibre. It keeps the random numbers that nearby lengths share; this changes no bit.

@@ -77,8 +77,8 @@ bool comesNear(const Cone& cone, const VoxelGrid& grid, const std::array<int, 3>
 } // namespace
 
 CapsuleField::CapsuleField(
-  const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads)
-  : Seeds(fibres, Calibre(options), region, reach, threads)
+  const Fibres& fibres, const SeedOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads)
+  : Seeds(fibres, options, region, reach, threads)
   , Bins(this->Seeds.pieces, threads)
 {
 }
@@ -109,7 +109,7 @@ double CapsuleField::length(int rank, Eigen::Vector3d& middle) const
   {
     middle = moment / length;
   }
-  return length;
+  return length / this->Seeds.chainsOf(r);
 }
 
 std::vector<std::array<int, 3>> CapsuleField::blocksNear(int rank, const VoxelGrid& grid, double reach) const

@@ -36,6 +36,8 @@ class BlockEvaluation;
 /// capsule fibres") become a chain of capsules whose radius is that of the fibre's capsules times the calibre's fraction,
 /// linearly between places at most 1 µm apart. Hence capsule - ρ · radius <= s_i <= capsule for a SurfaceRoughness ρ.
 ///
+/// A fibre that has a TargetAxisRatio is seeded by two chains beside each other, see SectionShape.
+///
 /// Fibres are ranked by increasing fibre id.
 class CapsuleField
 {
@@ -44,7 +46,7 @@ public:
   /// Precondition: validate(fibres). Throws InvalidInput for options out of range and OutOfMemory if the seeds do not fit into
   /// memory. Threads share the work.
   CapsuleField(
-    const Fibres& fibres, const CalibreOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads = 1);
+    const Fibres& fibres, const SeedOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads = 1);
 
   std::size_t size() const { return this->Seeds.fibreOfRank.size(); }
   /// Returns the index into the given fibres, by rank.

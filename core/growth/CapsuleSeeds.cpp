@@ -8,6 +8,7 @@
 #include "fibres/SelectFibres.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -21,22 +22,39 @@ namespace
 /// Number of fibres that a thread takes at a time.
 constexpr std::size_t fibresAtOnce = 16;
 
-/// Returns the number of pieces of the segment from control point p to the next.
-int pieceCount(const Fibres& fibres, const Calibre& calibre, std::size_t p)
+/// How a fibre's capsules are cut into pieces.
+struct SegmentCut
 {
-  const double length = (fibres.points[p + 1] - fibres.points[p]).norm();
-  const double radius = std::max(fibres.radii[p], fibres.radii[p + 1]);
-  const double longest = std::min(4.0 * radius, calibre.longestPiece());
-  return int(std::min(std::max(1.0, std::ceil(length / longest)), calibre.varies() ? 1e6 : 256.0));
-}
+  SegmentCut(const Calibre& calibre, const SectionShape& shape)
+    : chains(chainsOf(shape))
+    , longest(shape.isRound() ? calibre.longestPiece() : std::min(calibre.longestPiece(), SectionTurn::longestPiece))
+  {
+  }
 
-/// Calls use(shift) for the images of a segment in reach of the region, see forEachImage().
+  /// Returns the number of parts of the segment from control point p to the next, of which each chain has a piece.
+  int parts(const Fibres& fibres, std::size_t p) const
+  {
+    const double length = (fibres.points[p + 1] - fibres.points[p]).norm();
+    const double radius = std::max(fibres.radii[p], fibres.radii[p + 1]);
+    const double most = std::isfinite(this->longest) ? 1e6 : 256.0;
+    return int(std::min(std::max(1.0, std::ceil(length / std::min(4.0 * radius, this->longest))), most));
+  }
+
+  static int chainsOf(const SectionShape& shape) { return shape.isRound() ? 1 : 2; }
+
+  int chains;
+  double longest; ///< µm
+};
+
+/// Calls use(shift) for the images of a segment in reach of the region, see forEachImage(). seedReach: the largest distance of a
+/// seed's surface from the centre line, as a fraction of the radius.
 template <typename Use>
-void forEachInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& region, double reach, Use&& use)
+void forEachInReach(
+  const Fibres& fibres, std::size_t p, const Eigen::AlignedBox3d& region, double reach, double seedReach, Use&& use)
 {
   Eigen::AlignedBox3d box(fibres.points[p]);
   box.extend(fibres.points[p + 1]);
-  const double grown = reach + std::max(fibres.radii[p], fibres.radii[p + 1]);
+  const double grown = reach + seedReach * std::max(fibres.radii[p], fibres.radii[p + 1]);
   const Eigen::Vector3d around = Eigen::Vector3d::Constant(std::max(grown, 0.0));
   forEachImage(fibres.domain, Eigen::AlignedBox3d(box.min() - around, box.max() + around), region,
     [&](const Eigen::Vector3d& shift)
@@ -48,33 +66,111 @@ void forEachInReach(const Fibres& fibres, std::size_t p, const Eigen::AlignedBox
     });
 }
 
-/// Cuts the image of the segment from control point p to the next, `start` along the fibre of that rank, into `parts` pieces;
-/// returns their end.
-SeedPiece* cutSegment(const Fibres& fibres, FibreCalibre& calibre, std::size_t p, const Eigen::Vector3d& shift, double start,
-  int parts, int rank, SeedPiece* piece)
+/// A segment of a fibre.
+struct Segment
 {
-  const Eigen::Vector3d p0 = fibres.points[p] + shift;
-  const Eigen::Vector3d along = fibres.points[p + 1] - fibres.points[p];
+  const Fibres& fibres;
+  std::size_t first; ///< control point
+  double start;      ///< µm along the fibre
+  int rank;          ///< of the fibre
+
+  Eigen::Vector3d along() const { return this->fibres.points[this->first + 1] - this->fibres.points[this->first]; }
+  double radius(double t) const
+  {
+    return this->fibres.radii[this->first] + t * (this->fibres.radii[this->first + 1] - this->fibres.radii[this->first]);
+  }
+  /// Where part `part` of `parts` ends.
+  static double endOf(int part, int parts) { return part + 1 == parts ? 1.0 : double(part + 1) / parts; }
+};
+
+/// Cuts the image of a segment into parts; returns the end of their pieces.
+SeedPiece* cutSegment(const Segment& segment, FibreCalibre& calibre, const Eigen::Vector3d& shift, int parts, SeedPiece* piece)
+{
+  const Eigen::Vector3d p0 = segment.fibres.points[segment.first] + shift;
+  const Eigen::Vector3d along = segment.along();
   const double length = along.norm();
-  const double r0 = fibres.radii[p];
-  const double widening = fibres.radii[p + 1] - r0;
-  const auto radius = [&](double t) { return (r0 + t * widening) * calibre.fraction(start + t * length); };
+  const auto radius = [&](double t) { return segment.radius(t) * calibre.fraction(segment.start + t * length); };
   for (int part = 0; part < parts; ++part)
   {
     const double t0 = double(part) / parts;
-    const double t1 = part + 1 == parts ? 1.0 : double(part + 1) / parts;
-    *piece++ = { coneBetween(p0 + t0 * along, p0 + t1 * along, radius(t0), radius(t1)), rank };
+    const double t1 = Segment::endOf(part, parts);
+    *piece++ = { coneBetween(p0 + t0 * along, p0 + t1 * along, radius(t0), radius(t1)), segment.rank };
   }
   return piece;
+}
+
+/// The ends of a piece on either side of the centre line.
+struct DiscPair
+{
+  Eigen::Vector3d centre; ///< on the centre line
+  Eigen::Vector3d offset; ///< µm, of one disc
+  double radius;
+};
+
+/// The same for a fibre whose sections are not round: two chains of pieces. tangents: at both ends of the segment.
+SeedPiece* cutInTwo(const Segment& segment, FibreCalibre& calibre, SectionTurn& turn,
+  const std::array<Eigen::Vector3d, 2>& tangents, const Eigen::Vector3d& shift, int parts, SeedPiece* piece)
+{
+  const Eigen::Vector3d p0 = segment.fibres.points[segment.first] + shift;
+  const Eigen::Vector3d along = segment.along();
+  const double length = along.norm();
+  const auto pairAt = [&](double t)
+  {
+    const double radius = segment.radius(t) * calibre.fraction(segment.start + t * length);
+    const Eigen::Vector3d tangent = (tangents[0] + t * (tangents[1] - tangents[0])).stableNormalized();
+    const Eigen::Vector3d offset = turn.offset(segment.start + t * length, tangent);
+    return DiscPair{ p0 + t * along, radius * offset, radius * SectionShape::discRadius(offset.norm()) };
+  };
+  DiscPair from = pairAt(0.0);
+  for (int part = 0; part < parts; ++part)
+  {
+    const DiscPair to = pairAt(Segment::endOf(part, parts));
+    *piece++ = { coneBetween(from.centre + from.offset, to.centre + to.offset, from.radius, to.radius), segment.rank };
+    *piece++ = { coneBetween(from.centre - from.offset, to.centre - to.offset, from.radius, to.radius), segment.rank };
+    from = to;
+  }
+  return piece;
+}
+
+/// Returns the unit vector along a fibre at each of its control points, halfway between those of the segments there.
+std::vector<Eigen::Vector3d> tangentsOf(const Fibres& fibres, std::size_t f)
+{
+  std::vector<Eigen::Vector3d> tangents(fibres.pointCount(f), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i + 1 < tangents.size(); ++i)
+  {
+    const std::size_t p = fibres.offsets[f] + i;
+    const Eigen::Vector3d way = (fibres.points[p + 1] - fibres.points[p]).normalized();
+    tangents[i] += way;
+    tangents[i + 1] += way;
+  }
+  for (Eigen::Vector3d& tangent : tangents)
+  {
+    tangent.normalize();
+  }
+  return tangents;
+}
+
+/// Returns the length (µm) along a fibre of each of its control points.
+std::vector<double> lengthsOf(const Fibres& fibres, std::size_t f)
+{
+  std::vector<double> lengths(fibres.pointCount(f), 0.0);
+  for (std::size_t i = 0; i + 1 < lengths.size(); ++i)
+  {
+    const std::size_t p = fibres.offsets[f] + i;
+    lengths[i + 1] = lengths[i] + (fibres.points[p + 1] - fibres.points[p]).norm();
+  }
+  return lengths;
 }
 
 } // namespace
 
 CapsuleSeeds::CapsuleSeeds(
-  const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach, int threads)
+  const Fibres& fibres, const SeedOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads)
   : fibreOfRank(orderById(fibres))
+  , shapes(sectionShapes(fibres, options.grownFraction))
   , pieceOffsets(fibreOfRank.size() + 1, 0)
 {
+  const Calibre calibre(options);
   if (calibre.varies() && fibres.domain.periodic[2])
   {
     throw InvalidInput("the Domain is periodic along z, where SurfaceRoughness would not come back to its values: leave it at 0; "
@@ -84,11 +180,12 @@ CapsuleSeeds::CapsuleSeeds(
     [&](std::size_t rank)
     {
       const std::size_t f = this->fibreOfRank[rank];
+      const SegmentCut cut(calibre, this->shapes[f]);
       std::size_t count = 0;
       for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
       {
-        forEachInReach(
-          fibres, p, region, reach, [&](const Eigen::Vector3d&) { count += std::size_t(pieceCount(fibres, calibre, p)); });
+        forEachInReach(fibres, p, region, reach, this->shapes[f].reach(),
+          [&](const Eigen::Vector3d&) { count += std::size_t(cut.chains * cut.parts(fibres, p)); });
       }
       this->pieceOffsets[rank + 1] = count;
     });
@@ -97,20 +194,38 @@ CapsuleSeeds::CapsuleSeeds(
     "seeding " + std::to_string(fibres.size()) + " fibres", "request a smaller extent, or use fewer fibres or control points");
   this->pieces.resize(this->pieceOffsets.back());
   parallelForInBlocks(this->fibreOfRank.size(), fibresAtOnce, threads,
-    [&](std::size_t rank)
-    {
-      const std::size_t f = this->fibreOfRank[rank];
-      FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
-      SeedPiece* piece = this->pieces.data() + this->pieceOffsets[rank];
-      double start = 0.0; // length of the fibre before the segment
-      for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
+    [&](std::size_t rank) { this->makePieces(fibres, calibre, options.seed, region, reach, rank); });
+}
+
+void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, std::uint64_t seed, const Eigen::AlignedBox3d& region,
+  double reach, std::size_t rank)
+{
+  const std::size_t f = this->fibreOfRank[rank];
+  const SectionShape& shape = this->shapes[f];
+  const SegmentCut cut(calibre, shape);
+  FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
+  const std::vector<double> lengths = lengthsOf(fibres, f);
+  const std::size_t repeat = fibres.domain.periodic[2] && !shape.isRound() ? periodOf(fibres, f).points : lengths.size();
+  SectionTurn turn(shape, seed, fibres.fibreIds[f], repeat < lengths.size() ? lengths[repeat] : 0.0);
+  const std::vector<Eigen::Vector3d> tangents = shape.isRound() ? std::vector<Eigen::Vector3d>() : tangentsOf(fibres, f);
+  SeedPiece* piece = this->pieces.data() + this->pieceOffsets[rank];
+  for (std::size_t i = 0; i + 1 < lengths.size(); ++i)
+  {
+    const std::size_t p = fibres.offsets[f] + i;
+    const Segment segment{ fibres, p, lengths[i % repeat], int(rank) };
+    forEachInReach(fibres, p, region, reach, shape.reach(),
+      [&](const Eigen::Vector3d& shift)
       {
-        forEachInReach(fibres, p, region, reach,
-          [&](const Eigen::Vector3d& shift)
-          { piece = cutSegment(fibres, ofFibre, p, shift, start, pieceCount(fibres, calibre, p), int(rank), piece); });
-        start += (fibres.points[p + 1] - fibres.points[p]).norm();
-      }
-    });
+        const int parts = cut.parts(fibres, p);
+        piece = shape.isRound() ? cutSegment(segment, ofFibre, shift, parts, piece)
+                                : cutInTwo(segment, ofFibre, turn, { { tangents[i], tangents[i + 1] } }, shift, parts, piece);
+      });
+  }
+}
+
+double CapsuleSeeds::chainsOf(std::size_t rank) const
+{
+  return SegmentCut::chainsOf(this->shapes[this->fibreOfRank[rank]]);
 }
 
 } // namespace cactus

@@ -4,10 +4,12 @@
 #include "fibres/Fibres.h"
 #include "growth/Calibre.h"
 #include "growth/Cone.h"
+#include "growth/SectionShape.h"
 
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace cactus
@@ -20,16 +22,25 @@ struct SeedPiece
   int rank; ///< rank of the fibre, see CapsuleSeeds
 };
 
-/// The seeds of growth: the fibres' capsules with their calibre, cut into pieces. Fibres are ranked by increasing fibre id.
+/// The seeds of growth: the fibres' capsules with their calibre, cut into pieces; of a fibre whose sections are not round, two
+/// chains of them side by side (see SectionShape). Fibres are ranked by increasing fibre id.
 struct CapsuleSeeds
 {
   /// Makes all pieces that come within `reach` of the region; segments farther away are left out. Throws OutOfMemory, and
   /// InvalidInput for a calibre that varies in a domain that is periodic along z.
-  CapsuleSeeds(const Fibres& fibres, const Calibre& calibre, const Eigen::AlignedBox3d& region, double reach, int threads);
+  CapsuleSeeds(const Fibres& fibres, const SeedOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads);
 
   std::vector<std::size_t> fibreOfRank;  ///< index into the given fibres
+  std::vector<SectionShape> shapes;      ///< by fibre, as given
   std::vector<std::size_t> pieceOffsets; ///< those of rank r are pieces[pieceOffsets[r]] … pieces[pieceOffsets[r + 1] − 1]
   std::vector<SeedPiece> pieces;
+
+  /// Returns the number of chains of pieces that a fibre has side by side.
+  double chainsOf(std::size_t rank) const;
+
+private:
+  void makePieces(const Fibres& fibres, const Calibre& calibre, std::uint64_t seed, const Eigen::AlignedBox3d& region,
+    double reach, std::size_t rank);
 };
 
 } // namespace cactus

@@ -5,6 +5,7 @@
 #include "fibres/PeriodicImages.h"
 #include "fibres/SegmentDistance.h"
 #include "growth/Calibre.h"
+#include "growth/SectionShape.h"
 #include "optimiser/NeighbourSearch.h"
 
 #include <algorithm>
@@ -24,23 +25,25 @@ FibrePair pairOf(const Crowding& crowding)
   return { crowding.thick, crowding.thin };
 }
 
-/// Returns, per capsule, by how much it may thicken.
-std::vector<float> reachesOf(const Capsules& capsules, const std::vector<double>& wished, double thickening)
+/// Returns, per capsule, by how much the fibre's seed may come to reach beyond it.
+std::vector<float> reachesOf(
+  const Capsules& capsules, const std::vector<SectionShape>& shapes, const std::vector<double>& wished, double thickening)
 {
   std::vector<float> reaches(capsules.size());
   for (std::size_t k = 0; k < capsules.size(); ++k)
   {
     const double radius = std::max(capsules.bodies[k].r0, capsules.bodies[k].r1);
-    reaches[k] = static_cast<float>(std::max(0.0, thickening * wished[capsules.fibre[k]] - 1.0) * radius);
+    const double farthest = shapes[capsules.fibre[k]].reach() * (thickening * wished[capsules.fibre[k]]);
+    reaches[k] = static_cast<float>(std::max(0.0, farthest - 1.0) * radius);
   }
   return reaches;
 }
 
 /// Finds the capsules that could come so near to each other that one of the two is severed.
-NeighbourList findNear(const Capsules& capsules, const std::vector<double>& wished, double thickening, int threads)
+NeighbourList findNear(const Capsules& capsules, const std::vector<float>& reaches, int threads)
 {
   NeighbourList neighbours;
-  findNeighbours(capsules, reachesOf(capsules, wished, thickening), threads, neighbours);
+  findNeighbours(capsules, reaches, threads, neighbours);
   return neighbours;
 }
 
@@ -69,19 +72,21 @@ std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowth
 {
   Capsules capsules = capsulesOf(fibres);
   const std::size_t inPlace = capsules.size();
+  const SeedOptions seeds = seedOptions(fibres, options);
+  const std::vector<SectionShape> shapes = sectionShapes(fibres, seeds.grownFraction);
   if (fibres.domain.isPeriodic())
   {
-    addImages(imagesWithin(fibres.domain, capsules, reachesOf(capsules, wished, bounds.thickening)), capsules);
+    addImages(imagesWithin(fibres.domain, capsules, reachesOf(capsules, shapes, wished, bounds.thickening)), capsules);
   }
-  const NeighbourList neighbours = findNear(capsules, wished, bounds.thickening, threads);
-  const double smallestFraction = Calibre({ options.surfaceRoughness, options.seed }).smallestFraction();
+  const NeighbourList neighbours = findNear(capsules, reachesOf(capsules, shapes, wished, bounds.thickening), threads);
+  const double smallestFraction = Calibre(seeds).smallestFraction();
   const auto end = [](const double* p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
   std::vector<Crowding> all;
   for (std::size_t k = 0; k < inPlace; ++k)
   {
     const Capsule& thin = capsules.bodies[k];
     const double thinnest = std::min(thin.r0, thin.r1);
-    const double core = smallestFraction * thinnest;
+    const double core = shapes[capsules.fibre[k]].core() * (smallestFraction * thinnest);
     const double kept = options.gap() + 0.25 * thinnest;
     for (std::size_t n = neighbours.offsets[k]; n < neighbours.offsets[k + 1]; ++n)
     {
@@ -92,7 +97,8 @@ std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowth
         continue;
       }
       const double distance = closestPoints(end(thin.p0), end(thin.p1), end(thick.p0), end(thick.p1)).distance;
-      const Crowding crowding = { capsules.fibre[other], capsules.fibre[k], std::max(thick.r0, thick.r1), distance - kept, core };
+      const double radius = shapes[capsules.fibre[other]].reach() * std::max(thick.r0, thick.r1);
+      const Crowding crowding = { capsules.fibre[other], capsules.fibre[k], radius, distance - kept, core };
       const double farthest = bounds.thickening * wished[crowding.thick] * crowding.radius;
       if (farthest > crowding.room + wished[crowding.thin] / bounds.thinning * core)
       {

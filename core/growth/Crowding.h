@@ -21,9 +21,9 @@ struct FactorBounds
 /// A thick fibre beside a thin one. With any factors on their radii, the thin one is in one piece if thick factor · radius <=
 /// room + thin factor · core.
 ///
-/// On the centre line of the thin fibre its own field is at least (1 - ρ) times its radius there, and that of the thick one at
-/// most its radius minus the distance of the centre lines. The condition requires the first to exceed the second by the gap plus
-/// half the initial radius, so that a depth of a quarter of it remains.
+/// On the centre line of the thin fibre its own field is at least (1 - ρ) c times its radius there, and that of the thick one at
+/// most its radius, times its reach, minus the distance of the centre lines (c and reach: see SectionShape). The condition
+/// requires the first to exceed the second by the gap plus half the initial radius, so that a depth of a quarter of it remains.
 struct Crowding
 {
   std::uint32_t thick;

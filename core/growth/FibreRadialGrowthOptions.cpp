@@ -45,7 +45,9 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
       .add("Margin", &Options::margin, limits::imageMargin,
         "Width in µm by which the image extends beyond the domain on every side, rounded up to whole voxels.")
       .add("Seed", &Options::seed, limits::seed,
-        "Seed of the random calibre that SurfaceRoughness gives the fibres. The same seed gives the same image.");
+        "Seed of the directions in which sections of fibres are elongated (SectionAxisRatio of bundles), and of the random "
+        "calibre "
+        "that SurfaceRoughness gives the fibres. The same seed gives the same image.");
   return list;
 }
 
@@ -91,6 +93,11 @@ double targetFraction(const Fibres& fibres, const FibreRadialGrowthOptions& opti
       "BundleInitializer to its share, or give TargetFibreVolumeFraction"));
   }
   return fibres.grownFraction;
+}
+
+SeedOptions seedOptions(const Fibres& fibres, const FibreRadialGrowthOptions& options)
+{
+  return { options.surfaceRoughness, options.seed, targetFraction(fibres, options) };
 }
 
 } // namespace cactus

@@ -3,6 +3,7 @@
 
 #include "base/Properties.h"
 #include "fibres/Fibres.h"
+#include "growth/Calibre.h"
 
 #include <cstdint>
 
@@ -47,5 +48,8 @@ FibreRadialGrowthOptions forFibres(const Fibres& fibres, const FibreRadialGrowth
 /// is not known what they were made for. Throws InvalidInput where it is more than the domain holds, as of bundles in one place
 /// that were all made to fill it.
 double targetFraction(const Fibres& fibres, const FibreRadialGrowthOptions& options);
+
+/// The options of the fibres' seeds. Throws as targetFraction() does.
+SeedOptions seedOptions(const Fibres& fibres, const FibreRadialGrowthOptions& options);
 
 } // namespace cactus

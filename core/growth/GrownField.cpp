@@ -39,7 +39,7 @@ GrownField::GrownField(
   , Growth(growth)
   , Band(std::max(bandInVoxels * Part.spacing, HalfGap))
   , Relevance(relevanceOf(growth, Band, HalfGap))
-  , Seeds(fibres, { options.surfaceRoughness, options.seed }, Part.box(), reachOf(fibres, Relevance, Part.spacing), threads)
+  , Seeds(fibres, seedOptions(fibres, options), Part.box(), reachOf(fibres, Relevance, Part.spacing), threads)
 {
   for (std::size_t rank = 0; rank < this->Seeds.size(); ++rank)
   {

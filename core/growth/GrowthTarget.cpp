@@ -42,11 +42,13 @@ SolvedGrowth growthFor(
     return { growthOfAll(arrivals), static_cast<double>(arrivals.reachable) / static_cast<double>(arrivals.samples) };
   }
   const auto thinnest = std::min_element(fibres.radii.begin(), fibres.radii.end());
-  if (growth <= -*thinnest * Calibre({ options.surfaceRoughness, options.seed }).smallestFraction())
+  const auto point = static_cast<std::size_t>(thinnest - fibres.radii.begin());
+  const auto next = std::upper_bound(fibres.offsets.begin(), fibres.offsets.end(), point);
+  const auto fibre = static_cast<std::size_t>(next - fibres.offsets.begin()) - 1;
+  const SeedOptions seeds = seedOptions(fibres, options);
+  const double core = sectionShapes(fibres, seeds.grownFraction)[fibre].core();
+  if (growth <= -*thinnest * Calibre(seeds).smallestFraction() * core)
   {
-    const auto point = static_cast<std::size_t>(thinnest - fibres.radii.begin());
-    const auto next = std::upper_bound(fibres.offsets.begin(), fibres.offsets.end(), point);
-    const auto fibre = static_cast<std::size_t>(next - fibres.offsets.begin()) - 1;
     throw Infeasible(text("TargetFibreVolumeFraction ", target, " needs all fibres shrunk by ", -growth,
       " µm, which severs fibre ", fibres.fibreIds[fibre], " of radius ", *thinnest,
       " µm: ask for more, choose a smaller SurfaceRoughness, or start from fewer fibres"));

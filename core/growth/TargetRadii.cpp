@@ -6,6 +6,7 @@
 #include "growth/Arrivals.h"
 #include "growth/CapsuleField.h"
 #include "growth/Crowding.h"
+#include "growth/SectionShape.h"
 #include "growth/VolumeInDomain.h"
 
 #include <algorithm>
@@ -74,8 +75,7 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   relevance.contrast = options.gap();
   const Eigen::AlignedBox3d domain(fibres.domain.lower, fibres.domain.upper);
   const double reach = growth + options.gap() + spacing;
-  const CapsuleField field(
-    fibres, { options.surfaceRoughness, options.seed }, domain, std::max(reach, 0.0), context.threadCount());
+  const CapsuleField field(fibres, seedOptions(fibres, options), domain, std::max(reach, 0.0), context.threadCount());
   Context sweeping = context;
   sweeping.threads = context.threadCount(); // fixed here, because it may change between calls
   std::vector<std::vector<std::uint64_t>> perThread(
@@ -185,11 +185,13 @@ std::vector<std::size_t> fromThinToThick(const Fibres& fibres)
 }
 
 /// Limits a fibre's factor to its bounds, and so that the thinner fibres beside it stay in one piece.
-double boundedFactor(std::size_t f, const std::vector<double>& factors, double wished, const std::vector<Crowding>& crowding)
+/// reach: of its seed, see SectionShape.
+double boundedFactor(
+  std::size_t f, const std::vector<double>& factors, double wished, double reach, const std::vector<Crowding>& crowding)
 {
   const double factor = std::min(std::max(factors[f], wished / factorBounds.thinning), wished * factorBounds.thickening);
-  // Capsules of the initial radii leave each other room.
-  return std::min(factor, std::max(largestFactor(crowding, f, factors), std::min(1.0, wished)));
+  // Capsules of the initial radii leave each other room, as do seeds within them.
+  return std::min(factor, std::max(largestFactor(crowding, f, factors), std::min(1.0, wished) / reach));
 }
 
 /// Thickens fibres that hold fewer samples than their share, and thins those that hold more.
@@ -253,6 +255,7 @@ std::vector<double> factorsForTargetRadii(
   fillTarget(fibres, target * fibres.domain.volume(), aim);
   const std::vector<double> wished = aim.factors;
   const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
+  const std::vector<SectionShape> shapes = sectionShapes(fibres, target);
   // Thin fibres first: the limit of a fibre depends on the thinner ones.
   const std::vector<std::size_t> order = fromThinToThick(fibres);
   const double samples = std::max(fewestSamples, samplesPerFibre * static_cast<double>(fibres.size()));
@@ -262,7 +265,7 @@ std::vector<double> factorsForTargetRadii(
   {
     for (const std::size_t f : order)
     {
-      aim.factors[f] = boundedFactor(f, aim.factors, wished[f], crowding);
+      aim.factors[f] = boundedFactor(f, aim.factors, wished[f], shapes[f].reach(), crowding);
     }
     if (round == rounds)
     {

@@ -201,6 +201,10 @@ private:
     {
       setProperty(options, "CalibreVariation", Json(0), true);
     }
+    if ((isBundle || filter == "TractFibres" || filter == "CurvedBundles") && lacks("SectionAxisRatio"))
+    {
+      setProperty(options, "SectionAxisRatio", Json(1), true);
+    }
     const Json& reached = memberOf(record, "reached");
     if (memberOf(reached, "IsResult") == Json(false))
     {

@@ -163,8 +163,6 @@ const PropertyList<FibreRadialGrowthStage>& FibreRadialGrowthStage::properties()
   using Stage = FibreRadialGrowthStage;
   static const auto list = PropertyList<Stage>()
                              .include(&Stage::options, FibreRadialGrowthOptions::properties())
-                             .at("Seed")
-                             .whereGiven("SurfaceRoughness")
                              .add("NumberOfThreads", &Stage::threads, limits::threads, threadsMeaning)
                              .use(PropertyUse::Run);
   return list;
@@ -348,8 +346,9 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .include(&Stage::growth, FibreRadialGrowthOptions::properties())
       .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // its Seed replaces the other one
       .at("Seed")
-      .means("Seed of the random calibre that SurfaceRoughness gives the fibres, of their g-ratios if GRatioModel is "
-             "Distributed, and of the sample if SampledFraction is below 1.")
+      .means("Seed of the directions in which sections of fibres are elongated (SectionAxisRatio of bundles), of the random "
+             "calibre that SurfaceRoughness gives the fibres, of their g-ratios if GRatioModel is Distributed, and of the sample "
+             "if SampledFraction is below 1.")
       .add("FolderName", &Stage::folderName, folderMeaning)
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)

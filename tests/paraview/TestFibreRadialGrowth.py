@@ -9,7 +9,8 @@ import random
 
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import BundleInitializer, Calculator, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, OutputPort, StrandReader
+from paraview.simple import (BundleInitializer, Calculator, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort, StrandReader,
+                             SubstrateCertificate, SubstrateStatistics)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
 
@@ -106,6 +107,22 @@ class FibreRadialGrowthTest(CactusTestCase):
         ratios = [math.sqrt((ids == fibre).sum() * 1e-3 / 10 / math.pi) / target[fibre] for fibre in whole]
         self.assertAlmostEqual(np.mean(ratios), 1.0, delta=0.03)
         self.assertLess(max(ratios) - min(ratios), 0.2)  # calibre varies over a few µm
+
+    def test_sections_of_axons_have_the_axis_ratio_asked_for(self):
+        """On final surfaces, which are certified, by some thirty axons; of a fibre that has none of its own growth alone shapes the sections."""
+        for border in ("Cut", "Periodic"):
+            bundle = BundleInitializer(Side=8, Border=border, MaximumRadius=1, FibreVolumeFraction=0.55, GrownFibreVolumeFraction=0.7, SectionAxisRatio=0.8)
+            fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
+            surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres))
+            given = {"Fibres": fibres, "Outer": OutputPort(surfaces, 0), "Inner": OutputPort(surfaces, 1)}
+            self.assertEqual(fetch(SubstrateCertificate(**given), 0).GetColumnByName("Certified").GetValue(0), 1)
+            reached = fetch(SubstrateStatistics(**given), 0)
+            self.assertAlmostEqual(reached.GetColumnByName("MeanInnerAxisRatio").GetValue(0), 0.8, delta=0.04)
+            self.assertAlmostEqual(reached.GetColumnByName("FVF").GetValue(0), 0.7, delta=0.003)
+            plain = Calculator(Input=fibres, AttributeType="Cell Data", ResultArrayName="TargetAxisRatio", Function="1")
+            round_ones = MyelinSurface(Input=FibreRadialGrowth(Input=plain))
+            table = fetch(SubstrateStatistics(Fibres=plain, Outer=OutputPort(round_ones, 0), Inner=OutputPort(round_ones, 1)), 0)
+            self.assertGreater(table.GetColumnByName("MeanInnerAxisRatio").GetValue(0), 0.9)
 
     def test_fibres_that_still_overlap_are_warned_of(self):
         optimizer = CapsuleOptimizer(Input=BundleInitializer(Border="Walls", Side=6, MeanDispersion=10, DispersionModel="Watson"), MaximumIterations=3)

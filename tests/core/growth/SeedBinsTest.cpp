@@ -41,7 +41,7 @@ Fibres wavyFibres(int count)
 
 CapsuleSeeds seedsOf(const Fibres& fibres, int threads)
 {
-  return { fibres, Calibre({ 0.2, 1 }), Eigen::AlignedBox3d(fibres.domain.lower, fibres.domain.upper), 1.0, threads };
+  return { fibres, SeedOptions{ 0.2, 1 }, Eigen::AlignedBox3d(fibres.domain.lower, fibres.domain.upper), 1.0, threads };
 }
 
 std::vector<std::uint32_t> foundNear(const SeedBins& bins, const Eigen::AlignedBox3d& box)
