@@ -36,7 +36,7 @@ class BlockEvaluation;
 /// capsule fibres") become a chain of capsules whose radius is that of the fibre's capsules times the calibre's fraction,
 /// linearly between places at most 1 µm apart. Hence capsule - ρ · radius <= s_i <= capsule for a SurfaceRoughness ρ.
 ///
-/// A fibre that has a TargetAxisRatio is seeded by two chains beside each other, see SectionShape.
+/// A fibre that has a TargetAxisRatio is seeded by three chains beside each other, see SectionShape.
 ///
 /// Fibres are ranked by increasing fibre id.
 class CapsuleField

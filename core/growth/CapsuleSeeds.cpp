@@ -40,7 +40,7 @@ struct SegmentCut
     return int(std::min(std::max(1.0, std::ceil(length / std::min(4.0 * radius, this->longest))), most));
   }
 
-  static int chainsOf(const SectionShape& shape) { return shape.isRound() ? 1 : 2; }
+  static int chainsOf(const SectionShape& shape) { return shape.isRound() ? 1 : 3; }
 
   int chains;
   double longest; ///< µm
@@ -99,33 +99,34 @@ SeedPiece* cutSegment(const Segment& segment, FibreCalibre& calibre, const Eigen
   return piece;
 }
 
-/// The ends of a piece on either side of the centre line.
-struct DiscPair
+/// The discs across a fibre where pieces end: one on the centre line, and one on either side.
+struct Discs
 {
   Eigen::Vector3d centre; ///< on the centre line
-  Eigen::Vector3d offset; ///< µm, of one disc
+  Eigen::Vector3d offset; ///< µm, of one on a side
   double radius;
 };
 
-/// The same for a fibre whose sections are not round: two chains of pieces. tangents: at both ends of the segment.
-SeedPiece* cutInTwo(const Segment& segment, FibreCalibre& calibre, SectionTurn& turn,
+/// The same for a fibre whose sections are not round: three chains of pieces. tangents: at both ends of the segment.
+SeedPiece* cutInThree(const Segment& segment, FibreCalibre& calibre, SectionTurn& turn,
   const std::array<Eigen::Vector3d, 2>& tangents, const Eigen::Vector3d& shift, int parts, SeedPiece* piece)
 {
   const Eigen::Vector3d p0 = segment.fibres.points[segment.first] + shift;
   const Eigen::Vector3d along = segment.along();
   const double length = along.norm();
-  const auto pairAt = [&](double t)
+  const auto discsAt = [&](double t)
   {
     const double radius = segment.radius(t) * calibre.fraction(segment.start + t * length);
     const Eigen::Vector3d tangent = (tangents[0] + t * (tangents[1] - tangents[0])).stableNormalized();
     const Eigen::Vector3d offset = turn.offset(segment.start + t * length, tangent);
-    return DiscPair{ p0 + t * along, radius * offset, radius * SectionShape::discRadius(offset.norm()) };
+    return Discs{ p0 + t * along, radius * offset, radius * SectionShape::discRadius(offset.norm()) };
   };
-  DiscPair from = pairAt(0.0);
+  Discs from = discsAt(0.0);
   for (int part = 0; part < parts; ++part)
   {
-    const DiscPair to = pairAt(Segment::endOf(part, parts));
+    const Discs to = discsAt(Segment::endOf(part, parts));
     *piece++ = { coneBetween(from.centre + from.offset, to.centre + to.offset, from.radius, to.radius), segment.rank };
+    *piece++ = { coneBetween(from.centre, to.centre, from.radius, to.radius), segment.rank };
     *piece++ = { coneBetween(from.centre - from.offset, to.centre - to.offset, from.radius, to.radius), segment.rank };
     from = to;
   }
@@ -218,7 +219,7 @@ void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, std:
       {
         const int parts = cut.parts(fibres, p);
         piece = shape.isRound() ? cutSegment(segment, ofFibre, shift, parts, piece)
-                                : cutInTwo(segment, ofFibre, turn, { { tangents[i], tangents[i + 1] } }, shift, parts, piece);
+                                : cutInThree(segment, ofFibre, turn, { { tangents[i], tangents[i + 1] } }, shift, parts, piece);
       });
   }
 }

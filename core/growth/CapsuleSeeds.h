@@ -22,7 +22,7 @@ struct SeedPiece
   int rank; ///< rank of the fibre, see CapsuleSeeds
 };
 
-/// The seeds of growth: the fibres' capsules with their calibre, cut into pieces; of a fibre whose sections are not round, two
+/// The seeds of growth: the fibres' capsules with their calibre, cut into pieces; of a fibre whose sections are not round, three
 /// chains of them side by side (see SectionShape). Fibres are ranked by increasing fibre id.
 struct CapsuleSeeds
 {

@@ -13,14 +13,13 @@
 namespace cactus
 {
 
-/// How elongated the sections of a fibre's seed are: the union of two equal discs on either side of the centre line, of the area
-/// of the capsule's section. The paper's seeds are random points within the capsules ("FRG description"), from which sections
-/// grow that are not round either.
+/// How elongated the sections of a fibre's seed are: the union of three equal discs, one on the centre line and one on either
+/// side of it, of the area of the capsule's section. The paper's seeds are random points within the capsules ("FRG description"),
+/// from which sections grow that are not round either.
 ///
-/// The discs overlap, and reach no farther from the centre line than `reach()` times the fibre's radius. At the centre line the
-/// seed field is at least `core()` times the radius, and it is larger by the distance from it on the way to each disc's centre.
-/// Hence a fibre that leads its neighbours by some distance at its centre line does so at all balls of its seed: it is in one
-/// piece, as one of a round seed is.
+/// The discs overlap, and reach no farther from the centre line than `reach()` times the fibre's radius. On the centre line the
+/// seed field is at least `core()` times the radius: the disc there alone keeps a fibre in one piece that leads its neighbours on
+/// its centre line.
 class SectionShape
 {
 public:
@@ -31,15 +30,17 @@ public:
   /// axis ratio. Neighbours flatten sections as they grow, so that less is needed at high fractions, and nothing where they
   /// flatten them enough. axisRatio: minor over major axis of the ellipse with the section's second moments, in [0.7, 1], NaN
   /// for round ones; grownFraction: 0 if it is not known.
-  SectionShape(double axisRatio, double gRatio, double grownFraction);
+  /// radius: TargetRadius (µm) of the fibre; thick fibres are rounder, as in tissue, and so do not crowd out thin ones beside
+  /// them.
+  SectionShape(double axisRatio, double gRatio, double grownFraction, double radius);
 
   bool isRound() const { return this->Elongation == 0.0; }
-  /// Returns the largest distance of a disc's centre from the centre line. This and all below are fractions of the fibre's
+  /// Returns the largest distance of an outer disc's centre from the centre line. This and all below are fractions of the fibre's
   /// radius.
   double elongation() const { return this->Elongation; }
   double reach() const { return discRadius(this->Elongation) + this->Elongation; }
-  double core() const { return discRadius(this->Elongation) - this->Elongation; }
-  /// Returns the radius of discs whose centres have this distance from the centre line.
+  double core() const { return discRadius(this->Elongation); }
+  /// Returns the radius of discs of which the outer ones have this distance from the centre line.
   static double discRadius(double offset);
 
 private:
@@ -48,9 +49,6 @@ private:
 
 /// Returns the shapes of all fibres: each has its TargetAxisRatio, if any, and the g-ratio of its TargetGRatio, or 0.7.
 std::vector<SectionShape> sectionShapes(const Fibres& fibres, double grownFraction);
-
-/// Returns the largest reach() of shapes; 1 without any.
-double largestReach(const std::vector<SectionShape>& shapes);
 
 /// The direction in which one fibre's sections are elongated, along the fibre: a smooth random function of the length, which
 /// depends only on seed, fibre id and length. Here and there it passes through a round section.
@@ -63,8 +61,8 @@ public:
   /// period: µm of length after which the fibre repeats, 0 if it does not.
   SectionTurn(const SectionShape& shape, std::uint64_t seed, int fibreId, double period);
 
-  /// Returns the place of one disc's centre relative to the centre line, as a fraction of the fibre's radius; the other one lies
-  /// opposite. length: µm, not negative; tangent: unit vector along the fibre.
+  /// Returns the place of one outer disc's centre relative to the centre line, as a fraction of the fibre's radius; the other one
+  /// lies opposite. length: µm, not negative; tangent: unit vector along the fibre.
   Eigen::Vector3d offset(double length, const Eigen::Vector3d& tangent);
 
 private:

@@ -137,3 +137,12 @@ TEST(ColumnTable, ValuesOutOfRangeAreNamed)
 }
 
 } // namespace
+
+TEST(ColumnTable, LowestValuesMayComeFromSinglePrecision)
+{
+  ColumnTable table;
+  table.set("TargetAxisRatio", 0, double(0.7f));
+  table.set("TargetAxisRatio", 1, 0.69);
+  EXPECT_NO_THROW(cactus::validateRow(table, 0, "fibre 1"));
+  EXPECT_THROW(cactus::validateRow(table, 1, "fibre 2"), cactus::InvalidInput);
+}
