@@ -78,12 +78,17 @@ cactus::VoxelGrid requestedGrid(
 }
 
 /// Adds field data for MyelinSurface, the certificate and the user.
-void addImageFacts(const cactus::Fibres& fibres, const cactus::FibreRadialGrowthOptions& options, double spacing, double growth,
-  vtkImageData* output)
+void addImageFacts(const cactus::Fibres& fibres, const cactus::FibreRadialGrowthOptions& options, double spacing,
+  const cactus::SolvedGrowth& growth, vtkImageData* output)
 {
   cactus::setDomain(output, fibres.domain);
   vtkFieldData* data = output->GetFieldData();
-  cactus::addNumber(data, "Growth", growth);
+  cactus::addNumber(data, "Growth", growth.growth);
+  if (const double target = cactus::targetFraction(fibres, options); target > 0.0)
+  {
+    // The target, or what could be reached of it.
+    cactus::addNumber(data, "FibreVolumeFraction", growth.fraction > 0.0 ? growth.fraction : target);
+  }
   cactus::addNumber(data, "MinimumGap", options.minimumGap);
   cactus::addNumber(data, "SurfaceTolerance", options.surfaceTolerance);
   cactus::addNumber(data, "VoxelSize", spacing);
@@ -191,7 +196,7 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       output->GetPointData()->AddArray(depth);
       output->GetPointData()->SetActiveScalars("Depth");
 
-      addImageFacts(fibres, options, grid.spacing, this->Growth->growth, output);
+      addImageFacts(fibres, options, grid.spacing, *this->Growth, output);
       cactus::setProvenance(output,
         cactus::recordOf(this, "FibreRadialGrowth", stage, { "Input" }, cactus::growthReached(grid.spacing, *this->Growth)), 0);
     });

@@ -16,6 +16,7 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QIcon>
 #include <QMainWindow>
 #include <QToolBar>
 
@@ -35,8 +36,9 @@ ChainButton::ChainButton(pqPVApplicationCore* core)
     return;
   }
   QToolBar* bar = window->addToolBar(menuCategory);
+  bar->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   bar->setObjectName("CactusToolBar"); // by which ParaView keeps its place
-  QAction* action = bar->addAction("CACTUS substrate");
+  QAction* action = bar->addAction(QIcon(":/cactus/Substrate.svg"), "CACTUS substrate");
   action->setObjectName("CactusSubstrate");
   action->setToolTip(
     "Sets up Bundle Initializer, Capsule Optimizer, Fibre Radial Growth and Myelin Surface, one behind the other. "

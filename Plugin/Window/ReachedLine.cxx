@@ -75,9 +75,13 @@ QString grown(pqPipelineSource* source)
 {
   vtkPVArrayInformation* fibres = arrayOf(source, 0, vtkDataObject::FIELD, "FibreTable.FibreId");
   const std::optional<double> growth = largest(source, 0, vtkDataObject::FIELD, "Growth");
-  return fibres == nullptr || !growth
-           ? QString()
-           : counted(fibres->GetNumberOfTuples(), "fibre", "fibres") + ", grown by " + number(*growth) + QString::fromUtf8(" µm");
+  if (fibres == nullptr || !growth)
+  {
+    return {};
+  }
+  const std::optional<double> fraction = largest(source, 0, vtkDataObject::FIELD, "FibreVolumeFraction");
+  return counted(fibres->GetNumberOfTuples(), "fibre", "fibres") + (fraction ? ", FVF " + number(*fraction) : QString()) +
+         ", grown by " + number(*growth) + QString::fromUtf8(" µm");
 }
 
 QString meshed(pqPipelineSource* source)

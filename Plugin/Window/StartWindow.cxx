@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BarUnits.h"
 #include "ChainButton.h"
+#include "CodeChoices.h"
 #include "ErrorColours.h"
 #include "FirstLook.h"
 #include "InheritedLook.h"
@@ -34,6 +35,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::StopButton(core);
         new cactus::ReachedLine(core);
         new cactus::ChainButton(core);
+        core->interfaceTracker()->addInterface(new cactus::CodeChoices(core));
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
         core->interfaceTracker()->addInterface(new cactus::WriteButtons(core));
       }

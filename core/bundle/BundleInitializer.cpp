@@ -290,8 +290,10 @@ Fibres initialiseLayers(const BundleInitializerOptions& options, const Context& 
     if (!best || std::abs(reached - asked) < std::abs(report.fibreVolumeFraction - asked))
     {
       double angles = 0.0;
+      report.layers = 0;
       for (const Bundle& bundle : bundles)
       {
+        report.layers += options.isLayered() ? bundle.bottom.frames.size() : 0;
         angles += orientationOf(bundle).meanAngle * static_cast<double>(bundle.bottom.size());
       }
       report.fibreVolumeFraction = reached;

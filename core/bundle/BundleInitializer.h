@@ -5,6 +5,8 @@
 #include "bundle/BundleInitializerOptions.h"
 #include "fibres/Fibres.h"
 
+#include <cstddef>
+
 namespace cactus
 {
 
@@ -14,6 +16,7 @@ struct BundleInitializerReport
   double fibreVolumeFraction = 0.0; ///< measured as for the option of that name
   double meanDispersion = 0.0;      ///< degrees, measured as for the option of that name, relative to the nominal axes
   double sinuosity = 0.0;           ///< of the fibres in the domain, with a stationary flow
+  std::size_t layers = 0;           ///< of two bundles that lie in layers
 };
 
 /// Makes one bundle along a direction, or two crossing in the x–z plane at ±crossingAngle/2 from +z: fibres, each with its

@@ -44,8 +44,8 @@ const PropertyList<CalibreVariation>& CalibreVariation::properties()
         "How far the sections of axons are from round: minor over major axis of the ellipse with the section's second moments, "
         "on average over the final inner surfaces. Axons of the corpus callosum have 0.76 (mouse) to 0.84 (monkey). Growth seeds "
         "the fibres so, in directions that turn at random along each of them. As they grow, neighbours flatten each other, by "
-        "themselves to 0.93 where fibres fill 0.7, 0.84 at 0.9, 0.81 at 0.95; a larger ratio cannot be had there. Fibres of "
-        "more than 0.7 µm are rounder. 1: growth alone shapes them.");
+        "themselves to 0.93 where fibres fill 0.7, 0.84 at 0.9, 0.81 at 0.95; a larger ratio cannot be had there, so the default "
+        "has an effect below 0.89 only. Fibres of more than 0.7 µm are rounder. 1: growth alone shapes them.");
   return list;
 }
 

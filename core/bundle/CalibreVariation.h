@@ -34,7 +34,7 @@ struct CalibreVariation
   double beadAmplitude = 0.6;
   BeadShape beads;
   /// Mean axis ratio of the axons' sections on final surfaces, in [0.7, 1]. 1: growth alone shapes them.
-  double sectionAxisRatio = 1.0;
+  double sectionAxisRatio = 0.85;
 
   static const PropertyList<CalibreVariation>& properties();
   /// Throws InvalidInput for beads that are too near to each other. Precondition: validateProperties().

@@ -109,4 +109,32 @@ double radiusDistance(const Fibres& a, const Fibres& b)
   return distance;
 }
 
+std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre)
+{
+  std::vector<double> lengths(fibres.pointCount(fibre), 0.0);
+  for (std::size_t i = 0; i + 1 < lengths.size(); ++i)
+  {
+    const std::size_t p = fibres.offsets[fibre] + i;
+    lengths[i + 1] = lengths[i] + (fibres.points[p + 1] - fibres.points[p]).norm();
+  }
+  return lengths;
+}
+
+std::vector<Eigen::Vector3d> unitTangents(const Fibres& fibres, std::size_t fibre)
+{
+  std::vector<Eigen::Vector3d> tangents(fibres.pointCount(fibre), Eigen::Vector3d::Zero());
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < tangents.size(); ++i)
+  {
+    const std::size_t p = fibres.offsets[fibre] + i;
+    const bool isLast = i + 1 == tangents.size();
+    const Eigen::Vector3d after =
+      isLast ? Eigen::Vector3d::Zero() : Eigen::Vector3d((fibres.points[p + 1] - fibres.points[p]).normalized());
+    const Eigen::Vector3d sum = before + after;
+    tangents[i] = sum.norm() < 1e-6 ? after : Eigen::Vector3d(sum.normalized());
+    before = after;
+  }
+  return tangents;
+}
+
 } // namespace cactus

@@ -3,6 +3,11 @@
 
 #include "fibres/Fibres.h"
 
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
 namespace cactus
 {
 
@@ -24,5 +29,12 @@ FibreShape measureShape(const Fibres& fibres);
 /// Kolmogorov–Smirnov distance between the radii of two sets of fibres: the largest difference of their distribution functions,
 /// each fibre counting once with the mean radius of its control points.
 double radiusDistance(const Fibres& a, const Fibres& b);
+
+/// Returns the length (µm) of a fibre's centre line up to each of its control points.
+std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre);
+
+/// Returns the unit vector along a fibre at each of its control points, halfway between those of the segments there; where the
+/// line turns back on itself, that of the next segment.
+std::vector<Eigen::Vector3d> unitTangents(const Fibres& fibres, std::size_t fibre);
 
 } // namespace cactus

@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Parallel.h"
+#include "fibres/FibreShape.h"
 #include "fibres/PeriodicImages.h"
 #include "fibres/SelectFibres.h"
 
@@ -133,36 +134,6 @@ SeedPiece* cutInThree(const Segment& segment, FibreCalibre& calibre, SectionTurn
   return piece;
 }
 
-/// Returns the unit vector along a fibre at each of its control points, halfway between those of the segments there.
-std::vector<Eigen::Vector3d> tangentsOf(const Fibres& fibres, std::size_t f)
-{
-  std::vector<Eigen::Vector3d> tangents(fibres.pointCount(f), Eigen::Vector3d::Zero());
-  for (std::size_t i = 0; i + 1 < tangents.size(); ++i)
-  {
-    const std::size_t p = fibres.offsets[f] + i;
-    const Eigen::Vector3d way = (fibres.points[p + 1] - fibres.points[p]).normalized();
-    tangents[i] += way;
-    tangents[i + 1] += way;
-  }
-  for (Eigen::Vector3d& tangent : tangents)
-  {
-    tangent.normalize();
-  }
-  return tangents;
-}
-
-/// Returns the length (µm) along a fibre of each of its control points.
-std::vector<double> lengthsOf(const Fibres& fibres, std::size_t f)
-{
-  std::vector<double> lengths(fibres.pointCount(f), 0.0);
-  for (std::size_t i = 0; i + 1 < lengths.size(); ++i)
-  {
-    const std::size_t p = fibres.offsets[f] + i;
-    lengths[i + 1] = lengths[i] + (fibres.points[p + 1] - fibres.points[p]).norm();
-  }
-  return lengths;
-}
-
 } // namespace
 
 CapsuleSeeds::CapsuleSeeds(
@@ -205,10 +176,10 @@ void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, std:
   const SectionShape& shape = this->shapes[f];
   const SegmentCut cut(calibre, shape);
   FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
-  const std::vector<double> lengths = lengthsOf(fibres, f);
+  const std::vector<double> lengths = arcLengths(fibres, f);
   const std::size_t repeat = fibres.domain.periodic[2] && !shape.isRound() ? periodOf(fibres, f).points : lengths.size();
   SectionTurn turn(shape, seed, fibres.fibreIds[f], repeat < lengths.size() ? lengths[repeat] : 0.0);
-  const std::vector<Eigen::Vector3d> tangents = shape.isRound() ? std::vector<Eigen::Vector3d>() : tangentsOf(fibres, f);
+  const std::vector<Eigen::Vector3d> tangents = shape.isRound() ? std::vector<Eigen::Vector3d>() : unitTangents(fibres, f);
   SeedPiece* piece = this->pieces.data() + this->pieceOffsets[rank];
   for (std::size_t i = 0; i + 1 < lengths.size(); ++i)
   {

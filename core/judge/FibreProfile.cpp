@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "fibres/FibreShape.h"
 #include "growth/VolumeInDomain.h"
 #include "mesh/CrossSection.h"
 #include "mesh/SurfaceWall.h"
@@ -30,17 +31,6 @@ Eigen::Vector3d positionAt(const Fibres& fibres, std::size_t fibre, const std::v
   const double weight = std::clamp((s - arc[segment]) / (arc[segment + 1] - arc[segment]), 0.0, 1.0);
   const std::size_t first = fibres.offsets[fibre] + segment;
   return (1.0 - weight) * fibres.points[first] + weight * fibres.points[first + 1];
-}
-
-/// Returns the length (µm) of a centre line up to each of its points.
-std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre)
-{
-  std::vector<double> arc{ 0.0 };
-  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
-  {
-    arc.push_back(arc.back() + (fibres.points[i + 1] - fibres.points[i]).norm());
-  }
-  return arc;
 }
 
 } // namespace

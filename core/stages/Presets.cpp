@@ -92,13 +92,15 @@ Preset publishedRadii(PublishedRadii which)
   const auto rounded = [](double value) { return std::round(100.0 * value) / 100.0; };
   // Of the very axons of the mouse; where nothing is known, the default's, which is that of human axons (docs/presets.md).
   const double variation = isRelation ? 0.285 : CalibreVariation().deviation;
+  const double axisRatio = isRelation ? 0.755 : CalibreVariation().sectionAxisRatio;
   return { histogram.name,
     text("One bundle with axons of ", rounded(histogram.meanRadius()), " ± ", rounded(histogram.deviation()),
       " µm inner radius, as published"),
     histogram.source,
     { { bundle, "RadiusDistribution", static_cast<std::int64_t>(RadiusModel::Histogram) },
       { bundle, "RadiusHistogram", static_cast<std::int64_t>(which) }, { bundle, "RadiusHistogramGRatio", gRatio },
-      { bundle, "CalibreVariation", variation }, { bundle, "MaximumRadius", std::ceil(10.0 * largest) / 10.0 },
+      { bundle, "CalibreVariation", variation }, { bundle, "SectionAxisRatio", axisRatio },
+      { bundle, "MaximumRadius", std::ceil(10.0 * largest) / 10.0 },
       { myelin, "GRatioModel", static_cast<std::int64_t>(isRelation ? GRatioModel::LogLinear : GRatioModel::Constant) } } };
 }
 

@@ -240,6 +240,13 @@ std::string remarksOnBundle(const BundleInitializerOptions& options, const Bundl
       " was asked for: fibres of so large a MeanDispersion that run alike with neighbours over so short a CorrelationLength wind "
       "more. Lower MeanDispersion, or enlarge CorrelationLength or Sinuosity");
   }
+  constexpr std::size_t fewLayers = 3;
+  if (options.isLayered() && options.crossingStyle == CrossingStyle::Interwoven && report.layers <= fewLayers)
+  {
+    told += text(told.empty() ? "" : "; ", "the bundles lie in ", report.layers,
+      " layers, which is too few to be interwoven: a fibre as thick as these takes much of so low a domain. Enlarge Side, lower "
+      "MaximumRadius, or use Mixing Interpenetrating");
+  }
   constexpr double littleGrowth = 0.85; // of what growth fills
   const bool growsMuch = options.fibreVolumeFraction < littleGrowth * options.grownFibreVolumeFraction;
   if (options.unmyelinated.any() && (options.calibre.varies() || growsMuch))

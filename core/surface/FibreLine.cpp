@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/FibreLine.h"
 
+#include "fibres/FibreShape.h"
 #include "fibres/PeriodicImages.h"
 
 #include <algorithm>
@@ -26,23 +27,9 @@ FibreLine::FibreLine(const Fibres& fibres, std::size_t fibre)
   : Box(fibres.domain)
   , Points(fibres.points.begin() + std::ptrdiff_t(fibres.offsets[fibre]),
       fibres.points.begin() + std::ptrdiff_t(fibres.offsets[fibre + 1]))
-  , Tangents(Points.size(), Eigen::Vector3d::Zero())
-  , Along(Points.size(), 0.0)
+  , Tangents(unitTangents(fibres, fibre))
+  , Along(arcLengths(fibres, fibre))
 {
-  for (std::size_t i = 0; i + 1 < this->Points.size(); ++i)
-  {
-    const Eigen::Vector3d way = this->Points[i + 1] - this->Points[i];
-    this->Along[i + 1] = this->Along[i] + way.norm();
-    this->Tangents[i] += way.normalized();
-    this->Tangents[i + 1] += way.normalized();
-  }
-  for (std::size_t i = 0; i < this->Points.size(); ++i)
-  {
-    // Where a line turns back on itself, the plane is across the way to the next point.
-    const std::size_t next = std::min(i + 1, this->Points.size() - 1);
-    const bool isTurn = this->Tangents[i].norm() < 1e-6;
-    this->Tangents[i] = (isTurn ? Eigen::Vector3d(this->Points[next] - this->Points[next - 1]) : this->Tangents[i]).normalized();
-  }
   if (fibres.domain.periodic[2])
   {
     this->Period = this->Along[periodOf(fibres, fibre).points];

@@ -95,6 +95,11 @@ class BundleInitializerTest(CactusTestCase):
                 self.assertGreater(smallest_gap(first[own], radii[own]), -1e-9)
                 self.assertGreater(smallest_gap(last[own], radii[own]), -1e-9)
 
+    def test_too_few_layers_to_be_interwoven_are_told(self):
+        with self.assertError(r"the bundles lie in [23] layers, which is too few to be interwoven"):
+            fetch(BundleInitializer(Side=8, NumberOfBundles=2, Border="Walls"))
+        fetch(BundleInitializer(Side=16, NumberOfBundles=2, Border="Walls"))
+
     def test_radii(self):
         table = fetch(drawn_radii(Side=12, RadiusDistribution="Table", RadiusTable="0.4, 0.5 0.75", FibreVolumeFraction=0.5))
         self.assertEqual(sorted(set(ends(table)[2])), [0.4, 0.5, 0.75])

@@ -133,7 +133,7 @@ class ChainTest(CactusTestCase):
         self.assertEqual(certificate["Certified"], 1)
         self.assertLess(certificate["LargestAspect"], largest_aspect)
         self.assertLess(certificate["LargestSquaredEdgeRatio"], 1000)
-        self.assertGreater(certificate["SmallestFeature_um"], 0.001)
+        self.assertGreater(certificate["SmallestFeature_um"], 0.0005)
 
         # Guarantee 3: fractions of the meshes, measured here once more.
         volume = side**2 * (bundle.get("Length") or side)

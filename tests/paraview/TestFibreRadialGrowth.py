@@ -77,6 +77,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         self.assertAlmostEqual(table[2].GetValue(0), 0.6)
         for name, value in (("Growth", 0.2), ("MinimumGap", 0.02), ("SurfaceTolerance", 0.0075), ("VoxelSize", 0.1)):
             self.assertAlmostEqual(field.GetArray(name).GetValue(0), value)
+        self.assertIsNone(field.GetArray("FibreVolumeFraction"))  # no target
         self.assertEqual([field.GetArray("Domain").GetValue(i) for i in range(6)], [-3, 3, -3, 3, -3, 3])
         stages = field.GetAbstractArray("Provenance")
         self.assertEqual(stages.GetNumberOfValues(), 2)
@@ -86,6 +87,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, TargetFibreVolumeFraction=0.8)
         ids, _ = arrays(fetch(growth))
         self.assertAlmostEqual((ids > 0).mean(), 0.8, delta=0.003)
+        self.assertEqual(fetch(growth).GetFieldData().GetArray("FibreVolumeFraction").GetValue(0), 0.8)
         growth.Margin = 0.3
         image = fetch(growth)
         self.assertEqual(image.GetExtent(), (0, 65, 0, 65, 0, 65))
@@ -213,6 +215,7 @@ class FibreRadialGrowthTest(CactusTestCase):
         image = fetch(growth)
         reached = json.loads(image.GetFieldData().GetAbstractArray("Provenance").GetValue(1))["reached"]
         self.assertAlmostEqual(reached["FibreVolumeFraction"], (arrays(image)[0] > 0).mean(), places=2)
+        self.assertEqual(image.GetFieldData().GetArray("FibreVolumeFraction").GetValue(0), reached["FibreVolumeFraction"])
 
     def test_an_image_beyond_memory(self):
         growth = FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.001)

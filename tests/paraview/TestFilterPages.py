@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# ctest-extended
 # ctest-timeout: 200
 """What the XML says of outputs, from which pages and help are made, is what comes out: every array, and no other, but for the field data of earlier
 stages, which go along."""

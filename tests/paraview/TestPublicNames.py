@@ -27,7 +27,7 @@ NAMES = {
         "BeadSpacing": 5.1,
         "BeadSpacingDeviation": 2.3,
         "BeadLength": 2,
-        "SectionAxisRatio": 1,
+        "SectionAxisRatio": 0.85,
         "UnmyelinatedFraction": 0,
         "UnmyelinatedRadius": 0.12,
         "UnmyelinatedRadiusDeviation": 0.05,

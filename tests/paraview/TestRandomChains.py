@@ -105,6 +105,7 @@ def parameters(seed, index):
         bundle["CorrelationLength"] = bundle["CorrelationLength"] or 8
         if place.seldom(0.2, True, False):
             bundle.update(DispersionModel="Harmonics", NumberOfBundles=1, OrientationHarmonics=f"1 0 0 {place.uniform(-0.5, 2)} 0 0")
+    bundle["SectionAxisRatio"] = place.seldom(0.4, 1.0, place.uniform(0.7, 1))
     adagrad = draw.seldom(0.15, True, False)
     optimiser = {
         "MaximumIterations": draw.seldom(0.25, draw.whole(0, 300), 1500),

@@ -24,7 +24,7 @@ class WholeSubstrate(CactusTestCase):
 
     def setUp(self):
         super().setUp()
-        self.fibres = simple.BundleInitializer(Border="Walls", Side=5, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6)
+        self.fibres = simple.BundleInitializer(Border="Walls", Side=5, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6, SectionAxisRatio=1)
         grown = simple.FibreRadialGrowth(Input=self.fibres, VoxelSize=0.2)
         surfaces = simple.MyelinSurface(Input=grown)
         self.outer, self.inner = simple.OutputPort(surfaces, 0), simple.OutputPort(surfaces, 1)

@@ -67,3 +67,36 @@ TEST(FibreShape, ComparesRadii)
   EXPECT_EQ(cactus::radiusDistance(four, bundle({ 2.0, 3.0 })), 1.0);
   EXPECT_EQ(cactus::radiusDistance(four, bundle({ 0.5, 0.7, 0.9, 1.1 })), 0.25);
 }
+
+// Lengths along an arc, and tangents halfway between its chords; where a line turns back on itself, along the way that follows.
+TEST(FibreShape, LengthsAndTangentsAlongAFibre)
+{
+  using cactus::pi;
+  cactus::Fibres fibres;
+  fibres.addFibre(1, 1, 0.5);
+  fibres.addPoint({ 0.0, 0.0, 0.0 }, 0.5);
+  fibres.addPoint({ 0.0, 0.0, 3.0 }, 0.5);
+  fibres.addPoint({ 0.0, 0.0, 1.0 }, 0.5);
+  fibres.addFibre(2, 1, 0.5);
+  for (int i = 0; i <= 18; ++i)
+  {
+    const double angle = pi / 36.0 * i;
+    fibres.addPoint({ 6.0 * std::cos(angle), 6.0 * std::sin(angle), 1.0 }, 0.5);
+  }
+  EXPECT_EQ(cactus::arcLengths(fibres, 0), (std::vector<double>{ 0.0, 3.0, 5.0 }));
+  const std::vector<Eigen::Vector3d> fold = cactus::unitTangents(fibres, 0);
+  EXPECT_EQ(fold[0], Eigen::Vector3d(0.0, 0.0, 1.0));
+  EXPECT_EQ(fold[1], Eigen::Vector3d(0.0, 0.0, -1.0));
+  EXPECT_EQ(fold[2], Eigen::Vector3d(0.0, 0.0, -1.0));
+
+  const std::vector<double> lengths = cactus::arcLengths(fibres, 1);
+  const std::vector<Eigen::Vector3d> tangents = cactus::unitTangents(fibres, 1);
+  ASSERT_EQ(lengths.size(), 19U);
+  ASSERT_EQ(tangents.size(), 19U);
+  for (int i = 1; i < 18; ++i)
+  {
+    const double angle = pi / 36.0 * i;
+    EXPECT_NEAR(lengths[std::size_t(i)], i * 12.0 * std::sin(pi / 72.0), 1e-9);
+    EXPECT_LT((tangents[std::size_t(i)] - Eigen::Vector3d(-std::sin(angle), std::cos(angle), 0.0)).norm(), 1e-9);
+  }
+}

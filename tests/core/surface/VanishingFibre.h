@@ -23,6 +23,7 @@ inline cactus::Fibres fibresOfWhichOneGoes()
   bundle.spacing.factor = 2.77719;
   bundle.spacing.minimum = 0.23601;
   bundle.spacing.maximum = 0.7139;
+  bundle.calibre.sectionAxisRatio = 1.0;
   bundle.meanDispersion = 0.0;
   return trimToDomain(initialiseBundles(bundle));
 }
