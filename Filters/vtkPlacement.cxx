@@ -10,6 +10,7 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Numbers.h"
+#include "stages/StageWork.h"
 #include "stages/Stages.h"
 
 #include <vtkCompositeDataIterator.h>
@@ -105,6 +106,34 @@ void copyEach(vtkDataObject* input, vtkDataObject* output, Visit&& visit)
   }
 }
 
+/// Appends all records of the origin of some data.
+void appendRecords(const cactus::DataOrigin& origin, cactus::Provenance& records)
+{
+  records.insert(records.end(), origin.records.begin(), origin.records.end());
+  for (const cactus::DataOrigin& part : origin.parts)
+  {
+    appendRecords(part, records);
+  }
+}
+
+/// Returns the placement that the options ask for, of the data at the input.
+cactus::Placement placementFor(vtkAlgorithm* self, const cactus::PlacementOptions& options)
+{
+  if (options.by == cactus::PlacementBy::Position)
+  {
+    return options.placement();
+  }
+  cactus::Provenance records;
+  for (const auto& input : cactus::originsOf(self, { "Input" }))
+  {
+    for (const cactus::DataOrigin& origin : input.second)
+    {
+      appendRecords(origin, records);
+    }
+  }
+  return cactus::placementOnTract(records);
+}
+
 } // namespace
 
 vtkPlacement::vtkPlacement()
@@ -146,6 +175,11 @@ int vtkPlacement::RequestInformation(vtkInformation*, vtkInformationVector** inp
   cactus::quietly(
     [&]
     {
+      const auto& options = cactus::stageOf<cactus::PlacementStage>(this->Properties).options;
+      if (options.by == cactus::PlacementBy::Tract)
+      {
+        cactus::updateWholeInputs(this, inputs); // which say on which tract they lie
+      }
       vtkNew<vtkImageData> grid;
       grid->SetOrigin(info->Get(vtkDataObject::ORIGIN()));
       grid->SetSpacing(info->Get(vtkDataObject::SPACING()));
@@ -153,7 +187,7 @@ int vtkPlacement::RequestInformation(vtkInformation*, vtkInformationVector** inp
       {
         grid->SetDirectionMatrix(info->Get(vtkDataObject::DIRECTION()));
       }
-      cactus::place(grid, cactus::stageOf<cactus::PlacementStage>(this->Properties).options.placement());
+      cactus::place(grid, placementFor(this, options));
       vtkInformation* placed = outputs->GetInformationObject(0);
       placed->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
       placed->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
@@ -168,8 +202,6 @@ int vtkPlacement::RequestData(vtkInformation* request, vtkInformationVector** in
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::PlacementStage>(this->Properties);
-      const cactus::Placement placement = stage.options.placement();
-      const auto record = cactus::recordOf(this, "Placement", stage, { "Input" });
       vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
       if (canBePlaced(input) && isEmpty(input))
       {
@@ -179,6 +211,8 @@ int vtkPlacement::RequestData(vtkInformation* request, vtkInformationVector** in
         }
         throw cactus::InvalidInput("the input is empty: there is nothing to place");
       }
+      const cactus::Placement placement = placementFor(this, stage.options);
+      const auto record = cactus::recordOf(this, "Placement", stage, { "Input" });
       copyEach(input, vtkDataObject::GetData(outputs),
         [&](vtkDataObject* copy)
         {

@@ -26,6 +26,7 @@ public:
   vtkTypeMacro(vtkPlacement, vtkPassInputTypeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  CACTUS_WHOLE_PROPERTY(Place)
   CACTUS_NUMBER_PROPERTY(PositionX)
   CACTUS_NUMBER_PROPERTY(PositionY)
   CACTUS_NUMBER_PROPERTY(PositionZ)

@@ -77,20 +77,30 @@ const PropertyList<PlacementOptions>& PlacementOptions::properties()
   using Options = PlacementOptions;
   static const auto list =
     PropertyList<Options>()
+      .add("Place", &Options::by, { "By position", "On its tract" },
+        "Where the substrate goes: to a position that is given here, or to the place on the tract that TractFibres has laid its "
+        "fibres along, as large as that tract is.")
       .add("PositionX", &Options::positionX, placedPosition,
         "Position of the substrate's origin (the middle of its domain) along x, in mm.")
+      .where("Place", { 0 })
       .add("PositionY", &Options::positionY, placedPosition,
         "Position of the substrate's origin (the middle of its domain) along y, in mm.")
+      .where("Place", { 0 })
       .add("PositionZ", &Options::positionZ, placedPosition,
         "Position of the substrate's origin (the middle of its domain) along z, in mm.")
+      .where("Place", { 0 })
       .add("RotationX", &Options::rotationX, rotation,
         "Rotation in degrees about x. It follows that about y, as in ParaView's own Transform.")
+      .where("Place", { 0 })
       .add("RotationY", &Options::rotationY, rotation,
         "Rotation in degrees about y. It comes first, as in ParaView's own Transform.")
+      .where("Place", { 0 })
       .add(
         "RotationZ", &Options::rotationZ, rotation, "Rotation in degrees about z. It comes last, as in ParaView's own Transform.")
+      .where("Place", { 0 })
       .add("ScaleFactor", &Options::scaleFactor, placedScale,
-        "Length in the image's space over the same length in the substrate. 1: true size; 1000 shows 1 µm as 1 mm.");
+        "Length in the image's space over the same length in the substrate. 1: true size; 1000 shows 1 µm as 1 mm.")
+      .where("Place", { 0 });
   return list;
 }
 

@@ -32,9 +32,17 @@ struct Placement
   static Placement of(const std::array<double, 16>& matrix);
 };
 
+/// How users say where a substrate lies.
+enum class PlacementBy
+{
+  Position,
+  Tract ///< where it lies on the tract of its TractFibres
+};
+
 /// A placement as users give it: rotated about y, then x, then z, as ParaView's Transform does, then moved.
 struct PlacementOptions
 {
+  PlacementBy by = PlacementBy::Position;
   double positionX = 0.0; ///< mm
   double positionY = 0.0;
   double positionZ = 0.0;
@@ -44,7 +52,7 @@ struct PlacementOptions
   double scaleFactor = 1.0; ///< length in the image's space over length in the substrate
 
   static const PropertyList<PlacementOptions>& properties();
-  /// Throws InvalidInput for options out of range.
+  /// Returns the placement by position, rotation and scale. Throws InvalidInput for options out of range.
   Placement placement() const;
 };
 

@@ -26,6 +26,11 @@ namespace
 constexpr double leastBend = 1.1;
 /// Least number of packed circles for the density to be accurate.
 constexpr double fewestCircles = 64.0;
+/// How near to its fraction a bundle that covers the domain has to come, in so many attempts, with this density of circles at
+/// most.
+constexpr double tolerance = 0.01;
+constexpr int mostRounds = 8;
+constexpr double densest = 0.95;
 
 /// Sizes (µm) that follow from the options.
 struct TractSizes
@@ -104,9 +109,10 @@ struct PlacedCircle
 /// Returns packed circles around the origin whose area comes as near as whole circles allow to the requested fraction of a disc
 /// plus `owed`, which receives the missing area (µm²).
 std::vector<PlacedCircle> circlesWithin(
-  double radius, const TractSizes& sizes, std::size_t path, double& owed, const Context& context)
+  double radius, const TractSizes& sizes, double density, std::size_t path, double& owed, const Context& context)
 {
   BundleInitializerOptions square = sizes.straight;
+  square.fibreVolumeFraction = density;
   const double needed = std::sqrt(fewestCircles * meanCircleArea(square.radius) / square.fibreVolumeFraction);
   square.side = std::max({ 2.0 * (radius + square.radius.maximum), 4.0 * square.radius.maximum, needed });
   square.margin = 0.0;
@@ -162,13 +168,14 @@ void addBundle(const TractPath& path, const std::vector<PlacedCircle>& circles, 
 }
 
 /// Sets the fraction that growth is to fill, in proportion to the fibres' fraction of the domain.
-void setGrownFraction(const TractFibresOptions& options, double thinning, double reached, Fibres& fibres)
+void setGrownFraction(const TractFibresOptions& options, double thinning, double reached, bool isOne, Fibres& fibres)
 {
   const double grown = reached / (thinning * thinning);
   if (grown > limits::fraction.highest)
   {
-    throw Infeasible(text("the fibres would fill ", grown,
-      " of the domain, as the bundles of its streamlines overlap: choose a smaller BundleDiameter or NumberOfStreamlines"));
+    throw Infeasible(text("the fibres would fill ", grown, " of the domain: ",
+      isOne ? "enlarge Side, lower MaximumRadius, or try another Seed"
+            : "the bundles of its streamlines overlap, so choose a smaller BundleDiameter or NumberOfStreamlines"));
   }
   fibres.grownFraction = options.grownFibreVolumeFraction > 0.0 ? grown : 0.0;
 }
@@ -178,6 +185,46 @@ int endsWithin(const TractStretch& stretch, const Domain& domain)
 {
   return static_cast<int>(
     std::count_if(stretch.ends.begin(), stretch.ends.end(), [&](const Eigen::Vector3d& end) { return domain.depth(end) > 0.0; }));
+}
+
+/// Lays the fibres around all chosen streamlines: bundles of a radius (µm), whose circles have a density.
+Fibres layBundles(const Streamlines& streamlines, const StreamlineChoice& choice, const ChosenStretches& chosen,
+  const TractFibresOptions& options, const TractSizes& sizes, double radius, double density, const Context& context,
+  TractFibresReport& reached)
+{
+  const bool coversDomain = chosen.places.size() == 1 && options.bundleDiameter == 0.0;
+  Fibres fibres;
+  fibres.domain = Domain::cube(options.side);
+  reached.streamlines = chosen.places.size();
+  reached.bundleDiameter = 2.0 * radius;
+  reached.middle = choice.middle;
+  double owed = 0.0;
+  const double far = 1.5 * (sizes.reach + radius);
+  for (std::size_t p = 0; p < chosen.places.size(); ++p)
+  {
+    context.checkpoint();
+    const StreamlinePlace& place = chosen.places[p];
+    TractStretch stretch = stretchAround(streamlines, place, choice.middle, options.scale(), far, radius / 16.0);
+    const double smoothing = roundOff(stretch, leastBend * radius);
+    if (coversDomain && smoothing > 0.0)
+    {
+      bringToOrigin(stretch, far);
+    }
+    reached.smoothing = std::max(reached.smoothing, smoothing);
+    reached.ends += endsWithin(stretch, fibres.domain);
+    const TractPath path = pathThrough(stretch, sizes.reach, radius);
+    const int bundleId = streamlines.bundleIds.empty() ? static_cast<int>(p) + 1 : streamlines.bundleIds[place.streamline];
+    const double share = 1.0 / static_cast<double>(chosen.places.size());
+    const Context part = context.part(static_cast<double>(p) * share, static_cast<double>(p + 1) * share);
+    addBundle(path, circlesWithin(radius, sizes, density, p, owed, part), bundleId, options, sizes.thinning, fibres);
+  }
+  if (fibres.size() == 0)
+  {
+    throw Infeasible("no fibre comes into the domain: enlarge BundleDiameter, FibreVolumeFraction or Side");
+  }
+  varyCalibre(sizes.straight, fibres);
+  reached.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
+  return fibres;
 }
 
 } // namespace
@@ -199,39 +246,44 @@ Fibres layTractFibres(
   }
   requireMemoryForTract(options, sizes, radius);
 
-  TractFibresReport reached;
-  reached.streamlines = chosen.places.size();
-  reached.bundleDiameter = 2.0 * radius;
-  reached.middle = choice.middle;
+  // The domain is a small piece of a bundle that covers it, and may hold more or less of it by chance.
+  const double asked = options.fibreVolumeFraction;
+  const int rounds = coversDomain ? mostRounds : 1;
+  double density = sizes.straight.fibreVolumeFraction;
   Fibres fibres;
-  fibres.domain = Domain::cube(options.side);
-  double owed = 0.0;
-  const double far = 1.5 * (sizes.reach + radius);
-  for (std::size_t p = 0; p < chosen.places.size(); ++p)
+  TractFibresReport reached;
+  for (int round = 0; round < rounds; ++round)
   {
-    context.checkpoint();
-    const StreamlinePlace& place = chosen.places[p];
-    TractStretch stretch = stretchAround(streamlines, place, choice.middle, options.scale(), far, radius / 16.0);
-    const double smoothing = roundOff(stretch, leastBend * radius);
-    if (coversDomain && smoothing > 0.0)
+    TractFibresReport now;
+    Fibres laid;
+    try
     {
-      bringToOrigin(stretch, far);
+      laid = layBundles(streamlines, choice, chosen, options, sizes, radius, density,
+        context.part(double(round) / rounds, (round + 1.0) / rounds), now);
     }
-    reached.smoothing = std::max(reached.smoothing, smoothing);
-    reached.ends += endsWithin(stretch, fibres.domain);
-    const TractPath path = pathThrough(stretch, sizes.reach, radius);
-    const int bundleId = streamlines.bundleIds.empty() ? static_cast<int>(p) + 1 : streamlines.bundleIds[place.streamline];
-    const double share = 1.0 / static_cast<double>(chosen.places.size());
-    const Context part = context.part(static_cast<double>(p) * share, static_cast<double>(p + 1) * share);
-    addBundle(path, circlesWithin(radius, sizes, p, owed, part), bundleId, options, sizes.thinning, fibres);
+    catch (const Infeasible&)
+    {
+      if (round == 0)
+      {
+        throw;
+      }
+      break; // the best before it is good enough
+    }
+    const double difference = std::abs(now.fibreVolumeFraction - asked);
+    if (round == 0 || difference < std::abs(reached.fibreVolumeFraction - asked))
+    {
+      reached = now;
+      fibres = std::move(laid);
+    }
+    if (difference <= tolerance * asked || !(now.fibreVolumeFraction > 0.0))
+    {
+      break;
+    }
+    // The square root, if it alternates between two numbers of fibres.
+    const double ratio = asked / now.fibreVolumeFraction;
+    density = std::min(densest, density * (round < rounds / 2 ? ratio : std::sqrt(ratio)));
   }
-  if (fibres.size() == 0)
-  {
-    throw Infeasible("no fibre comes into the domain: enlarge BundleDiameter, FibreVolumeFraction or Side");
-  }
-  varyCalibre(sizes.straight, fibres);
-  reached.fibreVolumeFraction = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
-  setGrownFraction(options, sizes.thinning, reached.fibreVolumeFraction, fibres);
+  setGrownFraction(options, sizes.thinning, reached.fibreVolumeFraction, coversDomain, fibres);
   validate(fibres);
   if (report != nullptr)
   {

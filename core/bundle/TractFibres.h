@@ -32,7 +32,9 @@ struct TractFibresReport
 /// diameter, and each is carried along the path in a frame that does not twist (see TractPath). If no bend of the path has a
 /// radius below 1.1 times the disc's, fibres of one bundle keep their distances and do not overlap; a path with sharper bends is
 /// rounded off first. Bundles of several streamlines may overlap, which CapsuleOptimizer resolves. A fibre reaches beyond the
-/// domain with its margin by its own (target) radius; fibres that do not come so near are left out.
+/// domain with its margin by its own (target) radius; fibres that do not come so near are left out. For one bundle that covers
+/// the domain, packing is repeated until the capsules' volume in the domain is within 1 % of the one asked for, or as near as can
+/// be.
 ///
 /// BundleId is that of the streamline; without one, streamlines are counted from 1, the nearest to the middle first.
 /// grownFraction is that of the options in proportion to the bundles' fraction of the domain.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Placement.h"
 #include "base/Provenance.h"
 #include "bundle/BundleInitializer.h"
 #include "bundle/CurvedBundles.h"
@@ -57,6 +58,10 @@ Tractogram tractogramOf(const TractogramReaderStage& stage, const Context& conte
 StageRecord tractogramRecord(const TractogramReaderStage& stage);
 /// Joins the streamlines of several tractograms, validated, with bundles if all of them have any.
 Streamlines streamlinesOf(const std::vector<const Tractogram*>& tractograms);
+
+/// Returns where a substrate lies on the tract along which TractFibres has laid its fibres: there, and as large as the tract.
+/// Throws InvalidInput if the records have no TractFibres, or several at different places.
+Placement placementOnTract(const Provenance& records);
 
 /// Returns a remark on the streamlines that the fibres do not follow; empty if they follow all.
 std::string remarksOnTract(const TractFibresReport& report);

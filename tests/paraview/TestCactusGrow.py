@@ -131,7 +131,7 @@ class CactusGrow(CactusTestCase):
         reader = TractogramReader(FileName=groups, Radius=0.2)
         chosen = {"Select": "Bundle", "BundleId": 1, "NumberOfStreamlines": 0, "BundleDiameter": 3.5, **self.TRACT, "FibreVolumeFraction": 0.4}
         both = GroupDatasets(Input=[TractogramReader(FileName=plain), reader])
-        bundles = [BundleInitializer(**{**BUNDLE, "Side": 5}), TractFibres(Input=reader, **chosen), TractFibres(Input=both, Seed=5, **self.TRACT)]
+        bundles = [BundleInitializer(**{**BUNDLE, "Side": 5}), TractFibres(Input=reader, **chosen), TractFibres(Input=both, Seed=6, **self.TRACT)]
         fibres = OutputPort(CapsuleOptimizer(Input=bundles), 0)
         self.write(fibres, {**GROWTH, "GrowthIterations": 0}, {})
         self.grow(self.path("filters"), "grown")

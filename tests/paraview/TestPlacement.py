@@ -9,15 +9,15 @@ import zipfile
 
 import nibabel
 import numpy
-from cactus_testing import CactusTestCase, fetch, main, produce
+from cactus_testing import UNPARTED, CactusTestCase, fetch, main, produce
 from nibabel.streamlines import TckFile
 from paraview.simple import (CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, HistologyMask, MyelinSurface, Placement, SaveData, SubstrateCertificate,
-                             SubstrateSampler, SubstrateStatistics, SubstrateWriter, TractogramReader, Transform)
+                             SubstrateSampler, SubstrateStatistics, SubstrateWriter, TractFibres, TractogramReader, Transform)
 from scipy.spatial.transform import Rotation
 from surfaces import two_tubes
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import (vtkImageData, vtkMultiBlockDataSet, vtkOverlappingAMR, vtkPartitionedDataSet,
+from vtkmodules.vtkCommonDataModel import (VTK_POLY_LINE, vtkImageData, vtkMultiBlockDataSet, vtkOverlappingAMR, vtkPartitionedDataSet,
                                            vtkPolyData, vtkRectilinearGrid, vtkStructuredGrid, vtkTable, vtkUniformHyperTreeGrid, vtkUnstructuredGrid)
 
 PLACE = {"PositionX": -30.5, "PositionY": 12, "PositionZ": 48.25, "RotationX": 20, "RotationY": -35, "RotationZ": 110}
@@ -74,6 +74,8 @@ def table():
 
 
 class Placing(CactusTestCase):
+    expected = UNPARTED
+
     def setUp(self):
         super().setUp()
         self.lines, self.outer, self.inner = two_tubes(inset=0.1)
@@ -88,6 +90,30 @@ class Placing(CactusTestCase):
         self.assertEqual(placed.GetExtent(), image.GetExtent())
         for corner in (0, 7, image.GetNumberOfPoints() - 1):
             numpy.testing.assert_allclose(placed.GetPoint(corner), moved(numpy.array(image.GetPoint(corner)), matrix), atol=1e-12)
+
+    def test_on_its_tract(self):
+        """Streamlines in mm, of which 1 mm became 1 µm: where the tract is, as large as it is; images, too."""
+        arc = vtkPoints()
+        for i in range(61):
+            arc.InsertNextPoint(20 + 30 * numpy.cos(i * numpy.pi / 60), -15, 7 + 30 * numpy.sin(i * numpy.pi / 60))
+        line = vtkPolyData()
+        line.SetPoints(arc)
+        line.Allocate(1)
+        line.InsertNextCell(VTK_POLY_LINE, 61, list(range(61)))
+        laid = TractFibres(Input=produce(line), Side=8, MinimumRadius=0.8, FibreVolumeFraction=0.3, LengthUnit="Millimetre", ScaleFactor=0.001)
+        fibres = fetch(laid)
+        middle = numpy.array(json.loads(fibres.GetFieldData().GetAbstractArray("Provenance").GetValue(0))["reached"]["Middle"])
+        self.assertAlmostEqual(numpy.linalg.norm(middle - [20, -15, 7]), 30, delta=0.01)
+        matrix = numpy.eye(4)
+        matrix[:3, 3] = middle
+        self.assertAt(fetch(Placement(Input=laid, Place="On its tract")), fibres, matrix)
+        grown = FibreRadialGrowth(Input=laid, VoxelSize=0.4)
+        placed = Placement(Input=grown, Place="On its tract")
+        placed.UpdatePipelineInformation()
+        self.assertSameGrid(fetch(placed), fetch(grown), matrix)
+        self.assertSameGrid(fetch(Placement(Input=produce(fetch(grown)), Place="On its tract")), fetch(grown), matrix)
+        with self.assertError("do not come from TractFibres"):
+            Placement(Input=produce(self.lines), Place="On its tract").UpdatePipeline()
 
     def test_fibres(self):
         placed = fetch(Placement(Input=produce(self.lines), ScaleFactor=2, **PLACE))

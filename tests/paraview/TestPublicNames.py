@@ -68,6 +68,7 @@ NAMES = {
     "NiftiReader": {"FileName": None, "LengthUnit": "Millimetre"},
     "CurvedBundles": {"Shape": "Bend", "BendRadius": 30, "FanAngle": 30, "KissDistance": 0, "Side": 30, "Margin": 3, "Seed": 1},
     "SubstrateWriter": {"MinimumGap": -1},
+    "Placement": {"Place": "By position", "ScaleFactor": 1},
 }
 CHOICES = {
     ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table", "Histogram"],
