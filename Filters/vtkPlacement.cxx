@@ -10,8 +10,8 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Numbers.h"
-#include "stages/StageWork.h"
 #include "stages/Stages.h"
+#include "stages/TractRecords.h"
 
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
@@ -106,16 +106,6 @@ void copyEach(vtkDataObject* input, vtkDataObject* output, Visit&& visit)
   }
 }
 
-/// Appends all records of the origin of some data.
-void appendRecords(const cactus::DataOrigin& origin, cactus::Provenance& records)
-{
-  records.insert(records.end(), origin.records.begin(), origin.records.end());
-  for (const cactus::DataOrigin& part : origin.parts)
-  {
-    appendRecords(part, records);
-  }
-}
-
 /// Returns the placement that the options ask for, of the data at the input.
 cactus::Placement placementFor(vtkAlgorithm* self, const cactus::PlacementOptions& options)
 {
@@ -123,15 +113,7 @@ cactus::Placement placementFor(vtkAlgorithm* self, const cactus::PlacementOption
   {
     return options.placement();
   }
-  cactus::Provenance records;
-  for (const auto& input : cactus::originsOf(self, { "Input" }))
-  {
-    for (const cactus::DataOrigin& origin : input.second)
-    {
-      appendRecords(origin, records);
-    }
-  }
-  return cactus::placementOnTract(records);
+  return cactus::placementOnTract(cactus::originsOf(self, { "Input" }));
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "WholeData.h"
 #include "bundle/TractFibres.h"
 #include "stages/StageWork.h"
+#include "stages/TractRecords.h"
 
 #include <vtkInformation.h>
 #include <vtkObjectFactory.h>
@@ -45,12 +46,14 @@ int vtkTractFibres::RequestData(vtkInformation* request, vtkInformationVector** 
   return cactus::guarded(this,
     [&]
     {
-      const auto& stage = cactus::stageOf<cactus::TractFibresStage>(this->Properties);
-      cactus::validateProperties(stage);
+      const auto& given = cactus::stageOf<cactus::TractFibresStage>(this->Properties);
+      cactus::validateProperties(given);
       if (!cactus::ownsWholeOutput(request, outputs))
       {
         return;
       }
+      const cactus::InputOrigins origins = cactus::originsOf(this, { "Input" });
+      const cactus::TractFibresStage stage = cactus::askedOfTract(given, origins);
       const cactus::TractFibresOptions options = cactus::tractOptions(stage);
       const cactus::Streamlines streamlines = cactus::streamlinesFrom(vtkDataObject::GetData(inputs[0]));
 
@@ -59,7 +62,7 @@ int vtkTractFibres::RequestData(vtkInformation* request, vtkInformationVector** 
       auto* output = vtkPolyData::GetData(outputs);
       cactus::toPolyData(fibres, output);
       cactus::StageRecord record = cactus::tractRecord(stage, options, fibres.size(), report);
-      record.inputs = cactus::originsOf(this, { "Input" });
+      record.inputs = origins;
       cactus::setProvenance(output, cactus::provenanceOf(record), 0);
       const std::string remarks = cactus::remarksOnTract(report);
       if (!remarks.empty())

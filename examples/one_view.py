@@ -7,12 +7,11 @@ The fibres and an image of the substrate's fractions go into files that lie in t
 """
 
 import gzip
-import json
 import math
 import struct
 import sys
 
-from paraview import servermanager, simple
+from paraview import simple
 from output_folder import make_folder
 from picture import white_view
 from tract import SIDE, look, write_tract
@@ -48,14 +47,11 @@ def write_image(path):
 
 
 def make_substrate(tract):
-    """Fibres along the tract, their outer surfaces, and the place on the tract (mm) that is the middle of their domain."""
-    fibres = simple.TractFibres(Input=tract, LengthUnit="Millimetre", Side=SIDE, ScaleFactor=SCALE, BundleDiameter=16, MinimumRadius=0.4)
+    """Fibres along the tract, and their outer surfaces."""
+    fibres = simple.TractFibres(Input=tract, Side=SIDE, ScaleFactor=SCALE, BundleDiameter=16, MinimumRadius=0.4)
     optimised = simple.OutputPort(simple.CapsuleOptimizer(Input=fibres), 0)
     surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=optimised, VoxelSize=0.15))
-    surfaces.UpdatePipeline()
-    records = servermanager.Fetch(fibres).GetFieldData().GetAbstractArray("Provenance")
-    middle = json.loads(records.GetValue(records.GetNumberOfValues() - 1))["reached"]["Middle"]
-    return optimised, simple.OutputPort(surfaces, 0), middle
+    return optimised, simple.OutputPort(surfaces, 0)
 
 
 def show_slice(image, view):
@@ -103,14 +99,12 @@ def main():
     write_image(files["image.nii.gz"])
     write_tract(files["tract.tck"])
     tract = simple.TractogramReader(FileName=files["tract.tck"], LengthUnit="Millimetre")
-    fibres, outer, middle = make_substrate(tract)
-    place = dict(zip(("PositionX", "PositionY", "PositionZ"), middle), ScaleFactor=1 / SCALE)
-    placed = simple.Placement(Input=fibres, **place)
+    fibres, outer = make_substrate(tract)
+    placed = simple.Placement(Input=fibres, Place="On its tract")
     simple.SaveData(files["fibres.tck"], proxy=placed)
-    sampled = simple.Placement(Input=simple.SubstrateSampler(Outer=outer, VoxelSize=1), **place)
+    sampled = simple.Placement(Input=simple.SubstrateSampler(Outer=outer, VoxelSize=1), Place="On its tract")
     simple.SaveData(files["avf.nii.gz"], proxy=sampled, Array="AVF")
-    draw(simple.NiftiReader(FileName=files["image.nii.gz"]), tract, placed, simple.Placement(Input=outer, **place), files["one-view.png"])
-    print("at " + ", ".join(f"{coordinate:.3g}" for coordinate in middle) + " mm")
+    draw(simple.NiftiReader(FileName=files["image.nii.gz"]), tract, placed, simple.Placement(Input=outer, Place="On its tract"), files["one-view.png"])
 
 
 if __name__ == "__main__":

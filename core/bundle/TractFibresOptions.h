@@ -19,6 +19,14 @@ enum class StreamlineSelection
   Bundle ///< by BundleId
 };
 
+/// The unit of the streamlines' points.
+enum class TractUnit
+{
+  Micrometre,
+  Millimetre,
+  AsRead ///< the one that TractogramReader was told to give; micrometres for streamlines from elsewhere
+};
+
 /// The position of the domain's middle in the tract.
 enum class TractMiddle
 {
@@ -38,9 +46,9 @@ struct TractFibresOptions
   double pointX = 0.0; ///< for TractMiddle::Point, in the streamlines' unit
   double pointY = 0.0;
   double pointZ = 0.0;
-  LengthUnit lengthUnit = LengthUnit::Micrometre; ///< unit of the streamlines' points
-  double scaleFactor = 1.0;                       ///< length in the substrate over length in the tract
-  double side = 30.0;                             ///< side of the cubic domain [-side/2, side/2]³
+  TractUnit lengthUnit = TractUnit::AsRead; ///< unit of the streamlines' points
+  double scaleFactor = 1.0;                 ///< length in the substrate over length in the tract
+  double side = 30.0;                       ///< side of the cubic domain [-side/2, side/2]³
   /// Fraction of each bundle's cross-section that the fibres' circles cover.
   double fibreVolumeFraction = 0.6;
   /// Fraction of each bundle that growth is to fill later; see BundleInitializerOptions.
@@ -62,7 +70,11 @@ struct TractFibresOptions
   /// Returns the straight bundle of the same fibres, whose faces are as wide as the domain with its margin.
   BundleInitializerOptions straightBundle() const;
   /// Returns micrometres in the substrate for one unit of the streamlines.
-  double scale() const { return this->scaleFactor * micrometresIn(this->lengthUnit); }
+  double scale() const
+  {
+    return this->scaleFactor *
+           micrometresIn(this->lengthUnit == TractUnit::Millimetre ? LengthUnit::Millimetre : LengthUnit::Micrometre);
+  }
 };
 
 } // namespace cactus

@@ -14,6 +14,7 @@
 #include "recipe/DataChecksum.h"
 #include "stages/StageWork.h"
 #include "stages/SubstrateProduction.h"
+#include "stages/TractRecords.h"
 #include "surface/SurfaceMaker.h"
 #include "surface/SurfaceRemarks.h"
 
@@ -164,16 +165,23 @@ private:
     return this->withInputs({ this->stage().name, Options::properties().states(options), std::move(reached), {}, {} });
   }
 
-  Provenance withInputs(StageRecord record) const
+  InputOrigins originsOfInputs() const
   {
+    InputOrigins origins;
     for (const auto& [name, sources] : this->stage().inputs)
     {
-      record.inputs.emplace_back(name, std::vector<DataOrigin>());
+      origins.emplace_back(name, std::vector<DataOrigin>());
       for (const RecipeSource& source : sources)
       {
-        record.inputs.back().second.push_back(this->originOf(source));
+        origins.back().second.push_back(this->originOf(source));
       }
     }
+    return origins;
+  }
+
+  Provenance withInputs(StageRecord record) const
+  {
+    record.inputs = this->originsOfInputs();
     return provenanceOf(record);
   }
 
@@ -218,8 +226,9 @@ private:
     this->TractsOf[this->Now] = std::move(tractogram);
   }
 
-  void work(const TractFibresStage& stage)
+  void work(const TractFibresStage& given)
   {
+    const TractFibresStage stage = askedOfTract(given, this->originsOfInputs());
     const TractFibresOptions options = tractOptions(stage);
     std::vector<const Tractogram*> tracts;
     this->collectTracts(this->stage().input("Input"), tracts);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/StageWork.h"
 
-#include "base/Constants.h"
 #include "base/Error.h"
-#include "base/JsonText.h"
 #include "base/Limits.h"
 #include "base/Numbers.h"
 #include "bundle/RadiusColumn.h"
@@ -16,7 +14,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <numeric>
-#include <optional>
 #include <string_view>
 
 namespace cactus
@@ -302,45 +299,6 @@ StageRecord tractRecord(
     { "BundleDiameter", report.bundleDiameter }, { "Smoothing", report.smoothing },
     { "Middle", std::vector<double>(report.middle.data(), report.middle.data() + 3) } };
   return record;
-}
-
-Placement placementOnTract(const Provenance& records)
-{
-  std::optional<Placement> found;
-  for (const std::string& text : records)
-  {
-    const Json record = parsedJson(text).value_or(Json());
-    if (!record.is_object() || record.value("filter", "") != "TractFibres")
-    {
-      continue;
-    }
-    Placement placement;
-    try
-    {
-      const Json& properties = record.at("properties");
-      placement.scale = micrometre / properties.at("ScaleFactor").get<double>();
-      const bool isInMillimetres = properties.at("LengthUnit").get<std::string>() == "Millimetre";
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        placement.position[axis] =
-          (isInMillimetres ? 1.0 : micrometre) * record.at("reached").at("Middle").at(std::size_t(axis)).get<double>();
-      }
-    }
-    catch (const Json::exception&)
-    {
-      throw InvalidInput("the record of TractFibres does not say where on the tract the substrate lies: give Place By position");
-    }
-    if (found && (found->position != placement.position || found->scale != placement.scale))
-    {
-      throw InvalidInput("the data come from several TractFibres, which lie at different places: place each by itself");
-    }
-    found = placement;
-  }
-  if (!found)
-  {
-    throw InvalidInput("the data do not come from TractFibres, so there is no tract to place them on: give Place By position");
-  }
-  return *found;
 }
 
 Tractogram tractogramOf(const TractogramReaderStage& stage, const Context& context)

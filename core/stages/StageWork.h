@@ -5,7 +5,6 @@
 #pragma once
 
 #include "base/Context.h"
-#include "base/Placement.h"
 #include "base/Provenance.h"
 #include "bundle/BundleInitializer.h"
 #include "bundle/CurvedBundles.h"
@@ -46,7 +45,7 @@ CurvedBundlesOptions curvedOptions(const CurvedBundlesStage& stage);
 StageRecord curvedRecord(
   const CurvedBundlesStage& stage, const CurvedBundlesOptions& options, std::size_t fibres, double fibreVolumeFraction);
 
-/// Do the same as the first two for fibres along a tract.
+/// Do the same as the first two for fibres along a tract. What is asked for has its LengthUnit, see askedOfTract().
 TractFibresOptions tractOptions(const TractFibresStage& stage);
 StageRecord tractRecord(
   const TractFibresStage& stage, const TractFibresOptions& options, std::size_t fibres, const TractFibresReport& report);
@@ -58,10 +57,6 @@ Tractogram tractogramOf(const TractogramReaderStage& stage, const Context& conte
 StageRecord tractogramRecord(const TractogramReaderStage& stage);
 /// Joins the streamlines of several tractograms, validated, with bundles if all of them have any.
 Streamlines streamlinesOf(const std::vector<const Tractogram*>& tractograms);
-
-/// Returns where a substrate lies on the tract along which TractFibres has laid its fibres: there, and as large as the tract.
-/// Throws InvalidInput if the records have no TractFibres, or several at different places.
-Placement placementOnTract(const Provenance& records);
 
 /// Returns a remark on the streamlines that the fibres do not follow; empty if they follow all.
 std::string remarksOnTract(const TractFibresReport& report);

@@ -110,10 +110,10 @@ class CactusGrow(CactusTestCase):
     def test_fibres_along_a_tract(self):
         path = self.tract("tract.tck")
         reader = TractogramReader(FileName=path, LengthUnit="Millimetre")
-        fibres = OutputPort(CapsuleOptimizer(Input=TractFibres(Input=reader, LengthUnit="Millimetre", **self.TRACT)), 0)
+        fibres = OutputPort(CapsuleOptimizer(Input=TractFibres(Input=reader, **self.TRACT)), 0)
         self.write(fibres, GROWTH, {})
         # Named as it is found from where the recipe is; the record has the path as it was given.
-        self.grow({"TractogramReader": {"FileName": path, "LengthUnit": "Millimetre"}, "TractFibres": {"LengthUnit": "Millimetre", **self.TRACT},
+        self.grow({"TractogramReader": {"FileName": path, "LengthUnit": "Millimetre"}, "TractFibres": self.TRACT,
                    "FibreRadialGrowth": GROWTH}, "grown")
         self.assertSame("filters", "grown")
         self.grow(self.path("filters"), "again")

@@ -60,6 +60,10 @@ class Tracts(CactusTestCase):
         points = [vtk_to_numpy(fetch(self.fibres(self.tract(arc(), unit=unit), LengthUnit=unit)).GetPoints().GetData())
                   for unit in ("Micrometre", "Millimetre")]
         numpy.testing.assert_allclose(points[0], points[1], atol=1e-3)
+        as_read = fetch(self.fibres(self.tract(arc(), unit="Millimetre")))
+        self.assertTrue((vtk_to_numpy(as_read.GetPoints().GetData()) == points[1]).all())
+        record = json.loads(as_read.GetFieldData().GetAbstractArray("Provenance").GetValue(1))
+        self.assertEqual(record["properties"]["LengthUnit"], "Millimetre")
 
     def test_to_a_certificate(self):
         optimised = CapsuleOptimizer(Input=self.fibres(self.tract(arc())))

@@ -294,7 +294,7 @@ TEST(TractFibres, MillimetresOnASmallScaleAreMicrometres)
 {
   TractFibresOptions options = optionsOf(12.0);
   const Fibres fibres = layTractFibres(halfCircle(60.0, 200), options);
-  options.lengthUnit = LengthUnit::Millimetre;
+  options.lengthUnit = TractUnit::Millimetre;
   options.scaleFactor = 0.001;
   const Fibres scaled = layTractFibres(halfCircle(60.0, 200), options);
   EXPECT_EQ(fibres.points, scaled.points);
