@@ -79,7 +79,7 @@ class StrandFiles(CactusTestCase):
 
     def test_vtp_keeps_what_strand_files_do_not(self):
         path = os.path.join(self.folder, "fibres.vtp")
-        fibres = BundleInitializer(Border="Walls", Side=6, NumberOfBundles=2, CrossingAngle=60, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6)
+        fibres = BundleInitializer(Border="Walls", Side=6, NumberOfBundles=2, CrossingAngle=60, CrossingStyle="Sheets", FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.6)
         SaveData(path, proxy=fibres, DataMode="Binary")
         before, after = fetch(fibres), fetch(OpenDataFile(path))
         for kind, names in (("GetPointData", ["Radius"]), ("GetCellData", ["FibreId", "BundleId", "TargetRadius"]),
