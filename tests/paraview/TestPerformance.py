@@ -59,8 +59,8 @@ class Performance(CactusTestCase):
                     self.assertGreater(min(stages), 0)
                     self.assertAlmostEqual(sum(stages), float(row[quantity]), delta=1e-3 * sum(stages))
                 self.assertEqual(row["certified"], "yes")
-                # Fibres go from face to face, and the files are binary: 19 bytes a triangle, and what is beside them.
-                self.assertTrue(0.95 < float(row["length_um"]) / 5 / int(row["fibres"]) < 1.3, row["length_um"])
+                # Fibres go from face to face, those around the domain count with their length, and the files are binary: 19 bytes a triangle, and what is beside them.
+                self.assertTrue(0.95 < float(row["length_um"]) / 5 / int(row["fibres"]) < 3, row)
                 self.assertTrue(19 < 1e6 * float(row["folder_MB"]) / int(row["triangles"]) < 60)
                 self.assertTrue(50 < float(row["peak_MB"]) < 4000)
         # The same substrates whoever makes them, by as many threads as may be.

@@ -156,10 +156,12 @@ class Report(CactusTestCase):
         self.assertEqual(shown, sorted(shown))
         heights = []
         for chart in charts:
-            outer, inner = ([float(point.split(",")[1]) for point in points.split()] for points in re.findall(r'<polyline points="([^"]+)"', chart))
+            outer, inner = (dict(tuple(map(float, point.split(","))) for point in points.split()) for points in re.findall(r'<polyline points="([^"]+)"', chart))
             self.assertGreater(len(outer), 0.8 * len(inner))  # not of a fibre that runs along the domain's side
-            self.assertLess(max(outer), min(inner))  # downwards, as SVG has it
-            heights.append(sum(outer) / len(outer))
+            along = outer.keys() & inner.keys()
+            self.assertGreater(len(along), 0.5 * len(outer))
+            self.assertTrue(all(outer[place] < inner[place] for place in along))  # downwards, as SVG has it
+            heights.append(sum(outer.values()) / len(outer))
         self.assertEqual(heights, sorted(heights, reverse=True))
 
     def check_picture(self, address):
@@ -176,6 +178,7 @@ class Report(CactusTestCase):
 
     def test_bundles_have_axes_of_their_own(self):
         """Which a file of centre lines does not tell."""
+        self.expected = r"fibres are not as asked"  # in so coarse voxels
         folder = os.path.join(self.folder, "crossing")
         bundles = simple.BundleInitializer(Border="Walls", Side=6, NumberOfBundles=2, CrossingAngle=90, FibreVolumeFraction=0.3, MaximumRadius=0.6, GrownFibreVolumeFraction=0.4)
         fibres = simple.OutputPort(simple.CapsuleOptimizer(Input=bundles), 0)

@@ -50,7 +50,7 @@ class Views(CactusTestCase):
         self.assertLess(bluish(pixels(view)), tubes / 3)
 
     def test_direction_is_the_tangent(self):
-        crossing = self.bundle(NumberOfBundles=2, CrossingAngle=90, MeanDispersion=0, FibreVolumeFraction=0.3)
+        crossing = self.bundle(NumberOfBundles=2, CrossingAngle=90, CrossingStyle="Sheets", MeanDispersion=0, FibreVolumeFraction=0.3)
         crossing.UpdatePipeline()
         fibres = simple.servermanager.Fetch(crossing)
         colours = vtk_to_numpy(fibres.GetPointData().GetArray("Direction"))
