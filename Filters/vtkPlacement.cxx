@@ -106,14 +106,11 @@ void copyEach(vtkDataObject* input, vtkDataObject* output, Visit&& visit)
   }
 }
 
-/// Returns the placement that the options ask for, of the data at the input.
-cactus::Placement placementFor(vtkAlgorithm* self, const cactus::PlacementOptions& options)
+/// Returns the placement that the options ask for, of data with these origins.
+cactus::Placement placementFor(const cactus::PlacementOptions& options, const cactus::InputOrigins& origins)
 {
-  if (options.by == cactus::PlacementBy::Position)
-  {
-    return options.placement();
-  }
-  return cactus::placementOnTract(cactus::originsOf(self, { "Input" }));
+  cactus::validateProperties(options);
+  return options.by == cactus::PlacementBy::Tract ? cactus::placementOnTract(origins) : options.placement();
 }
 
 } // namespace
@@ -158,9 +155,11 @@ int vtkPlacement::RequestInformation(vtkInformation*, vtkInformationVector** inp
     [&]
     {
       const auto& options = cactus::stageOf<cactus::PlacementStage>(this->Properties).options;
+      cactus::InputOrigins origins;
       if (options.by == cactus::PlacementBy::Tract)
       {
         cactus::updateWholeInputs(this, inputs); // which say on which tract they lie
+        origins = cactus::originsOf(this, { "Input" });
       }
       vtkNew<vtkImageData> grid;
       grid->SetOrigin(info->Get(vtkDataObject::ORIGIN()));
@@ -169,7 +168,7 @@ int vtkPlacement::RequestInformation(vtkInformation*, vtkInformationVector** inp
       {
         grid->SetDirectionMatrix(info->Get(vtkDataObject::DIRECTION()));
       }
-      cactus::place(grid, placementFor(this, options));
+      cactus::place(grid, placementFor(options, origins));
       vtkInformation* placed = outputs->GetInformationObject(0);
       placed->Set(vtkDataObject::ORIGIN(), grid->GetOrigin(), 3);
       placed->Set(vtkDataObject::SPACING(), grid->GetSpacing(), 3);
@@ -193,8 +192,10 @@ int vtkPlacement::RequestData(vtkInformation* request, vtkInformationVector** in
         }
         throw cactus::InvalidInput("the input is empty: there is nothing to place");
       }
-      const cactus::Placement placement = placementFor(this, stage.options);
-      const auto record = cactus::recordOf(this, "Placement", stage, { "Input" });
+      const cactus::InputOrigins origins = cactus::originsOf(this, { "Input" });
+      const cactus::Placement placement = placementFor(stage.options, origins);
+      const auto record =
+        cactus::provenanceOf({ "Placement", cactus::PlacementStage::properties().states(stage), {}, {}, origins });
       copyEach(input, vtkDataObject::GetData(outputs),
         [&](vtkDataObject* copy)
         {

@@ -34,8 +34,7 @@ const PropertyList<TractFibresOptions>& TractFibresOptions::properties()
       .where("Middle", { 1 })
       .add("LengthUnit", &Options::lengthUnit, { "Micrometre", "Millimetre", "As read" },
         "Unit of the streamlines' points. As read: the one that TractogramReader was told to give; micrometres for streamlines "
-        "from "
-        "elsewhere.")
+        "from elsewhere.")
       .add("ScaleFactor", &Options::scaleFactor, limits::scaleFactor,
         "Length in the substrate over the same length in the tract. 1: true size, at which most tracts are almost straight. "
         "0.001: 1 mm of the tract becomes 1 µm, so that a substrate shows how the tract bends.")
