@@ -3,6 +3,7 @@
 
 #include "base/Constants.h"
 #include "mesh/EditableSurface.h"
+#include "mesh/RimBlunting.h"
 #include "mesh/ShapeBounds.h"
 
 #include <Eigen/Geometry>
@@ -41,18 +42,15 @@ constexpr int mostCutsAtOnce = 12;
 class Evening
 {
 public:
-  Evening(CappedSurface& surface, double largestSquaredEdgeRatio, double smallestAngle)
+  Evening(CappedSurface& surface, double largestSquaredEdgeRatio, double smallestAngle, double rimDepth)
     : Mesh(surface)
-    , LargestEdgeRatio(largestSquaredEdgeRatio)
     , FlattestOfAll(std::tan(smallestAngle / radian))
-    , Flattest(std::max(FlattestOfAll, flattestTriangle))
+    , Limits{ largestSquaredEdgeRatio, std::max(FlattestOfAll, flattestTriangle), leastHeight }
+    , RimDepth(rimDepth)
     , Cosines(Mesh.pointCount())
     , IsSeen(Mesh.triangleCount(), 0)
   {
-    for (std::size_t p = 0; p < this->Cosines.size(); ++p)
-    {
-      this->refresh(static_cast<std::int32_t>(p));
-    }
+    this->refreshAll();
   }
 
   void run()
@@ -60,6 +58,13 @@ public:
     if (std::all_of(this->Cosines.begin(), this->Cosines.end(), [](double c) { return c >= leastCosine; }))
     {
       return;
+    }
+    if (this->RimDepth > 0.0)
+    {
+      bluntRims(this->Mesh, this->RimDepth, { this->Limits.largestSquaredEdgeRatio, this->FlattestOfAll, leastHeight });
+      this->IsSeen.resize(this->Mesh.triangleCount(), 0);
+      this->Cosines.resize(this->Mesh.pointCount());
+      this->refreshAll();
     }
     for (std::size_t t = 0, count = this->Mesh.triangleCount(); t < count; ++t)
     {
@@ -74,8 +79,11 @@ public:
     for (int round = 0; round < cutRounds && this->cutFans(); ++round)
     {
     }
-    this->Flattest = this->FlattestOfAll; // where that did not do
+    this->Limits.leastFlatness = this->FlattestOfAll; // where that did not do
     for (int round = 0; round < cutRounds && this->cutFans(); ++round)
+    {
+    }
+    for (int round = 0; round < cutRounds && this->splitFans(); ++round)
     {
     }
     this->Mesh.compact();
@@ -131,6 +139,13 @@ private:
     for (const std::int32_t point : points)
     {
       this->refresh(point);
+    }
+  }
+  void refreshAll()
+  {
+    for (std::size_t p = 0; p < this->Cosines.size(); ++p)
+    {
+      this->refresh(static_cast<std::int32_t>(p));
     }
   }
   double cosineAt(std::int32_t point) const { return this->Cosines[std::size_t(point)]; }
@@ -228,7 +243,7 @@ private:
       const Vector3d& a = this->Mesh.at(loop[i]);
       const Vector3d& b = this->Mesh.at(loop[next]);
       const Vector3d part = (b - a).cross(centre - a);
-      if (!(part.dot(normal) > 0.0) || !this->isShaped(a, b, centre, this->Flattest))
+      if (!(part.dot(normal) > 0.0) || !this->Limits.allow(a, b, centre, this->Limits.leastFlatness))
       {
         return;
       }
@@ -268,15 +283,6 @@ private:
     return shapeOf(this->Mesh.at(t[0]), this->Mesh.at(t[1]), this->Mesh.at(t[2])).flatness;
   }
 
-  /// Whether a triangle may be made of others, the flattest of which is as flat as `flattest`.
-  bool isShaped(const Vector3d& a, const Vector3d& b, const Vector3d& c, double flattest) const
-  {
-    const TriangleShape shape = shapeOf(a, b, c);
-    const double longest = std::sqrt(std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() }));
-    return shape.edgeRatio <= this->LargestEdgeRatio && shape.flatness >= std::min(flattest, this->Flattest) &&
-           shape.flatness * longest >= leastHeight;
-  }
-
   bool flipInCaps()
   {
     bool any = false;
@@ -314,7 +320,7 @@ private:
     const Vector3d& normal = this->Mesh.normalOf(one);
     const double flattest = std::min(this->flatnessOf(one), this->flatnessOf(other));
     if (before == 0.0 || !((pd - pa).cross(pc - pa).dot(normal) > 0.0) || !((pb - pd).cross(pc - pd).dot(normal) > 0.0) ||
-        !this->isShaped(pa, pd, pc, flattest) || !this->isShaped(pd, pb, pc, flattest) || this->Mesh.areLinked(c, d))
+        !this->Limits.allow(pa, pd, pc, flattest) || !this->Limits.allow(pd, pb, pc, flattest) || this->Mesh.areLinked(c, d))
     {
       return false;
     }
@@ -392,6 +398,78 @@ private:
     return best;
   }
 
+  /// Where cuts do not help, since they change the points at the other ends of edges: splits triangles into three, near the
+  /// point.
+  bool splitFans()
+  {
+    bool any = false;
+    for (std::size_t p = 0, count = this->Mesh.pointCount(); p < count; ++p)
+    {
+      const auto point = static_cast<std::int32_t>(p);
+      for (int i = 0; i < mostCutsAtOnce && this->cosineAt(point) < (i == 0 ? leastCosine : wantedCosine); ++i)
+      {
+        const Cut best = this->bestSplit(point);
+        if (best.end < 0)
+        {
+          break;
+        }
+        const auto t = std::size_t(best.end) / 3;
+        const auto corners = this->Mesh.cornersOf(t);
+        const Vector3d place = this->placeAt(best.end, best.part);
+        this->Cosines.push_back(1.0);
+        const std::int32_t made = this->Mesh.fan({ t }, { corners[0], corners[1], corners[2] }, place);
+        this->refresh({ { corners[0], corners[1], corners[2], made } });
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  /// A place on the line from a corner to the middle of the opposite edge.
+  Vector3d placeAt(std::int32_t corner, double part) const
+  {
+    const auto edge = this->Mesh.oppositeEdge(corner);
+    const Vector3d& from = this->Mesh.at(this->Mesh.cornersOf(std::size_t(corner) / 3)[std::size_t(corner) % 3]);
+    return from + part * (0.5 * (this->Mesh.at(edge[0]) + this->Mesh.at(edge[1])) - from);
+  }
+
+  /// As bestCut, with a corner in place of an edge's end.
+  Cut bestSplit(std::int32_t point) const
+  {
+    Cut best;
+    best.cosine = this->cosineAt(point) + cosineGain;
+    const Vector3d normal = this->normalAt(point);
+    for (std::int32_t c = this->Mesh.firstCorner(point); c >= 0; c = this->Mesh.nextCorner(c))
+    {
+      const auto edge = this->Mesh.oppositeEdge(c);
+      const Vector3d& own = this->Mesh.normalOf(std::size_t(c) / 3);
+      for (const double part : cutParts)
+      {
+        const double after = this->scoreOf(normal - (1.0 - part) * own, normal, point);
+        const bool isBetter = std::min(after, wantedCosine) > best.cosine ||
+                              (after >= wantedCosine && best.cosine >= wantedCosine && part > best.part);
+        const Vector3d place = this->placeAt(c, part);
+        const double flattest = this->flatnessOf(std::size_t(c) / 3);
+        const Vector3d& from = this->Mesh.at(point);
+        const Vector3d& a = this->Mesh.at(edge[0]);
+        const Vector3d& b = this->Mesh.at(edge[1]);
+        if (isBetter && this->Limits.allow(from, a, place, flattest) && this->Limits.allow(from, place, b, flattest) &&
+            this->Limits.allow(place, a, b, flattest) && this->keeps(edge[0], 0.5 * part * own) &&
+            this->keeps(edge[1], 0.5 * part * own))
+        {
+          best = { c, part, after };
+        }
+      }
+    }
+    return best;
+  }
+
+  /// Whether a point bears to lose something of its normal.
+  bool keeps(std::int32_t point, const Vector3d& lost) const
+  {
+    return this->cosineTo(this->normalAt(point) - lost, point) >= std::min(leastCosine, this->cosineAt(point));
+  }
+
   bool isWellCut(std::int32_t point, std::int32_t end, const std::size_t (&sides)[2], double part) const
   {
     const Vector3d& from = this->Mesh.at(point);
@@ -401,7 +479,7 @@ private:
     {
       const Vector3d& beside = this->Mesh.at(this->Mesh.thirdCorner(side, point, end));
       const double flattest = this->flatnessOf(side);
-      if (!this->isShaped(from, place, beside, flattest) || !this->isShaped(place, to, beside, flattest))
+      if (!this->Limits.allow(from, place, beside, flattest) || !this->Limits.allow(place, to, beside, flattest))
       {
         return false;
       }
@@ -410,18 +488,18 @@ private:
   }
 
   EditableSurface Mesh;
-  double LargestEdgeRatio;
   double FlattestOfAll;             ///< as TriangleShape has it; the angles of a triangle have tangents of at least that
-  double Flattest;                  ///< of what is made now, unless what it is made of is flatter
+  TriangleLimits Limits;            ///< of what is made now
+  double RimDepth;                  ///< µm
   std::vector<double> Cosines;      ///< per point, smallest between its normal and that of one of its triangles
   std::vector<std::uint8_t> IsSeen; ///< per triangle
 };
 
 } // namespace
 
-void evenFans(CappedSurface& surface, double largestSquaredEdgeRatio, double smallestAngle)
+void evenFans(CappedSurface& surface, double largestSquaredEdgeRatio, double smallestAngle, double rimDepth)
 {
-  Evening(surface, largestSquaredEdgeRatio, smallestAngle).run();
+  Evening(surface, largestSquaredEdgeRatio, smallestAngle, rimDepth).run();
 }
 
 } // namespace cactus

@@ -57,6 +57,13 @@ bool hasFreeInner(const FibreSurfacePair& pair)
   return pair.state != MyelinState::NoFibre && pair.state != MyelinState::NoAxon && !pair.innerChange.isHemmedIn;
 }
 
+/// How far the caps of axons are inside the faces of the box. Rims are blunted in that layer alone, so that outer surfaces come
+/// no nearer to inner ones.
+double insetFor(double minimumGap, double spacing)
+{
+  return std::clamp(minimumGap, smallestInset * spacing, 0.25 * spacing);
+}
+
 /// Frees the spare capacity of a mesh: all fibres' meshes are in memory at the same time.
 TriangleMesh packed(TriangleMesh&& mesh)
 {
@@ -76,9 +83,8 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Field(image, facts.domain, options.clipToDomain)
   , Places(Field, facts, context, sharing)
   , Spacing(image->grid().spacing)
-  , Contours(Field, std::clamp(facts.minimumGap, smallestInset * Spacing, 0.25 * Spacing),
-      nudgeFor(Spacing, facts.surfaceTolerance), filters)
-  , Finishing(options.decimationError, options.minimumAngle, Spacing, Field.box(), filters)
+  , Contours(Field, insetFor(facts.minimumGap, Spacing), nudgeFor(Spacing, facts.surfaceTolerance), filters)
+  , Finishing(options.decimationError, options.minimumAngle, Spacing, insetFor(facts.minimumGap, Spacing), Field.box(), filters)
   , Withdrawal(0.5 * std::max(0.0, leastRoom - image->gap()))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
   , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + lostInFiles)

@@ -99,10 +99,11 @@ std::vector<LocalErrorBound> boundsAround(const std::vector<Eigen::Vector3d>& pl
 }
 
 SurfaceFinishing::SurfaceFinishing(
-  double decimationError, double minimumAngle, double spacing, const Domain& box, const SurfaceFilters* filters)
+  double decimationError, double minimumAngle, double spacing, double rimDepth, const Domain& box, const SurfaceFilters* filters)
   : DecimationError(decimationError)
   , MinimumAngle(minimumAngle)
   , Spacing(spacing)
+  , RimDepth(rimDepth)
   , Box(box)
   , Filters(filters)
 {
@@ -150,7 +151,7 @@ void SurfaceFinishing::finishMoved(CappedSurface& surface) const
 
 void SurfaceFinishing::even(CappedSurface& surface) const
 {
-  evenFans(surface, largestSquaredEdgeRatio, std::max(this->MinimumAngle, leastAngle));
+  evenFans(surface, largestSquaredEdgeRatio, std::max(this->MinimumAngle, leastAngle), this->RimDepth);
   roundPoints(surface.mesh, surface.box);
 }
 

@@ -34,9 +34,11 @@ struct SurfaceTarget
 class SurfaceFinishing
 {
 public:
-  /// `decimationError` and `minimumAngle` as in MyelinSurfaceOptions; `spacing` is that of the voxels in `box`. With `filters`
-  /// these coarsen. All arguments passed by reference have to outlive the object.
-  SurfaceFinishing(double decimationError, double minimumAngle, double spacing, const Domain& box, const SurfaceFilters* filters);
+  /// `decimationError` and `minimumAngle` as in MyelinSurfaceOptions; `spacing` is that of the voxels in `box`, `rimDepth` (µm)
+  /// the depth down to which sharp rims are blunted, see evenFans. With `filters` these coarsen. All arguments passed by
+  /// reference have to outlive the object.
+  SurfaceFinishing(double decimationError, double minimumAngle, double spacing, double rimDepth, const Domain& box,
+    const SurfaceFilters* filters);
 
   /// Coarsens a contour, moves it to its volume, and checks the result. A faulty surface is made again with less coarsening
   /// around its faults; if that does not help it stays as contoured, without pieces that enclose no volume, which may leave an
@@ -64,6 +66,7 @@ private:
   double DecimationError;
   double MinimumAngle; ///< degrees
   double Spacing;
+  double RimDepth;
   const Domain& Box;
   const SurfaceFilters* Filters; ///< null for decimate()
 };

@@ -107,8 +107,8 @@ TEST(StoredBits, DefaultChain)
   };
   ASSERT_EQ(surfaces.size(), 38u);
   for (const Known& known : {
-         Known{ 1, "a47c0428c9499baf9b4f39eb5a75f4c51a8982163fbb35ccc79ccad37e6faf72",
-           "eb93974a011f9e9c7e5e1291e6752612c646d747570cd667098797bdf1728cd6" },
+         Known{ 1, "adc8a533d3bc8dcc2d479541d02677a42917a08a95fd6f83e5e8371c4e2cfa06",
+           "9b7b5fdda0aafb1075ffa76899f83393bf03a4c1fd060b43e9ddcad4578eb024" },
          Known{ 20, "5ca98d2f1c607f48ab4e81b8fbe0f4f7eb418a7819c661cad9aa7962da759167",
            "14f4a8139e5bb7e279e4bfa5a74531bdce29c813c7db02c4b09d168d2d1391b9" },
          Known{ 38, "4b14295635a3b264637e5abb3577ae4f4f5cbf4f95f4386402fba2c48618563e",

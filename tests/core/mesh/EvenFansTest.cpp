@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantee: normals of vertices stand for all triangles at them, at the rims of caps above all, and nothing of the surface
-// moves.
+// moves but the rims of fibres that graze a face, inwards.
 #include "mesh/EvenFans.h"
 #include "ExampleSurfaces.h"
 #include "mesh/SurfaceCheck.h"
@@ -88,7 +88,7 @@ TEST(EvenFans, LongAndFlatPrismsInAnyPosition)
         const SurfaceReport before = checkSurface(surface.mesh);
         ASSERT_TRUE(before.sound());
         EXPECT_GT(before.largestNormalAngle, 80.0) << isFlat << isFan;
-        evenFans(surface, largestRatio, smallestAngle);
+        evenFans(surface, largestRatio, smallestAngle, 0.0);
         const SurfaceReport after = checkSurface(surface.mesh);
         EXPECT_LT(after.largestNormalAngle, 75.0) << isFlat << isFan << axis;
         expectSame(before, after);
@@ -122,7 +122,7 @@ TEST(EvenFans, MirroredPrism)
     std::swap(t[1], t[2]);
   }
   const SurfaceReport before = checkSurface(surface.mesh);
-  evenFans(surface, largestRatio, smallestAngle);
+  evenFans(surface, largestRatio, smallestAngle, 0.0);
   const SurfaceReport after = checkSurface(surface.mesh);
   EXPECT_GT(before.largestNormalAngle, 85.0);
   EXPECT_LT(after.largestNormalAngle, 75.0);
@@ -139,10 +139,63 @@ TEST(EvenFans, ObliquePrism)
   }
   const SurfaceReport before = checkSurface(surface.mesh);
   ASSERT_GT(before.largestNormalAngle, 100.0);
-  evenFans(surface, largestRatio, smallestAngle);
+  evenFans(surface, largestRatio, smallestAngle, 0.0);
   const SurfaceReport after = checkSurface(surface.mesh);
   EXPECT_LT(after.largestNormalAngle, 75.0);
   expectSame(before, after);
+}
+
+/// As a fibre that grazes a face at 25°: no direction is within 75° of cap and wall, unless the rim is blunted.
+TEST(EvenFans, BluntsRimsOfGrazingFibres)
+{
+  const double half = 0.08;
+  const double slope = 1.0 / std::tan(25.0 / radian);
+  const double depth = 0.02;
+  CappedSurface surface = prism(2, false, false);
+  for (Eigen::Vector3d& p : surface.mesh.points)
+  {
+    p.z() = p.z() < 0.0 ? -half : half;
+    p.x() += slope * p.z();
+  }
+  surface.box = Eigen::AlignedBox3d(Eigen::Vector3d(-9, -9, -half), Eigen::Vector3d(9, 9, half));
+  const SurfaceReport before = checkSurface(surface.mesh);
+  CappedSurface sharp = surface;
+  evenFans(sharp, largestRatio, smallestAngle, 0.0);
+  EXPECT_GT(checkSurface(sharp.mesh).largestNormalAngle, 77.0);
+
+  evenFans(surface, largestRatio, smallestAngle, depth);
+  const SurfaceReport after = checkSurface(surface.mesh);
+  EXPECT_LT(after.largestNormalAngle, 75.0);
+  EXPECT_TRUE(after.sound());
+  EXPECT_LE(after.largestSquaredEdgeRatio, largestRatio);
+  EXPECT_TRUE(selfIntersections(TriangleTree(surface.mesh)).empty());
+  // It has lost less than a wedge along both rims has, and nothing elsewhere.
+  EXPECT_LT(after.volume, before.volume - 1e-6);
+  EXPECT_GT(after.volume, before.volume - 2.0 * pi * 0.5 * depth * depth * slope);
+  int moved = 0;
+  for (std::size_t i = 0; i < surface.mesh.points.size(); ++i)
+  {
+    const Eigen::Vector3d& p = surface.mesh.points[i];
+    // A polygon of 16 sides, whatever the height.
+    double reach = 0.0;
+    for (int k = 0; k < 16; ++k)
+    {
+      const double angle = 2.0 * pi * (k + 0.5) / 16;
+      reach = std::max(reach, (p.x() - slope * p.z()) * std::cos(angle) + p.y() * std::sin(angle));
+    }
+    const double inside = 0.5 * std::cos(pi / 16) - reach;
+    EXPECT_GT(inside, -1e-12);
+    EXPECT_EQ(surface.faces[i], p.z() == -half ? 16 : p.z() == half ? 32 : 0);
+    EXPECT_EQ(surface.faces[i] == 0, std::abs(p.z()) < half);
+    EXPECT_TRUE(half - std::abs(p.z()) < 0.999 * depth || inside < 1e-12) << "the wall was moved";
+    moved += surface.faces[i] != 0 && inside > 1e-6 && inside < depth * slope ? 1 : 0;
+  }
+  EXPECT_GT(moved, 8);
+
+  CappedSurface held = surface;
+  held.held = 16 | 32;
+  evenFans(held, largestRatio, smallestAngle, depth);
+  EXPECT_NEAR(checkSurface(held.mesh).volume, after.volume, 1e-12) << "points of held faces moved";
 }
 
 TEST(EvenFans, LeavesEvenSurfacesAsTheyAre)
@@ -151,7 +204,7 @@ TEST(EvenFans, LeavesEvenSurfacesAsTheyAre)
   surface.mesh = example::box({ 0, 0, 0 }, { 1, 1, 1 });
   surface.faces.assign(8, 0);
   const TriangleMesh before = surface.mesh;
-  evenFans(surface, largestRatio, smallestAngle);
+  evenFans(surface, largestRatio, smallestAngle, 0.0);
   EXPECT_EQ(surface.mesh.points, before.points);
   EXPECT_EQ(surface.mesh.triangles, before.triangles);
 }
