@@ -2,6 +2,7 @@
 #include "TractogramData.h"
 
 #include "Columns.h"
+#include "FibreData.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -98,6 +99,10 @@ void toPolyData(Tractogram tractogram, vtkPolyData* output)
     addGroups(tractogram, fresh);
   }
   fresh->SetLines(linesOf(std::move(tractogram.offsets), pointCount));
+  if (fresh->GetPointData()->GetArray("Direction") == nullptr) // a file may have its own
+  {
+    addDirectionColours(fresh);
+  }
   output->ShallowCopy(fresh);
 }
 

@@ -67,6 +67,10 @@ class Tractograms(CactusTestCase):
         reader.LengthUnit = "Millimetre"
         self.assertSameStreamlines(fetch(reader), wanted, 1e-6)
         self.assertIsNone(fetch(reader).GetPointData().GetArray("Radius"))
+        along = wanted[0][1].astype("f8") - wanted[0][0]
+        colours = array(fetch(reader).GetPointData(), "Direction")
+        numpy.testing.assert_allclose(colours[0], 255 * numpy.abs(along) / numpy.linalg.norm(along), atol=1)
+        numpy.testing.assert_array_equal(colours[0], colours[1])
         reader.Radius = 0.5
         self.assertEqual(set(array(fetch(reader).GetPointData(), "Radius")), {0.0005})
 
