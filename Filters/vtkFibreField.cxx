@@ -48,11 +48,13 @@ struct Chosen
 std::vector<Chosen> choose(const cactus::LabelImageFacts& facts, const cactus::FibreFieldStage& stage)
 {
   using Selection = cactus::FibreSelection;
+  const int first = facts.fibreIds.empty() ? 0 : *std::min_element(facts.fibreIds.begin(), facts.fibreIds.end());
+  const int fibreId = stage.fibreId == 0 ? first : stage.fibreId;
   std::vector<Chosen> chosen;
   for (std::size_t i = 0; i < facts.fibreIds.size(); ++i)
   {
     const bool isChosen = stage.select == Selection::AllFibres ||
-                          (stage.select == Selection::OneFibre && facts.fibreIds[i] == stage.fibreId) ||
+                          (stage.select == Selection::OneFibre && facts.fibreIds[i] == fibreId) ||
                           (stage.select == Selection::OneBundle && facts.bundleIds[i] == stage.bundleId);
     if (isChosen)
     {
@@ -64,7 +66,7 @@ std::vector<Chosen> choose(const cactus::LabelImageFacts& facts, const cactus::F
     const bool oneFibre = stage.select == Selection::OneFibre;
     const auto& ids = oneFibre ? facts.fibreIds : facts.bundleIds;
     throw cactus::InvalidInput(
-      std::string(oneFibre ? "FibreId " : "BundleId ") + std::to_string(oneFibre ? stage.fibreId : stage.bundleId) +
+      std::string(oneFibre ? "FibreId " : "BundleId ") + std::to_string(oneFibre ? fibreId : stage.bundleId) +
       " is not in the label image, whose ids go from " + std::to_string(*std::min_element(ids.begin(), ids.end())) + " to " +
       std::to_string(*std::max_element(ids.begin(), ids.end())));
   }

@@ -167,6 +167,7 @@ void vtkNiftiWriter::WriteData()
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::NiftiWriterStage>(this->Properties);
+      cactus::validateProperties(stage);
       const fs::path path = stage.fileName;
       const bool isPacked = path.extension() == ".gz" && path.stem().extension() == ".nii";
       if (!isPacked && path.extension() != ".nii")

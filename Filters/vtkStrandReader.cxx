@@ -32,6 +32,7 @@ int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInf
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::StrandReaderStage>(this->Properties);
+      cactus::validateProperties(stage);
       const cactus::FibresOfFile read = cactus::strandsOf(stage);
       for (const std::string& remark : read.remarks)
       {

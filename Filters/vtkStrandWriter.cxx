@@ -38,6 +38,7 @@ void vtkStrandWriter::WriteData()
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::StrandWriterStage>(this->Properties);
+      cactus::validateProperties(stage);
       if (stage.fileName.empty())
       {
         throw cactus::InvalidInput("FileName is empty: name the strand file to write");

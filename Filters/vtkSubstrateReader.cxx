@@ -331,6 +331,7 @@ int vtkSubstrateReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::SubstrateReaderStage>(this->Properties);
+      cactus::validateProperties(stage);
       if (stage.fileName.empty())
       {
         throw cactus::InvalidInput("FileName is empty: name the substrate folder to read, or its manifest.json");

@@ -39,6 +39,7 @@ void vtkTractogramWriter::WriteData()
     [&]
     {
       const auto& stage = cactus::stageOf<cactus::TractogramWriterStage>(this->Properties);
+      cactus::validateProperties(stage);
       if (stage.fileName.empty())
       {
         throw cactus::InvalidInput("FileName is empty: name the tractogram to write");

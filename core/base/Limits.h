@@ -73,6 +73,7 @@ inline constexpr Range side{ 0.1, 1e5, " µm" };
 inline constexpr Range length{ side.lowest, side.highest, " µm", 0.0 };
 /// FibreId and BundleId, whole numbers.
 inline constexpr Range id{ 1.0, 2147483647.0 };
+inline constexpr Range idOrFirst{ 0.0, 2147483647.0 };
 /// The largest number of control points: they are counted in 32 bits, of which the neighbour search needs one.
 inline constexpr double controlPoints = 2147483647.0;
 

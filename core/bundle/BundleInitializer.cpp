@@ -228,6 +228,7 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
   double nearest = 0.0;
   double reached = 0.0;
   const double wantedBare = options.unmyelinatedShare() * options.fibreVolumeFraction;
+  constexpr double mostBareSurplus = 8.0;
   double bareSurplus = 1.1; // by chance, there are fewer of them in the domain than elsewhere
   for (int round = 0; round < (best && best->size() <= few ? roundsOfFew : rounds); ++round)
   {
@@ -237,7 +238,8 @@ Fibres initialiseSingle(const BundleInitializerOptions& asked, const Context& co
     {
       const double bare = leaveOutBare(wantedBare, fibres);
       bareMiss = std::abs(bare / wantedBare - 1.0);
-      bareSurplus *= bare < (1.0 - tolerance) * wantedBare ? 1.1 * wantedBare / bare : 1.0;
+      const double wider = bare < (1.0 - tolerance) * wantedBare ? std::min(1.1 * wantedBare / bare, 2.0) : 1.0;
+      bareSurplus = std::min(bareSurplus * wider, mostBareSurplus);
     }
     const double filled = capsuleVolumeInDomain(fibres) / fibres.domain.volume();
     const double miss = std::max(bareMiss, std::abs(filled / options.fibreVolumeFraction - 1.0));

@@ -147,8 +147,12 @@ StartPositions drawStartPositions(const Domain& box, const FibreSurfaces& outer,
   }
   if (!isDone())
   {
-    throw Infeasible(text("StartPositions ", count, ": of ", number, " points drawn, ", found.intra.size(), " lay in axons, ",
-      found.myelin.size(), " in myelin and ", found.extra.size(), " outside: ask for fewer"));
+    const Eigen::Vector3d size = box.upper - box.lower;
+    const bool isEmpty = (counts.intra > 0 && found.intra.empty()) || (hasMyelin && counts.myelin > 0 && found.myelin.empty()) ||
+                         (hasExtra && counts.extra > 0 && found.extra.empty());
+    throw Infeasible(text("StartPositions ", count, ": of ", number, " points drawn in a box of ", size.x(), " × ", size.y(),
+      " × ", size.z(), " µm, ", found.intra.size(), " lay in axons, ", found.myelin.size(), " in myelin and ", found.extra.size(),
+      " outside: ", isEmpty ? "make a larger substrate, which has all of them there" : "ask for fewer"));
   }
   return found;
 }

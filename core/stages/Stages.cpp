@@ -214,7 +214,8 @@ const PropertyList<FibreFieldStage>& FibreFieldStage::properties()
                              .add("Select", &Stage::select, { "One fibre", "One bundle", "All fibres" },
                                "Fibres whose fields are made. All fibres of a large substrate take much memory: 4 bytes for each "
                                "voxel of the box around each fibre.")
-                             .add("FibreId", &Stage::fibreId, limits::id, "FibreId of the fibre.")
+                             .add("FibreId", &Stage::fibreId, limits::idOrFirst,
+                               "FibreId of the fibre; 0 is the first one that the label image has, whatever its number.")
                              .where("Select", { 0 })
                              .add("BundleId", &Stage::bundleId, limits::id, "BundleId of the bundle.")
                              .where("Select", { 1 })

@@ -112,7 +112,7 @@ enum class FibreSelection
 struct FibreFieldStage
 {
   FibreSelection select = FibreSelection::OneFibre;
-  int fibreId = 1;
+  int fibreId = 0; ///< 0: the first one
   int bundleId = 1;
   double level = 0.0; ///< µm
   bool clipToDomain = true;

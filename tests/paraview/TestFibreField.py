@@ -67,6 +67,18 @@ class FibreFieldTest(CactusTestCase):
     def table_ids(self, name):
         return vtk_to_numpy(self.image.GetFieldData().GetArray("FibreTable." + name))
 
+    def test_the_first_fibre_by_default(self):
+        image = vtkImageData()
+        image.DeepCopy(self.image)
+        ids = vtk_to_numpy(image.GetFieldData().GetArray("FibreTable.FibreId"))
+        labels = vtk_to_numpy(image.GetPointData().GetArray("FibreId"))
+        labels[labels > 0] += 4  # as in a bundle of which the first fibres miss the domain
+        ids += 4
+        (block,) = blocks_of(fetch(FibreField(Input=produce(image))))
+        self.assertEqual(number(block, "FibreId"), 5)
+        (wanted,) = blocks_of(fetch(self.field(FibreId=1)))
+        numpy.testing.assert_array_equal(*(vtk_to_numpy(each.GetPointData().GetArray("Field")) for each in (block, wanted)))
+
     def test_one_fibre(self):
         data = fetch(self.field(FibreId=3))
         (block,) = blocks_of(data)

@@ -70,6 +70,8 @@ COSTLY = {
     "SubstrateCertificate": [{"CutSpacing": 0.001}, {"MinimumGap": 3}],
     "BundleInitializer": [{"FibreVolumeFraction": 0.84}, {"MeanDispersion": 45}, {"MeanDispersion": 1e-300}, {"Margin": 20}],
 }
+# Quantities that are NaN where there is nothing to measure them at, as their docs say.
+MEASURED = ("Length_um", "Dispersion", "MeanBeadAmplitude", "OrientationP2ByAxonVolume")
 # Whose arrays are those that came in, as they are.
 PASSING_ON = {"NiftiReader", "Placement"}
 MEGABYTES = (0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64)
@@ -85,6 +87,8 @@ class Standing:
         self.bench, self.target = bench, target
         self.folder = tempfile.mkdtemp(dir=bench.folder)
         self.good = {**SMALL.get(target.name, {}), **overrides}
+        if self.good.get("StartPositions"):  # MC/DC starts in boxes within the domain, which these few axons miss
+            self.good["Format"] = 1
         if self.good.get("RadiusTableFile"):  # of which only one may be given
             self.good["RadiusTable"] = ""
         for name in target.writes:
@@ -95,6 +99,8 @@ class Standing:
         many = bench.good.get("many fibres") if set(target.ports.values()) == {"fibres"} and target.name != "FibreRadialGrowth" else None
         self.data = {port: many or bench.good[kind] for port, kind in target.ports.items()}
         self.inputs = {port: produce(inputs.copy(data)) for port, data in self.data.items()}
+        if target.name == "MyelinSurface" and overrides:  # which may need the centre lines, of which only growth knows
+            self.inputs["Input"] = simple.FibreRadialGrowth(Input=produce(inputs.copy(bench.good["fibres"])), **SMALL["FibreRadialGrowth"])
         self.proxy = getattr(module, target.name)(**self.inputs)
         for name, value in self.good.items():
             self.set(name, value)
@@ -247,7 +253,7 @@ class Bench:
         faults = []
         if len(errors) > 1:
             faults.append(f"{len(errors)} errors for one fault: " + " | ".join(errors))
-        if len(warnings) > 2:
+        if len(warnings) > (4 if standing.target.name == "SubstrateProduction" else 2):  # which is four stages
             faults.append(f"{len(warnings)} warnings: " + " | ".join(warnings))
         for text in errors + warnings:
             if CPLUSPLUS.search(text):
@@ -272,6 +278,7 @@ class Bench:
             if outputs and all(is_empty(data) for data in outputs) and not warnings:
                 faults.append("no result, and not a word")
             unusual = {one for one in not_finite(outputs) - standing.unusual if not passed_on or not one.endswith(passed_on)}
+            unusual = {one for one in unusual if one.split(".")[-1] not in MEASURED}
             if unusual and not warnings and standing.target.name not in PASSING_ON:
                 faults.append("without a word, not finite: " + ", ".join(sorted(unusual)))
         return faults
@@ -294,6 +301,8 @@ class Bench:
         element = self.targets[name].number(one)
         if element.find("BooleanDomain") is not None or element.find("EnumerationDomain") is not None:
             return []
+        if element.get("name") == "Direction":  # of any length
+            return []
         low, high = limits(element)
         needed = {"min": low} if element.tag == "IntVectorProperty" else {"min": low, "max": high}
         return [f"the XML gives no {end}" for end, limit in needed.items() if limit is None]
@@ -308,7 +317,8 @@ class Bench:
         illegal = not is_legal(element, number) and element.find("BooleanDomain") is None
         faults = self.judge(standing, naming=one if illegal else None, must_fail=illegal)
         by_default = str(element.get("default_values")) in (value, f"{number:g}")  # a choice that has to be made
-        if value in ("min", "max") and not by_default and re.match(rf"ERROR {one} (is|must)\b", self.note):
+        depends = any(each.get("name") in self.note for each in target.numbers if each.get("name") not in one)  # the XML cannot say that
+        if value in ("min", "max") and not by_default and not depends and re.match(rf"ERROR {one} (is|must)\b", self.note):
             faults.append(f"the XML allows what the filter refuses: {self.note}")
         standing.reset(one)
         return faults + self.recovered(standing)

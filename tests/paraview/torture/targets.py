@@ -48,7 +48,7 @@ class Target:
             for name, is_inverse, value in switches_of(pending.pop()):
                 if name not in found:
                     needed = self.element.find(f"*[@name='{name}']")
-                    given = RADII if name == "RadiusTableFile" else GIVEN[needed.tag]
+                    given = GIVEN.get(name, GIVEN[needed.tag])
                     found[name] = given if is_inverse else float(value)
                     pending.append(needed)
         return found
@@ -56,7 +56,9 @@ class Target:
 
 RADII = "radii.txt"  # a file that is there
 # A value of each kind where any but 0, or some text, makes another property count.
-GIVEN = {"IntVectorProperty": 1.0, "DoubleVectorProperty": 0.5, "StringVectorProperty": "given"}
+GIVEN = {
+    "RadiusTableFile": RADII, "UnmyelinatedFraction": 0.3, "IntVectorProperty": 1.0, "DoubleVectorProperty": 0.5, "StringVectorProperty": "given",
+}
 
 
 def targets():
