@@ -199,7 +199,7 @@ class ChainTest(CactusTestCase):
 
     def test_crossing(self):
         data, _ = self.run_chain(
-            12, 0.7, most_triangles=(12.5, 15), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5, Border="Walls", CalibreVariation=0
+            12, 0.7, most_triangles=(13, 15.5), NumberOfBundles=2, CrossingAngle=60, MeanDispersion=3, FibreVolumeFraction=0.5, Border="Walls", CalibreVariation=0
         )
         points = vtk_to_numpy(data.GetPoints().GetData())
         offsets = vtk_to_numpy(data.GetLines().GetOffsetsArray())
