@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTractogramWriter.h"
 
+#include "DataProvenance.h"
 #include "FibreData.h"
 #include "FilterSupport.h"
 #include "PlacementData.h"
@@ -8,14 +9,36 @@
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
+#include "base/LengthUnit.h"
 #include "io/TractogramFile.h"
 #include "stages/Stages.h"
+#include "stages/TractRecords.h"
 
 #include <vtkErrorCode.h>
 #include <vtkInformation.h>
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkTractogramWriter);
+
+namespace
+{
+
+void toMicrometres(cactus::Fibres& tract)
+{
+  const double unit = cactus::micrometresIn(cactus::LengthUnit::Millimetre);
+  for (Eigen::Vector3d& point : tract.points)
+  {
+    point *= unit;
+  }
+  for (double& radius : tract.radii)
+  {
+    radius *= unit;
+  }
+  tract.domain.lower *= unit;
+  tract.domain.upper *= unit;
+}
+
+} // namespace
 
 vtkTractogramWriter::vtkTractogramWriter()
   : Properties(cactus::makeProperties<cactus::TractogramWriterStage>())
@@ -46,8 +69,12 @@ void vtkTractogramWriter::WriteData()
       }
       const auto placement = cactus::placementOf(this->GetInput());
       cactus::requireFileUnit(stage.lengthUnit, placement.has_value());
-      cactus::writeTractogram(
-        cactus::tractFrom(this->GetInput()), placement.value_or(cactus::Placement()), stage.fileName, stage.lengthUnit);
+      cactus::Fibres tract = cactus::tractFrom(this->GetInput());
+      if (!placement && cactus::areStreamlinesInMillimetres(cactus::originsOf(this, { "Input" })))
+      {
+        toMicrometres(tract);
+      }
+      cactus::writeTractogram(tract, placement.value_or(cactus::Placement()), stage.fileName, stage.lengthUnit);
       if (stage.lengthUnit == cactus::LengthUnit::Micrometre)
       {
         vtkWarningMacro(<< stage.fileName << cactus::micrometresInFile);

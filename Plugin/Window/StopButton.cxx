@@ -16,15 +16,19 @@
 #include <QApplication>
 #include <QCursor>
 #include <QEvent>
+#include <QPoint>
+#include <QTimer>
 #include <QToolButton>
+#include <QWidget>
+#include <QWindow>
 
 namespace cactus
 {
 namespace
 {
 
-constexpr qint64 pauseBetweenClicks = 100; // ms
-constexpr int takingClicks = 30;           // ms; without a time Qt serves one event only, which may be another
+constexpr int pauseBetweenClicks = 100; // ms
+constexpr int takingClicks = 30;        // ms; without a time Qt serves one event only, which may be another
 
 } // namespace
 
@@ -77,7 +81,14 @@ void StopButton::takeClicks(vtkObject* algorithm, unsigned long, void*)
     this->Button->setEnabled(true);
     this->Button->repaint();
   }
-  if (this->Bar->rect().contains(this->Bar->mapFromGlobal(QCursor::pos())))
+  if (this->IsToClose)
+  {
+    this->Running->SetAbortExecute(1);
+  }
+  const QPoint mouse = QCursor::pos();
+  const QWidget* window = this->Bar->window();
+  const bool isOutside = !window->rect().contains(window->mapFromGlobal(mouse)); // perhaps at the button that closes the window
+  if (isOutside || this->Bar->rect().contains(this->Bar->mapFromGlobal(mouse)))
   {
     this->IsTaking = true;
     pqProgressManager* manager = pqPVApplicationCore::instance()->getProgressManager();
@@ -108,6 +119,21 @@ void StopButton::end(vtkObject*, unsigned long, void*)
   this->ToPaint.clear();
 }
 
+void StopButton::closeSoon()
+{
+  QTimer::singleShot(pauseBetweenClicks, this,
+    [this]
+    {
+      if (this->Running != nullptr)
+      {
+        this->closeSoon();
+        return;
+      }
+      this->IsToClose = false;
+      this->Bar->window()->close();
+    });
+}
+
 bool StopButton::eventFilter(QObject* object, QEvent* event)
 {
   switch (event->type())
@@ -127,6 +153,16 @@ bool StopButton::eventFilter(QObject* object, QEvent* event)
     }
     return false;
   case QEvent::Close:
+    event->ignore();
+    // The system's window gets it first.
+    if (this->Bar != nullptr && (object == this->Bar->window() || object == this->Bar->window()->windowHandle()) &&
+        !this->IsToClose)
+    {
+      this->IsToClose = true;
+      this->Running->SetAbortExecute(1);
+      this->closeSoon();
+    }
+    return true;
   case QEvent::Drop:
     event->ignore();
     return true;

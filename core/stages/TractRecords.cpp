@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "base/JsonText.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace cactus
@@ -48,6 +49,16 @@ bool isInMillimetres(const Json& record)
   return record.at("properties").at("LengthUnit").get<std::string>() == "Millimetre";
 }
 
+bool isReadInMillimetres(const DataOrigin& origin)
+{
+  if (origin.records.empty())
+  {
+    return !origin.parts.empty() && std::all_of(origin.parts.begin(), origin.parts.end(), isReadInMillimetres);
+  }
+  const Json last = parsedJson(origin.records.back()).value_or(Json());
+  return last.is_object() && last.value("filter", "") == "TractogramReader" && isInMillimetres(last);
+}
+
 } // namespace
 
 TractFibresStage askedOfTract(TractFibresStage stage, const InputOrigins& inputs)
@@ -75,6 +86,18 @@ TractFibresStage askedOfTract(TractFibresStage stage, const InputOrigins& inputs
   }
   stage.options.lengthUnit = unit.value_or(TractUnit::Micrometre);
   return stage;
+}
+
+bool areStreamlinesInMillimetres(const InputOrigins& inputs)
+{
+  for (const auto& input : inputs)
+  {
+    if (std::any_of(input.second.begin(), input.second.end(), isReadInMillimetres))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 Placement placementOnTract(const InputOrigins& inputs)

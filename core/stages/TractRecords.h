@@ -20,6 +20,9 @@ using InputOrigins = std::vector<std::pair<std::string, std::vector<DataOrigin>>
 /// if no TractogramReader is among their origins. Throws InvalidInput if several gave different ones.
 TractFibresStage askedOfTract(TractFibresStage stage, const InputOrigins& inputs);
 
+/// Tells whether data are streamlines in the millimetres that TractogramReader gave them, with no stage behind it.
+bool areStreamlinesInMillimetres(const InputOrigins& inputs);
+
 /// Returns where a substrate lies on the tract along which TractFibres has laid its fibres: there, and as large as the tract.
 /// Throws InvalidInput if no TractFibres is among the origins, or several at different places.
 Placement placementOnTract(const InputOrigins& inputs);

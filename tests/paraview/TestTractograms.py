@@ -12,7 +12,7 @@ import numpy
 from cactus_testing import CactusTestCase, fetch, main
 from nibabel.streamlines import Field, Tractogram, TckFile, TrkFile
 from paraview import servermanager
-from paraview.simple import BundleInitializer, OpenDataFile, SaveData, TractogramReader
+from paraview.simple import BundleInitializer, GenerateIds, OpenDataFile, SaveData, TractFibres, TractogramReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 # A rotated, flipped and anisotropic image: no axis of its voxels is one of the scanner's.
@@ -255,6 +255,20 @@ class Tractograms(CactusTestCase):
         for name in ("FibreId", "BundleId"):
             numpy.testing.assert_array_equal(array(again.GetCellData(), name), array(fibres.GetCellData(), name))
         SaveData(self.path("again.tck"), proxy=OpenDataFile(self.path("fibres.trx")))  # fibres for any stage
+
+    def test_streamlines_read_in_mm_are_saved_where_they_were(self):
+        wanted = some_streamlines()
+        TckFile(Tractogram(wanted, affine_to_rasmm=numpy.eye(4))).save(self.path("some.tck"))
+        read = TractogramReader(FileName=self.path("some.tck"), LengthUnit="Millimetre", Radius=0.5)
+        for proxy in (read, GenerateIds(Input=read)):
+            for name in ("again.tck", "again.trx"):
+                SaveData(self.path(name), proxy=proxy)
+                self.assertSameStreamlines(fetch(TractogramReader(FileName=self.path(name), LengthUnit="Millimetre")), wanted, 1e-4)
+        numpy.testing.assert_allclose(
+            array(fetch(OpenDataFile(self.path("again.trx"))).GetPointData(), "Radius"), 0.5, rtol=1e-6)
+        laid = TractFibres(Input=read, Side=6, FibreVolumeFraction=0.5)
+        SaveData(self.path("laid.tck"), proxy=laid)
+        self.assertSameStreamlines(fetch(TractogramReader(FileName=self.path("laid.tck"))), lines(fetch(laid)), 1e-3)
 
     def test_a_whole_head_is_saved_as_it_was_read(self):
         """Larger than the domain of a substrate may be, in µm."""

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""window_click.py COMMAND...: runs the ParaView window, and clicks all along its status bar, as somebody does who presses the abort button: from
-when CACTUS_WINDOW_NOTES (see window_notes.py) tells of an optimiser until the window says that it has stopped. Clicks are taken only where the mouse
-is at the progress bar, so that it rests there in between. Ends as the command does."""
+"""window_click.py HOW COMMAND...: runs the ParaView window, and stops what it does from when CACTUS_WINDOW_NOTES (see window_notes.py) tells that
+growth works until the window says that it has stopped. HOW is `stop`, by clicks all along its status bar, as somebody does who presses the abort button,
+or `close`, by asking it to close, with the mouse where a window has the button for that. Clicks are taken only where the mouse is at the progress
+bar, so that it rests there in between. Ends as the command does."""
 
 import ctypes
 import os
@@ -19,24 +20,51 @@ X11.XDefaultRootWindow.restype = ctypes.c_ulong
 class Attributes(ctypes.Structure):
     """XWindowAttributes, of which the first numbers are of use here."""
 
-    _fields_ = [("x", ctypes.c_int), ("y", ctypes.c_int), ("width", ctypes.c_int), ("height", ctypes.c_int), ("rest", ctypes.c_char * 256)]
+    _fields_ = [("x", ctypes.c_int), ("y", ctypes.c_int), ("width", ctypes.c_int), ("height", ctypes.c_int), ("between", ctypes.c_char * 76), ("map_state", ctypes.c_int),
+                ("rest", ctypes.c_char * 256)]
+
+
+class ClientMessage(ctypes.Structure):
+    """XClientMessageEvent, as large as any XEvent."""
+
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int), ("display", ctypes.c_void_p), ("window", ctypes.c_ulong),
+                ("message_type", ctypes.c_ulong), ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("rest", ctypes.c_char * 96)]
+
+
+X11.XInternAtom.restype = ctypes.c_ulong
 
 
 def largest_window(display):
+    """Attributes and number of the window."""
     root, parent, children, count = ctypes.c_ulong(), ctypes.c_ulong(), ctypes.POINTER(ctypes.c_ulong)(), ctypes.c_uint()
     X11.XQueryTree(display, ctypes.c_ulong(X11.XDefaultRootWindow(display)), ctypes.byref(root), ctypes.byref(parent), ctypes.byref(children), ctypes.byref(count))
     windows = []
     for i in range(count.value):
-        windows.append(Attributes())
-        X11.XGetWindowAttributes(display, ctypes.c_ulong(children[i]), ctypes.byref(windows[-1]))
-    return max(windows, key=lambda window: window.width * window.height)
+        windows.append((Attributes(), children[i]))
+        X11.XGetWindowAttributes(display, ctypes.c_ulong(children[i]), ctypes.byref(windows[-1][0]))
+    return max(windows, key=lambda window: window[0].width * window[0].height)
 
 
 def move(display, x, y):
     XTST.XTestFakeMotionEvent(display, -1, x, y, 0)
 
 
-def click_along(display, window, has_stopped):
+def ask_to_close(display, window, number, has_stopped):
+    move(display, window.x + window.width, window.y + window.height)  # the first place beyond its corner
+    atoms = [X11.XInternAtom(display, name, 0) for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW")]
+    event = ClientMessage(type=33, window=number, message_type=atoms[0], format=32)
+    event.data[0] = atoms[1]
+    X11.XSendEvent(display, ctypes.c_ulong(number), 0, ctypes.c_long(0), ctypes.byref(event))
+    X11.XFlush(display)
+    if has_stopped.wait(0.5):
+        for _ in range(100):
+            time.sleep(0.1)
+            if X11.XGetWindowAttributes(display, ctypes.c_ulong(number), ctypes.byref(window)) == 0 or window.map_state == 0:
+                print("the window is closed", file=sys.stderr)
+                break
+
+
+def click_along(display, window, number, has_stopped):
     y = window.y + window.height - 14
     for x in range(window.x + 8, window.x + window.width, 8):
         move(display, x, y)
@@ -54,7 +82,7 @@ def click_along(display, window, has_stopped):
 def is_due():
     try:
         with open(os.environ["CACTUS_WINDOW_NOTES"], encoding="utf-8") as file:
-            return "CapsuleOptimizer" in file.read()
+            return "FibreRadialGrowth works" in file.read()
     except FileNotFoundError:
         return False
 
@@ -66,7 +94,8 @@ def pass_on(output, has_stopped):
             has_stopped.set()
 
 
-with subprocess.Popen(sys.argv[1:], stderr=subprocess.PIPE, text=True, errors="replace") as process:
+stop = {"stop": click_along, "close": ask_to_close}[sys.argv[1]]
+with subprocess.Popen(sys.argv[2:], stderr=subprocess.PIPE, text=True, errors="replace") as process:
     has_stopped = threading.Event()
     reader = threading.Thread(target=pass_on, args=(process.stderr, has_stopped))
     reader.start()
@@ -74,7 +103,7 @@ with subprocess.Popen(sys.argv[1:], stderr=subprocess.PIPE, text=True, errors="r
         time.sleep(0.1)
     display = ctypes.c_void_p(X11.XOpenDisplay(None))
     while process.poll() is None and not has_stopped.is_set():
-        click_along(display, largest_window(display), has_stopped)
+        stop(display, *largest_window(display), has_stopped)
     process.wait()
     reader.join()
 sys.exit(process.returncode)

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run by the ParaView window when it starts: writes down, for every update of a stage, its name and how many points it has then, how deep
-fibres lie in each other where it says so, and the preset that it shows in its panel."""
+fibres lie in each other where it says so, and the preset that it shows in its panel; and, once, that growth works."""
 
 import os
 
 from paraview import servermanager
 
 watched = {}
+working = set()
 
 
 def watch(*_):
@@ -29,7 +30,15 @@ def watch(*_):
                     if penetration:
                         file.write(f"{proxy.GetXMLName()} penetration {penetration.GetValue(0):.4g}\n")
 
+        def note_work(*_, name=proxy.GetXMLName()):
+            if name == "FibreRadialGrowth" and name not in working:  # which can be stopped
+                working.add(name)
+                with open(os.environ["CACTUS_WINDOW_NOTES"], "a") as file:
+                    file.write(f"{name} works\n")
+
         proxy.AddObserver("UpdateDataEvent", note)
+        if proxy.GetClientSideObject():
+            proxy.GetClientSideObject().AddObserver("ProgressEvent", note_work)
 
 
 servermanager.vtkSMProxyManager.GetProxyManager().AddObserver("RegisterEvent", watch)
