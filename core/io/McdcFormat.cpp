@@ -87,8 +87,8 @@ std::string mcdcText(const SubstrateFolderContents& contents, const WrittenSubst
   if (hasOuter)
   {
     text += leavingText(substrate.leaving, contents.mcdc.echoTime) +
-            "Outside the substrate water is free, and a walker there no longer tells of the substrate. A shorter duration or a\n"
-            "larger substrate keeps them in.\n\n";
+            "Outside the substrate water is free, and a walker there no longer tells of the substrate. A shorter duration, a\n"
+            "larger substrate or a periodic one (Border Periodic, with PeriodicFaces Open) keeps them in.\n\n";
   }
   text +=
     contents.periodicFaces == PeriodicFaces::Open && contents.domain.periodic[2]

@@ -21,11 +21,9 @@ import tempfile
 
 import numpy as np
 from paraview import servermanager
-from paraview.simple import PVTrivialProducer, StrandReader, SubstrateStatistics
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkFiltersCore import vtkAppendPolyData
-from vtkmodules.vtkIOPLY import vtkPLYReader
+from paraview.simple import OutputPort, SubstrateReader, SubstrateStatistics
 
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 RECORDED = 40  # times at which positions are written
 
 
@@ -71,29 +69,6 @@ def simulate(program, folder, compartment, domain, options):
     return 1e3 * numbers.reshape(-1, RECORDED + 1, 3).astype(float), 1e9 * diffusivity, math.sqrt(6e12 * diffusivity * time / steps)
 
 
-def outer_surfaces(folder, manifest):
-    """All of them, as SubstrateStatistics takes them."""
-    append = vtkAppendPolyData()
-    for entry in manifest["files"]:
-        if entry["surface"] == "outer":
-            reader = vtkPLYReader()
-            reader.SetFileName(os.path.join(folder, entry["path"]))
-            reader.Update()
-            surface = reader.GetOutput()
-            for name, value in (("FibreId", entry["fibre"]), ("BundleId", entry["bundle"]), ("Surface", 0)):
-                array = numpy_to_vtk(np.full(surface.GetNumberOfCells(), value, np.int32), deep=True)
-                array.SetName(name)
-                surface.GetCellData().AddArray(array)
-            append.AddInputData(surface)
-    append.Update()
-    domain = numpy_to_vtk(np.array(manifest["domain"]), deep=True)
-    domain.SetName("Domain")
-    append.GetOutput().GetFieldData().AddArray(domain)
-    producer = PVTrivialProducer()
-    producer.GetClientSideObject().SetOutput(append.GetOutput())
-    return producer
-
-
 def mean_and_error(values):
     return np.column_stack([values.mean(axis=0), values.std(axis=0) / math.sqrt(len(values))])
 
@@ -112,7 +87,7 @@ def main():
     parser.add_argument("--step", type=float, help="µm, in place of that of the configurations")
     parser.add_argument("--sphere", type=float, help="sphere_size, in place of that of the configurations")
     parser.add_argument("--compartments", nargs="+", default=["intra", "extra"])
-    parser.add_argument("--walk", default="build/release/bin/cactus_random_walk", help="where that program is")
+    parser.add_argument("--walk", default=os.path.join(ROOT, "build/release/bin/cactus_random_walk"), help="where that program is")
     options = parser.parse_args()
     with open(os.path.join(options.folder, "manifest.json"), encoding="utf-8") as file:
         manifest = json.load(file)
@@ -133,8 +108,8 @@ def main():
         squares = (places - places[:, :1]) ** 2
         grown = (squares[:, -1] - squares[:, RECORDED // 2]) / (diffusivity * options.milliseconds)
         print(f"| outside, MC/DC, over free | {step:.3f} | {cells(mean_and_error(grown))} |", flush=True)
-        statistics = SubstrateStatistics(Fibres=StrandReader(FileName=os.path.join(options.folder, "fibres.strands")),
-                                         Outer=outer_surfaces(options.folder, manifest), ExtraAxonalWalkers=10 * options.walkers,
+        substrate = SubstrateReader(FileName=os.path.join(options.folder, "manifest.json"))
+        statistics = SubstrateStatistics(Outer=OutputPort(substrate, 0), Fibres=OutputPort(substrate, 2), ExtraAxonalWalkers=10 * options.walkers,
                                          WalkDistance=math.sqrt(2 * diffusivity * options.milliseconds), WalkStep=step)
         statistics.UpdatePipeline()
         table = servermanager.Fetch(statistics)
