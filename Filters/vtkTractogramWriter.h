@@ -4,8 +4,8 @@
  * @brief Writes fibres as a tractogram for MRtrix, dipy and others: .tck (centre lines) or .trx (with radii, ids, bundles), in
  * mm, or in µm by `LengthUnit`.
  *
- * Input: polylines with point data `Radius` (µm). A .trx has `dpv/Radius`, `dps/FibreId`, `dps/BundleId` and a group for each
- * bundle. The file appears whole or not at all.
+ * Input: polylines with point data `Radius` (µm; mm where they come from a vtkTractogramReader with that `LengthUnit`). A .trx
+ * has `dpv/Radius`, `dps/FibreId`, `dps/BundleId` and a group for each bundle. The file appears whole or not at all.
  */
 #ifndef vtkTractogramWriter_h
 #define vtkTractogramWriter_h
