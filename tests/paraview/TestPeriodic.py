@@ -88,6 +88,7 @@ class TestPeriodic(CactusTestCase):
         return triangles[~is_cap]
 
     def test_simulators_are_told(self):
+        self.expected = "caps of fibres lie there, too"
         fibres, surfaces = self.chain()
         folder = os.path.join(self.folder, "substrate")
         SubstrateWriter(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), FolderName=folder, Format="MC/DC").UpdatePipeline()
@@ -104,6 +105,7 @@ class TestPeriodic(CactusTestCase):
             text = file.read()
         self.assertIn("repeats along x, y and z", text)
         self.assertIn("Fewer than 0.1 %", text)
+        self.assertIn(self.expected, text)
 
     @staticmethod
     def read_ply(path):
