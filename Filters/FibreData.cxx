@@ -180,7 +180,7 @@ void takeBack(const Placement& placement, Fibres& fibres)
 
 } // namespace
 
-Fibres tractFrom(vtkDataObject* input)
+Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPlaced)
 {
   const auto blocks = polyDataBlocks(
     input, "fibres are polylines (vtkPolyData) with point data Radius; AppendGeometry, not AppendDatasets, joins them as such");
@@ -191,9 +191,10 @@ Fibres tractFrom(vtkDataObject* input)
     try
     {
       addFibres(block.data, part);
-      if (const auto placement = placementOf(block.data))
+      const auto placement = placementOf(block.data);
+      if (placement || unlessPlaced)
       {
-        takeBack(*placement, part);
+        takeBack(placement ? *placement : *unlessPlaced, part);
       }
     }
     catch (const InvalidInput& error)

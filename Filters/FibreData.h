@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/Domain.h"
+#include "base/Placement.h"
 #include "fibres/Fibres.h"
 
 #include <vtkType.h>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +37,8 @@ namespace cactus
 Fibres fibresFrom(vtkDataObject* input);
 
 /// The same for what need not be a substrate, as a tractogram that was read: the domain may have no volume or be larger than
-/// limits are, and so may the fibres.
-Fibres tractFrom(vtkDataObject* input);
+/// limits are, and so may the fibres. Data without a placement of their own are moved back from `unlessPlaced`, if given.
+Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPlaced = std::nullopt);
 
 /// The fibres of several inputs in their order. Ids stay where they are free; the bundles or fibres of an input or block that
 /// share one with an earlier one all move above the largest. Throws InvalidInput where the inputs have different domains.

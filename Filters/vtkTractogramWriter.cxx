@@ -9,7 +9,7 @@
 #include "StageProperties.h"
 #include "WholeData.h"
 #include "base/Error.h"
-#include "base/LengthUnit.h"
+#include "base/Placement.h"
 #include "io/TractogramFile.h"
 #include "stages/Stages.h"
 #include "stages/TractRecords.h"
@@ -18,27 +18,9 @@
 #include <vtkInformation.h>
 #include <vtkObjectFactory.h>
 
+#include <optional>
+
 vtkStandardNewMacro(vtkTractogramWriter);
-
-namespace
-{
-
-void toMicrometres(cactus::Fibres& tract)
-{
-  const double unit = cactus::micrometresIn(cactus::LengthUnit::Millimetre);
-  for (Eigen::Vector3d& point : tract.points)
-  {
-    point *= unit;
-  }
-  for (double& radius : tract.radii)
-  {
-    radius *= unit;
-  }
-  tract.domain.lower *= unit;
-  tract.domain.upper *= unit;
-}
-
-} // namespace
 
 vtkTractogramWriter::vtkTractogramWriter()
   : Properties(cactus::makeProperties<cactus::TractogramWriterStage>())
@@ -69,12 +51,11 @@ void vtkTractogramWriter::WriteData()
       }
       const auto placement = cactus::placementOf(this->GetInput());
       cactus::requireFileUnit(stage.lengthUnit, placement.has_value());
-      cactus::Fibres tract = cactus::tractFrom(this->GetInput());
-      if (!placement && cactus::areStreamlinesInMillimetres(cactus::originsOf(this, { "Input" })))
-      {
-        toMicrometres(tract);
-      }
-      cactus::writeTractogram(tract, placement.value_or(cactus::Placement()), stage.fileName, stage.lengthUnit);
+      const bool isInMillimetres = cactus::areStreamlinesInMillimetres(cactus::originsOf(this, { "Input" }));
+      const cactus::Placement inScanner; // µm in place of mm
+      const cactus::Fibres tract =
+        cactus::tractFrom(this->GetInput(), isInMillimetres ? std::make_optional(inScanner) : std::nullopt);
+      cactus::writeTractogram(tract, placement.value_or(inScanner), stage.fileName, stage.lengthUnit);
       if (stage.lengthUnit == cactus::LengthUnit::Micrometre)
       {
         vtkWarningMacro(<< stage.fileName << cactus::micrometresInFile);

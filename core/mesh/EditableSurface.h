@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/CappedSurface.h"
+#include "mesh/TriangleShape.h"
 
 #include <cstdint>
 #include <vector>
@@ -31,6 +32,12 @@ public:
   const std::array<std::int32_t, 3>& cornersOf(std::size_t triangle) const { return this->Triangles[triangle]; }
   /// Returns the outward normal of a triangle, as long as twice its area: the product of the edges at its first corner.
   const Eigen::Vector3d& normalOf(std::size_t triangle) const { return this->Normals[triangle]; }
+  /// As TriangleShape has it.
+  double flatnessOf(std::size_t triangle) const
+  {
+    const auto& t = this->cornersOf(triangle);
+    return shapeOf(this->at(t[0]), this->at(t[1]), this->at(t[2])).flatness;
+  }
   bool isDead(std::size_t triangle) const { return this->cornersOf(triangle)[0] < 0; }
   bool isDeadPoint(std::int32_t point) const { return this->firstCorner(point) < 0; }
   bool isCap(const std::array<std::int32_t, 3>& corners) const

@@ -90,10 +90,10 @@ public:
   }
 
 private:
-  /// An edge at a vertex, and where it is cut.
+  /// An edge at a vertex, and where it is cut; or a triangle, and where it is split.
   struct Cut
   {
-    std::int32_t end = -1;
+    std::int32_t end = -1; ///< the edge's other end, or the vertex' corner of the triangle
     double part = 0.0;
     double cosine = 0.0; ///< smallest at the vertex afterwards
   };
@@ -277,12 +277,6 @@ private:
     }
   }
 
-  double flatnessOf(std::size_t triangle) const
-  {
-    const auto& t = this->Mesh.cornersOf(triangle);
-    return shapeOf(this->Mesh.at(t[0]), this->Mesh.at(t[1]), this->Mesh.at(t[2])).flatness;
-  }
-
   bool flipInCaps()
   {
     bool any = false;
@@ -318,7 +312,7 @@ private:
     const Vector3d& pc = this->Mesh.at(c);
     const Vector3d& pd = this->Mesh.at(d);
     const Vector3d& normal = this->Mesh.normalOf(one);
-    const double flattest = std::min(this->flatnessOf(one), this->flatnessOf(other));
+    const double flattest = std::min(this->Mesh.flatnessOf(one), this->Mesh.flatnessOf(other));
     if (before == 0.0 || !((pd - pa).cross(pc - pa).dot(normal) > 0.0) || !((pb - pd).cross(pc - pd).dot(normal) > 0.0) ||
         !this->Limits.allow(pa, pd, pc, flattest) || !this->Limits.allow(pd, pb, pc, flattest) || this->Mesh.areLinked(c, d))
     {
@@ -360,6 +354,13 @@ private:
     return any;
   }
 
+  /// Tells whether a cut is: by its smallest cosine or, where both do, by being nearer to the middle.
+  static bool isBetter(double part, double after, const Cut& best)
+  {
+    return std::min(after, wantedCosine) > best.cosine ||
+           (after >= wantedCosine && best.cosine >= wantedCosine && part > best.part);
+  }
+
   /// The cut nearest to the middle of an edge that reaches the goal or, where none does, the one that comes nearest to it.
   Cut bestCut(std::int32_t point) const
   {
@@ -383,9 +384,7 @@ private:
       for (const double part : cutParts)
       {
         const double after = this->scoreOf(normal - (1.0 - part) * between, normal, point);
-        const bool isBetter = std::min(after, wantedCosine) > best.cosine ||
-                              (after >= wantedCosine && best.cosine >= wantedCosine && part > best.part);
-        if (isBetter && this->isWellCut(point, end, sides, part))
+        if (isBetter(part, after, best) && this->isWellCut(point, end, sides, part))
         {
           const double there = this->cosineTo(this->normalAt(end) - part * between, end);
           if (there >= std::min(leastCosine, this->cosineAt(end)))
@@ -446,16 +445,14 @@ private:
       for (const double part : cutParts)
       {
         const double after = this->scoreOf(normal - (1.0 - part) * own, normal, point);
-        const bool isBetter = std::min(after, wantedCosine) > best.cosine ||
-                              (after >= wantedCosine && best.cosine >= wantedCosine && part > best.part);
         const Vector3d place = this->placeAt(c, part);
-        const double flattest = this->flatnessOf(std::size_t(c) / 3);
+        const double flattest = this->Mesh.flatnessOf(std::size_t(c) / 3);
         const Vector3d& from = this->Mesh.at(point);
         const Vector3d& a = this->Mesh.at(edge[0]);
         const Vector3d& b = this->Mesh.at(edge[1]);
-        if (isBetter && this->Limits.allow(from, a, place, flattest) && this->Limits.allow(from, place, b, flattest) &&
-            this->Limits.allow(place, a, b, flattest) && this->keeps(edge[0], 0.5 * part * own) &&
-            this->keeps(edge[1], 0.5 * part * own))
+        if (isBetter(part, after, best) && this->Limits.allow(from, a, place, flattest) &&
+            this->Limits.allow(from, place, b, flattest) && this->Limits.allow(place, a, b, flattest) &&
+            this->keeps(edge[0], 0.5 * part * own) && this->keeps(edge[1], 0.5 * part * own))
         {
           best = { c, part, after };
         }
@@ -478,7 +475,7 @@ private:
     for (const std::size_t side : sides)
     {
       const Vector3d& beside = this->Mesh.at(this->Mesh.thirdCorner(side, point, end));
-      const double flattest = this->flatnessOf(side);
+      const double flattest = this->Mesh.flatnessOf(side);
       if (!this->Limits.allow(from, place, beside, flattest) || !this->Limits.allow(place, to, beside, flattest))
       {
         return false;

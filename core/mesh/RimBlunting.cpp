@@ -28,7 +28,7 @@ constexpr int directionSteps = 40;
 constexpr int bluntingSteps = 8;
 /// Since points beside each other need one another to move.
 constexpr int bluntingRounds = 2;
-/// How far below the face, in depths, an edge may end that is not cut.
+/// Edges are cut a little above the end of the layer, so that those that end just below the cut need none.
 constexpr double deepest = 1.25;
 
 class Blunting
@@ -36,7 +36,7 @@ class Blunting
 public:
   Blunting(EditableSurface& surface, double depth, const TriangleLimits& limits)
     : Mesh(surface)
-    , Depth(depth)
+    , Depth(depth / deepest)
     , Limits(limits)
   {
   }
@@ -173,7 +173,7 @@ private:
     for (const std::size_t side : { this->Mesh.triangleAlong(point, end), this->Mesh.triangleAlong(end, point) })
     {
       const Vector3d& beside = this->Mesh.at(this->Mesh.thirdCorner(side, point, end));
-      const double flattest = this->flatnessOf(side);
+      const double flattest = this->Mesh.flatnessOf(side);
       if (!this->Limits.allow(this->Mesh.at(point), place, beside, flattest) ||
           !this->Limits.allow(place, this->Mesh.at(end), beside, flattest))
       {
@@ -181,12 +181,6 @@ private:
       }
     }
     this->Mesh.split(point, end, place);
-  }
-
-  double flatnessOf(std::size_t triangle) const
-  {
-    const auto& t = this->Mesh.cornersOf(triangle);
-    return shapeOf(this->Mesh.at(t[0]), this->Mesh.at(t[1]), this->Mesh.at(t[2])).flatness;
   }
 
   /// The direction from a point of a rim into its caps, in all faces of the box that it lies on; zero if there is none.
@@ -231,7 +225,7 @@ private:
     for (std::int32_t c = this->Mesh.firstCorner(point); c >= 0; c = this->Mesh.nextCorner(c))
     {
       normals.push_back(this->Mesh.normalOf(std::size_t(c) / 3).normalized());
-      flatness.push_back(this->flatnessOf(std::size_t(c) / 3));
+      flatness.push_back(this->Mesh.flatnessOf(std::size_t(c) / 3));
     }
     Vector3d best = from;
     for (int i = 1; i <= bluntingSteps && cosine < goalCosine; ++i)
@@ -269,7 +263,7 @@ private:
   }
 
   EditableSurface& Mesh;
-  double Depth; ///< µm
+  double Depth; ///< of the cuts, µm
   TriangleLimits Limits;
 };
 

@@ -198,6 +198,49 @@ TEST(EvenFans, BluntsRimsOfGrazingFibres)
   EXPECT_NEAR(checkSurface(held.mesh).volume, after.volume, 1e-12) << "points of held faces moved";
 }
 
+/// Whatever lies deeper than the layer stays, also where triangles end just below it.
+TEST(EvenFans, BluntsNothingBelowItsLayer)
+{
+  const double slope = 1.0 / std::tan(25.0 / radian);
+  const double depth = 0.02;
+  bool hasMoved = false;
+  for (const double height : { 0.9 * depth, 1.05 * depth, 1.2 * depth, 1.5 * depth, 4.0 * depth })
+  {
+    CappedSurface surface = prism(2, false, true);
+    for (Eigen::Vector3d& p : surface.mesh.points)
+    {
+      p.z() = p.z() < 0.0 ? 0.0 : height;
+      p.x() += slope * p.z();
+    }
+    surface.box = Eigen::AlignedBox3d(Eigen::Vector3d(-9, -9, 0), Eigen::Vector3d(9, 9, height));
+    evenFans(surface, largestRatio, smallestAngle, depth);
+    EXPECT_TRUE(checkSurface(surface.mesh).closedManifold());
+    for (const auto& t : surface.mesh.triangles)
+    {
+      double lowest = height;
+      double highest = 0.0;
+      double inside = 0.0;
+      for (const std::int32_t corner : t)
+      {
+        const Eigen::Vector3d& p = surface.mesh.points[std::size_t(corner)];
+        double reach = 0.0;
+        for (int k = 0; k < 16; ++k)
+        {
+          const double angle = 2.0 * pi * (k + 0.5) / 16;
+          reach = std::max(reach, (p.x() - slope * p.z()) * std::cos(angle) + p.y() * std::sin(angle));
+        }
+        lowest = std::min(lowest, p.z());
+        highest = std::max(highest, p.z());
+        inside = std::max(inside, 0.5 * std::cos(pi / 16) - reach);
+      }
+      const bool isWall = !surface.isCap(t);
+      hasMoved = hasMoved || (isWall && inside > 1e-6);
+      EXPECT_TRUE(!isWall || inside < 1e-12 || highest - lowest <= depth * (1.0 + 1e-9)) << height;
+    }
+  }
+  EXPECT_TRUE(hasMoved);
+}
+
 TEST(EvenFans, LeavesEvenSurfacesAsTheyAre)
 {
   CappedSurface surface;
