@@ -72,7 +72,7 @@ std::string leavingRemark(const LeavingWalkers& leaving, const McdcOptions& opti
     leaving.walkers, " walkers outside the fibres): for at most ", percent(bearable), ", shorten duration to ",
     rounded(milliseconds, std::floor), " ms, with timings in mcdc/pgse.scheme to match, or make the substrate ",
     rounded(wider, std::ceil), " times as wide (", rounded(wider * domain.size().minCoeff(), std::ceil),
-    " µm along its shortest side), or one that nobody leaves (Border Periodic in BundleInitializer, with PeriodicFaces Open)");
+    " µm along its shortest side), or one that nobody leaves (Border Periodic in BundleInitializer)");
 }
 
 void noteLeaving(
@@ -152,7 +152,8 @@ void writeMcdc(const SubstrateFolderContents& contents, const std::vector<McdcSi
     {
       substrate.remarks.push_back(
         "some walkers of mcdc/extra.conf pass a wall where it ends in the faces across which MC/DC repeats the domain, and where "
-        "caps of fibres lie there, too, 1 of 75 ends inside a fibre within 2 ms: choose PeriodicFaces Open, among whose surfaces "
+        "caps of fibres lie there, too, 1 of 75 ends inside a fibre within 2 ms: choose PeriodicFaces By format, among whose "
+        "surfaces "
         "MC/DC notices such walkers and starts others");
     }
     if (isExtra && areClosed)

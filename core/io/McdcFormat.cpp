@@ -88,7 +88,7 @@ std::string mcdcText(const SubstrateFolderContents& contents, const WrittenSubst
   {
     text += leavingText(substrate.leaving, contents.mcdc.echoTime) +
             "Outside the substrate water is free, and a walker there no longer tells of the substrate. A shorter duration, a\n"
-            "larger substrate or a periodic one (Border Periodic, with PeriodicFaces Open) keeps them in.\n\n";
+            "larger substrate or a periodic one (Border Periodic) keeps them in.\n\n";
   }
   text +=
     contents.periodicFaces == PeriodicFaces::Open && contents.domain.periodic[2]

@@ -35,9 +35,19 @@ void requireRoomAround(const TriangleMesh& inner, int fibreId, const FibreSurfac
 
 } // namespace
 
+PeriodicFaces facesFor(PeriodicFaces asked, SubstrateFormat format, const Domain& domain, bool allowOpenSurfaces)
+{
+  if (asked != PeriodicFaces::ByFormat)
+  {
+    return asked;
+  }
+  const bool isOpen = format == SubstrateFormat::Mcdc && domain.isPeriodic() && !allowOpenSurfaces;
+  return isOpen ? PeriodicFaces::Open : PeriodicFaces::Caps;
+}
+
 void requireOpenable(PeriodicFaces faces, SubstrateFormat format, bool allowOpenSurfaces)
 {
-  if (faces == PeriodicFaces::Caps)
+  if (faces != PeriodicFaces::Open)
   {
     return;
   }
@@ -53,7 +63,7 @@ void requireOpenable(PeriodicFaces faces, SubstrateFormat format, bool allowOpen
 
 void requirePeriodic(PeriodicFaces faces, const Domain& domain)
 {
-  require(faces == PeriodicFaces::Caps || domain.isPeriodic(),
+  require(faces != PeriodicFaces::Open || domain.isPeriodic(),
     "PeriodicFaces Open is for a periodic Domain, in whose faces surfaces go on, and this one is not periodic: choose "
     "PeriodicFaces "
     "Caps, or Border Periodic or Periodic across in BundleInitializer");

@@ -12,6 +12,10 @@
 namespace cactus
 {
 
+/// Returns how surfaces end in periodic faces, Caps or Open. ByFormat is Open for a periodic domain in MC/DC's format, which with
+/// caps lets walkers into fibres unnoticed, and Caps otherwise.
+PeriodicFaces facesFor(PeriodicFaces asked, SubstrateFormat format, const Domain& domain, bool allowOpenSurfaces);
+
 /// Throws InvalidInput if an open tile is asked for in a format whose reader needs closed surfaces, or with surfaces that need
 /// not be closed.
 void requireOpenable(PeriodicFaces faces, SubstrateFormat format, bool allowOpenSurfaces);

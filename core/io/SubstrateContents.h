@@ -40,12 +40,13 @@ constexpr const char* formatNames[] = { "MC/DC", "Reference program", "Camino", 
 /// How surfaces end in the faces across which a domain repeats.
 enum class PeriodicFaces
 {
-  Caps = 0, ///< each piece of a fibre is closed
-  Open = 1  ///< without caps, so that copies join to endless surfaces (see openAtPeriodicFaces())
+  Caps = 0,    ///< each piece of a fibre is closed
+  Open = 1,    ///< without caps, so that copies join to endless surfaces (see openAtPeriodicFaces())
+  ByFormat = 2 ///< as the format's simulator is right with (see facesFor()), which is one of the others
 };
 
 /// Their names, by their numbers.
-constexpr const char* periodicFacesNames[] = { "Caps", "Open" };
+constexpr const char* periodicFacesNames[] = { "Caps", "Open", "By format" };
 
 /// A sample of a substrate's fibres of which surfaces were made.
 struct SubstrateSample

@@ -7,6 +7,7 @@
 #include "bundle/RadiusColumn.h"
 #include "fibres/TrimToDomain.h"
 #include "io/FileCollection.h"
+#include "io/OpenSurfaces.h"
 #include "io/TractogramFile.h"
 #include "optimiser/OverlapReport.h"
 
@@ -491,7 +492,7 @@ void setWriterOptions(const SubstrateWriterStage& stage, SubstrateFolderContents
   contents.voxelSize = stage.voxelSize;
   contents.startPositions = stage.startPositions;
   contents.seed = stage.seed;
-  contents.periodicFaces = stage.periodicFaces;
+  contents.periodicFaces = facesFor(stage.periodicFaces, stage.format, contents.domain, stage.allowOpenSurfaces);
   contents.allowOpenSurfaces = stage.allowOpenSurfaces;
   contents.certificate.minimumGap = stage.minimumGap;
 }

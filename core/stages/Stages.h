@@ -182,7 +182,7 @@ struct SubstrateWriterStage
   double voxelSize = SubstrateFolderContents().voxelSize; ///< µm
   int startPositions = 0;
   std::uint64_t seed = 1;
-  PeriodicFaces periodicFaces = PeriodicFaces::Caps;
+  PeriodicFaces periodicFaces = PeriodicFaces::ByFormat;
   bool allowOpenSurfaces = false;
   double minimumGap = SubstrateCertificateOptions().minimumGap; ///< µm
   int threads = 0;
@@ -197,7 +197,7 @@ struct SubstrateProductionStage
   std::string folderName;
   SubstrateFormat format = SubstrateFormat::Mcdc;
   PlyEncoding encoding = PlyEncoding::Ascii;
-  PeriodicFaces periodicFaces = PeriodicFaces::Caps;
+  PeriodicFaces periodicFaces = PeriodicFaces::ByFormat;
   bool allowOpenSurfaces = false;
   double sampledFraction = 1.0;
   int threads = 0;

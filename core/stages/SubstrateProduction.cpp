@@ -242,7 +242,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   contents.provenance = order.provenance ? order.provenance(spacing, solved.growth) : Provenance();
   contents.format = order.format;
   contents.encoding = order.encoding;
-  contents.periodicFaces = order.periodicFaces;
+  contents.periodicFaces = facesFor(order.periodicFaces, order.format, fibres.domain, order.allowOpenSurfaces);
   contents.voxelSize = spacing;
   contents.allowOpenSurfaces = order.allowOpenSurfaces;
   contents.certificate.minimumGap = order.growth.minimumGap;

@@ -26,7 +26,7 @@ struct ProductionOrder
   MyelinSurfaceOptions surfaces;
   SubstrateFormat format = SubstrateFormat::Mcdc; ///< voxel labels use growth's voxels
   PlyEncoding encoding = PlyEncoding::Ascii;
-  PeriodicFaces periodicFaces = PeriodicFaces::Caps;
+  PeriodicFaces periodicFaces = PeriodicFaces::ByFormat;
   bool allowOpenSurfaces = false;
   /// The fraction of all fibres whose surfaces are made, drawn at random by the surfaces' seed, each fibre independently: a
   /// larger fraction includes the fibres of a smaller one.

@@ -87,25 +87,37 @@ class TestPeriodic(CactusTestCase):
         is_cap = np.any([on[triangles].all(axis=1) for on in is_on], axis=0)
         return triangles[~is_cap]
 
+    def assert_corners(self, folder, *names):
+        """MC/DC's boxes of these names are the domain."""
+        with open(os.path.join(folder, "mcdc", "extra.conf"), encoding="ascii") as file:
+            lines = file.read().splitlines()
+        for name in names:
+            first = lines.index(f"<{name}>") + 1
+            corners = np.array([[float(word) for word in line.split()] for line in lines[first : first + 2]])
+            np.testing.assert_allclose(corners, [[-SIDE / 2e3] * 3, [SIDE / 2e3] * 3], rtol=1e-12)
+
     def test_simulators_are_told(self):
-        self.expected = "caps of fibres lie there, too"
         fibres, surfaces = self.chain()
         folder = os.path.join(self.folder, "substrate")
         SubstrateWriter(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), FolderName=folder, Format="MC/DC").UpdatePipeline()
         with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
             manifest = json.load(file)
         self.assertEqual(manifest["periodic"], [True, True, True])
-        with open(os.path.join(folder, "mcdc", "extra.conf"), encoding="ascii") as file:
-            lines = file.read().splitlines()
-        for name in ("voxels", "spawning_area"):
-            first = lines.index(f"<{name}>") + 1
-            corners = np.array([[float(word) for word in line.split()] for line in lines[first : first + 2]])
-            np.testing.assert_allclose(corners, [[-SIDE / 2e3] * 3, [SIDE / 2e3] * 3], rtol=1e-12)
+        self.assert_corners(folder, "voxels")
         with open(os.path.join(folder, "README.txt"), encoding="utf-8") as file:
             text = file.read()
         self.assertIn("repeats along x, y and z", text)
         self.assertIn("Fewer than 0.1 %", text)
-        self.assertIn(self.expected, text)
+        self.assertIn("Surfaces are open there", text)
+        self.assertEqual(manifest["periodic_faces"], "Open")  # as MC/DC needs them
+        self.assertTrue(os.path.isfile(os.path.join(folder, "start", "extra.txt")))
+
+        self.expected = "caps of fibres lie there, too"
+        folder = os.path.join(self.folder, "capped")
+        SubstrateWriter(Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), FolderName=folder, Format="MC/DC", PeriodicFaces="Caps").UpdatePipeline()
+        self.assert_corners(folder, "voxels", "spawning_area")
+        with open(os.path.join(folder, "README.txt"), encoding="utf-8") as file:
+            self.assertIn(self.expected, file.read())
 
     @staticmethod
     def read_ply(path):

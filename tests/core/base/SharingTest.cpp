@@ -16,6 +16,7 @@
 #include <string>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace
@@ -103,14 +104,16 @@ TEST(Sharing, DoesEachThingOnceOnAnyNumberOfProcessesAndThreads)
 // Guarantee: each element is processed once, each process has a contiguous range, and about as much to do as the others.
 TEST(Sharing, SharesOutAlongAnOrder)
 {
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < 200; ++i)
+  // Few processes: where 300 threads start OpenMP's own at once, LLVM's library 14 now and then ends by SIGSEGV in one of its
+  // threads.
+  for (const auto& [size, count] : { std::pair{ 1, 200 }, { 2, 200 }, { 3, 200 }, { 4, 200 }, { 7, 5 } })
   {
-    weights.push_back(1.0 + double(i % 7) + (i < 50 ? 20.0 : 0.0));
-  }
-  const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
-  for (const int size : { 1, 2, 3, 4, 300 })
-  {
+    std::vector<double> weights;
+    for (int i = 0; i < count; ++i)
+    {
+      weights.push_back(1.0 + double(i % 7) + (i < 50 ? 20.0 : 0.0));
+    }
+    const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<std::atomic<int>> ownerOf(weights.size());
     std::atomic<int> times{ 0 };
     inTeam(size,

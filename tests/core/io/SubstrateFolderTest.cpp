@@ -6,6 +6,7 @@
 #include "ScratchPath.h"
 #include "base/Error.h"
 #include "io/CombinedSurfaces.h"
+#include "io/OpenSurfaces.h"
 #include "io/PlyFile.h"
 
 #include <gtest/gtest.h>
@@ -352,6 +353,22 @@ TEST_F(SubstrateFolder, IsAnOpenTile)
   ASSERT_EQ(this->write(this->Scratch / "capped"), "");
   EXPECT_NE(contentOf(this->Scratch / "capped/README.txt").find(passing), std::string::npos);
   EXPECT_NE(contentOf(this->Scratch / "capped/manifest.json").find("\"periodic_faces\": \"Caps\""), std::string::npos);
+}
+
+TEST(SubstrateFolderFaces, FollowTheFormat)
+{
+  using cactus::PeriodicFaces, cactus::SubstrateFormat;
+  const cactus::Domain cube = cactus::Domain::cube(8.0);
+  cactus::Domain periodic = cube;
+  periodic.periodic = { { true, true, false } };
+  const auto faces = [](SubstrateFormat format, const cactus::Domain& domain, bool allowOpen = false)
+  { return cactus::facesFor(PeriodicFaces::ByFormat, format, domain, allowOpen); };
+  EXPECT_EQ(faces(SubstrateFormat::Mcdc, periodic), PeriodicFaces::Open);
+  EXPECT_EQ(faces(SubstrateFormat::Mcdc, cube), PeriodicFaces::Caps);
+  EXPECT_EQ(faces(SubstrateFormat::Mcdc, periodic, true), PeriodicFaces::Caps);
+  EXPECT_EQ(faces(SubstrateFormat::Surfaces, periodic), PeriodicFaces::Caps);
+  EXPECT_EQ(cactus::facesFor(PeriodicFaces::Caps, SubstrateFormat::Mcdc, periodic, false), PeriodicFaces::Caps);
+  EXPECT_EQ(cactus::facesFor(PeriodicFaces::Open, SubstrateFormat::Surfaces, periodic, false), PeriodicFaces::Open);
 }
 
 TEST_F(SubstrateFolder, IsNoOpenTileOfOtherThings)
