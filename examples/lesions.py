@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes a healthy bundle and four states of disease of it, and prints a table of all five and a strip of their cross-sections.
+"""Makes a healthy bundle with nodes of Ranvier and six states of disease of it, and prints a table of all and a strip of their cross-sections.
 
     ./cactus pvpython examples/lesions.py [--side 12] [STRIP.png]
 
@@ -28,9 +28,9 @@ def bundle(side, **properties):
     return simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=side, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.8, **properties)), 0)
 
 
-def state(fibres, fraction=-1, **loss):
-    """(fibres, outer and inner surfaces) grown to a fraction, with a lesion."""
-    surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=fraction))
+def state(fibres, fraction=-1, myelin=None, **loss):
+    """(fibres, outer and inner surfaces) grown to a fraction, with a lesion of internodes (properties of MyelinSurface) or of fibres."""
+    surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=fraction), NodeLength=1, **(myelin or {}))
     if not loss:
         return fibres, simple.OutputPort(surfaces, 0), simple.OutputPort(surfaces, 1)
     left = simple.Lesion(Outer=simple.OutputPort(surfaces, 0), Inner=simple.OutputPort(surfaces, 1), Fibres=fibres, **loss)
@@ -56,6 +56,8 @@ def main():
         "healthy": state(healthy),
         "oedema": state(healthy, fraction=0.65),
         "demyelinated": state(healthy, MyelinLoss=0.5),
+        "internodes lost": state(healthy, myelin={"InternodeLoss": 0.5}),
+        "remyelinated": state(healthy, myelin={"InternodeLoss": 0.5, "RemyelinatedFraction": 1}),
         "with axonal loss": state(healthy, AxonLoss=0.25, MyelinLoss=0.5),
         "swollen": state(bundle(asked.side, CalibreVariation=0.45)),
     }

@@ -24,7 +24,8 @@ enum class RandomStage : std::uint32_t
   Calibre = 10,
   Lesion = 11,
   Nodes = 12,
-  Sections = 13
+  Sections = 13,
+  Internodes = 14
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere. The distributions of

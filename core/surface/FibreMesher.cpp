@@ -177,7 +177,7 @@ void FibreMesher::letInNodes(const SmoothedField& field, MyelinProfile& profile,
     profile.forgetNodes();
     return;
   }
-  profile.letInNodes(axon.level, this->PromisedMyelin + roomInNodes * this->Facts.surfaceTolerance);
+  profile.letInNodes(axon.level, this->PromisedMyelin + roomInNodes * this->Facts.surfaceTolerance, pair.targetGRatio);
   pair.nodes = profile.nodeCount();
   pair.internodeLength = profile.internodeLength();
   pair.wholeMyelin = outer.volume - axon.volume;

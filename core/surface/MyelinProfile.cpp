@@ -60,7 +60,7 @@ double MyelinProfile::internodeLength() const
   return this->Nodes ? this->Nodes->spacing() - this->Options.nodeLength : 0.0;
 }
 
-void MyelinProfile::letInNodes(double level, double wall)
+void MyelinProfile::letInNodes(double level, double wall, double gRatio)
 {
   this->Level = level;
   const AlongLine whole = [this, level](double along) { return level + (this->Deeper ? this->Deeper(along) : 0.0); };
@@ -72,8 +72,26 @@ void MyelinProfile::letInNodes(double level, double wall)
     return bare > 0.0 ? whole(along) + bare * (constricted(along) - whole(along)) : whole(along);
   };
   this->Inner = this->Depths.lowered([&](double along) { return axon(along) - level; });
+  // Myelin that came back is as thick as its g-ratio makes it, and no thicker than it was.
+  const double thinner = std::min(1.0, gRatio * (1.0 / this->Options.remyelinatedGRatio - 1.0) / (1.0 - gRatio));
+  const auto left = [&](double along, double room) // part of the room between the wall and the whole fibre's surface
+  {
+    switch (this->Nodes->internodeAt(along))
+    {
+    case Internode::Whole:
+      return this->Nodes->myelinPart(along);
+    case Internode::Remyelinated:
+      return this->Nodes->myelinPart(along) * std::max(0.0, (thinner * (room + wall) - wall) / room);
+    default:
+      return 0.0;
+    }
+  };
   this->Outer = this->Depths.lowered(
-    [&](double along) { return std::max(0.0, (1.0 - this->Nodes->myelinPart(along)) * (axon(along) - wall)); });
+    [&](double along)
+    {
+      const double room = axon(along) - wall;
+      return room > 0.0 ? (1.0 - left(along, room)) * room : 0.0;
+    });
 }
 
 } // namespace cactus

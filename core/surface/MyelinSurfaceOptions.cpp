@@ -18,6 +18,8 @@ constexpr Range nodeLengths{ 0.3, 5.0, " µm", 0.0 };
 constexpr Range internodeFactors{ 1.0, 500.0 };
 constexpr Range paranodeLengths{ 0.5, 6.0, " µm" };
 constexpr Range constrictions{ 0.3, 1.0 };
+constexpr Range parts{ 0.0, 1.0 };
+constexpr Range remyelinated{ 0.3, 0.99 };
 
 } // namespace
 
@@ -66,8 +68,22 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "Diameter of the axon in a node, in parts of that in the internode. 1: the axon is not constricted.")
       .whereGiven("NodeLength")
       .add("NodeSeed", &Options::nodeSeed, limits::seed,
-        "Seed of the nodes' places along the fibres. The same seed gives a fibre the same nodes.")
+        "Seed of the nodes' places along the fibres, and of the internodes that InternodeLoss takes. The same seed gives a fibre "
+        "the same nodes.")
       .whereGiven("NodeLength")
+      .add("InternodeLoss", &Options::internodeLoss, parts,
+        "Fraction of the internodes that have lost their myelin in a lesion, each drawn at random. There the fibre's outer "
+        "surface "
+        "comes down to the axon as in a node, and the axon stays as it was. A larger fraction takes the same internodes and "
+        "more. "
+        "For whole fibres without myelin, see MyelinLoss of Lesion.")
+      .whereGiven("NodeLength")
+      .add("RemyelinatedFraction", &Options::remyelinatedFraction, parts,
+        "Fraction of the lost internodes whose myelin has come back, thinner than it was.")
+      .whereGiven("InternodeLoss")
+      .add("RemyelinatedGRatio", &Options::remyelinatedGRatio, remyelinated,
+        "g-ratio of internodes whose myelin has come back; 0.85 is usual. Internodes whose g-ratio was higher are as they were.")
+      .whereGiven("RemyelinatedFraction")
       .add("SmoothingIterations", &Options::smoothingIterations, limits::smoothingIterations,
         "Number of times that a fibre's depth is averaged over neighbouring voxels before its surface is contoured, at most 20. "
         "Smoothing rounds creases and keeps the gap between fibres; n steps blur by about the square root of n / 2 voxels. "

@@ -41,6 +41,12 @@ struct MyelinSurfaceOptions
   double paranodeLength = 2.0;
   /// Diameter of the axon in a node over that in the internode beside it.
   double nodeConstriction = 0.7;
+  /// Fraction of the internodes that a lesion has taken the myelin of, 0 to 1.
+  double internodeLoss = 0.0;
+  /// Fraction of these whose myelin has come back, 0 to 1.
+  double remyelinatedFraction = 0.0;
+  /// The g-ratio there, 0.3 to 0.99; where it is below that of whole internodes, these are as they were.
+  double remyelinatedGRatio = 0.85;
   std::uint64_t nodeSeed = 1;
   /// Smoothing passes of the fields before they are contoured (see SmoothedField), 0 to 20 (see Limits.h); 0: none.
   int smoothingIterations = 2;

@@ -18,16 +18,20 @@ constexpr double leastParanodes = 4.0;
 } // namespace
 
 NodesOfRanvier::NodesOfRanvier(const MyelinSurfaceOptions& options, std::int32_t fibreId, double diameter, double period)
-  : HalfNode(0.5 * options.nodeLength)
+  : Seed(options.nodeSeed)
+  , FibreId(static_cast<std::uint64_t>(fibreId))
+  , Loss(options.internodeLoss)
+  , Remyelinated(options.remyelinatedFraction)
+  , HalfNode(0.5 * options.nodeLength)
   , Paranode(options.paranodeLength)
 {
-  RandomEngine engine = randomStream(options.nodeSeed, RandomStage::Nodes, static_cast<std::uint64_t>(fibreId));
+  RandomEngine engine = randomStream(this->Seed, RandomStage::Nodes, this->FibreId);
   const double phase = uniform(engine);
   this->Spacing = options.nodeLength + std::max(options.internodeFactor * diameter, leastParanodes * options.paranodeLength);
   if (period > 0.0)
   {
-    const double count = std::floor(period / this->Spacing + uniform(engine));
-    this->Spacing = count > 0.0 ? period / count : 0.0;
+    this->PerPeriod = std::floor(period / this->Spacing + uniform(engine));
+    this->Spacing = this->PerPeriod > 0.0 ? period / this->PerPeriod : 0.0;
   }
   this->First = phase * this->Spacing;
 }
@@ -44,6 +48,32 @@ double NodesOfRanvier::myelinPart(double along) const
   return part * part * (3.0 - 2.0 * part);
 }
 
+/// Returns the number of the internode at a place, counted from the first node; that of its first image in a line that repeats.
+double NodesOfRanvier::internodeNumber(double along) const
+{
+  if (this->Spacing == 0.0)
+  {
+    return 0.0;
+  }
+  const double number = std::floor((along - this->First) / this->Spacing);
+  return this->PerPeriod > 0.0 ? number - this->PerPeriod * std::floor(number / this->PerPeriod) : number;
+}
+
+Internode NodesOfRanvier::internodeAt(double along) const
+{
+  if (this->Loss == 0.0)
+  {
+    return Internode::Whole;
+  }
+  const auto number = static_cast<std::uint32_t>(static_cast<std::int64_t>(this->internodeNumber(along)));
+  RandomEngine engine = randomStream(this->Seed, RandomStage::Internodes, this->FibreId << 32U | number);
+  if (uniform(engine) >= this->Loss)
+  {
+    return Internode::Whole;
+  }
+  return uniform(engine) < this->Remyelinated ? Internode::Remyelinated : Internode::Lost;
+}
+
 std::vector<double> NodesOfRanvier::between(double from, double to) const
 {
   std::vector<double> middles;
@@ -58,7 +88,9 @@ std::vector<double> NodesOfRanvier::between(double from, double to) const
 bool NodesOfRanvier::reachInto(double from, double to) const
 {
   const double reach = this->HalfNode + this->Paranode;
-  return !this->between(from - reach, to + reach).empty();
+  const std::vector<double> nodes = this->between(from - reach, to + reach);
+  // Without a node or a paranode, one internode reaches from end to end.
+  return !nodes.empty() || this->internodeAt(from) != Internode::Whole;
 }
 
 } // namespace cactus

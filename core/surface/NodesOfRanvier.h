@@ -9,6 +9,14 @@
 namespace cactus
 {
 
+/// What a lesion has left of an internode's myelin.
+enum class Internode
+{
+  Whole,
+  Lost,
+  Remyelinated ///< it has come back, thinner than it was
+};
+
 /// The nodes of Ranvier of one fibre, as places along its centre line: at equal distances, from a random first one on.
 class NodesOfRanvier
 {
@@ -22,16 +30,26 @@ public:
   /// Returns the part of the internodes' myelin that there is at a place (µm along the line): 0 in a node, 1 in an internode,
   /// and in between in a paranode, with no slope at both of its ends.
   double myelinPart(double along) const;
+  /// Returns what is left of the internode at a place. The same seed gives the same internodes, and a larger fraction more of
+  /// them.
+  Internode internodeAt(double along) const;
   /// Returns the middles of the nodes from one place to another, increasing.
   std::vector<double> between(double from, double to) const;
-  /// Tells whether a node or a paranode lies from one place to another.
+  /// Tells whether a node, a paranode or an internode that is not whole lies from one place to another.
   bool reachInto(double from, double to) const;
 
 private:
-  double HalfNode; ///< µm
-  double Paranode; ///< µm
+  double internodeNumber(double along) const;
+
+  std::uint64_t Seed;
+  std::uint64_t FibreId;
+  double Loss;         ///< fraction of the internodes that have lost their myelin
+  double Remyelinated; ///< fraction of these whose myelin has come back
+  double HalfNode;     ///< µm
+  double Paranode;     ///< µm
   double Spacing = 0.0;
-  double First = 0.0; ///< µm, place of a node
+  double First = 0.0;     ///< µm, place of a node
+  double PerPeriod = 0.0; ///< number of internodes after which the line repeats; 0 if it does not
 };
 
 } // namespace cactus

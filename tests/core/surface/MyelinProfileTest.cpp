@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace
@@ -203,6 +204,44 @@ TEST(NodesOfRanvier, AWholeNumberFitsAPeriod)
   EXPECT_NEAR(count / fibres, 10.0 / 16.0, 0.04);
 }
 
+TEST(NodesOfRanvier, ALesionTakesInternodesAtRandom)
+{
+  MyelinSurfaceOptions options = withNodes(30.0);
+  const auto statesOf = [&](double loss, double remyelinated, double period)
+  {
+    options.internodeLoss = loss;
+    options.remyelinatedFraction = remyelinated;
+    std::vector<Internode> states;
+    for (int id = 1; id <= 100; ++id)
+    {
+      const NodesOfRanvier nodes(options, id, 0.5, period);
+      for (const double middle : nodes.between(-400.0, 400.0))
+      {
+        states.push_back(nodes.internodeAt(middle + 0.01));
+        EXPECT_EQ(nodes.internodeAt(middle + nodes.spacing() - 0.01), states.back());
+        EXPECT_TRUE(period == 0.0 || nodes.internodeAt(middle + 0.01 + 3.0 * period) == states.back());
+      }
+    }
+    return states;
+  };
+  const auto part = [](const std::vector<Internode>& states, Internode state)
+  { return double(std::count(states.begin(), states.end(), state)) / double(states.size()); };
+  for (const double period : { 0.0, 50.0 })
+  {
+    EXPECT_EQ(part(statesOf(0.0, 1.0, period), Internode::Whole), 1.0);
+    EXPECT_EQ(part(statesOf(1.0, 0.0, period), Internode::Lost), 1.0);
+    const auto less = statesOf(0.3, 0.4, period);
+    EXPECT_NEAR(part(less, Internode::Whole), 0.7, period > 0.0 ? 0.08 : 0.02);
+    EXPECT_NEAR(part(less, Internode::Remyelinated), 0.12, period > 0.0 ? 0.06 : 0.015);
+    const auto more = statesOf(0.5, 0.4, period);
+    ASSERT_EQ(more.size(), less.size());
+    for (std::size_t i = 0; i < less.size(); ++i)
+    {
+      EXPECT_TRUE(less[i] == Internode::Whole || more[i] == less[i]);
+    }
+  }
+}
+
 // The radius is between 0.5 and 0.9 µm.
 TEST(MyelinProfile, EachCrossSectionHasTheGRatio)
 {
@@ -290,6 +329,49 @@ TEST(MyelinProfile, AFibreComesDownToItsAxonInNodes)
       EXPECT_GT(pair.lostMyelin(), 0.2);
     }
   }
+}
+
+// Against radii that the options state. Axons are those of the fibre without a lesion, bit for bit.
+TEST(MyelinProfile, MyelinIsThinnerWhereALesionTookIt)
+{
+  const double radius = 0.6;
+  const double side = 11.0;
+  const GrownFibres grown = singleFibre(side, radius, [&](double) { return radius; });
+  MyelinSurfaceOptions options = withNodes(4.0);
+  const auto healthy = grown.surfaces(options);
+  options.internodeLoss = 0.7;
+  options.remyelinatedFraction = 0.5;
+  options.remyelinatedGRatio = 0.85;
+  const double wall = grown.growth.minimumGap + 4.0 * grown.growth.surfaceTolerance;
+  const double spacing = 0.25;
+  std::set<Internode> seen;
+  for (options.nodeSeed = 1; options.nodeSeed <= 4; ++options.nodeSeed)
+  {
+    const auto pairs = grown.surfaces(options);
+    expectSound(pairs, grown.fibres->domain, grown.growth.minimumGap);
+    const FibreSurfacePair& pair = pairs[0];
+    if (options.nodeSeed == 1)
+    {
+      EXPECT_TRUE(pair.inner.points == healthy[0].inner.points && pair.inner.triangles == healthy[0].inner.triangles);
+      EXPECT_GT(pair.lostMyelin(), healthy[0].lostMyelin());
+    }
+    const NodesOfRanvier nodes(options, 1, 2.0 * radius, 0.0);
+    const std::vector<double> outer = radiiOf(*grown.fibres, pair.outer, spacing);
+    for (std::size_t i = 0; i < outer.size(); ++i)
+    {
+      const double along = (double(i) + 0.5) * spacing;
+      if (outer[i] == 0.0 || nodes.myelinPart(along) < 1.0)
+      {
+        continue;
+      }
+      const Internode state = nodes.internodeAt(along);
+      seen.insert(state);
+      const double axon = 0.7 * radius;
+      const double right = state == Internode::Whole ? radius : state == Internode::Lost ? axon + wall : axon / 0.85;
+      EXPECT_NEAR(outer[i], right, 0.02) << along << ' ' << int(state);
+    }
+  }
+  EXPECT_EQ(seen.size(), 3u);
 }
 
 /// A bundle with nodes every few µm, optimised and grown.
