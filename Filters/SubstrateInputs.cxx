@@ -6,6 +6,7 @@
 #include "SurfaceData.h"
 #include "base/Error.h"
 #include "vtkFibreRadialGrowth.h"
+#include "vtkLesion.h"
 #include "vtkMyelinSurface.h"
 #include "vtkPlacement.h"
 #include "vtkSubstrateReader.h"
@@ -56,6 +57,14 @@ Filter* makerOf(vtkAlgorithm* consumer, int port, int wantedOutput)
   return output == wantedOutput ? Filter::SafeDownCast(maker) : nullptr;
 }
 
+/// Returns the reader or the lesion that gives out a substrate's outer and inner surfaces and its fibres, in this order, if the
+/// data at a port are these outer surfaces; otherwise null.
+vtkAlgorithm* giverOfAll(vtkAlgorithm* consumer, int port)
+{
+  vtkAlgorithm* reader = makerOf<vtkSubstrateReader>(consumer, port, 0);
+  return reader != nullptr ? reader : makerOf<vtkLesion>(consumer, port, 0);
+}
+
 } // namespace
 
 vtkDataObject* fibresOfImage(vtkAlgorithm* consumer, int port)
@@ -74,10 +83,10 @@ SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, 
     inner = unlessReleased(surfaces->GetOutputDataObject(1));
     fibres = surfaces->GrownFibres();
   }
-  else if (auto* reader = makerOf<vtkSubstrateReader>(self, outerPort, 0))
+  else if (vtkAlgorithm* maker = giverOfAll(self, outerPort))
   {
-    inner = unlessEmpty(reader->GetOutputDataObject(1));
-    fibres = unlessEmpty(reader->GetOutputDataObject(2));
+    inner = unlessEmpty(maker->GetOutputDataObject(1));
+    fibres = unlessEmpty(maker->GetOutputDataObject(2));
   }
   data.inner = data.inner == nullptr ? inner : data.inner;
   data.fibres = data.fibres == nullptr ? fibres : data.fibres;
@@ -86,8 +95,7 @@ SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, 
 
 SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, int innerPort)
 {
-  const bool isMade =
-    makerOf<vtkMyelinSurface>(self, fibrePort, 0) != nullptr || makerOf<vtkSubstrateReader>(self, fibrePort, 0) != nullptr;
+  const bool isMade = makerOf<vtkMyelinSurface>(self, fibrePort, 0) != nullptr || giverOfAll(self, fibrePort) != nullptr;
   if (connectedTo(self, outerPort) != nullptr || !isMade)
   {
     return { connectedTo(self, outerPort), connectedTo(self, innerPort), connectedTo(self, fibrePort) };

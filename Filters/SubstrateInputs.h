@@ -29,13 +29,13 @@ vtkDataObject* fibresOfImage(vtkAlgorithm* consumer, int port);
 
 /// Returns the data at the ports `Outer`, `Inner` and `Fibres` of a filter. If Outer comes directly from MyelinSurface,
 /// unconnected ports get that filter's own data: its inner surfaces, and the fibres that were grown before it, as they were then;
-/// from SubstrateReader, the inner surfaces and the fibres of the folder. So a user who connects only the outer surfaces has the
-/// whole substrate judged, not a half of it. A port of -1 does not exist.
+/// from SubstrateReader and Lesion, the inner surfaces and the fibres that these give out. So a user who connects only the outer
+/// surfaces has the whole substrate judged, not a half of it. A port of -1 does not exist.
 SubstrateData substrateDataOf(vtkAlgorithm* self, int outerPort, int innerPort, int fibrePort);
 
-/// Does the same for a filter whose first port is `Fibres`: if that gets the outer surfaces of MyelinSurface or
-/// SubstrateReader, and nothing is connected as `Outer`, these are measured, with the data that substrateDataOf() finds. Throws
-/// InvalidInput if it finds no fibres.
+/// Does the same for a filter whose first port is `Fibres`: if that gets the outer surfaces of MyelinSurface,
+/// SubstrateReader or Lesion, and nothing is connected as `Outer`, these are measured, with the data that substrateDataOf()
+/// finds. Throws InvalidInput if it finds no fibres.
 SubstrateData measuredDataOf(vtkAlgorithm* self, int fibrePort, int outerPort, int innerPort);
 
 /// Returns all ranks if they were given the same data and the same `order`, and then they share the work; this rank alone if not,

@@ -6,6 +6,7 @@
 #include "InputBlocks.h"
 #include "PlacementData.h"
 #include "StageProperties.h"
+#include "SubstrateInputs.h"
 #include "WholeData.h"
 #include "base/Error.h"
 #include "base/Limits.h"
@@ -118,6 +119,7 @@ cactus::Placement placementFor(const cactus::PlacementOptions& options, const ca
 vtkPlacement::vtkPlacement()
   : Properties(cactus::makeProperties<cactus::PlacementStage>())
 {
+  this->SetNumberOfOutputPorts(2);
 }
 
 int vtkPlacement::FillInputPortInformation(int, vtkInformation* info)
@@ -126,19 +128,28 @@ int vtkPlacement::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+int vtkPlacement::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkDataObject" : "vtkPolyData");
+  return 1;
+}
+
 int vtkPlacement::RequestDataObject(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  if (input == nullptr || canBePlaced(input))
+  if ((input == nullptr || canBePlaced(input)) && this->Superclass::RequestDataObject(request, inputs, outputs) == 0)
   {
-    return this->Superclass::RequestDataObject(request, inputs, outputs);
+    return 0;
   }
-  // An output for the error: ParaView cannot show all types of data when empty.
-  vtkInformation* info = outputs->GetInformationObject(0);
-  if (vtkPolyData::GetData(info) == nullptr)
+  // Inner surfaces; and an output for the error: ParaView cannot show all types of data when empty.
+  for (int port = input == nullptr || canBePlaced(input) ? 1 : 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
-    vtkNew<vtkPolyData> nothing;
-    info->Set(vtkDataObject::DATA_OBJECT(), nothing);
+    vtkInformation* info = outputs->GetInformationObject(port);
+    if (vtkPolyData::GetData(info) == nullptr)
+    {
+      vtkNew<vtkPolyData> nothing;
+      info->Set(vtkDataObject::DATA_OBJECT(), nothing);
+    }
   }
   return 1;
 }
@@ -196,15 +207,23 @@ int vtkPlacement::RequestData(vtkInformation* request, vtkInformationVector** in
       const cactus::Placement placement = placementFor(stage.options, origins);
       const auto record =
         cactus::provenanceOf({ "Placement", cactus::PlacementStage::properties().states(stage), {}, {}, origins });
-      copyEach(input, vtkDataObject::GetData(outputs),
-        [&](vtkDataObject* copy)
-        {
-          cactus::place(copy, placement);
-          if (cactus::placementOf(copy))
+      const auto giveOut = [&](vtkDataObject* data, int port)
+      {
+        copyEach(data, vtkDataObject::GetData(outputs, port),
+          [&](vtkDataObject* copy)
           {
-            cactus::setProvenance(copy, record, 0);
-          }
-        });
+            cactus::place(copy, placement);
+            if (cactus::placementOf(copy))
+            {
+              cactus::setProvenance(copy, record, port);
+            }
+          });
+      };
+      giveOut(input, 0);
+      if (vtkDataObject* inner = cactus::substrateDataOf(this, 0, -1, -1).inner)
+      {
+        giveOut(inner, 1);
+      }
     });
 }
 

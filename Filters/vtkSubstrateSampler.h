@@ -4,8 +4,8 @@
  * @brief Samples a substrate on a grid of voxels of any size: label maps, exact volume fractions, directions.
  *
  * Input 0 `Outer`, input 1 `Inner` (optional): closed, outward triangle surfaces with cell data `FibreId` and `BundleId`. Input 2
- * `Fibres` (optional): their centre lines. If Outer comes directly from MyelinSurface or SubstrateReader, unconnected inputs are
- * taken from that filter.
+ * `Fibres` (optional): their centre lines. If Outer comes directly from MyelinSurface, Lesion or SubstrateReader, unconnected
+ * inputs are taken from that filter.
  *
  * Output: an image whose points are the middles of voxels, from the domain's lower corner on, as many as cover it. Point data:
  * `AVF`, `MVF`, `ExtraAxonalFraction` and `BundleFraction_N` for each bundle (volumes of the meshes over that of the voxel's part

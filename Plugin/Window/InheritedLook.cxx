@@ -45,8 +45,8 @@ struct Look
 };
 
 /// Our types of representation (xml/views/Representations.xml), each with the property that has its colour.
-constexpr std::array<std::array<const char*, 2>, 3> ourTypes{ { { { "Myelin", "MyelinColor" } }, { { "Axons", "AxonColor" } },
-  { { "Tubes", "DiffuseColor" } } } };
+constexpr std::array<std::array<const char*, 2>, 4> ourTypes{ { { { "Myelin", "MyelinColor" } }, { { "Placed", "MyelinColor" } },
+  { { "Axons", "AxonColor" } }, { { "Tubes", "DiffuseColor" } } } };
 
 const char* colourPropertyOf(vtkSMProxy* representation)
 {

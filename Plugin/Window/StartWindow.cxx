@@ -9,6 +9,7 @@
 #include "QuickLaunch.h"
 #include "ReachedLine.h"
 #include "StopButton.h"
+#include "ViewCentreButton.h"
 #include "WholePanels.h"
 #include "WriteButtons.h"
 
@@ -38,6 +39,7 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         core->interfaceTracker()->addInterface(new cactus::CodeChoices(core));
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
         core->interfaceTracker()->addInterface(new cactus::WriteButtons(core));
+        core->interfaceTracker()->addInterface(new cactus::ViewCentreButton(core));
       }
     });
 }

@@ -69,7 +69,7 @@ class FilterPages(CactusTestCase):
             "HistologyMask": mask,
             "Lesion": simple.Lesion(Outer=outer, MyelinLoss=0.3),
             "HistologyRadii": simple.HistologyRadii(Input=mask, LeaveOutBorder=0),
-            "Placement": simple.Placement(Input=fibres),
+            "Placement": simple.Placement(Input=outer),
             "StrandReader": simple.StrandReader(FileName=strands),
             "SubstrateReader": simple.SubstrateReader(FileName=os.path.join(self.folder, "read")),
             "TractogramReader": streamlines,
@@ -87,7 +87,7 @@ class FilterPages(CactusTestCase):
                 with self.subTest(name=name, port=port):
                     found = names(fetch(proxy, port))
                     if name == "Placement":  # which has besides what came in
-                        wanted |= names(fetch(made["CapsuleOptimizer"], 0))
+                        wanted |= names(fetch(made["MyelinSurface"], port))
                     elif page:  # which has the others
                         with open(os.path.join(ROOT, "docs", page.partition("#")[0]), encoding="utf-8") as file:
                             words = set(re.findall(r"[\w.-]+", " ".join(re.findall(r"`([^`]*)`", file.read()))))

@@ -491,9 +491,14 @@ class MyelinSurfaceTest(CactusTestCase):
                 numpy.testing.assert_allclose(own["Direction"][0], 255 * along, atol=2)
             facts = data.GetFieldData()
             self.assertEqual({facts.GetArrayName(i) for i in range(facts.GetNumberOfArrays())}, {"Domain", "MinimumGap", "Provenance", "WantedFibres"})
-        placed = fetch(Placement(Input=OutputPort(surface, 0), RotationY=90))
+        both = Placement(Input=OutputPort(surface, 0), RotationY=90)
+        placed = fetch(both)
         numpy.testing.assert_allclose(vtk_to_numpy(placed.GetCellData().GetArray("Direction"))[0], (204, 0, 153), atol=2)
         self.assertAlmostEqual(placed.GetCellData().GetArray("Radius").GetValue(0), 5e-4, delta=2e-5)
+        alone = Placement(Input=OutputPort(surface, 1), RotationY=90)
+        inner = [vtk_to_numpy(fetch(*one).GetPoints().GetData()) for one in ((both, 1), (alone, 0))]
+        numpy.testing.assert_array_equal(*inner)
+        self.assertEqual(fetch(alone, 1).GetNumberOfPoints(), 0)
 
     def test_bad_properties(self):
         growth = self.growth(hexagonal(3.0), GrowthIterations=1)
