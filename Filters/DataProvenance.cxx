@@ -50,6 +50,10 @@ std::string checksumOfData(vtkDataObject* data)
     checksum.add(static_cast<std::uint64_t>(surface->GetNumberOfCells()));
     add(checksum, surface->GetPoints() != nullptr ? surface->GetPoints()->GetData() : nullptr);
     add(checksum, surface->GetPointData()->GetArray("Radius"));
+    if (vtkDataArray* myelin = surface->GetPointData()->GetArray("MyelinFraction"))
+    {
+      add(checksum, myelin);
+    }
     for (const char* name : { "FibreId", "BundleId", "TargetRadius", "Surface" })
     {
       add(checksum, surface->GetCellData()->GetArray(name));

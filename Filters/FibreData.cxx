@@ -37,6 +37,7 @@ namespace
 
 constexpr const char* grownName = "GrownFibreVolumeFraction";
 constexpr const char* convergedName = "Converged";
+constexpr const char* myelinName = "MyelinFraction";
 
 /// Returns a one-component array with `expected` tuples, or null if there is none of that name.
 vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
@@ -61,8 +62,8 @@ double grownFractionOf(vtkPolyData* input)
   return std::isfinite(fraction) ? std::max(fraction, 0.0) : 0.0;
 }
 
-/// Adds the fibres of one block.
-void addFibres(vtkPolyData* input, Fibres& fibres)
+/// Adds the fibres of one block. Their radii are NaN where the block has none and they are not needed.
+void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
 {
   if (input->GetNumberOfLines() != input->GetNumberOfCells())
   {
@@ -70,10 +71,11 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
                        (input->GetNumberOfPolys() > 0 ? ", and not the surfaces that are made of it" : ""));
   }
   vtkDataArray* radius = scalars(input->GetPointData(), "Radius", input->GetNumberOfPoints());
-  if (radius == nullptr)
+  if (radius == nullptr && areRadiiNeeded)
   {
     throw InvalidInput("the input has no point data array Radius (µm), so its fibres have no calibre");
   }
+  vtkDataArray* myelin = scalars(input->GetPointData(), myelinName, input->GetNumberOfPoints());
   vtkDataArray* fibreId = scalars(input->GetCellData(), "FibreId", input->GetNumberOfCells());
   vtkDataArray* bundleId = scalars(input->GetCellData(), "BundleId", input->GetNumberOfCells());
   vtkDataArray* targetRadius = scalars(input->GetCellData(), "TargetRadius", input->GetNumberOfCells());
@@ -105,7 +107,11 @@ void addFibres(vtkPolyData* input, Fibres& fibres)
       }
       Eigen::Vector3d point;
       input->GetPoint(ids[i], point.data());
-      fibres.addPoint(point, radius->GetComponent(ids[i], 0));
+      fibres.addPoint(point, radius != nullptr ? radius->GetComponent(ids[i], 0) : std::numeric_limits<double>::quiet_NaN());
+      if (myelin != nullptr)
+      {
+        fibres.setMyelinFraction(myelin->GetComponent(ids[i], 0));
+      }
     }
     if (count > 0)
     {
@@ -178,9 +184,8 @@ void takeBack(const Placement& placement, Fibres& fibres)
   }
 }
 
-} // namespace
-
-Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPlaced)
+/// Does what tractFrom() does.
+Fibres readFibres(vtkDataObject* input, const std::optional<Placement>& unlessPlaced, bool areRadiiNeeded)
 {
   const auto blocks = polyDataBlocks(
     input, "fibres are polylines (vtkPolyData) with point data Radius; AppendGeometry, not AppendDatasets, joins them as such");
@@ -190,7 +195,7 @@ Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPla
     Fibres part;
     try
     {
-      addFibres(block.data, part);
+      addFibres(block.data, areRadiiNeeded, part);
       const auto placement = placementOf(block.data);
       if (placement || unlessPlaced)
       {
@@ -218,9 +223,27 @@ Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPla
   return fibres;
 }
 
+} // namespace
+
+Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPlaced)
+{
+  return readFibres(input, unlessPlaced, false);
+}
+
+bool hasMyelinFractions(vtkDataObject* input)
+{
+  const std::vector<vtkDataObject*> leaves = leavesOf(input);
+  return std::any_of(leaves.begin(), leaves.end(),
+    [](vtkDataObject* leaf)
+    {
+      auto* lines = vtkPolyData::SafeDownCast(leaf);
+      return lines != nullptr && lines->GetPointData()->HasArray(myelinName) != 0;
+    });
+}
+
 Fibres fibresFrom(vtkDataObject* input)
 {
-  Fibres fibres = tractFrom(input);
+  Fibres fibres = readFibres(input, std::nullopt, true);
   validate(fibres);
   return fibres;
 }
@@ -273,6 +296,11 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   fresh->SetPoints(points);
   fresh->SetLines(lines);
   addColumn<vtkDoubleArray>(fresh->GetPointData(), "Radius", pointCount, [&](std::size_t i) { return fibres.radii[i]; });
+  if (!fibres.myelinFractions.empty())
+  {
+    addColumn<vtkDoubleArray>(
+      fresh->GetPointData(), myelinName, pointCount, [&](std::size_t i) { return fibres.myelinFractions[i]; });
+  }
   addDirectionColours(fresh);
   vtkCellData* cells = fresh->GetCellData();
   addColumn<vtkIntArray>(cells, "FibreId", fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; });

@@ -28,6 +28,8 @@ namespace cactus
 ///
 /// Fibres that are placed in an image's space (field data `Placement`) are moved back into the substrate's space.
 ///
+/// Point data `MyelinFraction`, if there, is the part of the myelin's thickness, from 0 (none) to 1 (all of it).
+///
 /// Field data `GrownFibreVolumeFraction` is the fraction that they were made for; those of several blocks are added, if all
 /// blocks have it.
 ///
@@ -37,8 +39,12 @@ namespace cactus
 Fibres fibresFrom(vtkDataObject* input);
 
 /// The same for what need not be a substrate, as a tractogram that was read: the domain may have no volume or be larger than
-/// limits are, and so may the fibres. Data without a placement of their own are moved back from `unlessPlaced`, if given.
+/// limits are, and so may the fibres; radii are NaN where there are none. Data without a placement of their own are moved back
+/// from `unlessPlaced`, if given.
 Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPlaced = std::nullopt);
+
+/// Tells whether polylines have point data `MyelinFraction`, which says how much of their myelin there is.
+bool hasMyelinFractions(vtkDataObject* input);
 
 /// The fibres of several inputs in their order. Ids stay where they are free; the bundles or fibres of an input or block that
 /// share one with an earlier one all move above the largest. Throws InvalidInput where the inputs have different domains.

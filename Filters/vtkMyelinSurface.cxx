@@ -336,7 +336,7 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   auto* image = cactus::requireImage(input);
   this->Fibres = cactus::fibresOfImage(this, 0);
   cactus::LabelImageInput labels = cactus::labelImageFrom(image);
-  if (options.followsLines() && this->Fibres != nullptr)
+  if (this->Fibres != nullptr && (options.followsLines() || cactus::hasMyelinFractions(this->Fibres)))
   {
     labels.facts.centreLines = std::make_shared<const cactus::Fibres>(cactus::fibresFrom(this->Fibres));
   }
@@ -356,7 +356,8 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   made->inputTime = cactus::changeTime(image);
   cactus::SurfaceMaker maker(std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context,
     byVtk ? &filters : nullptr, nullptr, sharing);
-  auto fibres = this->makeSurfaces(maker, made->inputTime, made->outer, sharing);
+  const bool outerFollowsInner = options.hasNodes() || facts.hasMyelinFractions();
+  auto fibres = this->makeSurfaces(maker, made->inputTime, outerFollowsInner, made->outer, sharing);
   const cactus::Domain domain = options.clipToDomain ? maker.box() : facts.domain; // of an image that was cut
   if (byVtk)
   {
@@ -388,11 +389,11 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   }
 }
 
-std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(
-  cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output, const cactus::Sharing& sharing)
+std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(cactus::SurfaceMaker& maker, vtkMTimeType inputTime,
+  bool outerFollowsInner, vtkPolyData* output, const cactus::Sharing& sharing)
 {
   const auto& stage = cactus::stageOf<cactus::MyelinSurfaceStage>(this->Properties);
-  const std::string demand = cactus::valuesForResult(stage, stage.options.hasNodes() ? std::set<std::string>() : ofInner);
+  const std::string demand = cactus::valuesForResult(stage, outerFollowsInner ? std::set<std::string>() : ofInner);
   const std::size_t count = maker.fibres().size();
   cactus::SurfacesInMemory inner(count);
   if (!sharing.isEverywhere(this->Kept != nullptr && this->Kept->inputTime == inputTime && this->Kept->demand == demand))

@@ -121,9 +121,10 @@ private:
 
   /// Makes `Made`. Collective.
   void make(vtkDataObject* input, const cactus::Sharing& sharing);
-  /// Makes all surfaces, or reuses the outer ones that are kept. Puts the outer ones into `output`, and returns the inner ones.
-  std::vector<cactus::FibreSurfacePair> makeSurfaces(
-    cactus::SurfaceMaker& maker, vtkMTimeType inputTime, vtkPolyData* output, const cactus::Sharing& sharing);
+  /// Makes all surfaces, or reuses the outer ones that are kept, of another g-ratio only if they do not follow the inner ones.
+  /// Puts the outer ones into `output`, and returns the inner ones.
+  std::vector<cactus::FibreSurfacePair> makeSurfaces(cactus::SurfaceMaker& maker, vtkMTimeType inputTime, bool outerFollowsInner,
+    vtkPolyData* output, const cactus::Sharing& sharing);
 
   std::unique_ptr<cactus::FilterProperties> Properties;
   std::unique_ptr<KeptOuter> Kept;

@@ -29,6 +29,10 @@ bool isOf(const std::string& kind, vtkPVDataInformation* data)
   {
     return fibres;
   }
+  if (kind == "streamlines")
+  {
+    return fibres || has(data, vtkDataObject::POINT, "Direction");
+  }
   const bool surfaces = !fibres && (has(data, vtkDataObject::CELL, "FibreId") || has(data, vtkDataObject::FIELD, "FibreId"));
   if (kind == "surfaces" || kind == "lines")
   {
@@ -78,9 +82,9 @@ int vtkSMSubstrateDataDomain::ReadXMLAttributes(vtkSMProperty* property, vtkPVXM
   std::istringstream kinds(element->GetAttributeOrEmpty("kinds"));
   for (std::string kind; kinds >> kind;)
   {
-    if (kind != "fibres" && kind != "surfaces" && kind != "labels" && kind != "lines")
+    if (kind != "fibres" && kind != "surfaces" && kind != "labels" && kind != "lines" && kind != "streamlines")
     {
-      vtkErrorMacro("there is no kind '" << kind << "': fibres, surfaces, labels or lines");
+      vtkErrorMacro("there is no kind '" << kind << "': fibres, surfaces, labels, lines or streamlines");
       return 0;
     }
     this->Kinds.push_back(kind);

@@ -166,7 +166,8 @@ inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 // Lesion.
 
 inline constexpr Range axonLoss{ 0.0, 0.95 };
-inline constexpr Range myelinLoss{ 0.0, 1.0 };
+/// A part of myelin or of internodes.
+inline constexpr Range part{ 0.0, 1.0 };
 
 // MyelinSurface.
 

@@ -47,9 +47,22 @@ void validateControlPoint(const Fibres& fibres, std::size_t fibre, std::size_t i
   {
     requireWithin((where() + ": Radius").c_str(), fibres.radii[i], limits::radius);
   }
+  if (!fibres.myelinFractions.empty() && !limits::part.holds(fibres.myelinFractions[i]))
+  {
+    requireWithin((where() + ": MyelinFraction").c_str(), fibres.myelinFractions[i], limits::part);
+  }
   if (i > fibres.offsets[fibre] && (point - fibres.points[i - 1]).norm() <= 1e-9)
   {
     throw InvalidInput(where() + " coincides with the one before it: remove zero-length segments");
+  }
+}
+
+/// Gives all control points a myelin fraction, 1 unless they have one, if they are to have some.
+void fillMyelinFractions(Fibres& fibres, bool isWanted)
+{
+  if (isWanted)
+  {
+    fibres.myelinFractions.resize(fibres.points.size(), 1.0);
   }
 }
 
@@ -74,6 +87,16 @@ void Fibres::addPoint(const Eigen::Vector3d& point, double radius)
   points.push_back(point);
   radii.push_back(radius);
   offsets.back() = points.size();
+  fillMyelinFractions(*this, !myelinFractions.empty());
+}
+
+void Fibres::setMyelinFraction(double fraction)
+{
+  fillMyelinFractions(*this, !myelinFractions.empty() || fraction != 1.0);
+  if (!myelinFractions.empty())
+  {
+    myelinFractions.back() = fraction;
+  }
 }
 
 void Fibres::addPoints(const Fibres& from, std::size_t first, std::size_t last)
@@ -83,6 +106,11 @@ void Fibres::addPoints(const Fibres& from, std::size_t first, std::size_t last)
   points.insert(points.end(), part(from.points), part(from.points) + count);
   radii.insert(radii.end(), part(from.radii), part(from.radii) + count);
   offsets.back() = points.size();
+  fillMyelinFractions(*this, !myelinFractions.empty() || !from.myelinFractions.empty());
+  if (!from.myelinFractions.empty())
+  {
+    std::copy(part(from.myelinFractions), part(from.myelinFractions) + count, myelinFractions.end() - count);
+  }
 }
 
 Fibres Fibres::emptyCopy() const
@@ -160,6 +188,8 @@ FibrePeriod periodOf(const Fibres& fibres, std::size_t f)
 {
   constexpr double tolerance = 1e-4; // µm, of a file with few digits
   const Eigen::Vector3d* points = fibres.points.data() + fibres.offsets[f];
+  const auto differ = [&](const std::vector<double>& values, std::size_t i, std::size_t j)
+  { return !values.empty() && std::abs(values[fibres.offsets[f] + i] - values[fibres.offsets[f] + j]) > tolerance; };
   const std::size_t count = fibres.pointCount(f);
   const Eigen::Vector3d size = fibres.domain.size();
   constexpr std::size_t fewest = 3; // control points, so that the first and the last one are not beside each other twice
@@ -174,8 +204,8 @@ FibrePeriod periodOf(const Fibres& fibres, std::size_t f)
     bool repeats = true;
     for (std::size_t i = 0; repeats && i + n < count; ++i)
     {
-      repeats = (points[i + n] - points[i] - shift).cwiseAbs().maxCoeff() <= tolerance &&
-                std::abs(fibres.radii[fibres.offsets[f] + i + n] - fibres.radii[fibres.offsets[f] + i]) <= tolerance;
+      repeats = (points[i + n] - points[i] - shift).cwiseAbs().maxCoeff() <= tolerance && !differ(fibres.radii, i, i + n) &&
+                !differ(fibres.myelinFractions, i, i + n);
     }
     if (repeats)
     {

@@ -19,6 +19,7 @@ struct Fibres
 {
   std::vector<Eigen::Vector3d> points;   ///< control points
   std::vector<double> radii;             ///< outer radius at each control point
+  std::vector<double> myelinFractions;   ///< part of the myelin's thickness at each control point, 0 to 1; empty: 1 everywhere
   std::vector<std::size_t> offsets{ 0 }; ///< size() + 1 entries, increasing
   std::vector<int> fibreIds;             ///< one per fibre, positive and unique
   std::vector<int> bundleIds;            ///< one per fibre, positive
@@ -36,6 +37,8 @@ struct Fibres
   void addFibre(const Fibres& from, std::size_t fibre);
   /// Appends a control point to the last fibre.
   void addPoint(const Eigen::Vector3d& point, double radius);
+  /// Sets the myelin fraction of the last control point.
+  void setMyelinFraction(double fraction);
   /// Appends the control points [first, last) of `from` to the last fibre.
   void addPoints(const Fibres& from, std::size_t first, std::size_t last);
   /// Returns fibres with the same domain and grown fraction, and no fibre yet.

@@ -53,6 +53,17 @@ public:
     return this->radius(i) + share * (this->radius(i + 1) - this->radius(i));
   }
 
+  double myelinAt(double length) const
+  {
+    if (this->All.myelinFractions.empty())
+    {
+      return 1.0;
+    }
+    const auto [i, share] = this->place(length);
+    const double* fraction = this->All.myelinFractions.data() + this->First;
+    return fraction[i] + share * (fraction[i + 1] - fraction[i]);
+  }
+
   /// Root of the mean squared radius between two lengths.
   double meanRadius(double from, double to) const
   {
@@ -150,6 +161,7 @@ void addPoints(const FibreLine& line, const std::vector<Eigen::Vector3d>& points
     const double from = std::max(0.0, length - 0.5 * spacing);
     const double to = std::min(line.length(), length + 0.5 * spacing);
     fibres.addPoint(points[k], line.meanRadius(from, to));
+    fibres.setMyelinFraction(line.myelinAt(length));
   }
 }
 

@@ -145,11 +145,12 @@ void requireWithinScanner(const Tractogram& tractogram, const std::string& path)
 }
 
 /// Throws InvalidInput unless the fibres can be written: there are some, and their points lie where a scanner has them. They need
-/// not be fit for a substrate, so that a tractogram that was read can be saved: it may be as large as a head, and its points may
-/// coincide.
+/// not be fit for a substrate, so that a tractogram that was read can be saved: it may be as large as a head, its points may
+/// coincide, and it need not have radii.
 void requireWritable(const Fibres& fibres, const Placement& placement)
 {
   require(fibres.size() > 0, "the input holds no fibres: there is nothing to write");
+  const bool needsRadii = hasRadii(fibres);
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     const std::string name = text("fibre ", fibres.fibreIds[f], " (cell ", f, ")");
@@ -163,7 +164,7 @@ void requireWritable(const Fibres& fibres, const Placement& placement)
       {
         requireWithin((name + ": a coordinate").c_str(), coordinate, limits::scannerCoordinate);
       }
-      if (!std::isfinite(fibres.radii[i]) || fibres.radii[i] <= 0.0)
+      if (needsRadii && !(std::isfinite(fibres.radii[i]) && fibres.radii[i] > 0.0))
       {
         throw InvalidInput(text(name, ": Radius is ", fibres.radii[i], ", not a positive length"));
       }

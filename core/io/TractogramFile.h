@@ -24,8 +24,8 @@ void requireTractogram(const std::string& path);
 bool isTractogram(const std::string& path);
 
 /// Writes fibres by the extension: .tck (centre lines alone) or .trx (with radii, ids and bundles); where they are placed, in mm,
-/// which these formats have, or in another unit. The file appears whole or not at all. Throws FileError, and InvalidInput for
-/// other extensions and as `validate` does.
+/// which these formats have, or in another unit. Radii that are all NaN are not written. The file appears whole or not at all.
+/// Throws FileError, and InvalidInput for other extensions and as `validate` does.
 void writeTractogram(
   const Fibres& fibres, const Placement& placement, const std::string& path, LengthUnit unit = LengthUnit::Millimetre);
 

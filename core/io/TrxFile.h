@@ -20,11 +20,14 @@ namespace cactus
 /// the header, or has impossible values; and OutOfMemory.
 Tractogram readTrx(const FileCollection& files, const std::string& name);
 
+/// Tells whether fibres have radii: those of a tractogram without any are all NaN.
+bool hasRadii(const Fibres& fibres);
+
 /// Writes fibres (µm) as a .trx archive where they are placed, in the placement's unit (mm): positions in single precision, in
 /// double precision where their origin was moved (100 mm from the scanner's, single precision has steps of 0.008 µm);
-/// `dpv/Radius` (mm), `dps/FibreId`, `dps/BundleId`, and a group `bundle_00001` for each bundle. The header's image is the domain
-/// in voxels of 1 µm, or larger ones where it would have more than 65535 along a side. The file appears whole or not at all;
-/// throws FileError, and InvalidInput as `validate` does.
+/// `dpv/Radius` (mm, if they have radii), `dps/FibreId`, `dps/BundleId`, and a group `bundle_00001` for each bundle. The header's
+/// image is the domain in voxels of 1 µm, or larger ones where it would have more than 65535 along a side. The file appears whole
+/// or not at all; throws FileError, and InvalidInput as `validate` does.
 void writeTrx(const Fibres& fibres, const Placement& placement, const std::string& path);
 
 } // namespace cactus

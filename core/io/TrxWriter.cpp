@@ -55,6 +55,11 @@ std::string headerText(const Fibres& fibres, const Placement& placement)
 
 } // namespace
 
+bool hasRadii(const Fibres& fibres)
+{
+  return std::any_of(fibres.radii.begin(), fibres.radii.end(), [](double radius) { return !std::isnan(radius); });
+}
+
 void writeTrx(const Fibres& fibres, const Placement& placement, const std::string& path)
 {
   std::vector<std::pair<std::string, std::string>> files;
@@ -71,8 +76,11 @@ void writeTrx(const Fibres& fibres, const Placement& placement, const std::strin
   }
   files.emplace_back(
     "offsets.uint64", bytesOf<std::uint64_t>(fibres.offsets.size(), [&](std::size_t i) { return fibres.offsets[i]; }));
-  files.emplace_back(
-    "dpv/Radius.float32", bytesOf<float>(fibres.radii.size(), [&](std::size_t i) { return placement.scale * fibres.radii[i]; }));
+  if (hasRadii(fibres))
+  {
+    files.emplace_back("dpv/Radius.float32",
+      bytesOf<float>(fibres.radii.size(), [&](std::size_t i) { return placement.scale * fibres.radii[i]; }));
+  }
   files.emplace_back(
     "dps/FibreId.int32", bytesOf<std::int32_t>(fibres.size(), [&](std::size_t f) { return fibres.fibreIds[f]; }));
   files.emplace_back(

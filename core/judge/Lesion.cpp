@@ -98,7 +98,7 @@ const PropertyList<LesionOptions>& LesionOptions::properties()
     PropertyList<Options>()
       .add("AxonLoss", &Options::axonLoss, limits::axonLoss,
         "Fraction of the fibres that are gone, by length. Their place belongs to the extra-axonal space.")
-      .add("MyelinLoss", &Options::myelinLoss, limits::myelinLoss,
+      .add("MyelinLoss", &Options::myelinLoss, limits::part,
         "Fraction of the myelinated fibres that are left and have lost their myelin, by length. Their axons stay as they are, "
         "and "
         "the place of the myelin belongs to the extra-axonal space.")

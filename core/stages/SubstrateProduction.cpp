@@ -73,6 +73,10 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   add(sum, fibres.fibreIds);
   add(sum, fibres.bundleIds);
   add(sum, fibres.targetRadii);
+  if (!fibres.myelinFractions.empty())
+  {
+    add(sum, fibres.myelinFractions);
+  }
   for (const auto& [name, values] : fibres.columns.all())
   {
     sum.add(name.data(), name.size());
@@ -215,7 +219,8 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
-  facts.centreLines = order.surfaces.followsLines() ? std::make_shared<const Fibres>(made) : nullptr;
+  facts.centreLines =
+    order.surfaces.followsLines() || !made.myelinFractions.empty() ? std::make_shared<const Fibres>(made) : nullptr;
   const Context making = context.part(growthSolved, surfacesMade);
   SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
   maker.makeOuter(spool.outer(), spool.inner());

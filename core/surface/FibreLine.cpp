@@ -30,6 +30,11 @@ FibreLine::FibreLine(const Fibres& fibres, std::size_t fibre)
   , Tangents(unitTangents(fibres, fibre))
   , Along(arcLengths(fibres, fibre))
 {
+  if (!fibres.myelinFractions.empty())
+  {
+    const auto begin = fibres.myelinFractions.begin();
+    this->Myelin.assign(begin + std::ptrdiff_t(fibres.offsets[fibre]), begin + std::ptrdiff_t(fibres.offsets[fibre + 1]));
+  }
   if (fibres.domain.periodic[2])
   {
     this->Period = this->Along[periodOf(fibres, fibre).points];
@@ -53,6 +58,31 @@ Eigen::Vector3d FibreLine::direction(double along) const
 {
   const std::size_t i = this->segmentAt(along);
   return (this->Points[i + 1] - this->Points[i]).normalized();
+}
+
+double FibreLine::myelinAt(double along) const
+{
+  if (this->Myelin.empty())
+  {
+    return 1.0;
+  }
+  const std::size_t i = this->segmentAt(along);
+  const double part = std::clamp((along - this->Along[i]) / (this->Along[i + 1] - this->Along[i]), 0.0, 1.0);
+  return this->Myelin[i] + part * (this->Myelin[i + 1] - this->Myelin[i]);
+}
+
+bool FibreLine::lacksMyelin(double from, double to) const
+{
+  for (std::size_t i = 0; i < this->Myelin.size(); ++i)
+  {
+    const double begin = this->Along[i > 0 ? i - 1 : 0];
+    const double end = this->Along[std::min(i + 1, this->Myelin.size() - 1)];
+    if (this->Myelin[i] < 1.0 && begin <= to && end >= from)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 FibreLine::Near FibreLine::near(const Eigen::AlignedBox3d& box) const

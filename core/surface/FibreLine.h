@@ -36,6 +36,11 @@ public:
   Eigen::Vector3d point(double along) const;
   Eigen::Vector3d direction(double along) const;
 
+  /// Returns the part of the myelin's thickness that there is at a place.
+  double myelinAt(double along) const;
+  /// Tells whether that is less than 1 anywhere between two places.
+  bool lacksMyelin(double from, double to) const;
+
   /// The parts of the line that are nearest to the points of a box.
   class Near
   {
@@ -64,6 +69,7 @@ private:
   std::vector<Eigen::Vector3d> Points;
   std::vector<Eigen::Vector3d> Tangents; ///< unit vectors at the control points
   std::vector<double> Along;             ///< µm, of the control points
+  std::vector<double> Myelin;            ///< fractions at the control points; empty: 1 everywhere
   double Period = 0.0;
 };
 

@@ -95,7 +95,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
       " would change the rims in its faces, which have to fit those of the opposite ones: ",
       filters != nullptr ? "leave Meshing at CACTUS" : "leave MinimumAngle at 0"));
   }
-  if (options.followsLines())
+  if (this->followsLines())
   {
     this->findLines();
   }
@@ -105,10 +105,19 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   }
 }
 
+bool FibreMesher::followsLines() const
+{
+  return this->Options.followsLines() || this->Facts.hasMyelinFractions();
+}
+
 void FibreMesher::findLines()
 {
-  require(this->Filters == nullptr, "Meshing VTK filters makes myelin of the same thickness along a fibre: leave "
-                                    "MyelinFollowsAxon off and NodeLength at 0, or choose Meshing CACTUS");
+  require(this->Filters == nullptr,
+    "Meshing VTK filters makes myelin of the same thickness along a fibre: leave MyelinFollowsAxon "
+    "off and NodeLength at 0, and give the fibres no MyelinFraction, or choose Meshing CACTUS");
+  require(!this->Facts.hasMyelinFractions() || this->Options.model != GRatioModel::TargetAxonVolumeFraction,
+    "myelin that the fibres' MyelinFraction has taken is as thick as the g-ratio makes it, and the one for "
+    "TargetAxonVolumeFraction depends on the outer surfaces: choose another GRatioModel, or give the fibres no MyelinFraction");
   require(this->Facts.centreLines != nullptr, "the centre lines of the fibres are not at hand, and MyelinFollowsAxon and "
                                               "NodeLength need them: give the label image directly from FibreRadialGrowth");
   const double shortest = std::min(this->Options.nodeLength, this->Options.paranodeLength);
@@ -144,7 +153,7 @@ SmoothedField FibreMesher::smoothed(std::int32_t fibreId) const
 
 std::unique_ptr<MyelinProfile> FibreMesher::profileOf(const SmoothedField& field, const FibreSurfacePair& pair) const
 {
-  if (!this->Options.followsLines() || pair.isBare() || field.blocks().empty())
+  if (!this->followsLines() || pair.isBare() || field.blocks().empty())
   {
     return nullptr;
   }
@@ -154,10 +163,10 @@ std::unique_ptr<MyelinProfile> FibreMesher::profileOf(const SmoothedField& field
     throw InvalidInput(text("fibre ", pair.fibreId, " of the label image has no centre line among the fibres given with it"));
   }
   auto profile = std::make_unique<MyelinProfile>(field, *this->Facts.centreLines, line->second, this->Options);
-  return this->Options.myelinFollowsAxon || profile->hasNodes() ? std::move(profile) : nullptr;
+  return this->Options.myelinFollowsAxon || profile->lacksMyelin() ? std::move(profile) : nullptr;
 }
 
-void FibreMesher::letInNodes(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
+void FibreMesher::takeMyelin(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
   const std::function<double(double volume)>& gRatio) const
 {
   const OuterContour outer = this->contourOuter(field, 0.0);
@@ -174,10 +183,10 @@ void FibreMesher::letInNodes(const SmoothedField& field, MyelinProfile& profile,
   }
   if (state == MyelinState::NoAxon)
   {
-    profile.forgetNodes();
+    profile.forgetLack();
     return;
   }
-  profile.letInNodes(axon.level, this->PromisedMyelin + roomInNodes * this->Facts.surfaceTolerance, pair.targetGRatio);
+  profile.takeMyelin(axon.level, this->PromisedMyelin + roomInNodes * this->Facts.surfaceTolerance, pair.targetGRatio);
   pair.nodes = profile.nodeCount();
   pair.internodeLength = profile.internodeLength();
   pair.wholeMyelin = outer.volume - axon.volume;
@@ -316,9 +325,9 @@ void FibreMesher::makeInner(const SmoothedField& field, FibreSurfacePair& pair, 
     pair.state = MyelinState::AsAsked;
     return;
   }
-  if (profile != nullptr && profile->hasNodes())
+  if (profile != nullptr && profile->lacksMyelin())
   {
-    this->makeInnerWithNodes(*profile, pair);
+    this->makeInnerOfProfile(*profile, pair);
     return;
   }
   if (pair.outerReport.volume != pair.volumeAsMade && hasVolumeAsMade(pair))
@@ -376,7 +385,7 @@ void FibreMesher::makeInnerWithin(
 }
 
 /// Makes the inner surface for which the profile's nodes were let in: it has the volume of its contour.
-void FibreMesher::makeInnerWithNodes(const MyelinProfile& profile, FibreSurfacePair& pair) const
+void FibreMesher::makeInnerOfProfile(const MyelinProfile& profile, FibreSurfacePair& pair) const
 {
   forgetInner(pair);
   AxonLevels levels{ this->ThinnestMyelin, this->Contours.innerVolumes(profile.inner(), profile.level()).deepest(),

@@ -49,7 +49,7 @@ public:
 
   /// Lets the nodes of a profile that has some into the fields. gRatio(volume) returns the g-ratio of the internodes, which is
   /// recorded in the pair, for a fibre whose outer surface would have that volume (µm³) without nodes.
-  void letInNodes(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
+  void takeMyelin(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
     const std::function<double(double volume)>& gRatio) const;
 
   /// Makes the outer surface, coarsened within `bounds`, and moved `deeper` (µm) than necessary. Sets the pair's state to NoFibre
@@ -82,6 +82,7 @@ public:
   bool keepsInner(FibreSurfacePair& pair) const;
 
 private:
+  bool followsLines() const;
   void findLines();
   Eigen::AlignedBox3d box() const;
   /// Tells whether contours slightly beside their target are moved there, rather than made again.
@@ -97,7 +98,7 @@ private:
   };
   OuterContour contourOuter(const SmoothedField& field, double deeper) const;
   void makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair, MyelinProfile* profile) const;
-  void makeInnerWithNodes(const MyelinProfile& profile, FibreSurfacePair& pair) const;
+  void makeInnerOfProfile(const MyelinProfile& profile, FibreSurfacePair& pair) const;
   void finish(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   AxonLevels axonLevels(const SmoothedField& field, double volume) const;
   void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;

@@ -22,6 +22,7 @@ MyelinProfile::MyelinProfile(
       this->Nodes.reset();
     }
   }
+  this->Lacks = this->Nodes.has_value() || this->Line.lacksMyelin(this->Depths.first(), this->Depths.last());
 }
 
 SmoothedField MyelinProfile::evened(double part, double outer, double thinnest)
@@ -60,28 +61,29 @@ double MyelinProfile::internodeLength() const
   return this->Nodes ? this->Nodes->spacing() - this->Options.nodeLength : 0.0;
 }
 
-void MyelinProfile::letInNodes(double level, double wall, double gRatio)
+void MyelinProfile::takeMyelin(double level, double wall, double gRatio)
 {
   this->Level = level;
   const AlongLine whole = [this, level](double along) { return level + (this->Deeper ? this->Deeper(along) : 0.0); };
+  const AlongLine inNodes = [this](double along) { return this->Nodes ? this->Nodes->myelinPart(along) : 1.0; };
   const double area = this->Options.nodeConstriction * this->Options.nodeConstriction;
-  const AlongLine constricted = area < 1.0 ? this->Depths.depthOfPartBelow(area, whole) : whole;
+  const AlongLine constricted = this->Nodes && area < 1.0 ? this->Depths.depthOfPartBelow(area, whole) : whole;
   const AlongLine axon = [&](double along)
   {
-    const double bare = 1.0 - this->Nodes->myelinPart(along);
+    const double bare = 1.0 - inNodes(along);
     return bare > 0.0 ? whole(along) + bare * (constricted(along) - whole(along)) : whole(along);
   };
   this->Inner = this->Depths.lowered([&](double along) { return axon(along) - level; });
   // Myelin that came back is as thick as its g-ratio makes it, and no thicker than it was.
   const double thinner = std::min(1.0, gRatio * (1.0 / this->Options.remyelinatedGRatio - 1.0) / (1.0 - gRatio));
-  const auto left = [&](double along, double room) // part of the room between the wall and the whole fibre's surface
+  const auto afterLoss = [&](double along, double room)
   {
-    switch (this->Nodes->internodeAt(along))
+    switch (this->Nodes ? this->Nodes->internodeAt(along) : Internode::Whole)
     {
     case Internode::Whole:
-      return this->Nodes->myelinPart(along);
+      return 1.0;
     case Internode::Remyelinated:
-      return this->Nodes->myelinPart(along) * std::max(0.0, (thinner * (room + wall) - wall) / room);
+      return std::max(0.0, (thinner * (room + wall) - wall) / room);
     default:
       return 0.0;
     }
@@ -89,8 +91,9 @@ void MyelinProfile::letInNodes(double level, double wall, double gRatio)
   this->Outer = this->Depths.lowered(
     [&](double along)
     {
-      const double room = axon(along) - wall;
-      return room > 0.0 ? (1.0 - left(along, room)) * room : 0.0;
+      const double room = axon(along) - wall; // between the wall and the whole fibre's surface
+      const double left = inNodes(along) * this->Line.myelinAt(along);
+      return room > 0.0 ? (1.0 - left * afterLoss(along, room)) * room : 0.0;
     });
 }
 

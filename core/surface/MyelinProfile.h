@@ -17,9 +17,9 @@ namespace cactus
 /// How the surfaces of one fibre depend on the place along its centre line (see MyelinSurfaceOptions).
 ///
 /// Contours of one level become surfaces of varying depth by lowering the field, at each sample by a depth for its place along
-/// the line. Where a fibre has no node, its outer surface lies where it would without any; within nodes, paranodes and internodes
-/// with a lesion fields are only ever lowered for it. So the fields of two fibres still sum to at most -gap, and outer surfaces
-/// keep it.
+/// the line. Where a fibre has all of its myelin, its outer surface lies where it would without a profile; elsewhere, in nodes
+/// and where a lesion has taken myelin, fields are only ever lowered for it. So the fields of two fibres still sum to at most
+/// -gap, and outer surfaces keep it.
 class MyelinProfile
 {
 public:
@@ -33,17 +33,17 @@ public:
   /// if the fibre had no nodes: about at the level of that contour in the field given. No myelin is thinner than `thinnest` (µm).
   SmoothedField evened(double part, double outer, double thinnest);
 
-  /// Tells whether a node, a paranode or an internode with a lesion lies in the fibre.
-  bool hasNodes() const { return this->Nodes.has_value(); }
-  /// Takes the nodes away from a fibre without an axon, to which they could not come down.
-  void forgetNodes() { this->Nodes.reset(); }
+  /// Tells whether the fibre lacks myelin somewhere: at a node, or by a lesion.
+  bool lacksMyelin() const { return this->Lacks; }
+  /// Gives a fibre without an axon, to which it could not come down, all of its myelin.
+  void forgetLack() { this->Lacks = false; }
   /// Returns the number of nodes whose middle lies in the box, and the length (µm) of an internode; 0 without nodes.
   int nodeCount() const;
   double internodeLength() const;
-  /// Puts the axon at this level of the field (evened(), if that was called), and the myelin's thickness in nodes and where it is
-  /// lost at `wall` (µm). `gRatio` is that of whole internodes.
-  void letInNodes(double level, double wall, double gRatio);
-  /// Returns the fields after letInNodes(): for the outer surface at the levels as without nodes, and for the axon at `level`.
+  /// Puts the axon at this level of the field (evened(), if that was called), and the myelin's thickness where it lacks at `wall`
+  /// (µm). `gRatio` is that of whole internodes.
+  void takeMyelin(double level, double wall, double gRatio);
+  /// Returns the fields after takeMyelin(): for the outer surface at the levels as with all myelin, and for the axon at `level`.
   const SmoothedField& outer() const { return *this->Outer; }
   const SmoothedField& inner() const { return *this->Inner; }
   double level() const { return this->Level; }
@@ -53,8 +53,9 @@ private:
   const MyelinSurfaceOptions& Options;
   FibreLine Line;
   DepthsAlong Depths;
-  AlongLine Deeper; ///< µm by which the axon lies deeper than its level, without nodes; empty: nowhere
-  std::optional<NodesOfRanvier> Nodes;
+  AlongLine Deeper;                    ///< µm by which the axon lies deeper than its level, without nodes; empty: nowhere
+  std::optional<NodesOfRanvier> Nodes; ///< those that reach into the fibre
+  bool Lacks = false;
   std::optional<SmoothedField> Outer;
   std::optional<SmoothedField> Inner;
   double Level = 0.0; ///< µm

@@ -18,7 +18,6 @@ constexpr Range nodeLengths{ 0.3, 5.0, " µm", 0.0 };
 constexpr Range internodeFactors{ 1.0, 500.0 };
 constexpr Range paranodeLengths{ 0.5, 6.0, " µm" };
 constexpr Range constrictions{ 0.3, 1.0 };
-constexpr Range parts{ 0.0, 1.0 };
 constexpr Range remyelinated{ 0.3, 0.99 };
 
 } // namespace
@@ -71,14 +70,14 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "Seed of the nodes' places along the fibres, and of the internodes that InternodeLoss takes. The same seed gives a fibre "
         "the same nodes.")
       .whereGiven("NodeLength")
-      .add("InternodeLoss", &Options::internodeLoss, parts,
+      .add("InternodeLoss", &Options::internodeLoss, limits::part,
         "Fraction of the internodes that have lost their myelin in a lesion, each drawn at random. There the fibre's outer "
         "surface "
         "comes down to the axon as in a node, and the axon stays as it was. A larger fraction takes the same internodes and "
         "more. "
         "For whole fibres without myelin, see MyelinLoss of Lesion.")
       .whereGiven("NodeLength")
-      .add("RemyelinatedFraction", &Options::remyelinatedFraction, parts,
+      .add("RemyelinatedFraction", &Options::remyelinatedFraction, limits::part,
         "Fraction of the lost internodes whose myelin has come back, thinner than it was.")
       .whereGiven("InternodeLoss")
       .add("RemyelinatedGRatio", &Options::remyelinatedGRatio, remyelinated,

@@ -86,6 +86,9 @@ struct LabelImageFacts
   std::vector<double> lengths;
   std::shared_ptr<const Fibres> centreLines; ///< the fibres, for myelin that varies along them; null if unknown
   bool isSample = false;                     ///< the image also has other fibres, of which no surfaces are made
+
+  /// Tells whether the fibres say themselves how much of their myelin there is.
+  bool hasMyelinFractions() const { return centreLines != nullptr && !centreLines->myelinFractions.empty(); }
 };
 
 /// Returns the facts of the image that these options grow from the fibres. Lengths are left empty.

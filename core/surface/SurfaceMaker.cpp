@@ -114,7 +114,7 @@ std::vector<std::size_t> orderByPlace(const std::vector<FibreSurfacePair>& pairs
 /// Returns the field whose contour is the outer surface.
 const SmoothedField& outerOf(const SmoothedField& field, const MyelinProfile* profile)
 {
-  return profile != nullptr && profile->hasNodes() ? profile->outer() : field;
+  return profile != nullptr && profile->lacksMyelin() ? profile->outer() : field;
 }
 
 std::string bytesOf(const std::vector<Eigen::Vector3d>& points)
@@ -280,9 +280,9 @@ void SurfaceMaker::withField(FibreSurfacePair& pair, Body&& body) const
 {
   const SmoothedField field = this->Mesher.smoothed(pair.fibreId);
   const std::unique_ptr<MyelinProfile> profile = this->Mesher.profileOf(field, pair);
-  if (profile != nullptr && profile->hasNodes())
+  if (profile != nullptr && profile->lacksMyelin())
   {
-    this->Mesher.letInNodes(field, *profile, pair, [&](double volume) { return this->targetGRatio(field, pair, volume); });
+    this->Mesher.takeMyelin(field, *profile, pair, [&](double volume) { return this->targetGRatio(field, pair, volume); });
   }
   body(field, profile.get());
 }
@@ -291,7 +291,7 @@ void SurfaceMaker::withField(FibreSurfacePair& pair, Body&& body) const
 void SurfaceMaker::putInner(std::size_t i, const SmoothedField& field, MyelinProfile* profile, SurfaceStore& inner)
 {
   FibreSurfacePair& pair = this->Pairs[i];
-  const bool isKnown = profile != nullptr && profile->hasNodes(); // that of the internodes
+  const bool isKnown = profile != nullptr && profile->lacksMyelin(); // that of the internodes
   if (!this->isCommon() && !isKnown)
   {
     pair.targetGRatio = this->targetGRatio(field, pair, pair.volumeAsMade);

@@ -8,7 +8,7 @@ import os
 
 import numpy
 from cactus_testing import UNPARTED, CactusTestCase, fetch, main, mesh_oracle, produce
-from paraview.simple import FibreRadialGrowth, MyelinSurface, OutputPort, Placement, StrandReader, SubstrateCertificate, SubstrateStatistics, TrivialProducer
+from paraview.simple import Calculator, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, Placement, StrandReader, SubstrateCertificate, SubstrateStatistics, TrivialProducer
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference, vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData, vtkStaticCellLocator
@@ -434,6 +434,27 @@ class MyelinSurfaceTest(CactusTestCase):
         told["GRatio"] = 0.65
         self.assertLessEqual({"making surfaces", spaces}, after(GRatio=0.65))
         self.assertEqual(self.digest(kept), self.digest(MyelinSurface(Input=growth, **told)))
+
+    def test_fibres_say_how_much_myelin_there_is(self):
+        """By point data, which pass the optimiser. Another fraction or g-ratio makes outer surfaces again."""
+        healthy = self.growth(hexagonal(3.0), GrowthIterations=1, VoxelSize=0.1)
+        said = Calculator(Input=healthy.Input, ResultArrayName="MyelinFraction", Function="min(1, max(0, abs(coordsZ) - 0.3))", ResultArrayType="Double")
+        growth = FibreRadialGrowth(Input=OutputPort(CapsuleOptimizer(Input=said, MaximumIterations=0), 0), GrowthIterations=1, VoxelSize=0.1)
+        lost, surfaces = {}, MyelinSurface(Input=growth)
+        for name, one in (("healthy", MyelinSurface(Input=healthy)), ("0.7", surfaces)):
+            lost[name] = vtk_to_numpy(fetch(one, 2).GetColumnByName("LostMyelin"))
+        self.assertEqual(lost["healthy"].max(), 0)
+        self.assertGreater(lost["0.7"].min(), 0.1)
+        self.assertTrue(fetch(SubstrateCertificate(Outer=OutputPort(surfaces, 0)), 0).GetColumnByName("Certified").GetValue(0))
+        for change in ({"GRatio": 0.8}, {}):
+            for name, value in change.items():
+                setattr(surfaces, name, value)
+            if not change:
+                said.Function = "min(1, max(0, abs(coordsZ) - 0.6))"
+            self.assertEqual(self.digest(surfaces), self.digest(MyelinSurface(Input=growth, GRatio=0.8)))
+        said.Function = "2 + 0 * coordsZ"
+        with self.assertError("MyelinFraction is 2"):
+            growth.UpdatePipeline()
 
     def test_outer_surfaces_of_vtk_are_kept_too(self):
         growth = self.growth(hexagonal(3.0), GrowthIterations=1)

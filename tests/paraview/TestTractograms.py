@@ -217,6 +217,16 @@ class Tractograms(CactusTestCase):
         self.assertEqual(int(written.header["count"]), len(written.streamlines))
         self.assertSameStreamlines(fetch(fibres), [1000 * one for one in written.streamlines], 1e-6)
 
+    def test_without_radii(self):
+        """What other programs have made is saved in the other format, and gains no radii by it."""
+        wanted = some_streamlines()
+        TckFile(Tractogram(wanted, affine_to_rasmm=numpy.eye(4))).save(self.path("some.tck"))
+        for name in ("other.trx", "again.tck"):
+            SaveData(self.path(name), proxy=OpenDataFile(self.path("some.tck")))
+            again = fetch(OpenDataFile(self.path(name)))
+            self.assertSameStreamlines(again, wanted, 1e-6, factor=1000.0)
+            self.assertIsNone(again.GetPointData().GetArray("Radius"))
+
     def test_trx_out(self):
         """By zipfile and numpy alone. No file is packed, and each stands where readers that map it into memory look for it."""
         fibres = self.fibres()

@@ -28,6 +28,7 @@ LARGEST_PICTURE = 150_000  # bytes
 KINDS = {
     "fibres": "fibres: polylines with point data `Radius`",
     "lines": "polylines",
+    "streamlines": "fibres, or streamlines of a tractogram",
     "labels": "the label image of FibreRadialGrowth",
     "surfaces": "surfaces: triangles with cell data `FibreId`",
 }

@@ -2,6 +2,10 @@
 #include "fibres/Fibres.h"
 
 #include "base/Error.h"
+#include "fibres/JoinFibres.h"
+#include "fibres/ResampledFibres.h"
+#include "fibres/SelectFibres.h"
+#include "fibres/TrimToDomain.h"
 
 #include <gtest/gtest.h>
 
@@ -85,4 +89,45 @@ TEST(Fibres, TheLimitsThemselvesAreGood)
   EXPECT_EQ(errorOf([](Fibres& fibres) { fibres.points[0] = { -1e5, 1e5, 1e5 }; }), "");
   EXPECT_EQ(errorOf([](Fibres& fibres) { fibres.domain = cactus::Domain::cube(0.1); }), "");
   EXPECT_EQ(errorOf([](Fibres& fibres) { fibres.domain = cactus::Domain::cube(1e5); }), "");
+}
+
+TEST(Fibres, MyelinFractionsStayWithTheirControlPoints)
+{
+  Fibres fibres;
+  fibres.domain = cactus::Domain::cube(10.0);
+  const Fibres whole = pair();
+  fibres.addFibre(whole, 0);
+  fibres.addPoints(whole, 0, 3); // before anything is said of myelin
+  fibres.addFibre(1, 1, 0.5);
+  for (int i = 0; i < 201; ++i)
+  {
+    fibres.addPoint({ 4.0, 0.0, -10.0 + 0.1 * i }, 0.5);
+    fibres.setMyelinFraction(0.005 * i);
+  }
+  fibres.addFibre(2, 1, 0.5);
+  fibres.addPoint({ 4.0, 3.0, -6.0 }, 0.5);
+  fibres.addPoint({ 4.0, 3.0, 6.0 }, 0.5);
+  const auto expectLinear = [](const Fibres& given)
+  {
+    ASSERT_EQ(given.myelinFractions.size(), given.points.size());
+    for (std::size_t f = 0; f < given.size(); ++f)
+    {
+      for (std::size_t i = given.offsets[f]; i < given.offsets[f + 1]; ++i)
+      {
+        EXPECT_NEAR(given.myelinFractions[i], given.fibreIds[f] == 1 ? 0.05 * (given.points[i].z() + 10.0) : 1.0, 1e-9);
+      }
+    }
+  };
+  expectLinear(fibres);
+  expectLinear(cactus::trimToDomain(fibres));
+  expectLinear(cactus::selectFibres(fibres, { 2, 1 }));
+  Fibres all = whole;
+  cactus::appendFibres(cactus::selectFibres(fibres, { 1 }), all);
+  expectLinear(all);
+  EXPECT_EQ(cactus::resampleDenseFibres(fibres).fibres, 1u);
+  EXPECT_LT(fibres.pointCount(1), 100u);
+  expectLinear(fibres);
+  EXPECT_TRUE(cactus::selectFibres(whole, { 0, 1 }).myelinFractions.empty());
+  expectNamed(errorOf([](Fibres& one) { one.setMyelinFraction(1.2); }), "control point 2: MyelinFraction");
+  expectNamed(errorOf([](Fibres& one) { one.setMyelinFraction(std::nan("")); }), "MyelinFraction");
 }

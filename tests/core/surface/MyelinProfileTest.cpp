@@ -374,6 +374,44 @@ TEST(MyelinProfile, MyelinIsThinnerWhereALesionTookIt)
   EXPECT_EQ(seen.size(), 3u);
 }
 
+// Along z the fraction falls from 1 to 0, stays there, and rises to 1 again.
+TEST(MyelinProfile, MyelinIsAsThickAsTheFibresSay)
+{
+  const double radius = 0.6;
+  const double side = 11.0;
+  const GrownFibres grown = singleFibre(side, radius, [&](double) { return radius; });
+  const auto whole = grown.surfaces({});
+  Fibres& fibres = *grown.fibres;
+  const auto fractionAt = [](double z) { return std::clamp((std::abs(z) - 1.0) / 2.0, 0.0, 1.0); };
+  for (const Eigen::Vector3d& point : fibres.points)
+  {
+    fibres.myelinFractions.push_back(fractionAt(point.z()));
+  }
+  const double wall = grown.growth.minimumGap + 4.0 * grown.growth.surfaceTolerance;
+  const auto pairs = grown.surfaces({});
+  expectSound(pairs, fibres.domain, grown.growth.minimumGap);
+  EXPECT_EQ(pairs[0].nodes, 0);
+  EXPECT_GT(pairs[0].lostMyelin(), 0.2);
+  EXPECT_NEAR(pairs[0].innerReport.volume, whole[0].innerReport.volume, 5e-3 * whole[0].innerReport.volume);
+  const double spacing = 0.25;
+  const std::vector<double> outer = radiiOf(fibres, pairs[0].outer, spacing);
+  const double first = fibres.points.front().z();
+  for (std::size_t i = 0; i < outer.size(); ++i)
+  {
+    const double left = fractionAt(first + (double(i) + 0.5) * spacing);
+    const double axon = 0.7 * radius;
+    EXPECT_TRUE(outer[i] == 0.0 || std::abs(outer[i] - (axon + wall + left * (radius - axon - wall))) < 0.03)
+      << i << ' ' << outer[i];
+  }
+  std::fill(fibres.myelinFractions.begin(), fibres.myelinFractions.end(), 1.0);
+  EXPECT_TRUE(grown.surfaces({})[0].outer.points == whole[0].outer.points) << "nothing is lost";
+
+  MyelinSurfaceOptions options;
+  options.model = GRatioModel::TargetAxonVolumeFraction;
+  options.targetAxonVolumeFraction = 0.01;
+  EXPECT_THROW(grown.surfaces(options), InvalidInput);
+}
+
 /// A bundle with nodes every few µm, optimised and grown.
 GrownFibres bundleWithNodes()
 {
