@@ -45,6 +45,8 @@ Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPla
 
 /// Tells whether polylines have point data `MyelinFraction`, which says how much of their myelin there is.
 bool hasMyelinFractions(vtkDataObject* input);
+/// Field data of a label image whose fibres have them.
+constexpr const char* saysMyelinName = "FibresHaveMyelinFraction";
 
 /// The fibres of several inputs in their order. Ids stay where they are free; the bundles or fibres of an input or block that
 /// share one with an earlier one all move above the largest. Throws InvalidInput where the inputs have different domains.

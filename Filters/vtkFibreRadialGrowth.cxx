@@ -197,6 +197,10 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       output->GetPointData()->SetActiveScalars("Depth");
 
       addImageFacts(fibres, options, grid.spacing, *this->Growth, output);
+      if (!fibres.myelinFractions.empty())
+      {
+        cactus::addNumber(output->GetFieldData(), cactus::saysMyelinName, 1.0);
+      }
       cactus::setProvenance(output,
         cactus::recordOf(this, "FibreRadialGrowth", stage, { "Input" }, cactus::growthReached(grid.spacing, *this->Growth)), 0);
     });

@@ -336,6 +336,9 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   auto* image = cactus::requireImage(input);
   this->Fibres = cactus::fibresOfImage(this, 0);
   cactus::LabelImageInput labels = cactus::labelImageFrom(image);
+  cactus::require(this->Fibres != nullptr || image->GetFieldData()->HasArray(cactus::saysMyelinName) == 0,
+    "the fibres say how much of their myelin there is (MyelinFraction), and are not at hand: give the label image directly from "
+    "FibreRadialGrowth");
   if (this->Fibres != nullptr && (options.followsLines() || cactus::hasMyelinFractions(this->Fibres)))
   {
     labels.facts.centreLines = std::make_shared<const cactus::Fibres>(cactus::fibresFrom(this->Fibres));

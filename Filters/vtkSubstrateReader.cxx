@@ -284,7 +284,9 @@ std::vector<std::string> remarksOn(const cactus::SubstrateDescription& substrate
   std::vector<std::string> remarks;
   if (substrate.isOpen)
   {
-    remarks.emplace_back("the surfaces lack their caps in periodic faces (PeriodicFaces Open), so that they are not closed");
+    remarks.emplace_back(
+      "the surfaces lack their caps in periodic faces (PeriodicFaces Open), so that they are not closed: stages that "
+      "need closed ones take the substrate from a folder written with PeriodicFaces Caps");
   }
   if (substrate.sampledFibres > 0)
   {

@@ -29,11 +29,13 @@ bool isOf(const std::string& kind, vtkPVDataInformation* data)
   {
     return fibres;
   }
+  const bool streamlines = has(data, vtkDataObject::POINT, "Direction"); // surfaces have it as cell data
   if (kind == "streamlines")
   {
-    return fibres || has(data, vtkDataObject::POINT, "Direction");
+    return fibres || streamlines;
   }
-  const bool surfaces = !fibres && (has(data, vtkDataObject::CELL, "FibreId") || has(data, vtkDataObject::FIELD, "FibreId"));
+  const bool surfaces =
+    !fibres && !streamlines && (has(data, vtkDataObject::CELL, "FibreId") || has(data, vtkDataObject::FIELD, "FibreId"));
   if (kind == "surfaces" || kind == "lines")
   {
     return surfaces == (kind == "surfaces");

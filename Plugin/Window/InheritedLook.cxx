@@ -94,9 +94,10 @@ void giveLook(pqDataRepresentation* shown, const Look& look, double opacity)
   vtkSMPropertyHelper(proxy, "Opacity", true).Set(opacity);
   const bool hasDirections =
     shown->getOutputPortFromInput()->getDataInformation()->GetArrayInformation(direction, vtkDataObject::POINT) != nullptr;
-  if (look.byDirection && hasDirections && !vtkSMPVRepresentationProxy::GetUsingScalarColoring(proxy))
+  auto* coloured = vtkSMPVRepresentationProxy::SafeDownCast(proxy);
+  if (look.byDirection && hasDirections && coloured != nullptr && !coloured->GetUsingScalarColoring())
   {
-    vtkSMPVRepresentationProxy::SetScalarColoring(proxy, direction, vtkDataObject::POINT);
+    coloured->SetScalarColoring(direction, vtkDataObject::POINT);
     vtkSMPropertyHelper(proxy, "MapScalars", true).Set(0); // red, green and blue as they are
   }
   proxy->UpdateVTKObjects();

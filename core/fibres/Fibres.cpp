@@ -212,9 +212,18 @@ FibrePeriod periodOf(const Fibres& fibres, std::size_t f)
       return { n, shift };
     }
   }
-  throw InvalidInput(text("fibre ", fibres.fibreIds[f], " (cell ", f, ") does not repeat after the domain's ", size.z(),
+  throw InvalidInput(text("fibre ", fibres.fibreIds[f], " (cell ", f,
+    ") does not repeat, with its Radius and MyelinFraction, after the domain's ", size.z(),
     " µm along z, although the domain is periodic there: take it from BundleInitializer, or make the domain periodic along x and "
     "y only"));
+}
+
+bool lacksMyelin(const Fibres& fibres, std::size_t fibre)
+{
+  const auto begin = fibres.myelinFractions.begin();
+  return !fibres.myelinFractions.empty() &&
+         std::any_of(begin + static_cast<std::ptrdiff_t>(fibres.offsets[fibre]),
+           begin + static_cast<std::ptrdiff_t>(fibres.offsets[fibre + 1]), [](double fraction) { return fraction < 1.0; });
 }
 
 double rootMeanSquareRadius(const Fibres& fibres, std::size_t fibre)

@@ -65,6 +65,9 @@ void validate(const Domain& domain);
 /// are positive and fibre ids unique; the domain is valid, and fibres repeat along z if that does.
 void validate(const Fibres& fibres);
 
+/// Tells whether the myelin fraction of one of a fibre's control points is less than 1.
+bool lacksMyelin(const Fibres& fibres, std::size_t fibre);
+
 /// Returns the root mean square of the radii at a fibre's control points (µm), the fibre's target radius where nothing else says
 /// it: the volume of a fibre goes with it. NaN for a fibre without a control point.
 double rootMeanSquareRadius(const Fibres& fibres, std::size_t fibre);

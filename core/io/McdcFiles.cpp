@@ -152,7 +152,7 @@ void writeMcdc(const SubstrateFolderContents& contents, const std::vector<McdcSi
     {
       substrate.remarks.push_back(
         "some walkers of mcdc/extra.conf pass a wall where it ends in the faces across which MC/DC repeats the domain, and where "
-        "caps of fibres lie there, too, 1 of 75 ends inside a fibre within 2 ms: choose PeriodicFaces By format, among whose "
+        "caps of fibres lie there, too, 1 of 75 ends inside a fibre within 2 ms: choose PeriodicFaces Open, among whose "
         "surfaces "
         "MC/DC notices such walkers and starts others");
     }

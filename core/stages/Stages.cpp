@@ -34,10 +34,11 @@ constexpr char periodicFacesMeaning[] =
   "How surfaces end in the faces of a periodic domain (Border Periodic or Periodic across of BundleInitializer). Caps: each "
   "piece "
   "of a fibre is closed, so that walkers inside stay in their piece. Open: without caps in these faces. Copies of the domain, in "
-  "a simulator that repeats it, then join to endless surfaces, and walkers inside the fibres go on, too. By format: Open for "
-  "MC/DC, which with caps lets some walkers outside into the fibres, and Caps for the others. The certificate judges the "
-  "surfaces with their caps. Open is for Format MC/DC, Surfaces alone and Surfaces by bundle. It is refused for other formats, "
-  "whose readers need closed surfaces, for a domain that is not periodic, and with AllowOpenSurfaces.";
+  "a simulator that repeats it, then join to endless surfaces, and walkers inside the fibres go on, too. By format: Caps, but "
+  "for "
+  "MC/DC, which with caps lets some walkers outside into the fibres, Open (unless AllowOpenSurfaces is on). The certificate "
+  "judges the surfaces with their caps. Open is for Format MC/DC, Surfaces alone and Surfaces by bundle. It is refused for other "
+  "formats, whose readers need closed surfaces, for a domain that is not periodic, and with AllowOpenSurfaces.";
 constexpr char fileUnit[] = "Unit of the file's lengths. Most readers take them for millimetres, whatever the file says, so "
                             "micrometres give a warning. For data that Placement has placed, micrometres are refused.";
 constexpr Range leastRadius{ 0.0, 1e3, " µm" };

@@ -338,6 +338,7 @@ ProducedSubstrate produceSubstrate(
     requirePeriodic(order.periodicFaces, fibres.domain);
     requireRoom(order.format, fibres.domain, growthGrid(fibres.domain, order.growth).spacing);
     requireRoomForMyelin(fibres, order);
+    requireKnownGRatio(fibres, order.surfaces);
     require(!folder.empty(), "FolderName is empty: name the folder to write");
     const std::string identity = identityOf(fibres, order);
     require(sharing.areAlike(identity + folder), // otherwise they would mix results in one folder

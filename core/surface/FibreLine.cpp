@@ -47,10 +47,15 @@ std::size_t FibreLine::segmentAt(double along) const
   return std::size_t(above - this->Along.begin()) - 1;
 }
 
+double FibreLine::partOf(std::size_t segment, double along) const
+{
+  return std::clamp((along - this->Along[segment]) / (this->Along[segment + 1] - this->Along[segment]), 0.0, 1.0);
+}
+
 Eigen::Vector3d FibreLine::point(double along) const
 {
   const std::size_t i = this->segmentAt(along);
-  const double part = std::clamp((along - this->Along[i]) / (this->Along[i + 1] - this->Along[i]), 0.0, 1.0);
+  const double part = this->partOf(i, along);
   return this->Points[i] + part * (this->Points[i + 1] - this->Points[i]);
 }
 
@@ -67,8 +72,7 @@ double FibreLine::myelinAt(double along) const
     return 1.0;
   }
   const std::size_t i = this->segmentAt(along);
-  const double part = std::clamp((along - this->Along[i]) / (this->Along[i + 1] - this->Along[i]), 0.0, 1.0);
-  return this->Myelin[i] + part * (this->Myelin[i + 1] - this->Myelin[i]);
+  return this->Myelin[i] + this->partOf(i, along) * (this->Myelin[i + 1] - this->Myelin[i]);
 }
 
 bool FibreLine::lacksMyelin(double from, double to) const

@@ -64,6 +64,8 @@ public:
 
 private:
   std::size_t segmentAt(double along) const;
+  /// Returns the part of a segment's length that ends at a place, 0 to 1.
+  double partOf(std::size_t segment, double along) const;
 
   Domain Box;
   std::vector<Eigen::Vector3d> Points;

@@ -115,11 +115,9 @@ void FibreMesher::findLines()
   require(this->Filters == nullptr,
     "Meshing VTK filters makes myelin of the same thickness along a fibre: leave MyelinFollowsAxon "
     "off and NodeLength at 0, and give the fibres no MyelinFraction, or choose Meshing CACTUS");
-  require(!this->Facts.hasMyelinFractions() || this->Options.model != GRatioModel::TargetAxonVolumeFraction,
-    "myelin that the fibres' MyelinFraction has taken is as thick as the g-ratio makes it, and the one for "
-    "TargetAxonVolumeFraction depends on the outer surfaces: choose another GRatioModel, or give the fibres no MyelinFraction");
   require(this->Facts.centreLines != nullptr, "the centre lines of the fibres are not at hand, and MyelinFollowsAxon and "
                                               "NodeLength need them: give the label image directly from FibreRadialGrowth");
+  requireKnownGRatio(*this->Facts.centreLines, this->Options);
   const double shortest = std::min(this->Options.nodeLength, this->Options.paranodeLength);
   if (this->Options.hasNodes() && this->Spacing > voxelInNode * shortest)
   {
@@ -161,6 +159,10 @@ std::unique_ptr<MyelinProfile> FibreMesher::profileOf(const SmoothedField& field
   if (line == this->Lines.end())
   {
     throw InvalidInput(text("fibre ", pair.fibreId, " of the label image has no centre line among the fibres given with it"));
+  }
+  if (!this->Options.followsLines() && !lacksMyelin(*this->Facts.centreLines, line->second))
+  {
+    return nullptr;
   }
   auto profile = std::make_unique<MyelinProfile>(field, *this->Facts.centreLines, line->second, this->Options);
   return this->Options.myelinFollowsAxon || profile->lacksMyelin() ? std::move(profile) : nullptr;
@@ -384,7 +386,7 @@ void FibreMesher::makeInnerWithin(
   this->finish(search, state, axon, pair);
 }
 
-/// Makes the inner surface for which the profile's nodes were let in: it has the volume of its contour.
+/// Makes the inner surface of a profile after takeMyelin(): it has the volume of its contour.
 void FibreMesher::makeInnerOfProfile(const MyelinProfile& profile, FibreSurfacePair& pair) const
 {
   forgetInner(pair);

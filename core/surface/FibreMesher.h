@@ -47,8 +47,8 @@ public:
   /// fibre and has to outlive the profile.
   std::unique_ptr<MyelinProfile> profileOf(const SmoothedField& field, const FibreSurfacePair& pair) const;
 
-  /// Lets the nodes of a profile that has some into the fields. gRatio(volume) returns the g-ratio of the internodes, which is
-  /// recorded in the pair, for a fibre whose outer surface would have that volume (µm³) without nodes.
+  /// Takes myelin from the fields of a profile that lacks some. gRatio(volume) returns the g-ratio with all myelin, which is
+  /// recorded in the pair, for a fibre whose outer surface would then have that volume (µm³).
   void takeMyelin(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
     const std::function<double(double volume)>& gRatio) const;
 

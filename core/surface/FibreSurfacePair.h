@@ -52,7 +52,7 @@ struct FibreSurfacePair
   double targetGRatio = 0.0;
   int nodes = 0;                ///< number of nodes of Ranvier in the box
   double internodeLength = 0.0; ///< µm; 0 if the fibre has no node
-  double wholeMyelin = 0.0;     ///< µm³, volume that the myelin would have without nodes; 0 if the fibre has no node
+  double wholeMyelin = 0.0;     ///< µm³, volume that all of the myelin would have; 0 if none is lacking
   double gRatio = 0.0;          ///< the one reached: sqrt(inner volume / outer volume); 0 without an axon
   bool isWanted = true;         ///< false only if the centre line is known to pass outside the domain
   /// Whether a surface has a fault that could not be repaired: it meets itself or the other one, or is nearer than MinimumGap
@@ -64,7 +64,7 @@ struct FibreSurfacePair
   bool hasOwnGRatio() const { return !std::isnan(this->ownGRatio); }
   /// Tells whether the fibre is an axon without myelin.
   bool isBare() const { return this->ownGRatio == bareGRatio; }
-  /// Returns the part of the myelin's volume that nodes have taken.
+  /// Returns the part of the myelin's volume that is lacking.
   double lostMyelin() const
   {
     const double left = this->outerReport.volume - this->innerReport.volume;

@@ -58,7 +58,7 @@ int MyelinProfile::nodeCount() const
 
 double MyelinProfile::internodeLength() const
 {
-  return this->Nodes ? this->Nodes->spacing() - this->Options.nodeLength : 0.0;
+  return this->nodeCount() > 0 ? this->Nodes->spacing() - this->Options.nodeLength : 0.0;
 }
 
 void MyelinProfile::takeMyelin(double level, double wall, double gRatio)

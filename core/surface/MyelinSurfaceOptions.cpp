@@ -125,6 +125,13 @@ void validate(const MyelinSurfaceOptions& options)
   }
 }
 
+void requireKnownGRatio(const Fibres& fibres, const MyelinSurfaceOptions& options)
+{
+  require(fibres.myelinFractions.empty() || options.model != GRatioModel::TargetAxonVolumeFraction,
+    "where the fibres' MyelinFraction has taken myelin, the rest is as thick as the g-ratio makes it, and the one for "
+    "TargetAxonVolumeFraction depends on the outer surfaces: choose another GRatioModel, or give the fibres no MyelinFraction");
+}
+
 LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOptions& growth)
 {
   LabelImageFacts facts;

@@ -66,6 +66,9 @@ struct MyelinSurfaceOptions
   bool followsLines() const { return myelinFollowsAxon || hasNodes(); }
 };
 
+/// Throws InvalidInput if fibres say how much of their myelin there is, and the g-ratio depends on what is left.
+void requireKnownGRatio(const Fibres& fibres, const MyelinSurfaceOptions& options);
+
 /// Throws InvalidInput, naming the parameter, for a value out of range.
 void validate(const MyelinSurfaceOptions& options);
 

@@ -5,6 +5,8 @@ formats ask of the proxies, for all that a chain makes and for data of other ori
 import os
 import re
 
+import nibabel
+import numpy
 from cactus_testing import UNPARTED, CactusTestCase, main
 from paraview import servermanager, simple
 
@@ -76,6 +78,16 @@ class Offers(CactusTestCase):
         self.assertOffered(simple.SubstrateCertificate(Outer=outer), ())
         self.assertOffered(simple.SubstrateStatistics(Fibres=outer), ())
         self.assertOffered(simple.SubstrateSampler(Outer=outer), (), IMAGE_FILES)
+
+    def test_a_tractogram_without_radii(self):
+        """It is one, too, when it has got ids by saving."""
+        path = os.path.join(self.folder, "plain.tck")
+        nibabel.streamlines.TckFile(nibabel.streamlines.Tractogram([numpy.arange(9, dtype="f4").reshape(3, 3)], affine_to_rasmm=numpy.eye(4))).save(path)
+        for _ in range(2):
+            tract = simple.TractogramReader(FileName=path)
+            self.assertOffered(tract, LINES, {"tck", "trx"})
+            path = os.path.join(self.folder, "plain.trx")
+            simple.SaveData(path, proxy=tract)
 
     def test_blocks(self):
         both = simple.GroupDatasets(Input=[self.bundle(), self.bundle(2)])

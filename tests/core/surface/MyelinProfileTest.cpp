@@ -372,6 +372,15 @@ TEST(MyelinProfile, MyelinIsThinnerWhereALesionTookIt)
     }
   }
   EXPECT_EQ(seen.size(), 3u);
+
+  options.internodeFactor = 500.0;
+  options.internodeLoss = 1.0;
+  options.remyelinatedFraction = 0.0;
+  const auto bare = grown.surfaces(options); // within one internode
+  expectSound(bare, grown.fibres->domain, grown.growth.minimumGap);
+  EXPECT_EQ(bare[0].nodes, 0);
+  EXPECT_EQ(bare[0].internodeLength, 0.0);
+  EXPECT_NEAR(bare[0].outerReport.volume / (pi * std::pow(0.7 * radius + wall, 2) * side), 1.0, 0.05);
 }
 
 // Along z the fraction falls from 1 to 0, stays there, and rises to 1 again.
