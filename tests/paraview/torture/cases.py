@@ -454,6 +454,7 @@ class Bench:
         """Stopped by the user as soon as it tells of its progress; and then asked again."""
         standing = self.stand(name)
         algorithm = standing.proxy.GetClientSideObject()
+        had_data = [not is_empty(data) for data in standing.outputs()]
         standing.modify()
         observer = algorithm.AddObserver("ProgressEvent", lambda *_: algorithm.SetAbortExecute(1))
         standing.update()
@@ -465,7 +466,7 @@ class Bench:
         standing.update()
         told = self.reports.take()
         for port, data in enumerate(standing.outputs()):
-            if is_empty(data) and not marks(data) and not any(told):
+            if had_data[port] and is_empty(data) and not marks(data) and not any(told):
                 faults.append(f"output {port} is empty without a word, when asked a second time")
         standing.modify()
         return faults + self.recovered(standing)
