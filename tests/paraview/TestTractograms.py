@@ -12,7 +12,7 @@ import numpy
 from cactus_testing import CactusTestCase, fetch, main
 from nibabel.streamlines import Field, Tractogram, TckFile, TrkFile
 from paraview import servermanager
-from paraview.simple import BundleInitializer, GenerateIds, OpenDataFile, SaveData, TractFibres, TractogramReader
+from paraview.simple import BundleInitializer, Calculator, OpenDataFile, SaveData, TractFibres, TractogramReader
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 # A rotated, flipped and anisotropic image: no axis of its voxels is one of the scanner's.
@@ -270,7 +270,7 @@ class Tractograms(CactusTestCase):
         wanted = some_streamlines()
         TckFile(Tractogram(wanted, affine_to_rasmm=numpy.eye(4))).save(self.path("some.tck"))
         read = TractogramReader(FileName=self.path("some.tck"), LengthUnit="Millimetre", Radius=0.5)
-        for proxy in (read, GenerateIds(Input=read)):
+        for proxy in (read, Calculator(Input=read, Function="coordsX")):
             for name in ("again.tck", "again.trx"):
                 SaveData(self.path(name), proxy=proxy)
                 self.assertSameStreamlines(fetch(TractogramReader(FileName=self.path(name), LengthUnit="Millimetre")), wanted, 1e-4)
