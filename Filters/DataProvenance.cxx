@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataProvenance.h"
 
+#include "FibreData.h"
 #include "InputBlocks.h"
 #include "base/FastChecksum.h"
 #include "fibres/ColumnTable.h"
@@ -50,7 +51,7 @@ std::string checksumOfData(vtkDataObject* data)
     checksum.add(static_cast<std::uint64_t>(surface->GetNumberOfCells()));
     add(checksum, surface->GetPoints() != nullptr ? surface->GetPoints()->GetData() : nullptr);
     add(checksum, surface->GetPointData()->GetArray("Radius"));
-    if (vtkDataArray* myelin = surface->GetPointData()->GetArray("MyelinFraction"))
+    if (vtkDataArray* myelin = surface->GetPointData()->GetArray(myelinFractionName))
     {
       add(checksum, myelin);
     }

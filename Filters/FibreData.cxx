@@ -37,7 +37,6 @@ namespace
 
 constexpr const char* grownName = "GrownFibreVolumeFraction";
 constexpr const char* convergedName = "Converged";
-constexpr const char* myelinName = "MyelinFraction";
 
 /// Returns a one-component array with `expected` tuples, or null if there is none of that name.
 vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
@@ -75,7 +74,7 @@ void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
   {
     throw InvalidInput("the input has no point data array Radius (µm), so its fibres have no calibre");
   }
-  vtkDataArray* myelin = scalars(input->GetPointData(), myelinName, input->GetNumberOfPoints());
+  vtkDataArray* myelin = scalars(input->GetPointData(), myelinFractionName, input->GetNumberOfPoints());
   vtkDataArray* fibreId = scalars(input->GetCellData(), "FibreId", input->GetNumberOfCells());
   vtkDataArray* bundleId = scalars(input->GetCellData(), "BundleId", input->GetNumberOfCells());
   vtkDataArray* targetRadius = scalars(input->GetCellData(), "TargetRadius", input->GetNumberOfCells());
@@ -237,7 +236,7 @@ bool hasMyelinFractions(vtkDataObject* input)
     [](vtkDataObject* leaf)
     {
       auto* lines = vtkPolyData::SafeDownCast(leaf);
-      return lines != nullptr && lines->GetPointData()->HasArray(myelinName) != 0;
+      return lines != nullptr && lines->GetPointData()->HasArray(myelinFractionName) != 0;
     });
 }
 
@@ -299,7 +298,7 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   if (!fibres.myelinFractions.empty())
   {
     addColumn<vtkDoubleArray>(
-      fresh->GetPointData(), myelinName, pointCount, [&](std::size_t i) { return fibres.myelinFractions[i]; });
+      fresh->GetPointData(), myelinFractionName, pointCount, [&](std::size_t i) { return fibres.myelinFractions[i]; });
   }
   addDirectionColours(fresh);
   vtkCellData* cells = fresh->GetCellData();

@@ -43,6 +43,9 @@ Fibres fibresFrom(vtkDataObject* input);
 /// from `unlessPlaced`, if given.
 Fibres tractFrom(vtkDataObject* input, const std::optional<Placement>& unlessPlaced = std::nullopt);
 
+/// Point data of polylines, see fibresFrom().
+constexpr const char* myelinFractionName = "MyelinFraction";
+
 /// Tells whether polylines have point data `MyelinFraction`, which says how much of their myelin there is.
 bool hasMyelinFractions(vtkDataObject* input);
 /// Field data of a label image whose fibres have them.

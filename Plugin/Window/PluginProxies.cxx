@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PluginProxies.h"
 
+#include <pqProxyWidget.h>
 #include <vtkPVXMLElement.h>
 #include <vtkSMProxy.h>
 
@@ -15,6 +16,15 @@ bool isOfThisPlugin(vtkSMProxy* proxy)
   vtkPVXMLElement* shown = hints != nullptr ? hints->FindNestedElementByName("ShowInMenu") : nullptr;
   const char* shownIn = shown != nullptr ? shown->GetAttribute("category") : nullptr;
   return shownIn != nullptr && std::strcmp(shownIn, menuCategory) == 0;
+}
+
+const pqProxyWidget* panelAround(const QWidget* widget)
+{
+  while (widget != nullptr && qobject_cast<const pqProxyWidget*>(widget) == nullptr)
+  {
+    widget = widget->parentWidget();
+  }
+  return qobject_cast<const pqProxyWidget*>(widget);
 }
 
 } // namespace cactus

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distinguishes the filters of this plugin from others.
+// Distinguishes the filters of this plugin from others, and finds their panels.
 #pragma once
 
+class QWidget;
+class pqProxyWidget;
 class vtkSMProxy;
 
 namespace cactus
@@ -12,5 +14,8 @@ constexpr char menuCategory[] = "CACTUS";
 
 /// Tells whether a proxy is in that submenu, by the hint ShowInMenu in its XML. False for null.
 bool isOfThisPlugin(vtkSMProxy* proxy);
+
+/// Returns the panel of a proxy that a widget is in; null if it is in none.
+const pqProxyWidget* panelAround(const QWidget* widget);
 
 } // namespace cactus

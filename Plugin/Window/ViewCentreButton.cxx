@@ -38,11 +38,7 @@ vtkSMProxy* rotatingView()
 void takeCentre(const QWidget* widget)
 {
   vtkSMProxy* view = rotatingView();
-  const QWidget* panel = widget;
-  while (panel != nullptr && qobject_cast<const pqProxyWidget*>(panel) == nullptr)
-  {
-    panel = panel->parentWidget();
-  }
+  const pqProxyWidget* panel = panelAround(widget);
   if (view == nullptr || panel == nullptr)
   {
     return;

@@ -20,13 +20,9 @@ namespace
 /// Gives a proxy all values in the panel around `widget`, as Apply does, but without an update.
 void applyPanelAround(const QWidget* widget)
 {
-  while ((widget = widget->parentWidget()) != nullptr)
+  if (const pqProxyWidget* panel = panelAround(widget))
   {
-    if (const pqProxyWidget* panel = qobject_cast<const pqProxyWidget*>(widget))
-    {
-      panel->apply();
-      return;
-    }
+    panel->apply();
   }
 }
 
