@@ -2,11 +2,14 @@
 #include "vtkFibreTubesRepresentation.h"
 
 #include "DomainBox.h"
+#include "ImageSections.h"
 #include "ObliqueCamera.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkCellData.h>
+#include <vtkColorSeries.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkMapper.h>
@@ -16,7 +19,9 @@
 #include <vtkPolyData.h>
 #include <vtkTrivialProducer.h>
 #include <vtkTubeFilter.h>
+#include <vtkUnsignedCharArray.h>
 
+#include <cmath>
 #include <numeric>
 
 vtkStandardNewMacro(vtkFibreTubesRepresentation);
@@ -43,6 +48,60 @@ void addIds(vtkDataSetAttributes* data, const char* name, vtkIdType count)
 }
 
 /// Adds the original numbers of cells and points, for selections: those of the drawn data differ.
+constexpr const char* drawnColours = "cactusColours";
+/// How far directions' colours are mixed with white: blue, of fibres along z, is too dark otherwise, above all at their ends.
+constexpr double whiteness = 0.35;
+
+/// Adds the colours in which fibres are drawn, per point: those of the bundles where there are several, else of their directions.
+void addColours(vtkPolyData* fibres)
+{
+  auto* directions = vtkUnsignedCharArray::SafeDownCast(fibres->GetPointData()->GetArray("Direction"));
+  if (directions == nullptr || directions->GetNumberOfComponents() != 3)
+  {
+    return;
+  }
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetName(drawnColours);
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(fibres->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < directions->GetNumberOfValues(); ++i)
+  {
+    const double colour = directions->GetValue(i) + whiteness * (255.0 - directions->GetValue(i));
+    colours->SetValue(i, static_cast<unsigned char>(std::lround(colour)));
+  }
+  vtkDataArray* bundles = fibres->GetCellData()->GetArray("BundleId");
+  double ids[2] = { 0.0, 0.0 };
+  if (bundles != nullptr)
+  {
+    bundles->GetRange(ids);
+  }
+  if (ids[0] < ids[1])
+  {
+    vtkNew<vtkColorSeries> series;
+    series->SetColorScheme(vtkColorSeries::BREWER_QUALITATIVE_SET2);
+    vtkNew<vtkIdList> points;
+    for (vtkIdType fibre = 0; fibre < fibres->GetNumberOfCells(); ++fibre)
+    {
+      const vtkColor3ub colour = series->GetColorRepeating(static_cast<int>(bundles->GetTuple1(fibre)) - 1);
+      fibres->GetCellPoints(fibre, points);
+      for (const vtkIdType point : *points)
+      {
+        colours->SetTypedTuple(point, colour.GetData());
+      }
+    }
+  }
+  fibres->GetPointData()->AddArray(colours);
+}
+
+/// Returns streamlines, which have no radii, and surfaces with their colours.
+vtkSmartPointer<vtkDataObject> withColours(vtkPolyData* lines)
+{
+  auto coloured = vtkSmartPointer<vtkPolyData>::New();
+  coloured->ShallowCopy(lines);
+  addColours(coloured);
+  return coloured;
+}
+
 vtkSmartPointer<vtkPolyData> withIds(vtkPolyData* fibres)
 {
   auto numbered = vtkSmartPointer<vtkPolyData>::New();
@@ -82,7 +141,8 @@ vtkFibreTubesRepresentation::~vtkFibreTubesRepresentation() = default;
 vtkAlgorithmOutput* vtkFibreTubesRepresentation::GetInternalOutputPort(int port, int connection)
 {
   vtkAlgorithmOutput* input = this->Superclass::GetInternalOutputPort(port, connection);
-  auto* fibres = vtkPolyData::SafeDownCast(input->GetProducer()->GetOutputDataObject(input->GetIndex()));
+  vtkDataObject* data = input->GetProducer()->GetOutputDataObject(input->GetIndex());
+  auto* fibres = vtkPolyData::SafeDownCast(data);
   const bool isFibres =
     fibres != nullptr && fibres->GetNumberOfLines() > 0 && fibres->GetPointData()->GetArray("Radius") != nullptr;
   if (auto* geometry = vtkPVGeometryFilter::SafeDownCast(this->GeometryFilter))
@@ -92,17 +152,20 @@ vtkAlgorithmOutput* vtkFibreTubesRepresentation::GetInternalOutputPort(int port,
   }
   if (!isFibres)
   {
-    return input;
+    const vtkSmartPointer<vtkDataObject> other = fibres != nullptr ? withColours(fibres) : cactus::imageSections(data);
+    this->Shape->SetOutput(other);
+    return other != nullptr ? this->Shape->GetOutputPort() : input;
   }
   const vtkSmartPointer<vtkPolyData> numbered = withIds(fibres);
+  addColours(numbered);
   const int sides = sidesFor(fibres->GetNumberOfPoints());
   const vtkSmartPointer<vtkPolyData> shape = sides > 0 ? tubes(numbered, sides) : numbered;
   const vtkSmartPointer<vtkPolyData> boxed = cactus::withDomainBox(shape, fibres->GetFieldData());
   forgetIds(boxed->GetCellData(), cellIds, 0, boxed->GetNumberOfCells() - shape->GetNumberOfCells());
   const vtkIdType drawn = shape->GetNumberOfPoints();
   forgetIds(boxed->GetPointData(), pointIds, drawn, boxed->GetNumberOfPoints() - drawn);
-  this->Tubes->SetOutput(boxed);
-  return this->Tubes->GetOutputPort();
+  this->Shape->SetOutput(boxed);
+  return this->Shape->GetOutputPort();
 }
 
 bool vtkFibreTubesRepresentation::AddToView(vtkView* view)
@@ -122,7 +185,7 @@ void vtkFibreTubesRepresentation::UpdateColoringParameters()
     {
       mapper->ScalarVisibilityOn();
       mapper->SetScalarModeToUsePointFieldData();
-      mapper->SelectColorArray("Direction");
+      mapper->SelectColorArray(drawnColours);
     }
   }
 }

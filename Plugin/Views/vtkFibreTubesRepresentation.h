@@ -5,10 +5,10 @@
  *
  * Polylines with point data `Radius` (µm) are drawn as tubes of that radius, with fewer sides the more points there are, and
  * above a limit as lines. If the data have field data `Domain` (xmin xmax ymin ymax zmin zmax, µm), its box is drawn around them.
- * Other data, including composite ones, are shown as by vtkGeometryRepresentation. Arrays of red, green and blue (unsigned char)
- * are shown as colours; without a chosen array, point data `Direction` is used, unless DirectionColors is off. (Choosing it would
- * add a scalar bar of its magnitude.) The camera of a render view is turned, if nobody has moved it yet, so that fibres along z
- * are not seen end-on.
+ * Images are drawn as slices, see cactus::imageSections(); other data are shown as by vtkGeometryRepresentation. Arrays of red,
+ * green and blue (unsigned char) are shown as colours. Without a chosen array, several bundles have a colour each (cell data
+ * `BundleId`), and fibres of one those of their directions (point data `Direction`), a little lighter, unless DirectionColors is
+ * off. The camera of a render view is turned, if nobody has moved it yet, so that fibres along z are not seen end-on.
  */
 #ifndef vtkFibreTubesRepresentation_h
 #define vtkFibreTubesRepresentation_h
@@ -32,7 +32,7 @@ public:
   using vtkGeometryRepresentationWithFaces::GetInternalOutputPort;
   vtkAlgorithmOutput* GetInternalOutputPort(int port, int connection) override;
 
-  /** Colours fibres by their direction if no array is chosen. On by default. */
+  /** Colours fibres by bundle or direction if no array is chosen. On by default. */
   vtkSetMacro(DirectionColors, bool);
   vtkGetMacro(DirectionColors, bool);
 
@@ -48,7 +48,7 @@ private:
   void operator=(const vtkFibreTubesRepresentation&) = delete;
 
   bool DirectionColors = true;
-  vtkNew<vtkTrivialProducer> Tubes;
+  vtkNew<vtkTrivialProducer> Shape;
 };
 
 #endif

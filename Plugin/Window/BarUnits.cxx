@@ -14,6 +14,7 @@
 #include <vtkSMProxy.h>
 #include <vtkSMTransferFunctionManager.h>
 
+#include <QString>
 #include <QTimer>
 
 #include <string>
@@ -40,6 +41,12 @@ std::string unitOf(const std::string& array, vtkSMProxy* source)
     }
   }
   return {};
+}
+
+/// Returns a title as it comes out of a Python state: ParaView saves its UTF-8 as if it were Latin-1, so that µ is "Âµ".
+std::string misread(const std::string& title)
+{
+  return QString::fromLatin1(title.c_str()).toStdString();
 }
 
 } // namespace
@@ -86,9 +93,11 @@ void BarUnits::addUnit(pqDataRepresentation* shown)
   vtkNew<vtkSMTransferFunctionManager> manager;
   vtkSMProxy* bar = manager->GetScalarBarRepresentation(colours, shown->getView()->getProxy());
   vtkSMPropertyHelper title(bar, "Title");
-  if (std::string(title.GetAsString()) == name)
+  const std::string wanted = std::string(name) + " (" + unit + ")";
+  const std::string now = title.GetAsString();
+  if (now == name || now == misread(wanted))
   {
-    title.Set((std::string(name) + " (" + unit + ")").c_str());
+    title.Set(wanted.c_str());
     bar->UpdateVTKObjects();
     shown->getView()->render();
   }

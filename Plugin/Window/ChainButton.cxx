@@ -9,6 +9,7 @@
 #include <pqPipelineSource.h>
 #include <pqSourcesMenuReaction.h>
 #include <pqUndoStack.h>
+#include <vtkSMPropertyHelper.h>
 #include <vtkSMProxyManager.h>
 #include <vtkSMProxySelectionModel.h>
 #include <vtkSMSessionProxyManager.h>
@@ -43,10 +44,10 @@ ChainButton::ChainButton(pqPVApplicationCore* core)
   action->setToolTip(
     "Sets up Bundle Initializer, Capsule Optimizer, Fibre Radial Growth and Myelin Surface, one behind the other. "
     "Choose values in their panels; Apply makes the substrate.");
-  connect(action, &QAction::triggered, this, &ChainButton::setUp);
+  connect(action, &QAction::triggered, this, [] { setUp(0); });
 }
 
-void ChainButton::setUp()
+void ChainButton::setUp(int preset)
 {
   vtkSMSessionProxyManager* manager = vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
   if (manager == nullptr)
@@ -56,6 +57,11 @@ void ChainButton::setUp()
   pqObjectBuilder* builder = pqApplicationCore::instance()->getObjectBuilder();
   BEGIN_UNDO_SET("CACTUS substrate");
   pqPipelineSource* first = pqSourcesMenuReaction::createSource("sources", "BundleInitializer");
+  if (first != nullptr && preset != 0)
+  {
+    vtkSMPropertyHelper(first->getProxy(), "Preset").Set(preset);
+    first->getProxy()->UpdateVTKObjects();
+  }
   pqPipelineSource* last = first;
   for (const char* name : { "CapsuleOptimizer", "FibreRadialGrowth", "MyelinSurface" })
   {

@@ -16,8 +16,8 @@ public:
   /// Lives as long as `core`.
   explicit ChainButton(pqPVApplicationCore* core);
 
-private:
-  static void setUp();
+  /// Sets up the four filters, with the values of a preset (0: none).
+  static void setUp(int preset);
 };
 
 } // namespace cactus

@@ -13,7 +13,9 @@
 #include <pqView.h>
 #include <vtkDataObject.h>
 #include <vtkNew.h>
+#include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
+#include <vtkPVDataSetAttributesInformation.h>
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMParaViewPipelineControllerWithRendering.h>
 #include <vtkSMPropertyHelper.h>
@@ -36,6 +38,7 @@ namespace
 constexpr int ifHidden = 2;                     ///< pqPipelineFilter::replaceInput(): if the input would hide the result
 constexpr char inherited[] = "cactusInherited"; ///< dynamic property of a representation that has its look from its input
 constexpr char direction[] = "Direction";       ///< point data that colour tubes
+constexpr char bundle[] = "BundleId";           ///< cell data that colour them where they differ
 
 /// The look of a representation that no array colours.
 struct Look
@@ -80,6 +83,12 @@ double opacityOf(vtkSMProxy* representation)
   return vtkSMPropertyHelper(representation, "Opacity", true).GetAsDouble();
 }
 
+bool hasSeveralBundles(vtkPVDataInformation* data)
+{
+  vtkPVArrayInformation* ids = data->GetArrayInformation(bundle, vtkDataObject::CELL);
+  return ids != nullptr && ids->GetComponentRange(0)[0] < ids->GetComponentRange(0)[1];
+}
+
 void giveLook(pqDataRepresentation* shown, const Look& look, double opacity)
 {
   vtkSMProxy* proxy = shown->getProxy();
@@ -92,16 +101,28 @@ void giveLook(pqDataRepresentation* shown, const Look& look, double opacity)
     vtkSMPropertyHelper(proxy, name, true).Set(look.colour.data(), 3);
   }
   vtkSMPropertyHelper(proxy, "Opacity", true).Set(opacity);
-  const bool hasDirections =
-    shown->getOutputPortFromInput()->getDataInformation()->GetArrayInformation(direction, vtkDataObject::POINT) != nullptr;
+  vtkPVDataInformation* data = shown->getOutputPortFromInput()->getDataInformation();
   auto* coloured = vtkSMPVRepresentationProxy::SafeDownCast(proxy);
-  if (look.byDirection && hasDirections && coloured != nullptr && !coloured->GetUsingScalarColoring())
+  if (look.byDirection && coloured != nullptr && !coloured->GetUsingScalarColoring())
   {
-    coloured->SetScalarColoring(direction, vtkDataObject::POINT);
-    vtkSMPropertyHelper(proxy, "MapScalars", true).Set(0); // red, green and blue as they are
+    if (hasSeveralBundles(data))
+    {
+      coloured->SetScalarColoring(bundle, vtkDataObject::CELL);
+    }
+    else if (data->GetArrayInformation(direction, vtkDataObject::POINT) != nullptr)
+    {
+      coloured->SetScalarColoring(direction, vtkDataObject::POINT);
+      vtkSMPropertyHelper(proxy, "MapScalars", true).Set(0); // red, green and blue as they are
+    }
   }
   proxy->UpdateVTKObjects();
   shown->setProperty(inherited, true);
+}
+
+void hide(pqOutputPort* port, pqView* view)
+{
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->Hide(vtkSMSourceProxy::SafeDownCast(port->getSourceProxy()), port->getPortNumber(), view->getViewProxy());
 }
 
 void takePlace(pqPipelineFilter* filter, pqOutputPort* input, pqDataRepresentation* result, pqView* view)
@@ -116,10 +137,48 @@ void takePlace(pqPipelineFilter* filter, pqOutputPort* input, pqDataRepresentati
   giveLook(result, *look, opacity);
   if (filter->replaceInput() == ifHidden && opacity >= 1.0)
   {
-    vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-    controller->Hide(vtkSMSourceProxy::SafeDownCast(input->getSourceProxy()), input->getPortNumber(), view->getViewProxy());
+    hide(input, view);
   }
   view->render();
+}
+
+/// Hides what one of our filters has taken the place of, with the inner surfaces beside outer ones. (ParaView hides inputs alone,
+/// and not where one Apply has made a whole chain.)
+void hideInput(pqOutputPort* input, pqView* view)
+{
+  hide(input, view);
+  for (pqOutputPort* beside : input->getSource()->getOutputPorts())
+  {
+    if (input->getPortName() == "Outer" && beside->getPortName() == "Inner")
+    {
+      hide(beside, view);
+    }
+  }
+}
+
+/// Colours an image by its first array where one of our representations draws it.
+void colourImage(pqDataRepresentation* shown, vtkPVDataInformation* data, pqView* view)
+{
+  auto* proxy = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
+  const char* type = proxy != nullptr ? vtkSMPropertyHelper(proxy, "Representation", true).GetAsString() : nullptr;
+  if (type == nullptr || !(std::string(type) == "Sections" || std::string(type) == "Placed") ||
+      !data->HasDataSetType(VTK_IMAGE_DATA) || proxy->GetUsingScalarColoring())
+  {
+    return;
+  }
+  for (const int of : { vtkDataObject::POINT, vtkDataObject::CELL })
+  {
+    vtkPVDataSetAttributesInformation* arrays = data->GetAttributeInformation(of);
+    if (arrays->GetNumberOfArrays() > 0)
+    {
+      proxy->SetScalarColoring(arrays->GetArrayInformation(0)->GetName(), of);
+      proxy->UpdateVTKObjects();
+      proxy->RescaleTransferFunctionToDataRange();
+      proxy->SetScalarBarVisibility(view->getProxy(), true);
+      view->render();
+      return;
+    }
+  }
 }
 
 } // namespace
@@ -149,15 +208,23 @@ void InheritedLook::afterApply()
     {
       this->Created.append(created); // Apply was for the panel of another
     }
-    else if (filter != nullptr && filter->replaceInput() != 0 && !isOfThisPlugin(filter->getProxy()))
+    else if (filter != nullptr && filter->replaceInput() != 0)
     {
       forEachShown(filter,
-        [filter](pqDataRepresentation* shown, pqOutputPort*, pqView* view)
+        [filter](pqDataRepresentation* shown, pqOutputPort* port, pqView* view)
         {
           for (pqOutputPort* input : filter->getAllInputs())
           {
-            takePlace(filter, input, shown, view);
+            if (isOfThisPlugin(filter->getProxy()))
+            {
+              hideInput(input, view);
+            }
+            else
+            {
+              takePlace(filter, input, shown, view);
+            }
           }
+          colourImage(shown, port->getDataInformation(), view);
         });
     }
   }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BarUnits.h"
 #include "ChainButton.h"
+#include "ChartButton.h"
 #include "CodeChoices.h"
 #include "ErrorColours.h"
 #include "FirstLook.h"
+#include "HelpMenu.h"
+#include "IdleGrowth.h"
+#include "ImageLook.h"
 #include "InheritedLook.h"
 #include "NarrowChoices.h"
 #include "QuickLaunch.h"
 #include "ReachedLine.h"
+#include "ReplaceNotice.h"
 #include "StopButton.h"
 #include "ViewCentreButton.h"
 #include "WholePanels.h"
@@ -30,15 +35,20 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::QuickLaunch(core);
         new cactus::FirstLook(core);
         new cactus::InheritedLook(core);
+        new cactus::ImageLook(core);
         new cactus::ErrorColours(core);
         new cactus::WholePanels(core);
         new cactus::BarUnits(core);
         new cactus::StopButton(core);
         new cactus::ReachedLine(core);
+        new cactus::ChartButton(core);
         new cactus::ChainButton(core);
+        new cactus::HelpMenu(core);
         core->interfaceTracker()->addInterface(new cactus::CodeChoices(core));
         core->interfaceTracker()->addInterface(new cactus::NarrowChoices(core));
         core->interfaceTracker()->addInterface(new cactus::WriteButtons(core));
+        core->interfaceTracker()->addInterface(new cactus::ReplaceNotice(core));
+        core->interfaceTracker()->addInterface(new cactus::IdleGrowth(core));
         core->interfaceTracker()->addInterface(new cactus::ViewCentreButton(core));
       }
     });

@@ -58,12 +58,17 @@ bool FolderFormat::needsStartPositions(const SubstrateFolderContents& /*contents
   return false;
 }
 
-SurfaceBox FolderFormat::startBox(const FibreSurfaces& /*surfaces*/, const Domain& domain, const Context& /*context*/) const
+SurfaceBox domainBox(const Domain& domain)
 {
-  SurfaceBox around; // of everything
+  SurfaceBox around;
   around.lower = domain.lower;
   around.upper = domain.upper;
   return around;
+}
+
+SurfaceBox FolderFormat::startBox(const FibreSurfaces& /*surfaces*/, const Domain& domain, const Context& /*context*/) const
+{
+  return domainBox(domain);
 }
 
 std::string FolderFormat::readme(const SubstrateFolderContents& /*contents*/, const WrittenSubstrate& /*substrate*/) const

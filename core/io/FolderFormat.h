@@ -104,6 +104,9 @@ const FolderFormat& rmsFormat();
 const FolderFormat& spinDoctorFormat();
 const FolderFormat& surfacesFormat();
 
+/// Returns the box of a domain, in whose coordinates points are.
+SurfaceBox domainBox(const Domain& domain);
+
 /// Makes the folders of these files, the outer ones first, and lists the files, for all processes of the run.
 void prepareFiles(const std::vector<SubstrateFile>& files, FolderWriter& writer, const WritingRun& run);
 

@@ -42,7 +42,8 @@ std::string mcmrText(const SubstrateFolderContents& contents, bool hasBare)
   return std::string("geometry.json   the geometry for MCMRSimulator.jl (git.fmrib.ox.ac.uk/ndcn0236/mcmrsimulator.jl): a Mesh "
                      "of all outer\n"
                      "                surfaces, one of all inner ones, and ") +
-         (contents.domain.periodic[2]     ? "repeats after the sides of the domain\n\n"
+         (contents.domain.periodic[2]
+             ? "repeats after the sides of the domain and 0.2 nm,\n                so that no two caps are in one plane\n\n"
            : contents.domain.isPeriodic() ? "repeats along x and y, and Walls across z, as walkers would leave it else\n\n"
                                           : "Walls at the faces of the domain, as walkers would leave it else\n\n") +
          "In Julia, in this folder, with a sequence of your own:\n\n"
@@ -73,6 +74,11 @@ public:
     const Context& context) const override
   {
     writeMcmrGeometry(contents, writer, context);
+  }
+
+  SurfaceBox startBox(const FibreSurfaces& /*surfaces*/, const Domain& domain, const Context& /*context*/) const override
+  {
+    return domainBox(mcmrBox(domain)); // between the walls
   }
 
   std::string readme(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate) const override

@@ -19,6 +19,9 @@ namespace
 {
 
 constexpr double wallInset = 1e-3; ///< µm
+/// µm by which a period is longer than the domain: between caps in one plane, those of the domain and of its repeat, walkers in
+/// myelin would be thrown back and forth without end.
+constexpr double periodExcess = 2e-4;
 constexpr int jsonDigits = 9;
 
 /// Writes a JSON list of what `rows` makes of each surface, which has so many points before it: rows that end with a comma.
@@ -82,7 +85,8 @@ std::string repeatsText(const Domain& domain)
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     text += axis == 0 ? "[" : ", ";
-    appendNumber(text, (domain.periodic[axis] ? 1.0 : 2.0) * domain.size()[Eigen::Index(axis)], jsonDigits);
+    const double side = domain.size()[Eigen::Index(axis)];
+    appendNumber(text, domain.periodic[axis] ? side + periodExcess : 2.0 * side, jsonDigits);
   }
   return text + "], ";
 }

@@ -439,12 +439,14 @@ const PropertyList<NiftiReaderStage>& NiftiReaderStage::properties()
 const PropertyList<NiftiWriterStage>& NiftiWriterStage::properties()
 {
   using Stage = NiftiWriterStage;
-  static const auto list =
-    PropertyList<Stage>()
-      .add("FileName", &Stage::fileName, "File to write: .nii or .nii.gz.")
-      .use(PropertyUse::Run)
-      .add("Array", &Stage::array, "Name of the point data to write, such as AVF or Compartment. Empty: the active scalars.")
-      .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
+  static const auto list = PropertyList<Stage>()
+                             .add("FileName", &Stage::fileName, "File to write: .nii or .nii.gz.")
+                             .use(PropertyUse::Run)
+                             .add("Array", &Stage::array,
+                               "Name of the point data to write, such as AVF or Compartment. Empty: the active scalars. Save "
+                               "Data proposes FibreId of a label "
+                               "image.")
+                             .add("LengthUnit", &Stage::lengthUnit, { "Micrometre", "Millimetre" }, fileUnit);
   return list;
 }
 

@@ -3,6 +3,7 @@
 """Presets: one choice gives all stages their values, names only what is so, and never takes from a user what he has set."""
 
 import os
+import re
 import sys
 
 from cactus_testing import CactusTestCase, fetch, main
@@ -221,6 +222,22 @@ class Presets(CactusTestCase):
             self.assertAlmostEqual(whole["FVF"], fraction, delta=0.01)
             self.assertGreaterEqual(whole["SmallestGap_um"], gap)
             self.assertEqual(whole["MinimumGap_um"], gap)
+
+
+class Tutorial(CactusTestCase):
+    usual = None
+
+    def test_its_script_runs_as_written_and_warns_of_nothing(self):
+        page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "tutorial.md")
+        with open(page, encoding="utf-8") as file:
+            script = re.search(r"```python\n(.*?)```", file.read(), re.DOTALL).group(1)
+        before = os.getcwd()
+        os.chdir(self.folder)
+        try:
+            exec(script, {})
+        finally:
+            os.chdir(before)
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "tutorial.substrate", "manifest.json")))
 
 
 if __name__ == "__main__":

@@ -49,6 +49,24 @@ class Views(CactusTestCase):
         shown.Representation = "Wireframe"
         self.assertLess(bluish(pixels(view)), tubes / 3)
 
+    def test_two_bundles_have_a_colour_each(self):
+        crossing, view = self.bundle(NumberOfBundles=2, CrossingAngle=90, CrossingStyle="Sheets", MeanDispersion=0, FibreVolumeFraction=0.3), self.view()
+        simple.Show(crossing, view)
+        simple.ResetCamera(view)
+        seen = pixels(view).astype(int)
+        red, green, blue = seen[:, :, 0], seen[:, :, 1], seen[:, :, 2]
+        self.assertGreater(numpy.count_nonzero((red > green + 40) & (green > blue + 10)), 2000)  # orange
+        self.assertGreater(numpy.count_nonzero((green > red + 30) & (green > blue + 5)), 2000)  # green
+
+    def test_streamlines_have_the_colours_of_their_direction(self):
+        lines, view = simple.PassArrays(Input=self.bundle(), PointDataArrays=["Direction"], CellDataArrays=[]), self.view()
+        shown = simple.Show(lines, view, "FibreRepresentation")
+        shown.Representation = "Tubes"
+        simple.ResetCamera(view)
+        self.assertGreater(bluish(pixels(view)), 1000)
+        shown.DirectionColors = 0
+        self.assertEqual(bluish(pixels(view)), 0)
+
     def test_direction_is_the_tangent(self):
         crossing = self.bundle(NumberOfBundles=2, CrossingAngle=90, CrossingStyle="Sheets", MeanDispersion=0, FibreVolumeFraction=0.3)
         crossing.UpdatePipeline()
@@ -123,6 +141,18 @@ class Views(CactusTestCase):
         simple.ResetCamera(view)
         self.assertEqual(shown.Representation, "Slice")
         self.assertGreater(numpy.count_nonzero(numpy.ptp(pixels(view), axis=2) > 30), 5000)
+
+    def test_images_are_sections_of_voxels(self):
+        grown = simple.FibreRadialGrowth(Input=self.bundle(), TargetFibreVolumeFraction=0.8, VoxelSize=0.2)
+        sampled = simple.SubstrateSampler(Outer=simple.MyelinSurface(Input=grown), VoxelSize=SIDE)  # a single one
+        field = simple.FibreField(Input=grown, Select="All fibres")
+        for data, array in ((sampled, "AVF"), (simple.Placement(Input=sampled), "AVF"), (field, "Field")):
+            view = self.view()
+            shown = simple.Show(data, view)
+            simple.ColorBy(shown, ("POINTS", array))
+            simple.ResetCamera(view)
+            self.assertIn(shown.Representation, ("Sections", "Placed"))
+            self.assertGreater(numpy.count_nonzero(numpy.ptp(pixels(view), axis=2) > 30), 5000)
 
     def test_the_faces_show_axons_within_myelin(self):
         grown, view = simple.FibreRadialGrowth(Input=self.bundle(), TargetFibreVolumeFraction=0.8, VoxelSize=0.2), self.view()

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ChartButton.h"
+
+#include "AfterUpdate.h"
+#include "ProgressBar.h"
+
+#include <pqObjectBuilder.h>
+#include <pqOutputPort.h>
+#include <pqPVApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqProgressWidget.h>
+#include <pqView.h>
+#include <vtkNew.h>
+#include <vtkSMParaViewPipelineControllerWithRendering.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMViewProxy.h>
+
+#include <QStatusBar>
+#include <QToolButton>
+
+#include <cstring>
+
+namespace cactus
+{
+namespace
+{
+
+constexpr char chartView[] = "ConvergenceChartView"; ///< in xml/views/Convergence.xml
+constexpr int convergence = 1;                       ///< output of CapsuleOptimizer
+
+} // namespace
+
+ChartButton::ChartButton(pqPVApplicationCore* core)
+  : QObject(core)
+{
+  pqProgressWidget* progress = progressBar();
+  auto* bar = progress != nullptr ? qobject_cast<QStatusBar*>(progress->parentWidget()) : nullptr;
+  if (bar == nullptr)
+  {
+    return; // an application of another kind
+  }
+  this->Button = new QToolButton(bar);
+  this->Button->setObjectName("CactusChart");
+  this->Button->setText("Convergence");
+  this->Button->setToolTip("Charts overlap and overlapping pairs by iteration, in a view beside this one.");
+  this->Button->hide();
+  bar->addWidget(this->Button);
+  QObject::connect(this->Button, &QToolButton::clicked, this, &ChartButton::chart);
+  afterUpdate(core, this,
+    [this](pqPipelineSource* source)
+    {
+      if (std::strcmp(source->getProxy()->GetXMLName(), "CapsuleOptimizer") == 0)
+      {
+        this->Optimiser = source;
+        this->Button->show();
+        QObject::connect(source, &QObject::destroyed, this->Button, &QWidget::hide);
+      }
+    });
+}
+
+void ChartButton::chart()
+{
+  if (this->Optimiser == nullptr)
+  {
+    return;
+  }
+  pqOutputPort* output = this->Optimiser->getOutputPort(convergence);
+  for (pqView* view : output->getViews())
+  {
+    if (view->getViewType() == chartView)
+    {
+      return; // it is there
+    }
+  }
+  pqView* view = pqApplicationCore::instance()->getObjectBuilder()->createView(chartView, this->Optimiser->getServer());
+  vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
+  controller->AssignViewToLayout(view->getViewProxy());
+  controller->Show(this->Optimiser->getSourceProxy(), convergence, view->getViewProxy());
+  view->render();
+}
+
+} // namespace cactus
