@@ -83,14 +83,14 @@ double sizeIn(pqRenderView* view, pqPipelineSource* source)
   return box.IsValid() ? box.GetDiagonalLength() : 0.0;
 }
 
-void fitIn(pqRenderView* view, pqPipelineSource* source)
+void fitIn(pqRenderView* view, pqPipelineSource* source, bool isAgain)
 {
   const double size = sizeIn(view, source);
   const double before = view->property(lastSize).toDouble();
   const bool isOther = size > 0.0 && before > 0.0 && std::fabs(size - before) > sameSize * before;
   vtkCamera* camera = view->getRenderViewProxy()->GetActiveCamera();
   const QVariant last = view->property(lastCamera);
-  if (wasFittedToNothing(camera) || (isOther && last == placeOf(camera)))
+  if (wasFittedToNothing(camera) || ((isOther || isAgain) && last == placeOf(camera)))
   {
     view->resetCamera();
   }
@@ -105,23 +105,28 @@ void fitIn(pqRenderView* view, pqPipelineSource* source)
   }
 }
 
-} // namespace
-
-FirstLook::FirstLook(pqPVApplicationCore* core)
-  : QObject(core)
-{
-  afterUpdate(core, this, [this](pqPipelineSource* source) { this->fit(source); });
-}
-
-void FirstLook::fit(pqPipelineSource* source)
+void fit(pqPipelineSource* source, bool isAgain)
 {
   for (pqView* view : source->getViews())
   {
     if (pqRenderView* renderView = qobject_cast<pqRenderView*>(view))
     {
-      fitIn(renderView, source);
+      fitIn(renderView, source, isAgain);
     }
   }
+}
+
+} // namespace
+
+FirstLook::FirstLook(pqPVApplicationCore* core)
+  : QObject(core)
+{
+  afterUpdate(core, this, [](pqPipelineSource* source) { fit(source, false); });
+}
+
+void FirstLook::fitAgain(pqPipelineSource* source)
+{
+  fit(source, true);
 }
 
 } // namespace cactus

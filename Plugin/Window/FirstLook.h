@@ -18,8 +18,8 @@ public:
   /// Lives as long as `core`.
   explicit FirstLook(pqPVApplicationCore* core);
 
-private:
-  void fit(pqPipelineSource* source);
+  /// Fits it again, unless somebody has moved it, after something has been hidden.
+  static void fitAgain(pqPipelineSource* source);
 };
 
 } // namespace cactus

@@ -2,6 +2,7 @@
 #include "InheritedLook.h"
 
 #include "AfterUpdate.h"
+#include "FirstLook.h"
 #include "PluginProxies.h"
 
 #include <pqDataRepresentation.h>
@@ -226,6 +227,10 @@ void InheritedLook::afterApply()
           }
           colourImage(shown, port->getDataInformation(), view);
         });
+      if (isOfThisPlugin(filter->getProxy()))
+      {
+        FirstLook::fitAgain(filter);
+      }
     }
   }
 }

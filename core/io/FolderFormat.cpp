@@ -58,17 +58,12 @@ bool FolderFormat::needsStartPositions(const SubstrateFolderContents& /*contents
   return false;
 }
 
-SurfaceBox domainBox(const Domain& domain)
+SurfaceBox FolderFormat::startBox(const FibreSurfaces& /*surfaces*/, const Domain& domain, const Context& /*context*/) const
 {
-  SurfaceBox around;
+  SurfaceBox around; // of everything
   around.lower = domain.lower;
   around.upper = domain.upper;
   return around;
-}
-
-SurfaceBox FolderFormat::startBox(const FibreSurfaces& /*surfaces*/, const Domain& domain, const Context& /*context*/) const
-{
-  return domainBox(domain);
 }
 
 std::string FolderFormat::readme(const SubstrateFolderContents& /*contents*/, const WrittenSubstrate& /*substrate*/) const

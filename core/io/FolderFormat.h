@@ -74,9 +74,10 @@ public:
   virtual bool hasStartPositions() const { return true; }
   /// Tells whether its reader cannot do without them, so that they are also written if StartPositions is 0.
   virtual bool needsStartPositions(const SubstrateFolderContents& contents) const;
-  /// Returns the simulations in whose boxes they are; none: in the domain.
+  /// Returns the simulations in whose boxes they are; none: in the start domain.
   virtual std::vector<McdcSimulation> startSimulations(
     const SubstrateFolderContents& contents, const std::vector<SubstrateFile>& files) const;
+  virtual Domain startDomain(const Domain& domain) const { return domain; }
   virtual double startUnit() const { return 1.0; } ///< lengths of its reader per µm
   /// Returns the box in which such points are kept, and the origin of their coordinates; `surfaces` hold the walkers in.
   virtual SurfaceBox startBox(const FibreSurfaces& surfaces, const Domain& domain, const Context& context) const;
@@ -103,9 +104,6 @@ const FolderFormat& referenceFormat();
 const FolderFormat& rmsFormat();
 const FolderFormat& spinDoctorFormat();
 const FolderFormat& surfacesFormat();
-
-/// Returns the box of a domain, in whose coordinates points are.
-SurfaceBox domainBox(const Domain& domain);
 
 /// Makes the folders of these files, the outer ones first, and lists the files, for all processes of the run.
 void prepareFiles(const std::vector<SubstrateFile>& files, FolderWriter& writer, const WritingRun& run);

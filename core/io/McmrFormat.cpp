@@ -76,10 +76,7 @@ public:
     writeMcmrGeometry(contents, writer, context);
   }
 
-  SurfaceBox startBox(const FibreSurfaces& /*surfaces*/, const Domain& domain, const Context& /*context*/) const override
-  {
-    return domainBox(mcmrBox(domain)); // between the walls
-  }
+  Domain startDomain(const Domain& domain) const override { return mcmrBox(domain); }
 
   std::string readme(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate) const override
   {

@@ -31,7 +31,7 @@ std::string pointsText(const std::vector<Eigen::Vector3d>& points, const Surface
   return text;
 }
 
-/// In the boxes of these simulations, and, where there is none, in the domain.
+/// In the boxes of these simulations, and, where there is none, in the format's start domain.
 StartPositions drawFor(const std::vector<McdcSimulation>& simulations, const SubstrateFolderContents& contents, std::size_t count,
   const Context& context)
 {
@@ -41,7 +41,7 @@ StartPositions drawFor(const std::vector<McdcSimulation>& simulations, const Sub
   { return drawStartPositions(box, contents.outer, contents.inner, counts, seed, context); };
   if (simulations.empty())
   {
-    return draw(contents.domain, { count, count, count });
+    return draw(formatOf(contents.format).startDomain(contents.domain), { count, count, count });
   }
   StartPositions points = draw(contents.domain, { 0, count, 0 });
   for (const McdcSimulation& simulation : simulations)

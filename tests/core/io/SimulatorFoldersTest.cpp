@@ -218,7 +218,7 @@ TEST_F(SimulatorFolders, McmrSimulatorHasItsGeometry)
   {
     EXPECT_LE(std::fabs(coordinate), 4.999); // between the walls
   }
-  EXPECT_GT(count, 0);
+  EXPECT_EQ(count, 3 * this->Contents.startPositions);
 }
 
 // Its wall is in a geometry once: two in one place would be two membranes.
