@@ -207,9 +207,10 @@ def fibre_field():
     contours = simple.Contour(Input=fields, ContourBy=["POINTS", "Field"], Isosurfaces=[0.0])
     contours.UpdatePipeline()
     blocks = servermanager.Fetch(contours)
-    for i in range(blocks.GetNumberOfBlocks()):
+    contoured = [blocks.GetBlock(i) for i in range(blocks.GetNumberOfBlocks())]
+    for i, block in enumerate(block for block in contoured if block is not None and block.GetNumberOfPoints() > 0):
         producer = simple.TrivialProducer()
-        producer.GetClientSideObject().SetOutput(blocks.GetBlock(i))
+        producer.GetClientSideObject().SetOutput(block)
         show(producer, view, list(pyplot.get_cmap("tab10")(i % 10)[:3]))
     return pictures_beside(("", look(view)))
 
