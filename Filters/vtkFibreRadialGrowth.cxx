@@ -195,7 +195,6 @@ int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** in
       output->GetPointData()->AddArray(fibreId);
       output->GetPointData()->AddArray(depth);
       output->GetPointData()->SetActiveScalars("Depth");
-      output->GetPointData()->SetActivePedigreeIds("FibreId"); // what NiftiWriter.xml proposes first
 
       addImageFacts(fibres, options, grid.spacing, *this->Growth, output);
       if (!fibres.myelinFractions.empty())

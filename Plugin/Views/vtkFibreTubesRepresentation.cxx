@@ -9,6 +9,8 @@
 #include <vtkCellData.h>
 #include <vtkColorSeries.h>
 #include <vtkDataArray.h>
+#include <vtkDataObjectTree.h>
+#include <vtkDataObjectTreeIterator.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
@@ -47,7 +49,6 @@ void addIds(vtkDataSetAttributes* data, const char* name, vtkIdType count)
   data->AddArray(ids);
 }
 
-/// Adds the original numbers of cells and points, for selections: those of the drawn data differ.
 constexpr const char* drawnColours = "cactusColours";
 /// How far directions' colours are mixed with white: blue, of fibres along z, is too dark otherwise, above all at their ends.
 constexpr double whiteness = 0.35;
@@ -82,7 +83,8 @@ void addColours(vtkPolyData* fibres)
     vtkNew<vtkIdList> points;
     for (vtkIdType fibre = 0; fibre < fibres->GetNumberOfCells(); ++fibre)
     {
-      const vtkColor3ub colour = series->GetColorRepeating(static_cast<int>(bundles->GetTuple1(fibre)) - 1);
+      const int place = (static_cast<int>(bundles->GetTuple1(fibre)) - 1) % series->GetNumberOfColors();
+      const vtkColor3ub colour = series->GetColor(place < 0 ? place + series->GetNumberOfColors() : place);
       fibres->GetCellPoints(fibre, points);
       for (const vtkIdType point : *points)
       {
@@ -93,15 +95,34 @@ void addColours(vtkPolyData* fibres)
   fibres->GetPointData()->AddArray(colours);
 }
 
-/// Returns streamlines, which have no radii, and surfaces with their colours.
-vtkSmartPointer<vtkDataObject> withColours(vtkPolyData* lines)
+/// Returns lines without radii, and blocks of lines, with their colours; nullptr for other data.
+vtkSmartPointer<vtkDataObject> withColours(vtkDataObject* data)
 {
-  auto coloured = vtkSmartPointer<vtkPolyData>::New();
-  coloured->ShallowCopy(lines);
-  addColours(coloured);
+  if (auto* lines = vtkPolyData::SafeDownCast(data))
+  {
+    auto coloured = vtkSmartPointer<vtkPolyData>::New();
+    coloured->ShallowCopy(lines);
+    addColours(coloured);
+    return coloured;
+  }
+  auto* blocks = vtkDataObjectTree::SafeDownCast(data);
+  if (blocks == nullptr)
+  {
+    return nullptr;
+  }
+  vtkSmartPointer<vtkDataObjectTree> coloured = vtk::TakeSmartPointer(blocks->NewInstance());
+  coloured->CopyStructure(blocks);
+  vtkSmartPointer<vtkDataObjectTreeIterator> one = vtk::TakeSmartPointer(blocks->NewTreeIterator());
+  for (one->InitTraversal(); !one->IsDoneWithTraversal(); one->GoToNextItem())
+  {
+    vtkDataObject* block = one->GetCurrentDataObject();
+    const vtkSmartPointer<vtkDataObject> lines = vtkPolyData::SafeDownCast(block) != nullptr ? withColours(block) : nullptr;
+    coloured->SetDataSetFrom(one, lines != nullptr ? lines.Get() : block);
+  }
   return coloured;
 }
 
+/// Adds the original numbers of cells and points, for selections: those of the drawn data differ.
 vtkSmartPointer<vtkPolyData> withIds(vtkPolyData* fibres)
 {
   auto numbered = vtkSmartPointer<vtkPolyData>::New();
@@ -145,16 +166,18 @@ vtkAlgorithmOutput* vtkFibreTubesRepresentation::GetInternalOutputPort(int port,
   auto* fibres = vtkPolyData::SafeDownCast(data);
   const bool isFibres =
     fibres != nullptr && fibres->GetNumberOfLines() > 0 && fibres->GetPointData()->GetArray("Radius") != nullptr;
+  const vtkSmartPointer<vtkDataObject> sections = isFibres ? nullptr : cactus::imageSections(data);
   if (auto* geometry = vtkPVGeometryFilter::SafeDownCast(this->GeometryFilter))
   {
-    geometry->SetPassThroughCellIds(isFibres ? 0 : 1); // otherwise the filter numbers the drawn data
-    geometry->SetPassThroughPointIds(isFibres ? 0 : 1);
+    const bool hasOwnIds = isFibres || sections != nullptr; // otherwise the filter numbers the drawn data
+    geometry->SetPassThroughCellIds(hasOwnIds ? 0 : 1);
+    geometry->SetPassThroughPointIds(hasOwnIds ? 0 : 1);
   }
   if (!isFibres)
   {
-    const vtkSmartPointer<vtkDataObject> other = fibres != nullptr ? withColours(fibres) : cactus::imageSections(data);
-    this->Shape->SetOutput(other);
-    return other != nullptr ? this->Shape->GetOutputPort() : input;
+    const vtkSmartPointer<vtkDataObject> shown = sections != nullptr ? sections : withColours(data);
+    this->Shape->SetOutput(shown);
+    return shown != nullptr ? this->Shape->GetOutputPort() : input;
   }
   const vtkSmartPointer<vtkPolyData> numbered = withIds(fibres);
   addColours(numbered);

@@ -16,7 +16,6 @@
 #include <vtkSMSourceProxy.h>
 
 #include <QAction>
-#include <QApplication>
 #include <QIcon>
 #include <QMainWindow>
 #include <QToolBar>
@@ -27,11 +26,7 @@ namespace cactus
 ChainButton::ChainButton(pqPVApplicationCore* core)
   : QObject(core)
 {
-  QMainWindow* window = nullptr;
-  for (QWidget* widget : QApplication::topLevelWidgets())
-  {
-    window = window != nullptr ? window : qobject_cast<QMainWindow*>(widget);
-  }
+  QMainWindow* window = mainWindow();
   if (window == nullptr)
   {
     return;

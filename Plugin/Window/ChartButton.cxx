@@ -49,11 +49,18 @@ ChartButton::ChartButton(pqPVApplicationCore* core)
   afterUpdate(core, this,
     [this](pqPipelineSource* source)
     {
-      if (std::strcmp(source->getProxy()->GetXMLName(), "CapsuleOptimizer") == 0)
+      if (this->Optimiser != source && std::strcmp(source->getProxy()->GetXMLName(), "CapsuleOptimizer") == 0)
       {
         this->Optimiser = source;
         this->Button->show();
-        QObject::connect(source, &QObject::destroyed, this->Button, &QWidget::hide);
+        QObject::connect(source, &QObject::destroyed, this,
+          [this]
+          {
+            if (this->Button != nullptr) // the window may go before
+            {
+              this->Button->setVisible(this->Optimiser != nullptr);
+            }
+          });
       }
     });
 }
@@ -64,19 +71,19 @@ void ChartButton::chart()
   {
     return;
   }
-  pqOutputPort* output = this->Optimiser->getOutputPort(convergence);
-  for (pqView* view : output->getViews())
-  {
-    if (view->getViewType() == chartView)
-    {
-      return; // it is there
-    }
-  }
-  pqView* view = pqApplicationCore::instance()->getObjectBuilder()->createView(chartView, this->Optimiser->getServer());
   vtkNew<vtkSMParaViewPipelineControllerWithRendering> controller;
-  controller->AssignViewToLayout(view->getViewProxy());
-  controller->Show(this->Optimiser->getSourceProxy(), convergence, view->getViewProxy());
-  view->render();
+  pqView* chart = nullptr;
+  for (pqView* view : this->Optimiser->getOutputPort(convergence)->getViews())
+  {
+    chart = view->getViewType() == chartView ? view : chart;
+  }
+  if (chart == nullptr)
+  {
+    chart = pqApplicationCore::instance()->getObjectBuilder()->createView(chartView, this->Optimiser->getServer());
+    controller->AssignViewToLayout(chart->getViewProxy());
+  }
+  controller->Show(this->Optimiser->getSourceProxy(), convergence, chart->getViewProxy());
+  chart->render();
 }
 
 } // namespace cactus

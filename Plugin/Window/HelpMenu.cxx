@@ -12,11 +12,14 @@
 #include <vtkSMSessionProxyManager.h>
 
 #include <QAction>
-#include <QApplication>
+#include <QDesktopServices>
 #include <QDialog>
+#include <QFile>
 #include <QImage>
 #include <QMainWindow>
 #include <QMenu>
+#include <QPushButton>
+#include <QTextBlock>
 #include <QTextBrowser>
 #include <QUrl>
 #include <QVBoxLayout>
@@ -26,29 +29,41 @@ namespace cactus
 namespace
 {
 
-/// Shows pages of the handbook, which Qt reads as Markdown, without their pictures.
+/// Shows pages of the handbook, which Qt reads as Markdown, without their pictures. Links to what is no page do nothing.
 class Pages : public QTextBrowser
 {
 public:
-  using QTextBrowser::QTextBrowser;
+  explicit Pages(QWidget* parent)
+    : QTextBrowser(parent)
+  {
+    this->setOpenLinks(false);
+    QObject::connect(this, &QTextBrowser::anchorClicked, this, [this](const QUrl& link) { this->open(link); });
+  }
 
   QVariant loadResource(int type, const QUrl& name) override
   {
     return type == QTextDocument::ImageResource ? QVariant(QImage(1, 1, QImage::Format_Mono))
                                                 : QTextBrowser::loadResource(type, name);
   }
+
+private:
+  void open(const QUrl& link)
+  {
+    if (link.scheme() == "http" || link.scheme() == "https")
+    {
+      QDesktopServices::openUrl(link);
+    }
+    else if (const QUrl page = this->source().resolved(link.adjusted(QUrl::RemoveFragment)); QFile::exists(":" + page.path()))
+    {
+      this->setSource(page);
+    }
+  }
 };
 
 QMenu* helpMenu()
 {
-  for (QWidget* widget : QApplication::topLevelWidgets())
-  {
-    if (QMenu* menu = qobject_cast<QMainWindow*>(widget) != nullptr ? widget->findChild<QMenu*>("menu_Help") : nullptr)
-    {
-      return menu;
-    }
-  }
-  return nullptr; // an application of another kind
+  QMainWindow* window = mainWindow();
+  return window != nullptr ? window->findChild<QMenu*>("menu_Help") : nullptr;
 }
 
 /// Fills a menu with an example for each preset.
@@ -88,16 +103,22 @@ void HelpMenu::showTutorial()
 {
   if (this->Handbook == nullptr)
   {
-    QDialog* dialog = new QDialog(helpMenu()->parentWidget()->window());
+    QDialog* dialog = new QDialog(mainWindow());
     dialog->setObjectName("CactusHandbook");
-    dialog->setWindowTitle("CACTUS for ParaView");
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->resize(900, 700);
     Pages* pages = new Pages(dialog);
     pages->setObjectName("Pages");
-    pages->setOpenExternalLinks(true);
+    QPushButton* back = new QPushButton("Back", dialog);
+    back->setEnabled(false);
+    QObject::connect(back, &QPushButton::clicked, pages, &QTextBrowser::backward);
+    QObject::connect(pages, &QTextBrowser::backwardAvailable, back, &QPushButton::setEnabled);
+    QObject::connect(pages, &QTextBrowser::sourceChanged, dialog,
+      [dialog, pages] { dialog->setWindowTitle("CACTUS: " + pages->document()->firstBlock().text()); });
+    QVBoxLayout* column = new QVBoxLayout(dialog);
+    column->addWidget(back, 0, Qt::AlignLeft);
+    column->addWidget(pages);
     pages->setSource(QUrl("qrc:/cactus/docs/tutorial.md"));
-    (new QVBoxLayout(dialog))->addWidget(pages);
     this->Handbook = dialog;
   }
   this->Handbook->show();

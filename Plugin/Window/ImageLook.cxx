@@ -4,6 +4,7 @@
 #include "AfterUpdate.h"
 
 #include <pqDataRepresentation.h>
+#include <pqObjectBuilder.h>
 #include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -13,6 +14,7 @@
 
 #include <QVariant>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -22,7 +24,8 @@ namespace cactus
 namespace
 {
 
-constexpr char isOurs[] = "cactusImageLook"; ///< dynamic property of a representation that has had this look
+constexpr char isNew[] = "cactusNew";        ///< dynamic property of a filter that the window has made, and not shown yet
+constexpr char isOurs[] = "cactusImageLook"; ///< annotation of a table of colours that has had this look
 
 // Blue and red as in ParaView's "Cool to Warm".
 constexpr double cold[] = { 0.231, 0.298, 0.753 };
@@ -37,12 +40,19 @@ void showGreys(vtkSMProxy* colours)
   colours->UpdateVTKObjects();
 }
 
+/// Tells whether points of a table of colours are cold, white and warm.
+bool areOurs(const std::vector<double>& points)
+{
+  return points.size() == 12 && std::equal(cold, cold + 3, &points[1]) && std::equal(white, white + 3, &points[5]) &&
+         std::equal(warm, warm + 3, &points[9]);
+}
+
+/// Makes 0 white, in colours of ours; `isFirst`: in place of any others.
 void whitenZero(vtkSMProxy* colours, bool isFirst)
 {
   vtkSMPropertyHelper points(colours, "RGBPoints");
   const std::vector<double> now = points.GetDoubleArray();
-  const bool isKept = !isFirst && (now.size() != 12 || now[5] != white[0] || now[6] != white[1] || now[7] != white[2]);
-  if (isKept || now.size() < 8 || !(now.front() < 0.0) || !(now[now.size() - 4] > 0.0))
+  if (!(isFirst || areOurs(now)) || now.size() < 8 || !(now.front() < 0.0) || !(now[now.size() - 4] > 0.0))
   {
     return;
   }
@@ -74,6 +84,8 @@ void showBox(vtkSMProxy* representation)
 ImageLook::ImageLook(pqPVApplicationCore* core)
   : QObject(core)
 {
+  QObject::connect(core->getObjectBuilder(), &pqObjectBuilder::filterCreated, this,
+    [](pqPipelineSource* created) { created->setProperty(isNew, true); });
   afterUpdate(core, this, &ImageLook::apply);
 }
 
@@ -86,21 +98,26 @@ void ImageLook::apply(pqPipelineSource* source)
     return;
   }
   forEachShown(source,
-    [isGrowth](pqDataRepresentation* shown, pqOutputPort*, pqView* view)
+    [source, isGrowth](pqDataRepresentation* shown, pqOutputPort*, pqView* view)
     {
-      const bool isFirst = !shown->property(isOurs).toBool();
       const char* array = vtkSMPropertyHelper(shown->getProxy(), "ColorArrayName", true).GetInputArrayNameToProcess();
       vtkSMProxy* colours = shown->getLookupTableProxy();
       if (colours == nullptr || array == nullptr || std::strcmp(array, isGrowth ? "Depth" : "Mask") != 0)
       {
         return;
       }
-      shown->setProperty(isOurs, true);
+      const bool isFirst = source->property(isNew).toBool();
+      const bool isTableNew = isFirst && !colours->HasAnnotation(isOurs);
+      source->setProperty(isNew, false);
+      if (isTableNew)
+      {
+        colours->SetAnnotation(isOurs, "1");
+      }
       if (isGrowth)
       {
-        whitenZero(colours, isFirst);
+        whitenZero(colours, isTableNew);
       }
-      else if (isFirst)
+      else if (isTableNew)
       {
         showGreys(colours);
       }

@@ -12,11 +12,14 @@
 #include <pqPipelineFilter.h>
 #include <pqPropertiesPanel.h>
 #include <pqView.h>
+#include <vtkColorSeries.h>
 #include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkNew.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkPVDataSetAttributesInformation.h>
+#include <vtkPVGeneralSettings.h>
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMParaViewPipelineControllerWithRendering.h>
 #include <vtkSMPropertyHelper.h>
@@ -40,6 +43,7 @@ constexpr int ifHidden = 2;                     ///< pqPipelineFilter::replaceIn
 constexpr char inherited[] = "cactusInherited"; ///< dynamic property of a representation that has its look from its input
 constexpr char direction[] = "Direction";       ///< point data that colour tubes
 constexpr char bundle[] = "BundleId";           ///< cell data that colour them where they differ
+constexpr int mostBundles = 256;                ///< with a colour of their own
 
 /// The look of a representation that no array colours.
 struct Look
@@ -90,6 +94,36 @@ bool hasSeveralBundles(vtkPVDataInformation* data)
   return ids != nullptr && ids->GetComponentRange(0)[0] < ids->GetComponentRange(0)[1];
 }
 
+/// Gives the table of colours of bundles those that tubes have.
+void colourBundles(vtkSMProxy* colours, vtkPVDataInformation* data)
+{
+  if (colours == nullptr || colours->HasAnnotation(bundle))
+  {
+    return;
+  }
+  colours->SetAnnotation(bundle, "1");
+  const double* ids = data->GetArrayInformation(bundle, vtkDataObject::CELL)->GetComponentRange(0);
+  vtkNew<vtkColorSeries> series;
+  series->SetColorScheme(vtkColorSeries::BREWER_QUALITATIVE_SET2);
+  vtkSMPropertyHelper names(colours, "Annotations");
+  vtkSMPropertyHelper values(colours, "IndexedColors");
+  names.SetNumberOfElements(0);
+  values.SetNumberOfElements(0);
+  for (int id = 1; id <= static_cast<int>(ids[1]) && id <= mostBundles; ++id)
+  {
+    const unsigned place = static_cast<unsigned>(id - 1);
+    const vtkColor3ub colour = series->GetColorRepeating(id - 1);
+    names.Set(2 * place, std::to_string(id).c_str());
+    names.Set(2 * place + 1, std::to_string(id).c_str());
+    for (unsigned part = 0; part < 3; ++part)
+    {
+      values.Set(3 * place + part, colour[int(part)] / 255.0);
+    }
+  }
+  vtkSMPropertyHelper(colours, "IndexedLookup").Set(1);
+  colours->UpdateVTKObjects();
+}
+
 void giveLook(pqDataRepresentation* shown, const Look& look, double opacity)
 {
   vtkSMProxy* proxy = shown->getProxy();
@@ -109,6 +143,7 @@ void giveLook(pqDataRepresentation* shown, const Look& look, double opacity)
     if (hasSeveralBundles(data))
     {
       coloured->SetScalarColoring(bundle, vtkDataObject::CELL);
+      colourBundles(shown->getLookupTableProxy(), data);
     }
     else if (data->GetArrayInformation(direction, vtkDataObject::POINT) != nullptr)
     {
@@ -157,7 +192,7 @@ void hideInput(pqOutputPort* input, pqView* view)
   }
 }
 
-/// Colours an image by its first array where one of our representations draws it.
+/// Colours an image by its active array, or else the first, where one of our representations draws it.
 void colourImage(pqDataRepresentation* shown, vtkPVDataInformation* data, pqView* view)
 {
   auto* proxy = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
@@ -170,16 +205,31 @@ void colourImage(pqDataRepresentation* shown, vtkPVDataInformation* data, pqView
   for (const int of : { vtkDataObject::POINT, vtkDataObject::CELL })
   {
     vtkPVDataSetAttributesInformation* arrays = data->GetAttributeInformation(of);
-    if (arrays->GetNumberOfArrays() > 0)
+    vtkPVArrayInformation* active = arrays->GetAttributeInformation(vtkDataSetAttributes::SCALARS);
+    vtkPVArrayInformation* array =
+      active != nullptr || arrays->GetNumberOfArrays() == 0 ? active : arrays->GetArrayInformation(0);
+    if (array != nullptr)
     {
-      proxy->SetScalarColoring(arrays->GetArrayInformation(0)->GetName(), of);
+      proxy->SetScalarColoring(array->GetName(), of);
       proxy->UpdateVTKObjects();
-      proxy->RescaleTransferFunctionToDataRange();
-      proxy->SetScalarBarVisibility(view->getProxy(), true);
+      proxy->RescaleTransferFunctionToDataRange(true, false);
+      if (vtkPVGeneralSettings::GetInstance()->GetScalarBarMode() ==
+          vtkPVGeneralSettings::AUTOMATICALLY_SHOW_AND_HIDE_SCALAR_BARS)
+      {
+        proxy->SetScalarBarVisibility(view->getProxy(), true);
+      }
       view->render();
       return;
     }
   }
+}
+
+bool hasShownNothing(pqPipelineSource* source)
+{
+  bool isEmpty = true;
+  forEachShown(source, [&](pqDataRepresentation*, pqOutputPort* port, pqView*)
+    { isEmpty = isEmpty && port->getDataInformation()->GetNumberOfPoints() == 0; });
+  return isEmpty;
 }
 
 } // namespace
@@ -202,12 +252,18 @@ void InheritedLook::afterApply()
 {
   QList<QPointer<pqPipelineSource>> waiting;
   waiting.swap(this->Created);
+  int chain = 0;
+  pqPipelineSource* last = nullptr;
   for (const QPointer<pqPipelineSource>& created : waiting)
   {
     pqPipelineFilter* filter = qobject_cast<pqPipelineFilter*>(created);
     if (filter != nullptr && filter->modifiedState() == pqProxy::UNINITIALIZED)
     {
       this->Created.append(created); // Apply was for the panel of another
+    }
+    else if (filter != nullptr && isOfThisPlugin(filter->getProxy()) && hasShownNothing(filter))
+    {
+      this->Created.append(created); // an error, or tables
     }
     else if (filter != nullptr && filter->replaceInput() != 0)
     {
@@ -227,11 +283,13 @@ void InheritedLook::afterApply()
           }
           colourImage(shown, port->getDataInformation(), view);
         });
-      if (isOfThisPlugin(filter->getProxy()))
-      {
-        FirstLook::fitAgain(filter);
-      }
+      chain += isOfThisPlugin(filter->getProxy()) ? 1 : 0;
+      last = filter;
     }
+  }
+  if (chain > 1)
+  {
+    FirstLook::fitAgain(last); // without what was shown of those before it
   }
 }
 

@@ -16,7 +16,7 @@ namespace cactus
 /// At its first Apply, ParaView hides the input of such a filter only if that is drawn as Surface, and gives the result its own
 /// grey. Here the input is hidden also if it is drawn by one of our representations, and the result gets its colour and opacity,
 /// unless an array colours it. Where one of our filters takes the place of outer surfaces, the inner ones beside them are hidden,
-/// too, and an image that it makes gets the colours of its first array.
+/// too, and an image that it makes gets colours.
 class InheritedLook : public QObject
 {
 public:

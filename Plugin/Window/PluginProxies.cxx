@@ -5,6 +5,9 @@
 #include <vtkPVXMLElement.h>
 #include <vtkSMProxy.h>
 
+#include <QApplication>
+#include <QMainWindow>
+
 #include <cstring>
 
 namespace cactus
@@ -25,6 +28,18 @@ const pqProxyWidget* panelAround(const QWidget* widget)
     widget = widget->parentWidget();
   }
   return qobject_cast<const pqProxyWidget*>(widget);
+}
+
+QMainWindow* mainWindow()
+{
+  for (QWidget* widget : QApplication::topLevelWidgets())
+  {
+    if (QMainWindow* window = qobject_cast<QMainWindow*>(widget))
+    {
+      return window;
+    }
+  }
+  return nullptr;
 }
 
 } // namespace cactus

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distinguishes the filters of this plugin from others, and finds their panels.
+// Distinguishes the filters of this plugin from others, and finds their panels and the window.
 #pragma once
 
+class QMainWindow;
 class QWidget;
 class pqProxyWidget;
 class vtkSMProxy;
@@ -17,5 +18,8 @@ bool isOfThisPlugin(vtkSMProxy* proxy);
 
 /// Returns the panel of a proxy that a widget is in; null if it is in none.
 const pqProxyWidget* panelAround(const QWidget* widget);
+
+/// Returns ParaView's window; null in an application of another kind.
+QMainWindow* mainWindow();
 
 } // namespace cactus

@@ -20,11 +20,21 @@ namespace cactus
 namespace
 {
 
-/// Returns the folder that a name from the dialog means: one that is there already is entered, and gets its name once more.
-QString folderMeant(const QString& name)
+/// Returns the substrate folder that a name from the dialog means; empty if there is none. One that is there already is entered
+/// by the dialog, and gets its name once more.
+QString folderMeant(const QString& name, pqServer* server)
 {
-  const QFileInfo folder(name);
-  return folder.fileName() == QFileInfo(folder.path()).fileName() ? folder.path() : name;
+  pqFileDialogModel files(server);
+  const QFileInfo chosen(name);
+  QString found;
+  for (const QString& folder : { name, chosen.fileName() == QFileInfo(chosen.path()).fileName() ? chosen.path() : QString() })
+  {
+    if (!folder.isEmpty() && files.fileExists(folder + "/manifest.json", found))
+    {
+      return folder;
+    }
+  }
+  return {};
 }
 
 } // namespace
@@ -42,13 +52,12 @@ void ReplaceNotice::createDefaultWidgetDecorators(pqPropertyWidget* widget)
   {
     return;
   }
-  const QString folder = folderMeant(vtkSMPropertyHelper(proxy, "FileName").GetAsString());
   pqServer* server = pqApplicationCore::instance()->getServerManagerModel()->findServer(proxy->GetSession());
-  QString found;
-  if (pqFileDialogModel(server).dirExists(folder, found))
+  const QString folder = folderMeant(vtkSMPropertyHelper(proxy, "FileName").GetAsString(), server);
+  if (!folder.isEmpty())
   {
-    auto* notice =
-      new QLabel(QString("<b>%1 is there already. OK replaces it.</b>").arg(QFileInfo(folder).fileName().toHtmlEscaped()));
+    auto* notice = new QLabel(QString("<b>%1 is there already. OK replaces it, unless its files were changed.</b>")
+                                .arg(QFileInfo(folder).fileName().toHtmlEscaped()));
     notice->setObjectName("ReplaceNotice");
     notice->setWordWrap(true);
     widget->layout()->addWidget(notice);

@@ -35,8 +35,8 @@ extern "C" Q_DECL_EXPORT void cactusStartWindow()
         new cactus::QuickLaunch(core);
         new cactus::FirstLook(core);
         new cactus::InheritedLook(core);
-        new cactus::ImageLook(core);
         new cactus::ErrorColours(core);
+        new cactus::ImageLook(core); // once those are mended
         new cactus::WholePanels(core);
         new cactus::BarUnits(core);
         new cactus::StopButton(core);

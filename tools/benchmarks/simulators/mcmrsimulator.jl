@@ -19,7 +19,7 @@ println("surfaces in each mesh: ", [MCMRSimulator.nvolumes(g) for g in geometry 
 points(path) = [parse.(Float64, split(line)) for line in eachline(path) if !isempty(strip(line))]
 rounded(x) = round(x; digits=3)
 
-for (name, subset) in ("intra" => Subset(inside=2), "myelin" => Subset(inside=1), "extra" => Subset(inside=0))
+for (name, subset) in ("intra" => Subset(inside=true, geometry_index=2), "myelin" => Subset(inside=1), "extra" => Subset(inside=0))
     path = joinpath(folder, "start", "$name.txt")
     isfile(path) || continue
     start = points(path)
