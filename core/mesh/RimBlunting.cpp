@@ -231,7 +231,7 @@ private:
     for (int i = 1; i <= bluntingSteps && cosine < goalCosine; ++i)
     {
       this->Mesh.move(point, from + double(i) / bluntingSteps * way);
-      if (!this->isFine(point, normals, flatness))
+      if (!isInward(way, normals) || !this->isFine(point, normals, flatness))
       {
         break;
       }
@@ -243,6 +243,14 @@ private:
       }
     }
     this->Mesh.move(point, best);
+  }
+
+  /// Tells whether a way leads to the inside of triangles, or along them, by their normals: behind the planes of all triangles at a
+  /// point, it makes the surface smaller. Where walls turn around a point, the way into its caps may leave some of them.
+  static bool isInward(const Vector3d& way, const std::vector<Vector3d>& normals)
+  {
+    const double tolerance = 1e-9 * way.norm();
+    return std::all_of(normals.begin(), normals.end(), [&](const Vector3d& normal) { return normal.dot(way) <= tolerance; });
   }
 
   /// Tells whether the triangles at a point are fit, which had these normals and flatness before it was moved.

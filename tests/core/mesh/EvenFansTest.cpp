@@ -10,6 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -196,6 +199,56 @@ TEST(EvenFans, BluntsRimsOfGrazingFibres)
   held.held = 16 | 32;
   evenFans(held, largestRatio, smallestAngle, depth);
   EXPECT_NEAR(checkSurface(held.mesh).volume, after.volume, 1e-12) << "points of held faces moved";
+}
+
+/// At the tip of a cap, the way into it leads out of a wall that leans less than its neighbour: fibres would come nearer to
+/// others.
+TEST(EvenFans, BlunterTipsStayInside)
+{
+  const double half = 0.08;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int moved = 0;
+  for (int trial = 0; trial < 60; ++trial)
+  {
+    // An oblique prism over a triangle with a sharp tip.
+    const double lean = 2.0 * pi * uniform(random);
+    const double slope = 1.0 / std::tan((12.0 + 20.0 * uniform(random)) / radian);
+    const Eigen::Vector2d way = slope * Eigen::Vector2d(std::cos(lean), std::sin(lean));
+    const double width = 0.05 + 0.3 * uniform(random);
+    const Eigen::Vector2d corners[] = { { 0.0, 0.0 }, { 0.8, -width * uniform(random) }, { 0.4 + 0.4 * uniform(random), width } };
+    CappedSurface surface;
+    for (const double z : { -half, half })
+    {
+      for (const Eigen::Vector2d& corner : corners)
+      {
+        surface.mesh.points.emplace_back(corner.x() + way.x() * z, corner.y() + way.y() * z, z);
+        surface.faces.push_back(z < 0.0 ? 16 : 32);
+      }
+    }
+    surface.mesh.triangles = { { { 0, 2, 1 } }, { { 3, 4, 5 } }, { { 0, 1, 4 } }, { { 0, 4, 3 } }, { { 1, 2, 5 } },
+      { { 1, 5, 4 } }, { { 2, 0, 3 } }, { { 2, 3, 5 } } };
+    surface.box = Eigen::AlignedBox3d(Eigen::Vector3d(-9, -9, -half), Eigen::Vector3d(9, 9, half));
+    std::vector<std::pair<Eigen::Vector3d, double>> walls; // outward normals, and where the planes are
+    for (const int t : { 2, 4, 6 })
+    {
+      const auto& triangle = surface.mesh.triangles[std::size_t(t)];
+      const auto at = [&](int i) { return surface.mesh.points[std::size_t(triangle[std::size_t(i)])]; };
+      const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+      walls.emplace_back(normal, normal.dot(at(0)));
+    }
+    const double before = checkSurface(surface.mesh).volume;
+    evenFans(surface, largestRatio, smallestAngle, 0.02);
+    moved += checkSurface(surface.mesh).volume < before - 1e-9 ? 1 : 0;
+    for (const Eigen::Vector3d& p : surface.mesh.points)
+    {
+      for (const auto& [normal, place] : walls)
+      {
+        EXPECT_LT(normal.dot(p) - place, 1e-9) << trial;
+      }
+    }
+  }
+  EXPECT_GT(moved, 5);
 }
 
 /// Whatever lies deeper than the layer stays, also where triangles end just below it.
