@@ -245,8 +245,8 @@ private:
     this->Mesh.move(point, best);
   }
 
-  /// Tells whether a way leads to the inside of triangles, or along them, by their normals: behind the planes of all triangles at a
-  /// point, it makes the surface smaller. Where walls turn around a point, the way into its caps may leave some of them.
+  /// Tells whether a way leads to the inside of triangles, or along them, by their normals: behind the planes of all triangles at
+  /// a point, it makes the surface smaller. Where walls turn around a point, the way into its caps may leave some of them.
   static bool isInward(const Vector3d& way, const std::vector<Vector3d>& normals)
   {
     const double tolerance = 1e-9 * way.norm();
