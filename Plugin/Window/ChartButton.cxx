@@ -8,7 +8,6 @@
 #include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqProgressWidget.h>
 #include <pqView.h>
 #include <vtkNew.h>
 #include <vtkSMParaViewPipelineControllerWithRendering.h>
@@ -33,8 +32,7 @@ constexpr int convergence = 1;                       ///< output of CapsuleOptim
 ChartButton::ChartButton(pqPVApplicationCore* core)
   : QObject(core)
 {
-  pqProgressWidget* progress = progressBar();
-  auto* bar = progress != nullptr ? qobject_cast<QStatusBar*>(progress->parentWidget()) : nullptr;
+  QStatusBar* bar = statusBar();
   if (bar == nullptr)
   {
     return; // an application of another kind

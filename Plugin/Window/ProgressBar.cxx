@@ -24,4 +24,10 @@ pqProgressWidget* progressBar()
   return nullptr;
 }
 
+QStatusBar* statusBar()
+{
+  pqProgressWidget* progress = progressBar();
+  return progress != nullptr ? qobject_cast<QStatusBar*>(progress->parentWidget()) : nullptr;
+}
+
 } // namespace cactus

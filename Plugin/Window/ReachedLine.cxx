@@ -7,7 +7,6 @@
 #include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqProgressWidget.h>
 #include <vtkDataObject.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
@@ -137,8 +136,7 @@ bool feeds(pqPipelineSource* source, const pqPipelineSource* other)
 ReachedLine::ReachedLine(pqPVApplicationCore* core)
   : QObject(core)
 {
-  pqProgressWidget* progress = progressBar();
-  auto* bar = progress != nullptr ? qobject_cast<QStatusBar*>(progress->parentWidget()) : nullptr;
+  QStatusBar* bar = statusBar();
   if (bar == nullptr)
   {
     return; // an application of another kind

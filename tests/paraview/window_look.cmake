@@ -2,10 +2,9 @@
 # cmake -DRUN=... -DSCRIPT=... -DFOLDER=... -P window_look.cmake: plays SCRIPT in the ParaView window. Fibres and surfaces have to be hidden once
 # ParaView's own filters have taken a part of them, and the parts have to be in their colours.
 include("${CMAKE_CURRENT_LIST_DIR}/window_play.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/window_looks.cmake")
 play()
-file(READ "${FOLDER}/window.pvsm" state)
-string(REGEX REPLACE "[][;]" "" state "${state}")
-string(REPLACE "<Proxy group=" ";<Proxy group=" proxies "${state}")
+read_proxies()
 set(found)
 foreach (proxy IN LISTS proxies)
   if (proxy MATCHES "^<Proxy group=\"representations\" type=\"([A-Za-z]+)\"")

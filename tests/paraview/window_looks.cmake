@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# read_looks(): `found` is what the saved state FOLDER/window.pvsm shows, a line for each representation, table of colours and box: its type,
-# and what it says of colours.
-macro (read_looks)
+# read_proxies(): `proxies` are those of the saved state FOLDER/window.pvsm, each from its "<Proxy group=" on, and `state` all of it.
+macro (read_proxies)
   file(READ "${FOLDER}/window.pvsm" state)
   string(REGEX REPLACE "[][;]" "" state "${state}")
   string(REPLACE "<Proxy group=" ";<Proxy group=" proxies "${state}")
+endmacro ()
+
+# read_looks(): `found` is what the saved state shows, a line for each representation, table of colours and box: its type,
+# and what it says of colours.
+macro (read_looks)
+  read_proxies()
   set(found)
   foreach (proxy IN LISTS proxies)
     if (proxy MATCHES "^<Proxy group=\"(representations|annotations|lookup_tables)\" type=\"([A-Za-z]+)\"")
