@@ -160,6 +160,8 @@ inline constexpr Range voxelSize{ 1e-3, 10.0, " µm" };
 inline constexpr Range targetFraction{ 0.0, 0.999, "", -1.0 };
 inline constexpr Range growthIterations{ 0.0, 1e3 };
 inline constexpr Range surfaceRoughness{ 0.0, 0.5 };
+/// Points per µm³; 0: capsules.
+inline constexpr Range seedDensity{ 0.1, 1000.0, " per µm³", 0.0 };
 inline constexpr Range sectionAxisRatio{ 0.7, 1.0 };
 inline constexpr Range imageMargin{ 0.0, 100.0, " µm" };
 

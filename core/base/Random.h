@@ -25,7 +25,8 @@ enum class RandomStage : std::uint32_t
   Lesion = 11,
   Nodes = 12,
   Sections = 13,
-  Internodes = 14
+  Internodes = 14,
+  SeedPoints = 15
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere. The distributions of

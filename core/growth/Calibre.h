@@ -17,6 +17,8 @@ struct SeedOptions
   std::uint64_t seed = 1;
   /// Fraction of the domain that the fibres are grown to, see SectionShape; 0 if it is not known.
   double grownFraction = 0.0;
+  /// Random points per µm³ of the capsules from which fibres grow, see SeedPoints; 0: the capsules themselves are the seed.
+  double pointDensity = 0.0;
 };
 
 /// A fibre's thickness along its axis: the radius of its seed, as a fraction of that of its capsules, at each length from its

@@ -7,6 +7,7 @@
 #include "fibres/FibreShape.h"
 #include "fibres/PeriodicImages.h"
 #include "fibres/SelectFibres.h"
+#include "growth/SeedPoints.h"
 
 #include <algorithm>
 #include <array>
@@ -84,13 +85,15 @@ struct Segment
   static double endOf(int part, int parts) { return part + 1 == parts ? 1.0 : double(part + 1) / parts; }
 };
 
-/// Cuts the image of a segment into parts; returns the end of their pieces.
-SeedPiece* cutSegment(const Segment& segment, FibreCalibre& calibre, const Eigen::Vector3d& shift, int parts, SeedPiece* piece)
+/// Cuts the image of a segment into parts, whose radii are `thickness` times those of the capsule; returns the end of their
+/// pieces.
+SeedPiece* cutSegment(
+  const Segment& segment, FibreCalibre& calibre, double thickness, const Eigen::Vector3d& shift, int parts, SeedPiece* piece)
 {
   const Eigen::Vector3d p0 = segment.fibres.points[segment.first] + shift;
   const Eigen::Vector3d along = segment.along();
   const double length = along.norm();
-  const auto radius = [&](double t) { return segment.radius(t) * calibre.fraction(segment.start + t * length); };
+  const auto radius = [&](double t) { return thickness * (segment.radius(t) * calibre.fraction(segment.start + t * length)); };
   for (int part = 0; part < parts; ++part)
   {
     const double t0 = double(part) / parts;
@@ -98,6 +101,12 @@ SeedPiece* cutSegment(const Segment& segment, FibreCalibre& calibre, const Eigen
     *piece++ = { coneBetween(p0 + t0 * along, p0 + t1 * along, radius(t0), radius(t1)), segment.rank };
   }
   return piece;
+}
+
+/// Returns the number of a fibre's control points after which it repeats.
+std::size_t pointsUntilRepeat(const Fibres& fibres, std::size_t f)
+{
+  return fibres.domain.periodic[2] ? periodOf(fibres, f).points : fibres.offsets[f + 1] - fibres.offsets[f];
 }
 
 /// The discs across a fibre where pieces end: one on the centre line, and one on either side.
@@ -134,12 +143,31 @@ SeedPiece* cutInThree(const Segment& segment, FibreCalibre& calibre, SectionTurn
   return piece;
 }
 
+/// Makes a piece for each seed point in the image of a segment: from the centre line, as thick as the core, to the ball at the
+/// point.
+SeedPiece* addPoints(
+  const Segment& segment, FibreCalibre& calibre, SeedPoints& points, const Eigen::Vector3d& shift, SeedPiece* piece)
+{
+  const Eigen::Vector3d p0 = segment.fibres.points[segment.first] + shift;
+  const Eigen::Vector3d along = segment.along();
+  const double length = along.norm();
+  for (std::size_t n = points.size(); n > 0; --n)
+  {
+    const SeedPoints::Place place = points.next(along / length);
+    const double radius = segment.radius(place.along) * calibre.fraction(segment.start + place.along * length);
+    const Eigen::Vector3d foot = p0 + place.along * along;
+    *piece++ = { coneBetween(foot, foot + radius * place.across, SeedPoints::core * radius, SeedPoints::tip * radius),
+      segment.rank };
+  }
+  return piece;
+}
+
 } // namespace
 
 CapsuleSeeds::CapsuleSeeds(
   const Fibres& fibres, const SeedOptions& options, const Eigen::AlignedBox3d& region, double reach, int threads)
   : fibreOfRank(orderById(fibres))
-  , shapes(sectionShapes(fibres, options.grownFraction))
+  , shapes(sectionShapes(fibres, options))
   , pieceOffsets(fibreOfRank.size() + 1, 0)
 {
   const Calibre calibre(options);
@@ -154,10 +182,12 @@ CapsuleSeeds::CapsuleSeeds(
       const std::size_t f = this->fibreOfRank[rank];
       const SegmentCut cut(calibre, this->shapes[f]);
       std::size_t count = 0;
+      const std::size_t repeat = pointsUntilRepeat(fibres, f);
       for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
       {
+        const SeedPoints points(options, fibres, f, (p - fibres.offsets[f]) % repeat);
         forEachInReach(fibres, p, region, reach, this->shapes[f].reach(),
-          [&](const Eigen::Vector3d&) { count += std::size_t(cut.chains * cut.parts(fibres, p)); });
+          [&](const Eigen::Vector3d&) { count += points.size() + std::size_t(cut.chains * cut.parts(fibres, p)); });
       }
       this->pieceOffsets[rank + 1] = count;
     });
@@ -166,19 +196,19 @@ CapsuleSeeds::CapsuleSeeds(
     "seeding " + std::to_string(fibres.size()) + " fibres", "request a smaller extent, or use fewer fibres or control points");
   this->pieces.resize(this->pieceOffsets.back());
   parallelForInBlocks(this->fibreOfRank.size(), fibresAtOnce, threads,
-    [&](std::size_t rank) { this->makePieces(fibres, calibre, options.seed, region, reach, rank); });
+    [&](std::size_t rank) { this->makePieces(fibres, calibre, options, region, reach, rank); });
 }
 
-void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, std::uint64_t seed, const Eigen::AlignedBox3d& region,
-  double reach, std::size_t rank)
+void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, const SeedOptions& options,
+  const Eigen::AlignedBox3d& region, double reach, std::size_t rank)
 {
   const std::size_t f = this->fibreOfRank[rank];
   const SectionShape& shape = this->shapes[f];
   const SegmentCut cut(calibre, shape);
   FibreCalibre ofFibre(calibre, fibres.fibreIds[f]);
   const std::vector<double> lengths = arcLengths(fibres, f);
-  const std::size_t repeat = fibres.domain.periodic[2] && !shape.isRound() ? periodOf(fibres, f).points : lengths.size();
-  SectionTurn turn(shape, seed, fibres.fibreIds[f], repeat < lengths.size() ? lengths[repeat] : 0.0);
+  const std::size_t repeat = pointsUntilRepeat(fibres, f);
+  SectionTurn turn(shape, options.seed, fibres.fibreIds[f], repeat < lengths.size() ? lengths[repeat] : 0.0);
   const std::vector<Eigen::Vector3d> tangents = shape.isRound() ? std::vector<Eigen::Vector3d>() : unitTangents(fibres, f);
   SeedPiece* piece = this->pieces.data() + this->pieceOffsets[rank];
   for (std::size_t i = 0; i + 1 < lengths.size(); ++i)
@@ -189,8 +219,17 @@ void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, std:
       [&](const Eigen::Vector3d& shift)
       {
         const int parts = cut.parts(fibres, p);
-        piece = shape.isRound() ? cutSegment(segment, ofFibre, shift, parts, piece)
-                                : cutInThree(segment, ofFibre, turn, { { tangents[i], tangents[i + 1] } }, shift, parts, piece);
+        if (options.pointDensity > 0.0)
+        {
+          SeedPoints points(options, fibres, f, i % repeat);
+          piece = cutSegment(segment, ofFibre, SeedPoints::core, shift, parts, piece);
+          piece = addPoints(segment, ofFibre, points, shift, piece);
+        }
+        else
+        {
+          piece = shape.isRound() ? cutSegment(segment, ofFibre, 1.0, shift, parts, piece)
+                                  : cutInThree(segment, ofFibre, turn, { { tangents[i], tangents[i + 1] } }, shift, parts, piece);
+        }
       });
   }
 }

@@ -23,7 +23,8 @@ struct SeedPiece
 };
 
 /// The seeds of growth: the fibres' capsules with their calibre, cut into pieces; of a fibre whose sections are not round, three
-/// chains of them side by side (see SectionShape). Fibres are ranked by increasing fibre id.
+/// chains of them side by side (see SectionShape); of seeds of points, a thin chain and a piece for each point (see SeedPoints).
+/// Fibres are ranked by increasing fibre id.
 struct CapsuleSeeds
 {
   /// Makes all pieces that come within `reach` of the region; segments farther away are left out. Throws OutOfMemory, and
@@ -39,7 +40,7 @@ struct CapsuleSeeds
   double chainsOf(std::size_t rank) const;
 
 private:
-  void makePieces(const Fibres& fibres, const Calibre& calibre, std::uint64_t seed, const Eigen::AlignedBox3d& region,
+  void makePieces(const Fibres& fibres, const Calibre& calibre, const SeedOptions& options, const Eigen::AlignedBox3d& region,
     double reach, std::size_t rank);
 };
 

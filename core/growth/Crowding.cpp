@@ -73,7 +73,7 @@ std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowth
   Capsules capsules = capsulesOf(fibres);
   const std::size_t inPlace = capsules.size();
   const SeedOptions seeds = seedOptions(fibres, options);
-  const std::vector<SectionShape> shapes = sectionShapes(fibres, seeds.grownFraction);
+  const std::vector<SectionShape> shapes = sectionShapes(fibres, seeds);
   if (fibres.domain.isPeriodic())
   {
     addImages(imagesWithin(fibres.domain, capsules, reachesOf(capsules, shapes, wished, bounds.thickening)), capsules);

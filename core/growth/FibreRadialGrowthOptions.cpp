@@ -42,12 +42,18 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
       .add("SurfaceRoughness", &Options::surfaceRoughness, limits::surfaceRoughness,
         "Unevenness of the fibres' calibre: the fraction of its radius by which a fibre may be thinner than its capsules before "
         "it grows, at random and smoothly along it. 0: the capsules themselves grow.")
+      .add("SeedDensity", &Options::seedDensity, limits::seedDensity,
+        "Random points per µm³ of its capsules from which a fibre grows, as in the paper: the fewer, the more uneven its "
+        "surface. "
+        "Cones join the points to the centre line, so that the fibre stays in one piece. SectionAxisRatio of bundles has no "
+        "effect on "
+        "it. 0: fibres grow from their whole capsules.")
+      .advise(" (0: capsules)")
       .add("Margin", &Options::margin, limits::imageMargin,
         "Width in µm by which the image extends beyond the domain on every side, rounded up to whole voxels.")
       .add("Seed", &Options::seed, limits::seed,
-        "Seed of the directions in which sections of fibres are elongated (SectionAxisRatio of bundles), and of the random "
-        "calibre "
-        "that SurfaceRoughness gives the fibres. The same seed gives the same image.");
+        "Seed of the directions in which sections of fibres are elongated (SectionAxisRatio of bundles), of the random calibre "
+        "that SurfaceRoughness gives the fibres, and of the points of SeedDensity. The same seed gives the same image.");
   return list;
 }
 
@@ -60,7 +66,7 @@ FibreRadialGrowthOptions forFibres(const Fibres& fibres, const FibreRadialGrowth
 {
   FibreRadialGrowthOptions own = options;
   const bool isAsked = options.targetFibreVolumeFraction >= 0.0 || options.growthIterations > 0;
-  if (isAsked || fibres.grownFraction > 0.0 || options.surfaceRoughness == 0.0)
+  if (isAsked || fibres.grownFraction > 0.0 || (options.surfaceRoughness == 0.0 && options.seedDensity == 0.0))
   {
     return own;
   }
@@ -97,7 +103,7 @@ double targetFraction(const Fibres& fibres, const FibreRadialGrowthOptions& opti
 
 SeedOptions seedOptions(const Fibres& fibres, const FibreRadialGrowthOptions& options)
 {
-  return { options.surfaceRoughness, options.seed, targetFraction(fibres, options) };
+  return { options.surfaceRoughness, options.seed, targetFraction(fibres, options), options.seedDensity };
 }
 
 } // namespace cactus

@@ -26,6 +26,8 @@ struct FibreRadialGrowthOptions
   double surfaceTolerance = 0.0075;
   /// How far, as a fraction of its local radius, a fibre may fall short of its capsules before it grows, in [0, 0.5].
   double surfaceRoughness = 0.0;
+  /// Random points per µm³ of the capsules from which fibres grow; 0: the capsules themselves.
+  double seedDensity = 0.0;
   /// Width by which the image extends beyond the domain on every side, rounded up to whole voxels.
   double margin = 0.0;
   std::uint64_t seed = 1;
@@ -41,7 +43,8 @@ void validate(const FibreRadialGrowthOptions& options);
 /// The options with a target for fibres that come from elsewhere, of which it is not known what they were made for: they keep the
 /// volume that they come with, unless a target or growth is asked for. Their roughness and the gap between neighbours are then
 /// made up for, as they are for bundles. Without a target where the fibres fill too little of the domain to be counted, and where
-/// SurfaceRoughness is 0, with which they are their capsules. Throws InvalidInput where they fill more than the domain holds.
+/// SurfaceRoughness and SeedDensity are 0, with which they are their capsules. Throws InvalidInput where they fill more than the
+/// domain holds.
 FibreRadialGrowthOptions forFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options);
 
 /// The fraction of the domain that these fibres are to be grown to; 0: they grow by `growthIterations`, as do fibres of which it

@@ -46,12 +46,12 @@ SolvedGrowth growthFor(
   const auto next = std::upper_bound(fibres.offsets.begin(), fibres.offsets.end(), point);
   const auto fibre = static_cast<std::size_t>(next - fibres.offsets.begin()) - 1;
   const SeedOptions seeds = seedOptions(fibres, options);
-  const double core = sectionShapes(fibres, seeds.grownFraction)[fibre].core();
+  const double core = sectionShapes(fibres, seeds)[fibre].core();
   if (growth <= -*thinnest * Calibre(seeds).smallestFraction() * core)
   {
     throw Infeasible(text("TargetFibreVolumeFraction ", target, " needs all fibres shrunk by ", -growth,
       " µm, which severs fibre ", fibres.fibreIds[fibre], " of radius ", *thinnest,
-      " µm: ask for more, choose a smaller SurfaceRoughness, or start from fewer fibres"));
+      " µm: ask for more, choose a smaller SurfaceRoughness, leave SeedDensity at 0, or start from fewer fibres"));
   }
   return { growth };
 }

@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Random.h"
 #include "growth/CubicSpline.h"
+#include "growth/SeedPoints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -87,14 +88,25 @@ SectionShape::SectionShape(double axisRatio, double gRatio, double grownFraction
   }
 }
 
-std::vector<SectionShape> sectionShapes(const Fibres& fibres, double grownFraction)
+SectionShape SectionShape::ofPoints(double core)
 {
+  SectionShape shape;
+  shape.Core = core;
+  return shape;
+}
+
+std::vector<SectionShape> sectionShapes(const Fibres& fibres, const SeedOptions& options)
+{
+  if (options.pointDensity > 0.0)
+  {
+    return std::vector<SectionShape>(fibres.size(), SectionShape::ofPoints(SeedPoints::core));
+  }
   std::vector<SectionShape> shapes;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     const double gRatio = fibres.columns.value(targetGRatioColumn.name, f);
     shapes.emplace_back(fibres.columns.value(targetAxisRatioColumn.name, f), std::isnan(gRatio) ? usualGRatio : gRatio,
-      grownFraction, fibres.targetRadii[f]);
+      options.grownFraction, fibres.targetRadii[f]);
   }
   return shapes;
 }

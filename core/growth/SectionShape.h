@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fibres/Fibres.h"
+#include "growth/Calibre.h"
 
 #include <Eigen/Core>
 
@@ -14,8 +15,7 @@ namespace cactus
 {
 
 /// How elongated the sections of a fibre's seed are: the union of three equal discs, one on the centre line and one on either
-/// side of it, of the area of the capsule's section. The paper's seeds are random points within the capsules ("FRG description"),
-/// from which sections grow that are not round either.
+/// side of it, of the area of the capsule's section. Of a seed of points (see SeedPoints) only its bounds are known.
 ///
 /// The discs overlap, and reach no farther from the centre line than `reach()` times the fibre's radius. On the centre line the
 /// seed field is at least `core()` times the radius: the disc there alone keeps a fibre in one piece that leads its neighbours on
@@ -34,21 +34,28 @@ public:
   /// them.
   SectionShape(double axisRatio, double gRatio, double grownFraction, double radius);
 
+  /// Returns the shape of a seed of points: within the capsule, with a chain of this core (a fraction of the radius) on the
+  /// centre line.
+  static SectionShape ofPoints(double core);
+
+  /// Tells whether the section has one disc on the centre line alone.
   bool isRound() const { return this->Elongation == 0.0; }
   /// Returns the largest distance of an outer disc's centre from the centre line. This and all below are fractions of the fibre's
   /// radius.
   double elongation() const { return this->Elongation; }
   double reach() const { return discRadius(this->Elongation) + this->Elongation; }
-  double core() const { return discRadius(this->Elongation); }
+  double core() const { return this->Core * discRadius(this->Elongation); }
   /// Returns the radius of discs of which the outer ones have this distance from the centre line.
   static double discRadius(double offset);
 
 private:
   double Elongation = 0.0;
+  double Core = 1.0;
 };
 
-/// Returns the shapes of all fibres: each has its TargetAxisRatio, if any, and the g-ratio of its TargetGRatio, or 0.7.
-std::vector<SectionShape> sectionShapes(const Fibres& fibres, double grownFraction);
+/// Returns the shapes of all fibres: each has its TargetAxisRatio, if any, and the g-ratio of its TargetGRatio, or 0.7; those of
+/// seeds of points if the options have any.
+std::vector<SectionShape> sectionShapes(const Fibres& fibres, const SeedOptions& options);
 
 /// The direction in which one fibre's sections are elongated, along the fibre: a smooth random function of the length, which
 /// depends only on seed, fibre id and length. Here and there it passes through a round section.

@@ -255,7 +255,7 @@ std::vector<double> factorsForTargetRadii(
   fillTarget(fibres, target * fibres.domain.volume(), aim);
   const std::vector<double> wished = aim.factors;
   const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
-  const std::vector<SectionShape> shapes = sectionShapes(fibres, target);
+  const std::vector<SectionShape> shapes = sectionShapes(fibres, seedOptions(fibres, options));
   // Thin fibres first: the limit of a fibre depends on the thinner ones.
   const std::vector<std::size_t> order = fromThinToThick(fibres);
   const double samples = std::max(fewestSamples, samplesPerFibre * static_cast<double>(fibres.size()));

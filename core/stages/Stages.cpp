@@ -350,7 +350,8 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .include(&Stage::surfaces, MyelinSurfaceOptions::properties()) // its Seed replaces the other one
       .at("Seed")
       .means("Seed of the directions in which sections of fibres are elongated (SectionAxisRatio of bundles), of the random "
-             "calibre that SurfaceRoughness gives the fibres, of their g-ratios if GRatioModel is Distributed, and of the sample "
+             "calibre that SurfaceRoughness gives the fibres, of the points of SeedDensity, of the g-ratios if GRatioModel is "
+             "Distributed, and of the sample "
              "if SampledFraction is below 1.")
       .add("FolderName", &Stage::folderName, folderMeaning)
       .use(PropertyUse::Run)

@@ -96,10 +96,10 @@ class Figure:
             sys.exit(f"figures: {refusal}")
 
     @contextlib.contextmanager
-    def substrate(self, name, side=None, **other):
-        """A Substrate by its name in examples/paper.py, with `other` values for its bundle, for as long as it is needed."""
+    def substrate(self, name, side=None, growth=None, **other):
+        """A Substrate by its name in examples/paper.py, with other values for its `growth` and its bundle, for as long as it is needed."""
         print(f"    {name}", flush=True)
-        made = Substrate(name, side or self.options.side, self.options, other)
+        made = Substrate(name, side or self.options.side, self.options, growth or {}, other)
         yield made
         made.close()
 
@@ -138,12 +138,12 @@ class Substrate:
     """A substrate of the paper: `fibres`, `outer` and `inner` as pipeline ports; `whole` = {quantity: value} and `fibre` = {quantity:
     values of all fibres}, both as SubstrateCertificate has them."""
 
-    def __init__(self, name, side, options, other):
+    def __init__(self, name, side, options, other_growth, other):
         bundle, growth, myelin = paper.properties(name, side, options.seed, options.fraction)
         initial = simple.BundleInitializer(**{**bundle, **other})
         optimiser = simple.CapsuleOptimizer(Input=initial)
         self.fibres = simple.OutputPort(optimiser, 0)
-        grown = simple.FibreRadialGrowth(Input=self.fibres, VoxelSize=options.voxel_size, **growth)
+        grown = simple.FibreRadialGrowth(Input=self.fibres, VoxelSize=options.voxel_size, **{**growth, **other_growth})
         surfaces = simple.MyelinSurface(Input=grown, ReleaseInput=1, **myelin)
         self.outer, self.inner = simple.OutputPort(surfaces, 0), simple.OutputPort(surfaces, 1)
         certificate = simple.SubstrateCertificate(Outer=self.outer)

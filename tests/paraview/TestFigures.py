@@ -21,7 +21,7 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 SCRIPT = os.path.join(ROOT, "tools", "scripts", "figures.py")
 FOLDER = os.path.join(ROOT, "examples", "figures")
-NAMES = ["pipeline", "capsules", "dispersion", "crossings", "histology", "sizes", "single_fibres"]
+NAMES = ["pipeline", "capsules", "dispersion", "crossings", "histology", "sizes", "seeds", "single_fibres"]
 sys.path.append(os.path.join(ROOT, "examples"))
 from picture import section_view  # noqa: E402  (which is in another folder)
 
@@ -100,6 +100,16 @@ class Figures(CactusTestCase):
         for row in self.table("single_fibres"):
             for kind in ("outer", "inner"):
                 self.assertAlmostEqual(float(row[f"{kind}_diameter_um"]), float(row[f"target_{kind}_diameter_um"]), delta=0.1)
+
+    def test_seeds(self):
+        """The fewer the seed points, the less round the fibres, of the same thickness."""
+        self.make("seeds", "--side", "7")
+        rows = self.table("seeds")
+        self.assertEqual([row["certified"] for row in rows], ["yes"] * 3)
+        circularity, radius = ([float(row[name]) for row in rows] for name in ("circularity", "mean_radius_um"))
+        self.assertGreater(circularity[0], circularity[1] + 0.005)
+        self.assertGreater(circularity[1], circularity[2] + 0.005)
+        self.assertLess(max(radius) - min(radius), 0.03 * radius[0])
 
     def test_what_is_not_ours_stays(self):
         script, words = os.path.join(FOLDER, "capsules.py"), ("--side", "5", "--output", self.folder)

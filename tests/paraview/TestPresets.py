@@ -203,7 +203,7 @@ class Presets(CactusTestCase):
     def test_axons_are_as_thick_as_published(self):
         """Axons of the finished surfaces, by a preset with a g-ratio and by that with a relation for the myelin."""
         for preset, mean, deviation in (("Human genu (Aboitiz 1992)", 0.48, 0.27), ("Mouse genu (Lee 2019)", 0.51, 0.145)):
-            initial, growth, myelin = self.chain(Preset=preset, Side=14)
+            initial, growth, myelin = self.chain(Preset=preset, Side=11)
             self.assertEqual([one.Preset for one in (initial, growth, myelin)], [preset] * 3)
             statistics = simple.SubstrateStatistics(Fibres=simple.OutputPort(myelin, 0))
             column = fetch(statistics, 1).GetColumnByName("InnerRadius_um")

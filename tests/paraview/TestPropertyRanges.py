@@ -73,15 +73,15 @@ class PropertyRanges(CactusTestCase):
         checked = 0
         for element in (element for group, element in proxies() if group in ("sources", "filters")):
             for one in numbers(element):
+                proxy = self.make(element, one)
                 for value in bad_values(one):
                     with self.subTest(proxy=element.get("name"), property=one.get("name"), value=value):
-                        proxy = self.make(element, one)
                         vtkSMPropertyHelper(proxy.SMProxy, one.get("name")).Set(value)
                         proxy.SMProxy.UpdateVTKObjects()
                         with self.assertError(one.get("name")):
                             proxy.UpdatePipeline()
-                        simple.Delete(proxy)
                         checked += 1
+                simple.Delete(proxy)
         self.assertGreater(checked, 20)
 
 

@@ -57,6 +57,7 @@ NAMES = {
         "GrowthIterations": 0,
         "MinimumGap": 0.02,
         "SurfaceRoughness": 0,
+        "SeedDensity": 0,
         "Seed": 1,
         "NumberOfThreads": 0,
     },

@@ -135,6 +135,7 @@ def parameters(seed, index):
         "MinimumGap": gap,
         "SurfaceTolerance": tolerance,
         "SurfaceRoughness": draw.seldom(0.2, 0.0, draw.uniform(0, 0.5)),
+        "SeedDensity": draw.seldom(0.85, 0.0, draw.log(0.5, 50)),
         "Margin": draw.seldom(0.7, 0.0, draw.log(0.02, 1)),
         "Seed": draw.whole(0, 2**31 - 1),
         "NumberOfThreads": draw.whole(0, 3),

@@ -25,7 +25,7 @@ def titles():
         if ending == ".py" and name != "paper_figure":
             with open(os.path.join(FOLDER, script), encoding="utf-8") as file:
                 found[name] = ast.get_docstring(ast.parse(file.read())).split("\n", maxsplit=1)[0]
-    return dict(sorted(found.items(), key=lambda item: int(re.search(r"Figure (\d+)", item[1]).group(1))))
+    return dict(sorted(found.items(), key=lambda item: (int(re.search(r"Figure (\d+)", item[1]).group(1)), item[0])))
 
 
 def arguments(known):

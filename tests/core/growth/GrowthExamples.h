@@ -5,6 +5,10 @@
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace cactus_testing
 {
 
@@ -20,6 +24,45 @@ inline cactus::LabelImage grown(const cactus::Fibres& fibres, const cactus::Fibr
   cactus::Context context;
   context.threads = threads;
   return growFibres(fibres, options, growthFor(fibres, options, context).growth, growthGrid(fibres.domain, options), context);
+}
+
+/// Returns how many pieces connected by faces a fibre has in an image.
+inline int piecesOf(const cactus::LabelImage& image, std::int32_t fibre)
+{
+  const auto& count = image.grid.count;
+  std::vector<bool> seen(image.fibreId.size(), false);
+  int pieces = 0;
+  for (std::size_t start = 0; start < seen.size(); ++start)
+  {
+    if (image.fibreId[start] != fibre || seen[start])
+    {
+      continue;
+    }
+    ++pieces;
+    std::vector<std::size_t> open{ start };
+    seen[start] = true;
+    while (!open.empty())
+    {
+      const std::size_t at = open.back();
+      open.pop_back();
+      const std::size_t strides[3] = { 1, std::size_t(count[0]), std::size_t(count[0]) * std::size_t(count[1]) };
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const std::size_t place = at / strides[axis] % std::size_t(count[axis]);
+        for (const int side : { -1, 1 })
+        {
+          const std::size_t next = side < 0 ? at - strides[axis] : at + strides[axis];
+          const bool isInside = side < 0 ? place > 0 : place + 1 < std::size_t(count[axis]);
+          if (isInside && image.fibreId[next] == fibre && !seen[next])
+          {
+            seen[next] = true;
+            open.push_back(next);
+          }
+        }
+      }
+    }
+  }
+  return pieces;
 }
 
 } // namespace cactus_testing

@@ -18,6 +18,7 @@
 using namespace cactus;
 using cactus_testing::emptyFibres;
 using cactus_testing::grown;
+using cactus_testing::piecesOf;
 
 namespace
 {
@@ -76,45 +77,6 @@ double axisRatioInLayer(const LabelImage& image, int layer, std::int32_t fibre)
   const double half = 0.5 * covariance.trace();
   const double difference = std::sqrt(std::max(0.0, half * half - covariance.determinant()));
   return std::sqrt((half - difference) / (half + difference));
-}
-
-/// Returns how many pieces connected by faces a fibre has in an image.
-int piecesOf(const LabelImage& image, std::int32_t fibre)
-{
-  const auto& count = image.grid.count;
-  std::vector<bool> seen(image.fibreId.size(), false);
-  int pieces = 0;
-  for (std::size_t start = 0; start < seen.size(); ++start)
-  {
-    if (image.fibreId[start] != fibre || seen[start])
-    {
-      continue;
-    }
-    ++pieces;
-    std::vector<std::size_t> open{ start };
-    seen[start] = true;
-    while (!open.empty())
-    {
-      const std::size_t at = open.back();
-      open.pop_back();
-      const std::size_t strides[3] = { 1, std::size_t(count[0]), std::size_t(count[0]) * std::size_t(count[1]) };
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        const std::size_t place = at / strides[axis] % std::size_t(count[axis]);
-        for (const int side : { -1, 1 })
-        {
-          const std::size_t next = side < 0 ? at - strides[axis] : at + strides[axis];
-          const bool isInside = side < 0 ? place > 0 : place + 1 < std::size_t(count[axis]);
-          if (isInside && image.fibreId[next] == fibre && !seen[next])
-          {
-            seen[next] = true;
-            open.push_back(next);
-          }
-        }
-      }
-    }
-  }
-  return pieces;
 }
 
 constexpr double unset = std::numeric_limits<double>::quiet_NaN();
@@ -210,7 +172,7 @@ TEST(SectionShape, BoundsTheSeedField)
   const Eigen::AlignedBox3d region(fibres.domain.lower, fibres.domain.upper);
   Fibres plain = fibres;
   plain.columns = ColumnTable();
-  const SectionShape shape = sectionShapes(fibres, 0.0)[0];
+  const SectionShape shape = sectionShapes(fibres, SeedOptions())[0];
   ASSERT_FALSE(shape.isRound());
   const CapsuleField field(fibres, { 0.0, 1 }, region, 1e3);
   const CapsuleField round(plain, { 0.0, 1 }, region, 1e3);

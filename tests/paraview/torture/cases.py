@@ -64,7 +64,7 @@ LARGE = {
 # What a substrate of 6 µm must stand within the time limit although it is much work.
 COSTLY = {
     "MyelinSurface": [{"SmoothingIterations": 100}, {"SmoothingIterations": 40, "DecimationError": 0.0}, {"GRatio": 0.99}, {"GRatio": 0.05}],
-    "FibreRadialGrowth": [{"SurfaceRoughness": 0.5}, {"TargetFibreVolumeFraction": 0.9}, {"TargetFibreVolumeFraction": 0.999}, {"Margin": 5}],
+    "FibreRadialGrowth": [{"SurfaceRoughness": 0.5}, {"SeedDensity": 1000.0}, {"TargetFibreVolumeFraction": 0.9}, {"TargetFibreVolumeFraction": 0.999}, {"Margin": 5}],
     "CapsuleOptimizer": [{"OverlapTolerance": 0.0}, {"StepSize": 10}, {"MaximumIterations": 2**31 - 1, "OverlapTolerance": 0}],
     "SubstrateStatistics": [{"CutSpacing": 0.001}],
     "SubstrateCertificate": [{"CutSpacing": 0.001}, {"MinimumGap": 3}],
