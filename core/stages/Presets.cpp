@@ -58,11 +58,11 @@ Preset callosum(const std::string& state, const std::string& meaning, const std:
     std::move(values) };
 }
 
-/// Living tissue between association cortices, of whose axons about three in ten have no myelin. Other values than the defaults
+/// Living tissue between association cortices, of whose axons about a quarter has no myelin. Other values than the defaults
 /// let them end as thin as they are drawn (docs/filters/BundleInitializer.md).
 Preset callosumWithBareAxons()
 {
-  return callosum("with unmyelinated axons", "which fills 80 %, three in ten axons without myelin, in clusters",
+  return callosum("with unmyelinated axons", "which fills 80 %, about a quarter of its axons without myelin, in clusters",
     "axons without myelin: 6 to 30 % by region in the macaque, LaMantia and Rakic 1990 (J Comp Neurol 291:520), mostly below "
     "0.25 "
     "µm across, Swadlow et al. 1980 (Arch Neurol 37:114)",

@@ -224,6 +224,17 @@ class Presets(CactusTestCase):
             self.assertEqual(whole["MinimumGap_um"], gap)
 
 
+    def test_a_quarter_of_the_axons_has_no_myelin(self):
+        _, _, myelin = self.chain(Preset="Corpus callosum, with unmyelinated axons", Side=10)
+        statistics = simple.SubstrateStatistics(Fibres=simple.OutputPort(myelin, 0))
+        whole, fibres = fetch(statistics, 0), fetch(statistics, 1)
+        self.assertAlmostEqual(whole.GetColumnByName("UnmyelinatedFraction").GetValue(0), 0.008, delta=0.003)
+        self.assertAlmostEqual(whole.GetColumnByName("FVF").GetValue(0), 0.8, delta=0.005)
+        ratios = fibres.GetColumnByName("GRatio")
+        bare = sum(ratios.GetValue(i) == 1 for i in range(fibres.GetNumberOfRows()))
+        self.assertAlmostEqual(bare / fibres.GetNumberOfRows(), 0.25, delta=0.1)
+
+
 class Tutorial(CactusTestCase):
     usual = None
 
