@@ -51,6 +51,7 @@ public:
   CACTUS_NUMBER_PROPERTY(NodeConstriction)
   CACTUS_WHOLE_PROPERTY(NodeSeed)
   CACTUS_NUMBER_PROPERTY(InternodeLoss)
+  CACTUS_WHOLE_PROPERTY(InternodeOrder)
   CACTUS_NUMBER_PROPERTY(RemyelinatedFraction)
   CACTUS_NUMBER_PROPERTY(RemyelinatedGRatio)
   CACTUS_WHOLE_PROPERTY(SmoothingIterations)

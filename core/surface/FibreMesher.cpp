@@ -125,6 +125,7 @@ void FibreMesher::findLines()
       " µm and a ParanodeLength of ", this->Options.paranodeLength, " µm: choose a VoxelSize of at most ", voxelInNode * shortest,
       " in FibreRadialGrowth, or longer ones"));
   }
+  this->InternodeLosses = internodeLosses(*this->Facts.centreLines, this->Options);
   const std::vector<int>& ids = this->Facts.centreLines->fibreIds;
   for (std::size_t f = 0; f < ids.size(); ++f)
   {
@@ -164,7 +165,8 @@ std::unique_ptr<MyelinProfile> FibreMesher::profileOf(const SmoothedField& field
   {
     return nullptr;
   }
-  auto profile = std::make_unique<MyelinProfile>(field, *this->Facts.centreLines, line->second, this->Options);
+  auto profile = std::make_unique<MyelinProfile>(
+    field, *this->Facts.centreLines, line->second, this->Options, this->InternodeLosses[line->second]);
   return this->Options.myelinFollowsAxon || profile->lacksMyelin() ? std::move(profile) : nullptr;
 }
 

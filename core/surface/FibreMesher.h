@@ -113,6 +113,7 @@ private:
   FibrePlaces Places;
   std::optional<ThinFibres> Thin;            ///< if surfaces are smoothed
   std::map<std::int32_t, std::size_t> Lines; ///< numbers of the fibres among those with centre lines, if surfaces depend on these
+  std::vector<double> InternodeLosses;       ///< by these numbers, see internodeLosses()
   double Spacing;
   FibreContours Contours;
   SurfaceFinishing Finishing;

@@ -8,7 +8,7 @@ namespace cactus
 {
 
 MyelinProfile::MyelinProfile(
-  const SmoothedField& field, const Fibres& fibres, std::size_t fibre, const MyelinSurfaceOptions& options)
+  const SmoothedField& field, const Fibres& fibres, std::size_t fibre, const MyelinSurfaceOptions& options, double internodeLoss)
   : Field(field)
   , Options(options)
   , Line(fibres, fibre)
@@ -16,7 +16,7 @@ MyelinProfile::MyelinProfile(
 {
   if (options.hasNodes())
   {
-    this->Nodes.emplace(options, fibres.fibreIds[fibre], 2.0 * fibres.targetRadii[fibre], this->Line.period());
+    this->Nodes.emplace(options, fibres.fibreIds[fibre], 2.0 * fibres.targetRadii[fibre], internodeLoss, this->Line.period());
     if (!this->Nodes->reachInto(this->Depths.first(), this->Depths.last()))
     {
       this->Nodes.reset();

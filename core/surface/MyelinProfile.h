@@ -23,8 +23,10 @@ namespace cactus
 class MyelinProfile
 {
 public:
-  /// The fibre is number `fibre` of those that have grown. The field has to outlive the object.
-  MyelinProfile(const SmoothedField& field, const Fibres& fibres, std::size_t fibre, const MyelinSurfaceOptions& options);
+  /// The fibre is number `fibre` of those that have grown, and has lost this fraction of its internodes. The field has to outlive
+  /// the object.
+  MyelinProfile(const SmoothedField& field, const Fibres& fibres, std::size_t fibre, const MyelinSurfaceOptions& options,
+    double internodeLoss);
 
   MyelinProfile(const MyelinProfile&) = delete;
   MyelinProfile& operator=(const MyelinProfile&) = delete;

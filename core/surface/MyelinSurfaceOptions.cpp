@@ -71,12 +71,16 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "the same nodes.")
       .whereGiven("NodeLength")
       .add("InternodeLoss", &Options::internodeLoss, limits::part,
-        "Fraction of the internodes that have lost their myelin in a lesion, each drawn at random. There the fibre's outer "
-        "surface "
-        "comes down to the axon as in a node, and the axon stays as it was. A larger fraction takes the same internodes and "
-        "more. "
-        "For whole fibres without myelin, see MyelinLoss of Lesion.")
+        "Fraction of the internodes that have lost their myelin in a lesion. There the fibre's outer surface comes down to the "
+        "axon "
+        "as in a node, and the axon stays as it was. A larger fraction takes the same internodes and more. For whole fibres "
+        "without "
+        "myelin, see MyelinLoss of Lesion.")
       .whereGiven("NodeLength")
+      .add("InternodeOrder", &Options::internodeOrder, { "Random", "Thinnest first" },
+        "The internodes that lose their myelin first: any, or those of thin fibres, all of a fibre's before those of a thicker "
+        "one.")
+      .whereGiven("InternodeLoss")
       .add("RemyelinatedFraction", &Options::remyelinatedFraction, limits::part,
         "Fraction of the lost internodes whose myelin has come back, thinner than it was.")
       .whereGiven("InternodeLoss")

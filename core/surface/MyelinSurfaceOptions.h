@@ -16,6 +16,13 @@ namespace cactus
 struct Fibres;
 struct FibreRadialGrowthOptions;
 
+/// Which internodes lose their myelin.
+enum class InternodeOrder
+{
+  Random,
+  ThinnestFirst ///< all of thin fibres before any of thicker ones
+};
+
 /// Least distance (µm) between surfaces of two fibres, and between inner and outer surfaces, whatever the options: a simulator's
 /// walls have that thickness (MC/DC: 1 nm).
 constexpr double leastSeparation = 0.001;
@@ -43,6 +50,7 @@ struct MyelinSurfaceOptions
   double nodeConstriction = 0.7;
   /// Fraction of the internodes that a lesion has taken the myelin of, 0 to 1.
   double internodeLoss = 0.0;
+  InternodeOrder internodeOrder = InternodeOrder::Random;
   /// Fraction of these whose myelin has come back, 0 to 1.
   double remyelinatedFraction = 0.0;
   /// The g-ratio there, 0.3 to 0.99; where it is below that of whole internodes, these are as they were.

@@ -2,6 +2,8 @@
 #include "surface/NodesOfRanvier.h"
 
 #include "base/Random.h"
+#include "fibres/FibreShape.h"
+#include "fibres/SelectFibres.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,19 +17,54 @@ namespace
 /// Shortest internode, in paranodes: half of it has all of its myelin.
 constexpr double leastParanodes = 4.0;
 
+/// Returns the distance (µm) from the middle of a node to that of the next, of a fibre of this outer diameter (µm).
+double spacingOf(const MyelinSurfaceOptions& options, double diameter)
+{
+  return options.nodeLength + std::max(options.internodeFactor * diameter, leastParanodes * options.paranodeLength);
+}
+
 } // namespace
 
-NodesOfRanvier::NodesOfRanvier(const MyelinSurfaceOptions& options, std::int32_t fibreId, double diameter, double period)
+std::vector<double> internodeLosses(const Fibres& fibres, const MyelinSurfaceOptions& options)
+{
+  std::vector<double> losses(fibres.size(), options.internodeLoss);
+  if (options.internodeOrder == InternodeOrder::Random)
+  {
+    return losses;
+  }
+  std::vector<double> internodes(fibres.size(), 0.0);
+  double left = 0.0; // to lose
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    if (fibres.columns.value(targetGRatioColumn.name, f) != bareGRatio)
+    {
+      internodes[f] = arcLengths(fibres, f).back() / spacingOf(options, 2.0 * fibres.targetRadii[f]);
+      left += options.internodeLoss * internodes[f];
+    }
+  }
+  std::vector<std::size_t> order = orderById(fibres);
+  std::stable_sort(order.begin(), order.end(),
+    [&](std::size_t one, std::size_t other) { return fibres.targetRadii[one] < fibres.targetRadii[other]; });
+  for (const std::size_t f : order)
+  {
+    losses[f] = internodes[f] > 0.0 ? std::min(1.0, left / internodes[f]) : 0.0;
+    left = std::max(0.0, left - internodes[f]);
+  }
+  return losses;
+}
+
+NodesOfRanvier::NodesOfRanvier(
+  const MyelinSurfaceOptions& options, std::int32_t fibreId, double diameter, double loss, double period)
   : Seed(options.nodeSeed)
   , FibreId(static_cast<std::uint64_t>(fibreId))
-  , Loss(options.internodeLoss)
+  , Loss(loss)
   , Remyelinated(options.remyelinatedFraction)
   , HalfNode(0.5 * options.nodeLength)
   , Paranode(options.paranodeLength)
 {
   RandomEngine engine = randomStream(this->Seed, RandomStage::Nodes, this->FibreId);
   const double phase = uniform(engine);
-  this->Spacing = options.nodeLength + std::max(options.internodeFactor * diameter, leastParanodes * options.paranodeLength);
+  this->Spacing = spacingOf(options, diameter);
   if (period > 0.0)
   {
     this->PerPeriod = std::floor(period / this->Spacing + uniform(engine));

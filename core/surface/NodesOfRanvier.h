@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "fibres/Fibres.h"
 #include "surface/MyelinSurfaceOptions.h"
 
 #include <cstdint>
@@ -17,13 +18,17 @@ enum class Internode
   Remyelinated ///< it has come back, thinner than it was
 };
 
+/// Returns the fraction of each fibre's internodes that have lost their myelin, so that of all together it is the options'.
+/// Fibres without myelin have none to lose.
+std::vector<double> internodeLosses(const Fibres& fibres, const MyelinSurfaceOptions& options);
+
 /// The nodes of Ranvier of one fibre, as places along its centre line: at equal distances, from a random first one on.
 class NodesOfRanvier
 {
 public:
-  /// The fibre's outer diameter (µm) determines its internodes. A line that repeats after `period` µm (0: it does not) has a
-  /// whole number of nodes in a period, on average as many as other lines.
-  NodesOfRanvier(const MyelinSurfaceOptions& options, std::int32_t fibreId, double diameter, double period);
+  /// The fibre's outer diameter (µm) determines its internodes, of which a fraction `loss` has no myelin. A line that repeats
+  /// after `period` µm (0: it does not) has a whole number of nodes in a period, on average as many as other lines.
+  NodesOfRanvier(const MyelinSurfaceOptions& options, std::int32_t fibreId, double diameter, double loss, double period);
 
   /// Returns the distance (µm) from the middle of a node to that of the next; 0 if there is none.
   double spacing() const { return this->Spacing; }

@@ -20,7 +20,7 @@ OTHER = {**BUNDLE, "RadiusDistribution": "Lognormal", "Seed": 2}
 TABLE = {**BUNDLE, "RadiusDistribution": "Table", "DispersionModel": "Watson"}
 GROWTH = {"VoxelSize": 0.2, "GrowthIterations": 1, "Seed": 3}
 NODES = {"NodeLength": 0.8, "InternodeFactor": 1, "ParanodeLength": 0.5, "NodeConstriction": 0.8, "NodeSeed": 5,
-         "InternodeLoss": 0.6, "RemyelinatedFraction": 0.5, "RemyelinatedGRatio": 0.9}
+         "InternodeLoss": 0.6, "InternodeOrder": "Thinnest first", "RemyelinatedFraction": 0.5, "RemyelinatedGRatio": 0.9}
 SURFACES = {"GRatioModel": "Distributed", "GRatioDeviation": 0.05, "Seed": 9, "MyelinFollowsAxon": True, **NODES}
 
 

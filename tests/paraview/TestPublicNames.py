@@ -62,7 +62,7 @@ NAMES = {
         "NumberOfThreads": 0,
     },
     "MyelinSurface": {"MyelinFollowsAxon": 0, "NodeLength": 0, "InternodeFactor": 100, "ParanodeLength": 2, "NodeConstriction": 0.7,
-                      "InternodeLoss": 0, "RemyelinatedFraction": 0, "RemyelinatedGRatio": 0.85},
+                      "InternodeLoss": 0, "InternodeOrder": "Random", "RemyelinatedFraction": 0, "RemyelinatedGRatio": 0.85},
     "SubstrateCertificate": {"MinimumGap": -1, "CutSpacing": 1.0},
     "SubstrateStatistics": {},
     "StrandReader": {"FileName": None},

@@ -7,7 +7,8 @@
 Inner surfaces are cut every 0.25 µm. From differences of ln r at distances along an axon (the variogram, which needs no mean and so is not biased for
 short axons): its deviation, and the distance at which the correlation falls to one half. Beside them: the diffusivity along axons, 1/<1/α> of those
 that run through most of the domain; the Kolmogorov-Smirnov distance of outer radii to their targets and the ratio of their means; fibres whose myelin
-is not as asked; and the time of the four stages.
+is not as asked; the part of the length where the axon's radius is below
+a voxel, as asked and on final surfaces; and the time of the four stages.
 """
 
 import argparse
@@ -60,6 +61,19 @@ def along_fibres(data, side):
     return lines
 
 
+def necks(data, side, voxel, g_ratio=0.7):
+    """The part of the fibres' length in the domain along which the inner radius that is asked for is below a voxel."""
+    targets = vtk_to_numpy(data.GetCellData().GetArray("TargetRadius"))
+    thin = total = 0
+    for line, target in zip(along_fibres(data, side), targets):
+        outer = np.exp(line[np.isfinite(line)])
+        if len(outer):
+            # TargetRadius is the root mean square of the outer radius, and the myelin is as thick along the whole fibre.
+            inner = outer * target / np.sqrt((outer**2).mean()) - (1 - g_ratio) * target
+            thin, total = thin + (inner < voxel).sum(), total + len(outer)
+    return thin / total
+
+
 def columns(table, *names):
     return [vtk_to_numpy(table.GetColumnByName(name)) for name in names]
 
@@ -78,8 +92,8 @@ def main():
     parser.add_argument("--beads", type=float, nargs="+", default=[], metavar="AMPLITUDE", help="CalibreModel Beads, in place of --variations")
     parser.add_argument("--voxel", type=float, default=0.1)
     options = parser.parse_args()
-    print("| fraction | asked | seed | outer ln r before, after | inner ln r | half at (µm) | 1/<1/α> | Γ0 (µm) | beads: amplitude, spacing (µm) | FVF | radii: KS, mean | iterations, pairs | not as asked | s |")
-    print("|---" * 14 + "|")
+    print("| fraction | asked | seed | outer ln r before, after | inner ln r | half at (µm) | 1/<1/α> | Γ0 (µm) | beads: amplitude, spacing (µm) | FVF | necks below a voxel: asked, reached | radii: KS, mean | iterations, pairs | not as asked | s |")
+    print("|---" * 15 + "|")
     for fraction in options.fractions:
         for variation in options.beads or options.variations:
             asked = {"CalibreModel": "Beads", "BeadAmplitude": variation} if options.beads else {"CalibreVariation": variation}
@@ -124,6 +138,7 @@ def main():
                     f"{value('MeanAxonAreaFluctuation_um'):.2f}",
                     f"{value('MeanBeadAmplitude'):.2f}, {value('MeanBeadSpacing_um'):.1f}",
                     f"{value('FVF'):.4f}",
+                    f"{100 * necks(servermanager.Fetch(before), options.side, options.voxel):.2f} %, {100 * (inner[np.isfinite(inner)] < 2 * options.voxel).mean():.2f} %",
                     f"{distance(measured[whole], targets[whole]):.3f}, {value('MeanOuterRadius_um') / value('MeanTargetRadius_um'):.3f}",
                     f"{rows}, {pairs:g}",
                     f"{(myelin[np.isin(made, long)] > 0).sum()} of {len(long)}",

@@ -166,7 +166,7 @@ TEST(FibreLine, FindsTheNearestImage)
 TEST(NodesOfRanvier, LieAtEqualDistances)
 {
   MyelinSurfaceOptions options = withNodes(30.0);
-  const NodesOfRanvier nodes(options, 7, 0.5, 0.0);
+  const NodesOfRanvier nodes(options, 7, 0.5, options.internodeLoss, 0.0);
   EXPECT_NEAR(nodes.spacing(), 16.0, 1e-12);
   const std::vector<double> middles = nodes.between(0.0, 160.0);
   ASSERT_EQ(middles.size(), 10u);
@@ -180,11 +180,43 @@ TEST(NodesOfRanvier, LieAtEqualDistances)
   }
   EXPECT_TRUE(nodes.reachInto(middles[2] + 1.4, middles[2] + 2.0));
   EXPECT_FALSE(nodes.reachInto(middles[2] + 1.6, middles[2] + 2.0));
-  EXPECT_EQ(NodesOfRanvier(options, 7, 0.5, 0.0).between(0.0, 160.0), middles);
-  EXPECT_NE(NodesOfRanvier(options, 8, 0.5, 0.0).between(0.0, 160.0), middles);
+  EXPECT_EQ(NodesOfRanvier(options, 7, 0.5, options.internodeLoss, 0.0).between(0.0, 160.0), middles);
+  EXPECT_NE(NodesOfRanvier(options, 8, 0.5, options.internodeLoss, 0.0).between(0.0, 160.0), middles);
   options.nodeSeed = 2;
-  EXPECT_NE(NodesOfRanvier(options, 7, 0.5, 0.0).between(0.0, 160.0), middles);
-  EXPECT_NEAR(NodesOfRanvier(options, 7, 0.01, 0.0).spacing(), 5.0, 1e-12) << "an internode of four paranodes at least";
+  EXPECT_NE(NodesOfRanvier(options, 7, 0.5, options.internodeLoss, 0.0).between(0.0, 160.0), middles);
+  EXPECT_NEAR(NodesOfRanvier(options, 7, 0.01, options.internodeLoss, 0.0).spacing(), 5.0, 1e-12)
+    << "an internode of four paranodes at least";
+}
+
+// Guarantee: with Thinnest first all internodes of thin fibres are taken before any of thicker ones, in all as many as asked for.
+TEST(NodesOfRanvier, ALesionTakesThoseOfThinFibresFirst)
+{
+  Fibres fibres;
+  fibres.domain = Domain::cube(40.0);
+  for (const auto& [id, radius] : { std::pair(4, 0.6), std::pair(2, 0.3), std::pair(9, 0.4), std::pair(1, 0.2) })
+  {
+    fibres.addFibre(id, 1, radius);
+    fibres.addPoint({ 0.0, 0.0, -20.0 }, radius);
+    fibres.addPoint({ 0.0, 0.0, 20.0 }, radius);
+  }
+  fibres.columns.set(targetGRatioColumn.name, 3, bareGRatio);
+  MyelinSurfaceOptions options = withNodes(30.0);
+  const auto countOf = [&](std::size_t f) { return 40.0 / (1.0 + 60.0 * fibres.targetRadii[f]); };
+  const double all = countOf(0) + countOf(1) + countOf(2);
+  options.internodeLoss = 0.6;
+  EXPECT_EQ(internodeLosses(fibres, options), std::vector<double>(4, 0.6));
+  options.internodeOrder = InternodeOrder::ThinnestFirst;
+  const std::vector<double> losses = internodeLosses(fibres, options);
+  EXPECT_EQ(losses[1], 1.0);
+  EXPECT_GT(losses[2], 0.0);
+  EXPECT_LT(losses[2], 1.0);
+  EXPECT_EQ(losses[0], 0.0);
+  EXPECT_EQ(losses[3], 0.0) << "it has no myelin";
+  EXPECT_NEAR(losses[1] * countOf(1) + losses[2] * countOf(2), 0.6 * all, 1e-9 * all);
+  options.internodeLoss = 1.0;
+  const std::vector<double> most = internodeLosses(fibres, options);
+  EXPECT_NEAR(most[0], 1.0, 1e-12);
+  EXPECT_EQ(most[3], 0.0);
 }
 
 // On average as many as in fibres that do not repeat.
@@ -195,7 +227,7 @@ TEST(NodesOfRanvier, AWholeNumberFitsAPeriod)
   const int fibres = 2000;
   for (int id = 1; id <= fibres; ++id)
   {
-    const NodesOfRanvier nodes(options, id, 0.5, 10.0);
+    const NodesOfRanvier nodes(options, id, 0.5, options.internodeLoss, 10.0);
     const double here = nodes.spacing() > 0.0 ? 10.0 / nodes.spacing() : 0.0;
     EXPECT_EQ(here, std::round(here));
     EXPECT_EQ(nodes.between(0.3, 10.3 - 1e-9).size(), std::size_t(here));
@@ -214,7 +246,7 @@ TEST(NodesOfRanvier, ALesionTakesInternodesAtRandom)
     std::vector<Internode> states;
     for (int id = 1; id <= 100; ++id)
     {
-      const NodesOfRanvier nodes(options, id, 0.5, period);
+      const NodesOfRanvier nodes(options, id, 0.5, options.internodeLoss, period);
       for (const double middle : nodes.between(-400.0, 400.0))
       {
         states.push_back(nodes.internodeAt(middle + 0.01));
@@ -296,7 +328,7 @@ TEST(MyelinProfile, AFibreComesDownToItsAxonInNodes)
       const auto pairs = grown.surfaces(options);
       expectSound(pairs, grown.fibres->domain, grown.growth.minimumGap);
       const FibreSurfacePair& pair = pairs[0];
-      const NodesOfRanvier nodes(options, 1, 2.0 * radius, 0.0);
+      const NodesOfRanvier nodes(options, 1, 2.0 * radius, options.internodeLoss, 0.0);
       EXPECT_EQ(pair.nodes, int(nodes.between(1.0, side + 1.0).size())); // its line begins 1 µm outside
       EXPECT_GE(pair.nodes, 2);
       EXPECT_NEAR(pair.internodeLength, 4.8, 1e-9); // four diameters
@@ -355,7 +387,7 @@ TEST(MyelinProfile, MyelinIsThinnerWhereALesionTookIt)
       EXPECT_TRUE(pair.inner.points == healthy[0].inner.points && pair.inner.triangles == healthy[0].inner.triangles);
       EXPECT_GT(pair.lostMyelin(), healthy[0].lostMyelin());
     }
-    const NodesOfRanvier nodes(options, 1, 2.0 * radius, 0.0);
+    const NodesOfRanvier nodes(options, 1, 2.0 * radius, options.internodeLoss, 0.0);
     const std::vector<double> outer = radiiOf(*grown.fibres, pair.outer, spacing);
     for (std::size_t i = 0; i < outer.size(); ++i)
     {
