@@ -12,6 +12,7 @@
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Numbers.h"
+#include "fibres/FibreShape.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
 #include "growth/TargetRadii.h"

@@ -120,6 +120,18 @@ std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre)
   return lengths;
 }
 
+double lengthInDomain(const Fibres& fibres, std::size_t fibre)
+{
+  double length = 0.0;
+  const Domain domain = fibres.domain.unrolled();
+  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
+  {
+    const auto [from, to] = domain.clip(fibres.points[i], fibres.points[i + 1]);
+    length += std::max(0.0, to - from) * (fibres.points[i + 1] - fibres.points[i]).norm();
+  }
+  return length;
+}
+
 std::vector<Eigen::Vector3d> unitTangents(const Fibres& fibres, std::size_t fibre)
 {
   std::vector<Eigen::Vector3d> tangents(fibres.pointCount(fibre), Eigen::Vector3d::Zero());

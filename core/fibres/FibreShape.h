@@ -33,6 +33,9 @@ double radiusDistance(const Fibres& a, const Fibres& b);
 /// Returns the length (µm) of a fibre's centre line up to each of its control points.
 std::vector<double> arcLengths(const Fibres& fibres, std::size_t fibre);
 
+/// Returns the length (µm) of fibre number `fibre`'s centre line inside the domain.
+double lengthInDomain(const Fibres& fibres, std::size_t fibre);
+
 /// Returns the unit vector along a fibre at each of its control points, halfway between those of the segments there; where the
 /// line turns back on itself, that of the next segment.
 std::vector<Eigen::Vector3d> unitTangents(const Fibres& fibres, std::size_t fibre);

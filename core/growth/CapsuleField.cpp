@@ -99,9 +99,9 @@ double CapsuleField::length(int rank, Eigen::Vector3d& middle) const
   double length = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   const auto r = std::size_t(rank);
-  for (std::size_t p = this->Seeds.pieceOffsets[r]; p < this->Seeds.pieceOffsets[r + 1]; ++p)
+  for (std::size_t n = 0; n < this->Seeds.chainPieces[r]; ++n)
   {
-    const Cone& cone = this->Seeds.pieces[p].cone;
+    const Cone& cone = this->Seeds.pieces[this->Seeds.pieceOffsets[r] + n].cone;
     length += cone.length;
     moment += cone.length * (cone.start + 0.5 * cone.length * cone.axis);
   }

@@ -35,6 +35,7 @@ class BlockEvaluation;
 /// Where the calibre varies (see Calibre) the seeds of the paper ("FRG description": "randomly placing seed points within all
 /// capsule fibres") become a chain of capsules whose radius is that of the fibre's capsules times the calibre's fraction,
 /// linearly between places at most 1 µm apart. Hence capsule - ρ · radius <= s_i <= capsule for a SurfaceRoughness ρ.
+/// With random points (see SeedPoints) s_i lies between the fields of a thinner chain and of the capsules.
 ///
 /// A fibre that has a TargetAxisRatio is seeded by three chains beside each other, see SectionShape.
 ///

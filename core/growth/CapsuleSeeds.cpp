@@ -169,6 +169,7 @@ CapsuleSeeds::CapsuleSeeds(
   : fibreOfRank(orderById(fibres))
   , shapes(sectionShapes(fibres, options))
   , pieceOffsets(fibreOfRank.size() + 1, 0)
+  , chainPieces(fibreOfRank.size(), 0)
 {
   const Calibre calibre(options);
   if (calibre.varies() && fibres.domain.periodic[2])
@@ -181,19 +182,27 @@ CapsuleSeeds::CapsuleSeeds(
     {
       const std::size_t f = this->fibreOfRank[rank];
       const SegmentCut cut(calibre, this->shapes[f]);
-      std::size_t count = 0;
-      const std::size_t repeat = pointsUntilRepeat(fibres, f);
+      std::size_t points = 0;
       for (std::size_t p = fibres.offsets[f]; p + 1 < fibres.offsets[f + 1]; ++p)
       {
-        const SeedPoints points(options, fibres, f, (p - fibres.offsets[f]) % repeat);
+        const std::size_t ofSegment =
+          options.pointDensity > 0.0
+            ? SeedPoints(options, fibres, f, (p - fibres.offsets[f]) % pointsUntilRepeat(fibres, f)).size()
+            : 0;
         forEachInReach(fibres, p, region, reach, this->shapes[f].reach(),
-          [&](const Eigen::Vector3d&) { count += points.size() + std::size_t(cut.chains * cut.parts(fibres, p)); });
+          [&](const Eigen::Vector3d&)
+          {
+            this->chainPieces[rank] += std::size_t(cut.chains * cut.parts(fibres, p));
+            points += ofSegment;
+          });
       }
-      this->pieceOffsets[rank + 1] = count;
+      this->pieceOffsets[rank + 1] = this->chainPieces[rank] + points;
     });
   std::partial_sum(this->pieceOffsets.begin(), this->pieceOffsets.end(), this->pieceOffsets.begin());
   requireMemory(static_cast<double>(this->pieceOffsets.back()) * (sizeof(SeedPiece) + 64.0),
-    "seeding " + std::to_string(fibres.size()) + " fibres", "request a smaller extent, or use fewer fibres or control points");
+    "seeding " + std::to_string(fibres.size()) + " fibres",
+    options.pointDensity > 0.0 ? "choose a smaller SeedDensity, request a smaller extent, or use fewer fibres"
+                               : "request a smaller extent, or use fewer fibres or control points");
   this->pieces.resize(this->pieceOffsets.back());
   parallelForInBlocks(this->fibreOfRank.size(), fibresAtOnce, threads,
     [&](std::size_t rank) { this->makePieces(fibres, calibre, options, region, reach, rank); });
@@ -211,6 +220,7 @@ void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, cons
   SectionTurn turn(shape, options.seed, fibres.fibreIds[f], repeat < lengths.size() ? lengths[repeat] : 0.0);
   const std::vector<Eigen::Vector3d> tangents = shape.isRound() ? std::vector<Eigen::Vector3d>() : unitTangents(fibres, f);
   SeedPiece* piece = this->pieces.data() + this->pieceOffsets[rank];
+  SeedPiece* point = piece + this->chainPieces[rank];
   for (std::size_t i = 0; i + 1 < lengths.size(); ++i)
   {
     const std::size_t p = fibres.offsets[f] + i;
@@ -219,16 +229,19 @@ void CapsuleSeeds::makePieces(const Fibres& fibres, const Calibre& calibre, cons
       [&](const Eigen::Vector3d& shift)
       {
         const int parts = cut.parts(fibres, p);
-        if (options.pointDensity > 0.0)
+        if (!shape.isRound())
+        {
+          piece = cutInThree(segment, ofFibre, turn, { { tangents[i], tangents[i + 1] } }, shift, parts, piece);
+        }
+        else if (options.pointDensity > 0.0)
         {
           SeedPoints points(options, fibres, f, i % repeat);
           piece = cutSegment(segment, ofFibre, SeedPoints::core, shift, parts, piece);
-          piece = addPoints(segment, ofFibre, points, shift, piece);
+          point = addPoints(segment, ofFibre, points, shift, point);
         }
         else
         {
-          piece = shape.isRound() ? cutSegment(segment, ofFibre, 1.0, shift, parts, piece)
-                                  : cutInThree(segment, ofFibre, turn, { { tangents[i], tangents[i + 1] } }, shift, parts, piece);
+          piece = cutSegment(segment, ofFibre, 1.0, shift, parts, piece);
         }
       });
   }

@@ -34,6 +34,7 @@ struct CapsuleSeeds
   std::vector<std::size_t> fibreOfRank;  ///< index into the given fibres
   std::vector<SectionShape> shapes;      ///< by fibre, as given
   std::vector<std::size_t> pieceOffsets; ///< those of rank r are pieces[pieceOffsets[r]] … pieces[pieceOffsets[r + 1] − 1]
+  std::vector<std::size_t> chainPieces;  ///< number of those of a rank that lie along the centre line; those of points follow
   std::vector<SeedPiece> pieces;
 
   /// Returns the number of chains of pieces that a fibre has side by side.

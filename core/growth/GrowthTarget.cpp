@@ -51,7 +51,7 @@ SolvedGrowth growthFor(
   {
     throw Infeasible(text("TargetFibreVolumeFraction ", target, " needs all fibres shrunk by ", -growth,
       " µm, which severs fibre ", fibres.fibreIds[fibre], " of radius ", *thinnest,
-      " µm: ask for more, choose a smaller SurfaceRoughness, leave SeedDensity at 0, or start from fewer fibres"));
+      " µm: ask for more, choose a smaller SurfaceRoughness, or start from fewer fibres"));
   }
   return { growth };
 }

@@ -12,11 +12,12 @@
 namespace cactus
 {
 
-/// The random points in one segment of a fibre's capsules from which the fibre grows, uniform in its volume (paper, "FRG
+/// The random points in one segment of a fibre's capsules from which the fibre grows, uniform across and along it (paper, "FRG
 /// description": "randomly placing seed points within all capsule fibres"). So that the fibre is in one piece, the seed is a thin
 /// chain of capsules on the centre line, and a ball at each point, joined to the chain by a cone. All lie within the capsules.
 ///
-/// They depend on seed, fibre id and the segment's number alone.
+/// As many as the density makes of the whole volume, they lie between the chain and where their balls touch the capsules' walls.
+/// Random numbers depend on seed, fibre id and the segment's number alone.
 class SeedPoints
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/MadeSurfaces.h"
 
-#include "judge/FibreProfile.h"
+#include "fibres/FibreShape.h"
 
 #include <cstddef>
 #include <utility>

@@ -3,6 +3,7 @@
 
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "fibres/FibreShape.h"
 #include "mesh/CappedSurface.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfaceIntersection.h"

@@ -285,18 +285,6 @@ AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing)
   return shape;
 }
 
-double lengthInDomain(const Fibres& fibres, std::size_t fibre)
-{
-  double length = 0.0;
-  const Domain domain = fibres.domain.unrolled();
-  for (std::size_t i = fibres.offsets[fibre]; i + 1 < fibres.offsets[fibre + 1]; ++i)
-  {
-    const auto [from, to] = domain.clip(fibres.points[i], fibres.points[i + 1]);
-    length += std::max(0.0, to - from) * (fibres.points[i + 1] - fibres.points[i]).norm();
-  }
-  return length;
-}
-
 CentreLineShape centreLineShape(const Fibres& fibres, std::size_t fibre)
 {
   const std::vector<double> arc = arcLengths(fibres, fibre);

@@ -102,9 +102,6 @@ struct AxonShape
 /// ones.
 AxonShape axonShape(const std::vector<FibreCut>& cuts, double spacing);
 
-/// Returns the length (µm) of fibre number `fibre`'s centre line inside the domain.
-double lengthInDomain(const Fibres& fibres, std::size_t fibre);
-
 /// How a centre line runs from its first entry into the domain to its last exit; NaN if it is not in the domain or ends where it
 /// began.
 struct CentreLineShape

@@ -4,6 +4,7 @@
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Parallel.h"
+#include "fibres/FibreShape.h"
 #include "judge/CertificateSummary.h"
 #include "judge/FibreExamination.h"
 #include "judge/FibreGaps.h"

@@ -6,6 +6,7 @@
 #include "base/Limits.h"
 #include "base/Memory.h"
 #include "base/Parallel.h"
+#include "fibres/FibreShape.h"
 #include "mesh/SurfaceWall.h"
 #include "optimiser/OverlapReport.h"
 

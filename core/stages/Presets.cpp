@@ -58,8 +58,8 @@ Preset callosum(const std::string& state, const std::string& meaning, const std:
     std::move(values) };
 }
 
-/// Living tissue between association cortices, of whose axons about a quarter has no myelin. Other values than the defaults
-/// let them end as thin as they are drawn (docs/filters/BundleInitializer.md).
+/// Living tissue between association cortices, of whose axons about a quarter has no myelin. Values other than the defaults
+/// make axons without myelin end as thin as drawn (docs/filters/BundleInitializer.md).
 Preset callosumWithBareAxons()
 {
   return callosum("with unmyelinated axons", "which fills 80 %, about a quarter of its axons without myelin, in clusters",
@@ -117,14 +117,18 @@ Preset publishedRadii(PublishedRadii which)
       { myelin, "GRatioModel", static_cast<std::int64_t>(isRelation ? GRatioModel::LogLinear : GRatioModel::Constant) } } };
 }
 
-/// Adds those that came later: state files know presets by their positions.
-std::vector<Preset> withPublishedRadii(std::vector<Preset> presets)
+/// Adds those with published radii. State files know presets by their positions: what comes later goes to the end.
+std::vector<Preset> withLaterOnes(std::vector<Preset> presets)
 {
   for (std::size_t i = 0; i < radiusHistograms().size(); ++i)
   {
-    presets.push_back(publishedRadii(static_cast<PublishedRadii>(i)));
+    const auto which = static_cast<PublishedRadii>(i);
+    presets.push_back(publishedRadii(which));
+    if (which == PublishedRadii::MouseGenu)
+    {
+      presets.push_back(callosumWithBareAxons());
+    }
   }
-  presets.push_back(callosumWithBareAxons());
   return presets;
 }
 
@@ -153,7 +157,7 @@ PropertyValue defaultOf(const std::string& stage, const std::string& property)
 
 const std::vector<Preset>& presets()
 {
-  static const std::vector<Preset> all = withPublishedRadii({ tutorial(),
+  static const std::vector<Preset> all = withLaterOnes({ tutorial(),
     callosum("EM-like", "which fills 95 %, with gaps of 20 nm, as in tissue that was fixed for electron microscopy",
       "5 % at most between cells, 15 to 20 nm wide, in micrographs of cortex: Arch Neurol 15:633 (1966); more before "
       "fixation: Korogod et al. 2015 (eLife 4:e05793)",

@@ -220,7 +220,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();
   facts.centreLines =
-    order.surfaces.followsLines() || !made.myelinFractions.empty() ? std::make_shared<const Fibres>(made) : nullptr;
+    order.surfaces.followsLines() || !made.myelinFractions.empty() ? std::make_shared<const Fibres>(fibres) : nullptr;
   const Context making = context.part(growthSolved, surfacesMade);
   SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
   maker.makeOuter(spool.outer(), spool.inner());

@@ -38,7 +38,7 @@ std::vector<double> internodeLosses(const Fibres& fibres, const MyelinSurfaceOpt
   {
     if (fibres.columns.value(targetGRatioColumn.name, f) != bareGRatio)
     {
-      internodes[f] = arcLengths(fibres, f).back() / spacingOf(options, 2.0 * fibres.targetRadii[f]);
+      internodes[f] = lengthInDomain(fibres, f) / spacingOf(options, 2.0 * fibres.targetRadii[f]);
       left += options.internodeLoss * internodes[f];
     }
   }

@@ -19,7 +19,7 @@ figure = Figure(__file__, __doc__, side=12)
 canvas, axes = pyplot.subplots(2, len(SEEDS), figsize=(7.5, 5.4), layout="constrained")
 for pictures, (density, title) in zip(axes.T, SEEDS.items()):
     # Sections are as growth makes them, and fibres as thick along their whole length before it.
-    with figure.substrate("histology-1", growth={"SeedDensity": density}, SectionAxisRatio=1, CalibreVariation=0) as made:
+    with figure.substrate("histology-1", growth={"SeedDensity": density, "SurfaceRoughness": 0}, SectionAxisRatio=1, CalibreVariation=0) as made:
         statistics = simple.SubstrateStatistics(Fibres=made.fibres, Outer=made.outer, Inner=made.inner, CutSpacing=1)
         fibre, whole = columns(statistics, 1), made.whole
         figure.row(

@@ -456,6 +456,21 @@ class MyelinSurfaceTest(CactusTestCase):
         with self.assertError("MyelinFraction is 2"):
             growth.UpdatePipeline()
 
+    def test_thin_fibres_lose_their_internodes_first(self):
+        """Another order makes outer surfaces again."""
+        thick, thin = (0.7, [(-0.9, 0, -9), (-0.9, 0, 9)]), (0.45, [(0.9, 0, -9), (0.9, 0, 9)])
+        growth = self.growth(strands(6, [thick, thin]), GrowthIterations=0)
+        surfaces = MyelinSurface(Input=growth, NodeLength=0.8, InternodeFactor=1, ParanodeLength=0.5, InternodeLoss=0.5)
+        lost = {}
+        for order in ("Random", "Thinnest first"):
+            surfaces.InternodeOrder = order
+            lost[order] = vtk_to_numpy(fetch(surfaces, 2).GetColumnByName("LostMyelin")).copy()
+        surfaces.InternodeLoss = 0
+        lost["none"] = vtk_to_numpy(fetch(surfaces, 2).GetColumnByName("LostMyelin"))
+        self.assertAlmostEqual(lost["Thinnest first"][0], lost["none"][0], delta=0.01)
+        self.assertGreater(lost["Thinnest first"][1], lost["none"][1] + 0.2)
+        self.assertNotEqual(lost["Random"].tolist(), lost["Thinnest first"].tolist())
+
     def test_outer_surfaces_of_vtk_are_kept_too(self):
         growth = self.growth(hexagonal(3.0), GrowthIterations=1)
         kept = MyelinSurface(Input=growth, Meshing="VTK filters")

@@ -37,7 +37,7 @@ class Tissue(CactusTestCase):
                 self.assertTrue(least <= mean <= most, f"{mean:.4f} is not from {least} to {most}")
 
     def test_walkers_and_areas_agree(self):
-        """In a periodic domain of 8 µm the limit is reached after some 0.1 ms, and walkers go on through the faces."""
+        """In a periodic domain of 8 µm the limit is reached after some ms, and walkers go on through the faces."""
         bundle = BundleInitializer(Side=8, Border="Periodic", MeanDispersion=0, Sinuosity=1, CalibreVariation=0.4)
         fibres = OutputPort(CapsuleOptimizer(Input=bundle), 0)
         surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres))

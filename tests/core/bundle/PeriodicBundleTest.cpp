@@ -6,8 +6,8 @@
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
 #include "bundle/CircleRelaxation.h"
+#include "fibres/FibreShape.h"
 #include "fibres/PeriodicImages.h"
-#include "judge/FibreProfile.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
+#include "fibres/FibreShape.h"
 #include "fibres/TrimToDomain.h"
 #include "growth/TargetRadii.h"
 #include "judge/SubstrateStatistics.h"

@@ -124,8 +124,46 @@ TEST(SeedPoints, LieWithinTheCapsules)
   }
 }
 
-// Guarantee: a bundle grown from points reaches its volume fraction and radii, each fibre in one piece; fibres are less round
-// than those grown from capsules, and the fewer the points, the more.
+// Guarantee: in a periodic domain points come again with the fibre; the length of the centre line is that of the capsules.
+TEST(SeedPoints, RepeatWithTheFibre)
+{
+  BundleInitializerOptions bundle;
+  bundle.side = 5.0;
+  bundle.radius.maximum = 1.0;
+  bundle.border = Border::Periodic;
+  bundle.fibreVolumeFraction = 0.4;
+  bundle.calibre.sectionAxisRatio = 1.0;
+  const Fibres fibres = initialiseBundles(bundle, {}, nullptr);
+  const Eigen::AlignedBox3d region(fibres.domain.lower, fibres.domain.upper);
+  const CapsuleField points(fibres, pointsOf(20.0), region, 1.0);
+  const CapsuleField capsules(fibres, SeedOptions(), region, 1.0);
+  RandomEngine engine = randomStream(5, RandomStage::Directions);
+  for (int rank = 0; rank < int(fibres.size()); ++rank)
+  {
+    Eigen::Vector3d middle;
+    Eigen::Vector3d middleOfCapsules;
+    EXPECT_NEAR(points.length(rank, middle), capsules.length(rank, middleOfCapsules), 0.02 * points.length(rank, middle));
+    EXPECT_LT((middle - middleOfCapsules).norm(), 0.1);
+    for (int n = 0; n < 200; ++n)
+    {
+      const double x = 5.0 * uniform(engine) - 2.5;
+      const double y = 5.0 * uniform(engine) - 2.5;
+      const double below = points.value(rank, { x, y, -2.5 });
+      if (below > -0.5)
+      {
+        EXPECT_NEAR(below, points.value(rank, { x, y, 2.5 }), 1e-9);
+      }
+      const double before = points.value(rank, { -2.5, y, x });
+      if (before > -0.5)
+      {
+        EXPECT_NEAR(before, points.value(rank, { 2.5, y, x }), 1e-9);
+      }
+    }
+  }
+}
+
+// Guarantee: a bundle grown from points reaches its volume fraction and radii, each fibre in one piece; fibres have more
+// surface than those grown from capsules.
 TEST(SeedPoints, BundlesReachTheirFractionAndRadii)
 {
   BundleInitializerOptions bundle;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantee: where a fibre's image passes a voxel or a cross-section, it has the image's direction and place.
+#include "fibres/FibreShape.h"
 #include "fibres/Fibres.h"
 #include "judge/FibreProfile.h"
 #include "judge/VoxelDirections.h"

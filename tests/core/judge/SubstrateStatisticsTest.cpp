@@ -7,6 +7,7 @@
 #include "base/Limits.h"
 #include "base/Random.h"
 #include "base/RandomVariates.h"
+#include "fibres/FibreShape.h"
 #include "mesh/CrossSection.h"
 
 #include <gtest/gtest.h>

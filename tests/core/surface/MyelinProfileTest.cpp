@@ -197,7 +197,7 @@ TEST(NodesOfRanvier, ALesionTakesThoseOfThinFibresFirst)
   {
     fibres.addFibre(id, 1, radius);
     fibres.addPoint({ 0.0, 0.0, -20.0 }, radius);
-    fibres.addPoint({ 0.0, 0.0, 20.0 }, radius);
+    fibres.addPoint({ 0.0, 0.0, id == 9 ? 80.0 : 20.0 }, radius); // 40 µm of each are in the domain
   }
   fibres.columns.set(targetGRatioColumn.name, 3, bareGRatio);
   MyelinSurfaceOptions options = withNodes(30.0);
