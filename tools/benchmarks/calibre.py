@@ -20,6 +20,7 @@ from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 SPACING = 0.25
+G_RATIO = 0.7  # MyelinSurface's
 FAR = (4.5, 8.0)  # µm, at which no correlation is left
 
 
@@ -61,7 +62,7 @@ def along_fibres(data, side):
     return lines
 
 
-def necks(data, side, voxel, g_ratio=0.7):
+def necks(data, side, voxel):
     """The part of the fibres' length in the domain along which the inner radius that is asked for is below a voxel."""
     targets = vtk_to_numpy(data.GetCellData().GetArray("TargetRadius"))
     thin = total = 0
@@ -69,7 +70,7 @@ def necks(data, side, voxel, g_ratio=0.7):
         outer = np.exp(line[np.isfinite(line)])
         if len(outer):
             # TargetRadius is the root mean square of the outer radius, and the myelin is as thick along the whole fibre.
-            inner = outer * target / np.sqrt((outer**2).mean()) - (1 - g_ratio) * target
+            inner = outer * target / np.sqrt((outer**2).mean()) - (1 - G_RATIO) * target
             thin, total = thin + (inner < voxel).sum(), total + len(outer)
     return thin / total
 

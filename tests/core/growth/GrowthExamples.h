@@ -2,9 +2,15 @@
 // Common set-up and results of growth tests.
 #pragma once
 
+#include "base/Constants.h"
+#include "bundle/BundleInitializer.h"
 #include "growth/FibreRadialGrowth.h"
 #include "growth/GrowthTarget.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,6 +30,20 @@ inline cactus::LabelImage grown(const cactus::Fibres& fibres, const cactus::Fibr
   cactus::Context context;
   context.threads = threads;
   return growFibres(fibres, options, growthFor(fibres, options, context).growth, growthGrid(fibres.domain, options), context);
+}
+
+/// Straight fibres for a volume fraction of 0.7 between walls of 8 µm.
+inline cactus::Fibres straightBundle(double axisRatio)
+{
+  cactus::BundleInitializerOptions bundle;
+  bundle.side = 8.0;
+  bundle.fibreVolumeFraction = 0.5;
+  bundle.grownFibreVolumeFraction = 0.7;
+  bundle.border = cactus::Border::Walls;
+  bundle.calibre.deviation = 0.0;
+  bundle.calibre.sectionAxisRatio = axisRatio;
+  bundle.meanDispersion = 0.0;
+  return cactus::initialiseBundles(bundle, {}, nullptr);
 }
 
 /// Returns how many pieces connected by faces a fibre has in an image.
@@ -63,6 +83,22 @@ inline int piecesOf(const cactus::LabelImage& image, std::int32_t fibre)
     }
   }
   return pieces;
+}
+
+/// Checks that a straightBundle() is grown to its fraction, each fibre in one piece, and to its TargetRadius on average.
+inline void expectOnTarget(const cactus::LabelImage& image, const cactus::Fibres& fibres)
+{
+  const auto inside = std::count_if(image.fibreId.begin(), image.fibreId.end(), [](std::int32_t id) { return id > 0; });
+  EXPECT_NEAR(double(inside) / double(image.fibreId.size()), 0.7, 0.005);
+  double relative = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    EXPECT_EQ(piecesOf(image, fibres.fibreIds[f]), 1);
+    const auto own = std::count(image.fibreId.begin(), image.fibreId.end(), fibres.fibreIds[f]);
+    const double area = double(own) * std::pow(image.grid.spacing, 3.0) / 8.0;
+    relative += std::sqrt(area / cactus::pi) / fibres.targetRadii[f] - 1.0;
+  }
+  EXPECT_NEAR(relative / double(fibres.size()), 0.0, 0.02);
 }
 
 } // namespace cactus_testing

@@ -15,8 +15,9 @@
 
 using namespace cactus;
 using cactus_testing::emptyFibres;
+using cactus_testing::expectOnTarget;
 using cactus_testing::grown;
-using cactus_testing::piecesOf;
+using cactus_testing::straightBundle;
 
 namespace
 {
@@ -166,15 +167,7 @@ TEST(SeedPoints, RepeatWithTheFibre)
 // surface than those grown from capsules.
 TEST(SeedPoints, BundlesReachTheirFractionAndRadii)
 {
-  BundleInitializerOptions bundle;
-  bundle.side = 8.0;
-  bundle.fibreVolumeFraction = 0.5;
-  bundle.grownFibreVolumeFraction = 0.7;
-  bundle.border = Border::Walls;
-  bundle.calibre.deviation = 0.0;
-  bundle.calibre.sectionAxisRatio = 1.0;
-  bundle.meanDispersion = 0.0;
-  const Fibres fibres = initialiseBundles(bundle, {}, nullptr);
+  const Fibres fibres = straightBundle(1.0);
   std::vector<double> surfaces;
   for (const double density : { 0.0, 30.0, 10.0 })
   {
@@ -182,17 +175,8 @@ TEST(SeedPoints, BundlesReachTheirFractionAndRadii)
     options.voxelSize = 0.08;
     options.seedDensity = density;
     const LabelImage image = grown(aimAtTargetRadii(fibres, options), options);
-    const auto inside = std::count_if(image.fibreId.begin(), image.fibreId.end(), [](std::int32_t id) { return id > 0; });
-    EXPECT_NEAR(double(inside) / double(image.fibreId.size()), 0.7, 0.005);
-    double relative = 0.0;
-    for (std::size_t f = 0; f < fibres.size(); ++f)
-    {
-      EXPECT_EQ(piecesOf(image, fibres.fibreIds[f]), 1) << density;
-      const auto own = std::count(image.fibreId.begin(), image.fibreId.end(), fibres.fibreIds[f]);
-      const double area = double(own) * std::pow(image.grid.spacing, 3.0) / 8.0;
-      relative += std::sqrt(area / pi) / fibres.targetRadii[f] - 1.0;
-    }
-    EXPECT_NEAR(relative / double(fibres.size()), 0.0, 0.02) << density;
+    SCOPED_TRACE(density);
+    expectOnTarget(image, fibres);
     double faces = 0.0; // between voxels along x of which one is in a fibre
     for (std::size_t i = 1; i < image.fibreId.size(); ++i)
     {
