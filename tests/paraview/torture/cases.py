@@ -60,6 +60,7 @@ LARGE = {
     "CapsuleOptimizer": {"MaximumIterations": 5},
     "FibreRadialGrowth": {"VoxelSize": 0.09},
     "MyelinSurface": {"DecimationError": 0.0},
+    "SubstrateProduction": {"VoxelSize": 0.4, "SampledFraction": 0.005, "Format": "Surfaces alone"},
 }
 # What a substrate of 6 µm must stand within the time limit although it is much work.
 COSTLY = {
