@@ -42,9 +42,26 @@ constexpr const char* convergedName = "Converged";
 vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
 {
   vtkDataArray* array = data->GetArray(name);
+  if (array == nullptr && data->HasArray(name) != 0)
+  {
+    throw InvalidInput(std::string("array ") + name + " must hold numbers");
+  }
   if (array != nullptr && (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != expected))
   {
     throw InvalidInput(std::string("array ") + name + " must have one component and " + std::to_string(expected) + " values");
+  }
+  return array;
+}
+
+/// Returns it, too. Refuses one that is among `others`, the data of the points in place of the cells or the reverse, where it
+/// would have no effect.
+vtkDataArray* scalarsNotAmong(
+  vtkFieldData* others, vtkFieldData* data, const char* name, vtkIdType expected, const char* kindOfData)
+{
+  vtkDataArray* array = scalars(data, name, expected);
+  if (array == nullptr && others->HasArray(name) != 0)
+  {
+    throw InvalidInput(std::string("array ") + name + " must be " + kindOfData);
   }
   return array;
 }
@@ -74,7 +91,8 @@ void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
   {
     throw InvalidInput("the input has no point data array Radius (µm), so its fibres have no calibre");
   }
-  vtkDataArray* myelin = scalars(input->GetPointData(), myelinFractionName, input->GetNumberOfPoints());
+  vtkDataArray* myelin =
+    scalarsNotAmong(input->GetCellData(), input->GetPointData(), myelinFractionName, input->GetNumberOfPoints(), "point data");
   vtkDataArray* fibreId = scalars(input->GetCellData(), "FibreId", input->GetNumberOfCells());
   vtkDataArray* bundleId = scalars(input->GetCellData(), "BundleId", input->GetNumberOfCells());
   vtkDataArray* targetRadius = scalars(input->GetCellData(), "TargetRadius", input->GetNumberOfCells());
@@ -82,7 +100,8 @@ void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
   std::vector<std::pair<const char*, vtkDataArray*>> columns;
   for (const ColumnFacts& column : fibreColumns())
   {
-    if (vtkDataArray* array = scalars(input->GetCellData(), column.name, input->GetNumberOfCells()))
+    if (vtkDataArray* array = scalarsNotAmong(
+          input->GetPointData(), input->GetCellData(), column.name, input->GetNumberOfCells(), "cell data, a value per fibre"))
     {
       columns.emplace_back(column.name, array);
     }

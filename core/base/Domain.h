@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace cactus
 {
@@ -37,6 +38,23 @@ struct Domain
   Eigen::Vector3d size() const { return upper - lower; }
   double volume() const { return size().prod(); }
   bool isPeriodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+  /// Returns the shifts (µm) to the images of the box that touch it, one of each two opposite ones; none if it is not periodic.
+  std::vector<Eigen::Vector3d> shiftsToImages() const
+  {
+    std::vector<Eigen::Vector3d> shifts;
+    const auto most = [this](std::size_t axis) { return periodic[axis] ? 1 : 0; };
+    for (int z = 0; z <= most(2); ++z)
+    {
+      for (int y = z > 0 ? -most(1) : 0; y <= most(1); ++y)
+      {
+        for (int x = z > 0 || y > 0 ? -most(0) : 1; x <= most(0); ++x)
+        {
+          shifts.emplace_back(x * size()[0], y * size()[1], z * size()[2]);
+        }
+      }
+    }
+    return shifts;
+  }
   /// Returns the box in which a fibre along z is measured once: without limits along x and y if these are periodic, since the
   /// fibre goes on through their faces.
   Domain unrolled() const

@@ -5,12 +5,16 @@
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfacePieces.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace cactus
@@ -21,8 +25,9 @@ namespace
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr float unboundedLine = std::numeric_limits<float>::infinity();
-/// Share of the progress for finding neighbours.
+/// Shares of the progress for finding neighbours, in the domain and beyond its faces.
 constexpr double neighboursShare = 0.3;
+constexpr double imagesShare = 0.05;
 
 /// A pair of fibres.
 struct FibrePair
@@ -31,12 +36,55 @@ struct FibrePair
   std::size_t b = 0;
   double gap = infinite; ///< as far as it matters to one of them
   bool nested = false;
+  std::size_t image = 0; ///< of b: 0 for itself, or 1 + the number of its shift
 };
+
+/// An image of a fibre, as a FibrePair has it, near one that is in its place; or the reverse.
+struct NearImage
+{
+  std::size_t inPlace = 0;
+  std::size_t other = 0;
+  std::size_t image = 0;
+};
+
+Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : mesh.points)
+  {
+    box.extend(point);
+  }
+  return box;
+}
+
+/// Returns the triangles of a shifted mesh that come within a distance of a box, by their own boxes.
+TriangleMesh partNear(const TriangleMesh& mesh, const Eigen::Vector3d& shift, const Eigen::AlignedBox3d& box, double distance)
+{
+  const double squared = distance * distance;
+  TriangleMesh part;
+  for (const auto& t : mesh.triangles)
+  {
+    std::array<Eigen::Vector3d, 3> corners;
+    Eigen::AlignedBox3d own;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      corners[i] = mesh.points[std::size_t(t[i])] + shift;
+      own.extend(corners[i]);
+    }
+    if (box.squaredExteriorDistance(own) <= squared)
+    {
+      const auto first = static_cast<std::int32_t>(part.points.size());
+      part.points.insert(part.points.end(), corners.begin(), corners.end());
+      part.triangles.push_back({ { first, first + 1, first + 2 } });
+    }
+  }
+  return part;
+}
 
 class GapSearch
 {
 public:
-  GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certificate);
+  GapSearch(const Domain& domain, const OuterSurfaces& outer, SubstrateCertificate& certificate);
 
   void run(const Context& context, double from, const Sharing& sharing, const Recollection& known)
   {
@@ -66,6 +114,8 @@ public:
         },
         "Measuring gaps", from, middle);
     std::vector<std::vector<FibrePair>> pairs = this->pairsOf(near);
+    const double beyond = middle + (this->Shifts.empty() ? 0.0 : imagesShare * (1.0 - from));
+    this->addPairsAcross(context, middle, beyond, sharing, known, pairs);
     known.part("gaps").loop(
       sharing, pairs.size(), context,
       [&](std::size_t rank)
@@ -94,7 +144,7 @@ public:
           get(pair.nested);
         }
       },
-      "Measuring gaps", middle, 1.0);
+      "Measuring gaps", beyond, 1.0);
     this->enter(pairs);
   }
 
@@ -110,11 +160,15 @@ private:
   void addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const;
   std::vector<std::size_t> thoseOnAllSides(const Eigen::Vector3d& point) const;
   std::vector<std::vector<FibrePair>> pairsOf(const std::vector<std::vector<std::size_t>>& near) const;
+  std::vector<NearImage> imagesNear(std::size_t rank) const;
+  void addPairsAcross(const Context& context, double from, double to, const Sharing& sharing, const Recollection& known,
+    std::vector<std::vector<FibrePair>>& pairs) const;
   void measure(FibrePair& pair) const;
   bool hasPieceInside(
     const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const;
   void enter(const std::vector<std::vector<FibrePair>>& pairsOfRanks);
 
+  std::vector<Eigen::Vector3d> Shifts; ///< µm, to images of the domain, see Domain::shiftsToImages()
   const OuterSurfaces& Outer;
   SubstrateCertificate& Result;
   BoxTree Branches;                 ///< over the parts of all surfaces
@@ -123,8 +177,9 @@ private:
   std::vector<double> Bound;        ///< µm, by rank: an upper bound of the gap
 };
 
-GapSearch::GapSearch(const OuterSurfaces& outer, SubstrateCertificate& certificate)
-  : Outer(outer)
+GapSearch::GapSearch(const Domain& domain, const OuterSurfaces& outer, SubstrateCertificate& certificate)
+  : Shifts(domain.shiftsToImages())
+  , Outer(outer)
   , Result(certificate)
 {
   std::vector<BoxTree::Item> items;
@@ -285,12 +340,105 @@ std::vector<std::vector<FibrePair>> GapSearch::pairsOf(const std::vector<std::ve
   return pairs;
 }
 
+/// Returns the fibres with an image of which a part's box comes within the bound of a fibre's gap.
+std::vector<NearImage> GapSearch::imagesNear(std::size_t rank) const
+{
+  std::vector<NearImage> found;
+  const double squared = this->Bound[rank] * this->Bound[rank];
+  for (std::size_t side = 0; side < 2 * this->Shifts.size(); ++side)
+  {
+    const std::size_t image = side / 2 + 1;
+    const Eigen::Vector3d shift = side % 2 == 0 ? this->Shifts[side / 2] : Eigen::Vector3d(-this->Shifts[side / 2]);
+    std::vector<std::size_t> others;
+    for (const FloatBox& box : this->Outer.branches(this->Present[rank]))
+    {
+      // The fibre is shifted the other way, in place of all others.
+      const Eigen::Vector3d lower = box.lower.head<3>().cast<double>().matrix() - shift;
+      const Eigen::Vector3d upper = box.upper.head<3>().cast<double>().matrix() - shift;
+      const FloatBox own = FloatBox::around(lower, upper, upper);
+      const auto isNear = [&](const FloatBox& other) { return double(own.squaredDistance(other)) <= squared; };
+      visitPlaces(this->Branches, isNear,
+        [&](std::uint32_t place)
+        {
+          const std::size_t other = this->RankOf[this->Branches.order()[place]];
+          if (other != rank && isNear(this->Branches.boxes()[place]))
+          {
+            others.push_back(other);
+          }
+          return false;
+        });
+    }
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    for (const std::size_t other : others)
+    {
+      found.push_back(side % 2 == 0 ? NearImage{ rank, other, image } : NearImage{ other, rank, image });
+    }
+  }
+  return found;
+}
+
+/// Adds the pairs of a fibre and the image of another one, each once, under the fibre that is in its place.
+void GapSearch::addPairsAcross(const Context& context, double from, double to, const Sharing& sharing, const Recollection& known,
+  std::vector<std::vector<FibrePair>>& pairs) const
+{
+  if (this->Shifts.empty())
+  {
+    return;
+  }
+  std::vector<std::vector<NearImage>> near(pairs.size());
+  known.part("images").loop(
+    sharing, near.size(), context, [&](std::size_t rank) { near[rank] = this->imagesNear(rank); },
+    [&](std::size_t rank)
+    {
+      ByteWriter put;
+      for (const NearImage& one : near[rank])
+      {
+        put(one.inPlace);
+        put(one.other);
+        put(one.image);
+      }
+      return put.bytes();
+    },
+    [&](std::size_t rank, const std::string& bytes)
+    {
+      for (ByteReader get(bytes); !get.isAtEnd();)
+      {
+        NearImage& one = near[rank].emplace_back();
+        get(one.inPlace);
+        get(one.other);
+        get(one.image);
+      }
+    },
+    "Measuring gaps", from, to);
+  std::set<std::array<std::size_t, 3>> all;
+  for (const std::vector<NearImage>& ofRank : near)
+  {
+    for (const NearImage& one : ofRank)
+    {
+      all.insert({ { one.inPlace, one.other, one.image } });
+    }
+  }
+  for (const auto& [inPlace, other, image] : all)
+  {
+    pairs[inPlace].push_back({ inPlace, other, infinite, false, image });
+  }
+}
+
 void GapSearch::measure(FibrePair& pair) const
 {
   const std::shared_ptr<const TreedSurface> a = this->surface(pair.a);
   const std::shared_ptr<const TreedSurface> b = this->surface(pair.b);
   // A little more than the bound, so that an equal value is found.
   const double below = 1.000001 * std::max(this->Bound[pair.a], this->Bound[pair.b]) + 1e-9;
+  if (pair.image > 0)
+  {
+    const Eigen::Vector3d& shift = this->Shifts[pair.image - 1];
+    const TriangleMesh image = partNear(b->mesh, shift, boxOf(a->mesh), below);
+    const TriangleMesh inPlace = partNear(a->mesh, Eigen::Vector3d::Zero(), boxOf(image), below);
+    pair.gap = smallestGap(TriangleTree(inPlace), TriangleTree(image), below).distance;
+    return; // the domain has nothing inside of what lies beyond it
+  }
   pair.gap = smallestGap(a->tree, b->tree, below).distance;
   pair.nested = pair.gap > 0.0 && (this->hasPieceInside(*a, pair.a, *b, pair.b) || this->hasPieceInside(*b, pair.b, *a, pair.a));
 }
@@ -310,11 +458,25 @@ void GapSearch::enter(const std::vector<std::vector<FibrePair>>& pairsOfRanks)
   {
     for (const FibrePair& pair : ofRank)
     {
-      pairs.push_back({ this->Present[pair.a], this->Present[pair.b], pair.gap, pair.nested });
+      const auto [a, b] = std::minmax(this->Present[pair.a], this->Present[pair.b]);
+      pairs.push_back({ a, b, pair.gap, pair.nested });
     }
   }
-  std::sort(
+  std::stable_sort(
     pairs.begin(), pairs.end(), [](const FibrePair& p, const FibrePair& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  // Two fibres may be near each other in the domain and beyond its faces.
+  std::size_t count = 0;
+  for (const FibrePair& pair : pairs)
+  {
+    if (count > 0 && pairs[count - 1].a == pair.a && pairs[count - 1].b == pair.b)
+    {
+      pairs[count - 1].gap = std::min(pairs[count - 1].gap, pair.gap);
+      pairs[count - 1].nested = pairs[count - 1].nested || pair.nested;
+      continue;
+    }
+    pairs[count++] = pair;
+  }
+  pairs.resize(count);
   this->Result.smallestGap = infinite;
   for (const FibrePair& pair : pairs)
   {
@@ -347,10 +509,10 @@ void GapSearch::enter(const std::vector<std::vector<FibrePair>>& pairsOfRanks)
 
 } // namespace
 
-void findGaps(const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context, double from,
-  const Sharing& sharing, const Recollection& known)
+void findGaps(const Domain& domain, const OuterSurfaces& outer, SubstrateCertificate& certificate, const Context& context,
+  double from, const Sharing& sharing, const Recollection& known)
 {
-  GapSearch(outer, certificate).run(context, from, sharing, known);
+  GapSearch(domain, outer, certificate).run(context, from, sharing, known);
 }
 
 } // namespace cactus

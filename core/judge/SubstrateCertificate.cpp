@@ -117,7 +117,7 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
       surfaces.enter(f, std::move(branches));
     },
     "Looking at surfaces", 0.0, surfacesDone);
-  findGaps(surfaces, certificate, context, surfacesDone, sharing, known);
+  findGaps(domain, surfaces, certificate, context, surfacesDone, sharing, known);
   const double requiredGap = options.minimumGap < 0.0 ? outer.promisedGap : options.minimumGap;
   summarise(domain, outer, inner, requiredGap, count > 0 ? *std::max_element(reach.begin(), reach.end()) : 0.0, certificate);
   listFaults(certificate);

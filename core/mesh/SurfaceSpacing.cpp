@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/SurfaceSpacing.h"
 
+#include "base/Domain.h"
 #include "base/Parallel.h"
 #include "mesh/BoxTree.h"
 #include "mesh/CappedSurface.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -111,7 +113,8 @@ struct Pair
 {
   std::size_t one;
   std::size_t other;
-  double missing = 0.0; ///< µm, of the gap
+  std::size_t image = 0; ///< of the other one: 0 for itself, or 1 + the number of its shift
+  double missing = 0.0;  ///< µm, of the gap
   std::vector<std::uint32_t> trianglesOfOne;
   std::vector<std::uint32_t> trianglesOfOther;
 };
@@ -233,6 +236,24 @@ Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh, const std::array<std::int32_
     box.extend(mesh.points[std::size_t(corner)]);
   }
   return box;
+}
+
+Eigen::AlignedBox3d shifted(const Eigen::AlignedBox3d& box, const Vector3d& shift)
+{
+  return { box.min() + shift, box.max() + shift };
+}
+
+/// Returns the shifts to the images of a box that repeats beyond the held faces.
+std::vector<Vector3d> shiftsOf(const Eigen::AlignedBox3d& box, std::uint8_t held)
+{
+  Domain domain;
+  domain.lower = box.min();
+  domain.upper = box.max();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    domain.periodic[axis] = (held >> (2 * axis) & 3) == 3;
+  }
+  return domain.shiftsToImages();
 }
 
 /// Returns the extents of a surface by slab, all unchanged.
@@ -382,6 +403,7 @@ public:
     , Held(held)
     , Caller(context)
     , Shared(sharing)
+    , Shifts(shiftsOf(box, held))
     , InSlabs(box, gap)
     , Boxes(surfaces.size())
     , IsGiven(surfaces.size(), 0)
@@ -411,11 +433,14 @@ public:
       std::optional<std::string> moves = ofSlab.recall();
       if (!moves)
       {
-        moves = bytesOf(this->movesInSlab(slab, held[std::size_t(slab)]));
+        moves = bytesOf(this->movesInSlab(slab, held));
         ofSlab.note(*moves);
       }
       found += *moves;
-      held[std::size_t(slab)] = {};
+      if (slab > 0) // the first one's are beyond the last one, too
+      {
+        held[std::size_t(slab)] = {};
+      }
       report(double(slab + 1) / this->InSlabs.count);
     }
     return joined(this->Shared.exchange(found));
@@ -477,7 +502,12 @@ private:
   }
   std::vector<std::vector<std::size_t>> surfacesBySlab();
   std::vector<Pair> neighbours(int slab, const std::vector<std::size_t>& held);
-  std::map<std::size_t, Moves> movesInSlab(int slab, const std::vector<std::size_t>& held);
+  std::vector<Pair> neighboursAcross(int slab, std::size_t image, const std::vector<std::vector<std::size_t>>& held);
+  std::vector<Pair> pairsIn(int slab, const std::vector<std::vector<std::size_t>>& held);
+  std::map<std::size_t, Moves> movesInSlab(int slab, const std::vector<std::vector<std::size_t>>& held);
+  bool isAbove(std::size_t image) const { return image > 0 && this->Shifts[image - 1][2] > 0.0; }
+  /// Returns the slab of a pair's other surface.
+  int slabOf(int slab, std::size_t image) const { return this->isAbove(image) ? 0 : slab; }
 
   SurfaceStore& Surfaces;
   double Gap;
@@ -485,12 +515,13 @@ private:
   std::uint8_t Held;
   const Context& Caller;
   const Sharing& Shared;
+  std::vector<Vector3d> Shifts; ///< to images of the box, see Domain::shiftsToImages()
   Slabs InSlabs;
   std::vector<SlabBoxes> Boxes;
   std::vector<char> IsGiven; ///< whether pairs with it are measured
 };
 
-/// Returns the surfaces in each slab where one has changed.
+/// Returns the surfaces in each slab where one has changed; beyond the last slab lies the first one again, if the box repeats.
 std::vector<std::vector<std::size_t>> Spacing::surfacesBySlab()
 {
   std::vector<std::vector<std::size_t>> held(std::size_t(this->InSlabs.count));
@@ -507,6 +538,10 @@ std::vector<std::vector<std::size_t>> Spacing::surfacesBySlab()
       }
       ++slab;
     }
+  }
+  if (this->isAbove(this->Shifts.size()))
+  {
+    isAnyChanged.front() = isAnyChanged.back() = std::max(isAnyChanged.front(), isAnyChanged.back());
   }
   for (std::size_t slab = 0; slab < held.size(); ++slab)
   {
@@ -568,27 +603,85 @@ std::vector<Pair> Spacing::neighbours(int slab, const std::vector<std::size_t>& 
   pairs.reserve(places.size());
   for (const auto& [one, other] : places)
   {
-    pairs.push_back({ surfaces[one], surfaces[other], 0.0, {}, {} });
+    pairs.push_back({ surfaces[one], surfaces[other], 0, 0.0, {}, {} });
+  }
+  return pairs;
+}
+
+/// Returns the pairs to measure of a surface in a slab and an image of another one, whose boxes come nearer than the gap.
+std::vector<Pair> Spacing::neighboursAcross(int slab, std::size_t image, const std::vector<std::vector<std::size_t>>& held)
+{
+  const double squaredGap = this->Gap * this->Gap;
+  const int beyond = this->slabOf(slab, image);
+  const auto boxBeyond = [&](std::size_t s) { return shifted(this->Boxes[s].in(beyond).box, this->Shifts[image - 1]); };
+  std::vector<BoxTree::Item> near;
+  for (const std::size_t s : held[std::size_t(beyond)])
+  {
+    if (this->Box.squaredExteriorDistance(boxBeyond(s)) < squaredGap)
+    {
+      near.push_back({ floatBox(boxBeyond(s)), static_cast<std::uint32_t>(s) });
+    }
+  }
+  const BoxTree tree(std::move(near));
+  std::vector<Pair> pairs;
+  for (const std::size_t s : held[std::size_t(slab)])
+  {
+    const SlabBox& own = this->Boxes[s].in(slab);
+    const FloatBox rough = floatBox(own.box);
+    std::vector<std::size_t> found;
+    visitEntries(
+      tree, [&](const FloatBox& box) { return double(rough.squaredDistance(box)) < squaredGap; },
+      [&](std::size_t other)
+      {
+        if (other != s && (this->IsGiven[s] || this->IsGiven[other]) &&
+            (own.isChanged || this->Boxes[other].in(beyond).isChanged) &&
+            own.box.squaredExteriorDistance(boxBeyond(other)) < squaredGap)
+        {
+          found.push_back(other);
+        }
+        return false;
+      });
+    std::sort(found.begin(), found.end());
+    for (const std::size_t other : found)
+    {
+      pairs.push_back({ s, other, image, 0.0, {}, {} });
+    }
+  }
+  return pairs;
+}
+
+/// Returns the pairs to measure in a slab, and across the faces that it reaches.
+std::vector<Pair> Spacing::pairsIn(int slab, const std::vector<std::vector<std::size_t>>& held)
+{
+  std::vector<Pair> pairs = this->neighbours(slab, held[std::size_t(slab)]);
+  for (std::size_t image = 1; image <= this->Shifts.size(); ++image)
+  {
+    if (!this->isAbove(image) || slab == this->InSlabs.count - 1)
+    {
+      std::vector<Pair> more = this->neighboursAcross(slab, image, held);
+      std::move(more.begin(), more.end(), std::back_inserter(pairs));
+    }
   }
   return pairs;
 }
 
 /// Returns the displacements, by surface, for those pairs in a slab that belong to this process: a contiguous range, since
 /// consecutive pairs share surfaces.
-std::map<std::size_t, Moves> Spacing::movesInSlab(int slab, const std::vector<std::size_t>& held)
+std::map<std::size_t, Moves> Spacing::movesInSlab(int slab, const std::vector<std::vector<std::size_t>>& held)
 {
-  std::vector<Pair> pairs = this->neighbours(slab, held);
+  std::vector<Pair> pairs = this->pairsIn(slab, held);
   const auto startOf = [&](int place)
   { return std::ptrdiff_t(pairs.size() * std::size_t(place) / std::size_t(this->Shared.size())); };
   const int place = this->Shared.place();
   pairs = std::vector<Pair>(pairs.begin() + startOf(place), pairs.begin() + startOf(place + 1));
-  std::map<std::size_t, TreedPart> parts;
+  using SurfaceImage = std::pair<std::size_t, std::size_t>;
+  std::map<SurfaceImage, TreedPart> parts;
   for (const Pair& pair : pairs)
   {
-    parts[pair.one];
-    parts[pair.other];
+    parts[{ pair.one, 0 }];
+    parts[{ pair.other, pair.image }];
   }
-  std::vector<std::pair<const std::size_t, TreedPart>*> entries;
+  std::vector<std::pair<const SurfaceImage, TreedPart>*> entries;
   entries.reserve(parts.size());
   for (auto& entry : parts)
   {
@@ -597,20 +690,32 @@ std::map<std::size_t, Moves> Spacing::movesInSlab(int slab, const std::vector<st
   parallelFor(entries.size(), this->Caller,
     [&](std::size_t i)
     {
-      auto& [surface, treed] = *entries[i];
-      treed.part = this->Surfaces.part(surface, this->InSlabs.lower(slab), this->InSlabs.upper(slab));
+      auto& [of, treed] = *entries[i];
+      const int from = this->slabOf(slab, of.second);
+      treed.part = this->Surfaces.part(of.first, this->InSlabs.lower(from), this->InSlabs.upper(from));
+      if (of.second > 0)
+      {
+        for (Vector3d& point : treed.part.mesh.points)
+        {
+          point += this->Shifts[of.second - 1];
+        }
+      }
       treed.tree = std::make_unique<TriangleTree>(treed.part.mesh);
     });
   parallelFor(pairs.size(), this->Caller,
-    [&](std::size_t p) { measureGap(pairs[p], *parts.at(pairs[p].one).tree, *parts.at(pairs[p].other).tree, this->Gap); });
+    [&](std::size_t p)
+    {
+      Pair& pair = pairs[p];
+      measureGap(pair, *parts.at({ pair.one, 0 }).tree, *parts.at({ pair.other, pair.image }).tree, this->Gap);
+    });
   std::map<std::size_t, Moves> moves;
   for (const Pair& pair : pairs)
   {
     if (pair.missing > 0.0)
     {
       const double distance = 0.5 * pair.missing + extraDistance;
-      addMoves(moves[pair.one], parts.at(pair.one).part, pair.trianglesOfOne, distance);
-      addMoves(moves[pair.other], parts.at(pair.other).part, pair.trianglesOfOther, distance);
+      addMoves(moves[pair.one], parts.at({ pair.one, 0 }).part, pair.trianglesOfOne, distance);
+      addMoves(moves[pair.other], parts.at({ pair.other, pair.image }).part, pair.trianglesOfOther, distance);
     }
   }
   for (auto& entry : moves)

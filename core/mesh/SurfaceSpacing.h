@@ -29,8 +29,9 @@ struct SpacingReport
 ///
 /// The gap also holds for files with points in single precision: surfaces nearer than the gap plus 0.00005 µm are moved. Points
 /// on a face of `box` stay on it, so that flat caps stay flat; the caller has to check other collisions, such as a cap that
-/// folds. Points on the faces in `held` (bits as in CappedSurface) do not move. Empty surfaces are skipped. The result is the
-/// same on any number of threads.
+/// folds. Points on the faces in `held` (bits as in CappedSurface) do not move; where two opposite ones are held the box repeats,
+/// and surfaces keep the gap from the images of others, too. Empty surfaces are skipped. The result is the same on any number of
+/// threads.
 ///
 /// It processes `box` in slabs of 10 µm along z, and holds only the surfaces' parts in one slab, with search trees for those near
 /// others. A point's displacement depends on the missing gap within its slab. It reads each surface once from the store, for its

@@ -158,7 +158,9 @@ PropertyValue defaultOf(const std::string& stage, const std::string& property)
 const std::vector<Preset>& presets()
 {
   static const std::vector<Preset> all = withLaterOnes({ tutorial(),
-    callosum("EM-like", "which fills 95 %, with gaps of 20 nm, as in tissue that was fixed for electron microscopy",
+    callosum("EM-like",
+      "a dense bundle whose fibres fill 95 %, with gaps of 20 nm, as in electron micrographs of fixed tissue; living tissue has "
+      "wider gaps",
       "5 % at most between cells, 15 to 20 nm wide, in micrographs of cortex: Arch Neurol 15:633 (1966); more before "
       "fixation: Korogod et al. 2015 (eLife 4:e05793)",
       { { bundle, "GrownFibreVolumeFraction", densest }, { growth, "SurfaceTolerance", densestTolerance } }),

@@ -12,6 +12,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkStringOutputWindow.h>
 #include <vtkTrivialProducer.h>
 #include <vtkWriter.h>
@@ -84,6 +85,15 @@ struct BadInput
   std::string message; ///< the required text of the error
 };
 
+void addOnes(vtkFieldData* data, const char* name, int count)
+{
+  vtkNew<vtkDoubleArray> ones;
+  ones->SetName(name);
+  ones->SetNumberOfValues(count);
+  ones->Fill(1.0);
+  data->AddArray(ones);
+}
+
 std::vector<BadInput> badInputs()
 {
   return {
@@ -102,6 +112,23 @@ std::vector<BadInput> badInputs()
         data->GetPointData()->AddArray(radius);
       },
       "array Radius must have one component" },
+    { "MyelinFractionOfText",
+      [](vtkPolyData* data)
+      {
+        vtkNew<vtkStringArray> text;
+        text->SetName("MyelinFraction");
+        text->SetNumberOfValues(6);
+        data->GetPointData()->AddArray(text);
+      },
+      "array MyelinFraction must hold numbers" },
+    { "MyelinFractionOfCells", [](vtkPolyData* data) { addOnes(data->GetCellData(), "MyelinFraction", 2); },
+      "array MyelinFraction must be point data" },
+    { "MyelinFractionOfTooFew", [](vtkPolyData* data) { addOnes(data->GetPointData(), "MyelinFraction", 5); },
+      "array MyelinFraction must have one component and 6 values" },
+    { "GRatioOfPoints", [](vtkPolyData* data) { addOnes(data->GetPointData(), "TargetGRatio", 6); },
+      "array TargetGRatio must be cell data" },
+    { "AxisRatioOfTooMany", [](vtkPolyData* data) { addOnes(data->GetCellData(), "TargetAxisRatio", 3); },
+      "array TargetAxisRatio must have one component and 2 values" },
     { "NegativeRadius", [](vtkPolyData* data) { data->GetPointData()->GetArray("Radius")->SetComponent(4, 0, -0.5); },
       "fibre 2 (cell 1), control point 1: Radius is -0.5" },
     { "ZeroRadius", [](vtkPolyData* data) { data->GetPointData()->GetArray("Radius")->SetComponent(4, 0, 0.0); },

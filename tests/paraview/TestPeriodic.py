@@ -10,8 +10,12 @@ from cactus_testing import CactusTestCase, fetch, main, mesh_oracle, random_walk
 from paraview import servermanager
 from paraview.simple import (
     BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateCertificate, SubstrateStatistics, SubstrateWriter,
+    TrivialProducer,
 )
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCleanPolyData, vtkTriangleFilter
+from vtkmodules.vtkFiltersSources import vtkCubeSource
 
 SIDE = 8.0
 
@@ -78,6 +82,37 @@ class TestPeriodic(CactusTestCase):
         for mesh in judged["meshes"]:
             self.assertFalse(mesh["self_intersecting"], mesh["file"])
         self.assertEqual(judged["pairs"], [])
+
+    def test_certificate_measures_across_faces(self):
+        """Two cubes, 4.5 apart in the domain and 0.5 across its faces."""
+        both = vtkAppendPolyData()
+        for fibre, x in ((1, -2.875), (2, 2.625)):
+            cube = vtkCubeSource()
+            cube.SetCenter(x, 0, 0)
+            triangles = vtkTriangleFilter()
+            triangles.SetInputConnection(cube.GetOutputPort())
+            merged = vtkCleanPolyData()
+            merged.SetInputConnection(triangles.GetOutputPort())
+            merged.Update()
+            surface = merged.GetOutput()
+            ids = numpy_to_vtk(np.full(surface.GetNumberOfCells(), fibre), deep=True)
+            ids.SetName("FibreId")
+            surface.GetCellData().AddArray(ids)
+            both.AddInputData(surface)
+        both.Update()
+        domain = numpy_to_vtk(np.array([-3.5, 3.5] * 3), deep=True)
+        domain.SetName("Domain")
+        both.GetOutput().GetFieldData().AddArray(domain)
+        for periodic, gap in ((None, 4.5), ([0, 0, 0], 4.5), ([1, 1, 0], 0.5)):
+            data = vtkPolyData()
+            data.DeepCopy(both.GetOutput())
+            if periodic is not None:
+                flags = numpy_to_vtk(np.array(periodic, dtype=np.uint8), deep=True)
+                flags.SetName("Periodic")
+                data.GetFieldData().AddArray(flags)
+            outer = TrivialProducer()
+            outer.GetClientSideObject().SetOutput(data)
+            self.assertAlmostEqual(row(SubstrateCertificate(Outer=outer))["SmallestGap_um"], gap, places=9)
 
     @staticmethod
     def on_box_edges(places, triangles):

@@ -119,6 +119,8 @@ class Chain:
             values.setdefault("Border", "Walls")  # all there was before 0.3.0
         if stage["filter"] in ("BundleInitializer", "TractFibres"):
             values.setdefault("CalibreVariation", 0)
+        if stage["filter"] in ("BundleInitializer", "TractFibres", "CurvedBundles"):
+            values.setdefault("SectionAxisRatio", 1)
         reached = stage.get("reached", {})
         if reached.get("Ended") in ("TimeBudget", "Stopped"):
             # The clock and the user stop elsewhere the next time.

@@ -47,7 +47,7 @@ SubstrateCertificate findingsOf(const std::vector<TriangleMesh>& surfaces, std::
   }
   cactus::Context context;
   context.threads = threads;
-  findGaps(outer, certificate, context, 0.0);
+  findGaps(cactus::Domain(), outer, certificate, context, 0.0);
   made = count;
   return certificate;
 }

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -425,6 +427,72 @@ TEST(SubstrateCertificate, GapsAreThoseOfAllPairsOnAnyNumberOfThreads)
 }
 
 // The findings of a killed run are not computed again.
+// By brute force over all images.
+TEST(SubstrateCertificate, GapsReachAcrossPeriodicFaces)
+{
+  Meshes outer = Substrate().outer;
+  for (auto& entry : outer)
+  {
+    for (Eigen::Vector3d& point : entry.second.points)
+    {
+      point[0] += 0.58; // fibres 3 and 5 end 0.38 and 0.39 before a face, fibre 1 begins 0.53 behind the opposite one
+    }
+  }
+  for (const std::array<bool, 3>& periodic : { std::array<bool, 3>{ { true, true, false } }, { { true, true, true } } })
+  {
+    cactus::Domain domain = cactus::Domain::cube(2 * halfSide);
+    domain.periodic = periodic;
+    for (const int threads : { 1, 3 })
+    {
+      cactus::Context context;
+      context.threads = threads;
+      const auto certificate = cactus::certify(domain, surfaces(outer), {}, nullptr, {}, context);
+      ASSERT_EQ(certificate.fibres.size(), 5U);
+      double smallest = 1e300;
+      for (const cactus::FibreCertificate& fibre : certificate.fibres)
+      {
+        const cactus::TriangleTree own(outer.at(fibre.fibreId));
+        double least = 1e300;
+        std::map<double, int> nearest;
+        for (const auto& [id, mesh] : outer)
+        {
+          for (int n = 0; n < 27 && id != fibre.fibreId; ++n)
+          {
+            TriangleMesh image = mesh;
+            for (Eigen::Vector3d& point : image.points)
+            {
+              point += 2.0 * halfSide * Eigen::Vector3d(n % 3 - 1, n / 3 % 3 - 1, periodic[2] ? n / 9 - 1 : 0);
+            }
+            const double gap = cactus::smallestGap(own, cactus::TriangleTree(image)).distance;
+            least = std::min(least, gap);
+            nearest.emplace(gap, id);
+          }
+        }
+        EXPECT_NEAR(fibre.gap, least, 1e-12);
+        EXPECT_EQ(fibre.nearestFibre, nearest.begin()->second);
+        smallest = std::min(smallest, least);
+      }
+      EXPECT_NEAR(certificate.smallestGap, smallest, 1e-12);
+      EXPECT_EQ(certificate.meetingPairs, 0U);
+    }
+  }
+}
+
+TEST(SubstrateCertificate, FibresMeetAcrossPeriodicFaces)
+{
+  cactus::Domain domain = cactus::Domain::cube(2 * halfSide);
+  const Meshes outer{ { 1, tube(-1.5, 0, 0.45, -1, 1) }, { 2, tube(1.5, 0, 0.47, -1, 1) } };
+  EXPECT_NEAR(cactus::certify(domain, surfaces(outer), {}, nullptr).smallestGap, 2.08, 1e-9);
+  domain.periodic = { { true, true, false } };
+  cactus::SubstrateCertificateOptions options;
+  options.minimumGap = 0.1;
+  const auto near = cactus::certify(domain, surfaces(outer), {}, nullptr, options);
+  EXPECT_NEAR(near.smallestGap, 0.08, 1e-9);
+  expectFault(near, "as near as 0.08 µm");
+  const Meshes meeting{ { 1, tube(-1.5, 0, 0.55, -1, 1) }, { 2, tube(1.5, 0, 0.47, -1, 1) } };
+  expectFault(cactus::certify(domain, surfaces(meeting), {}, nullptr), "cut or touch each other");
+}
+
 TEST(SubstrateCertificate, LooksAtNothingThatIsKnown)
 {
   Substrate substrate;

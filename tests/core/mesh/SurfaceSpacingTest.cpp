@@ -113,6 +113,41 @@ TEST(SurfaceSpacing, PartsCornersThatMoveAskew)
   EXPECT_GE((upper.points[0] - lower.points[0]).norm(), 0.02);
 }
 
+/// Returns the distance of a surface to the image of another one.
+double distanceToImage(const TriangleMesh& own, TriangleMesh other, const Eigen::Vector3d& shift)
+{
+  for (Eigen::Vector3d& point : other.points)
+  {
+    point += shift;
+  }
+  return smallestGap(TriangleTree(own), TriangleTree(other)).distance;
+}
+
+// Left and right are 0.018 apart beyond the face, and 0.8 in the box; above and below so across the other faces.
+TEST(SurfaceSpacing, MovesWhatIsTooNearAcrossHeldFaces)
+{
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(-1, -1, -20), Eigen::Vector3d(1, 1, 20));
+  constexpr std::uint8_t across = 0x0f;
+  constexpr std::uint8_t all = 0x3f;
+  for (const std::uint8_t held : { std::uint8_t(0), across, all })
+  {
+    TriangleMesh left = tube(-0.7, 0.29);
+    TriangleMesh right = tube(0.7, 0.28, 0.012);
+    TriangleMesh above = example::tube(0.0, 0.0, 0.1, 18.0, 19.992, 24, 10);
+    TriangleMesh below = example::tube(0.0, 0.0, 0.1, -19.99, -18.0, 24, 10);
+    const SpacingReport report = keepApart({ &left, &below, &right, &above }, std::vector<std::size_t>{ 0, 1, 2, 3 }, 0.02, box,
+      Context(), 0.0, 1.0, Sharing(), Recollection(), held);
+    const std::vector<std::size_t> none;
+    const std::vector<std::size_t> sides{ 0, 2 };
+    const std::vector<std::size_t> everything{ 0, 1, 2, 3 };
+    EXPECT_EQ(report.moved, held == 0 ? none : held == across ? sides : everything);
+    EXPECT_TRUE(report.tooNear.empty());
+    EXPECT_EQ(distanceToImage(right, left, { 2.0, 0.0, 0.0 }) >= 0.02, held != 0);
+    EXPECT_EQ(distanceToImage(above, below, { 0.0, 0.0, 40.0 }) >= 0.02, held == all);
+    EXPECT_LT(distanceToImage(right, left, { 2.0, 0.0, 0.0 }), 0.0215);
+  }
+}
+
 TEST(SurfaceSpacing, MovesWhatIsTooNearToTheGap)
 {
   // 0.03 apart, but for the bulge, which leaves 0.015.
