@@ -3,9 +3,17 @@
 
 #include "base/JsonText.h"
 #include "base/Sha256.h"
+#include "fibres/FibreShape.h"
 #include "fibres/SelectFibres.h"
+#include "judge/DirectionStatistics.h"
+#include "judge/FibreProfile.h"
 
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
 #include <vector>
 
 namespace cactus
@@ -90,6 +98,50 @@ Json placementRows(const std::optional<Placement>& placement)
   return rows;
 }
 
+/// Six digits, which are the same on every system: its logarithms and angles may differ in the last bits.
+Json rounded(double value)
+{
+  std::array<char, 32> digits{};
+  const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 6).ptr;
+  double result = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(digits.data(), end, result);
+  return std::isfinite(result) ? Json(result) : Json();
+}
+
+/// The directions of the fibres that the surfaces were made of, as SubstrateStatistics measures them.
+Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& options, const SubstrateCertificate& certificate)
+{
+  std::map<int, double> radii;
+  for (const FibreCertificate& fibre : certificate.fibres)
+  {
+    radii[fibre.fibreId] = fibre.innerRadius.mean;
+  }
+  const std::vector<FibreCut> none;
+  std::vector<AxonSections> axons;
+  double sinuosity = 0.0;
+  double lines = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const auto radius = radii.find(fibres.fibreIds[f]);
+    axons.push_back({ &none, radius != radii.end() ? radius->second : std::numeric_limits<double>::quiet_NaN() });
+    const double own = centreLineShape(fibres, f).sinuosity;
+    sinuosity += std::isfinite(own) ? own : 0.0;
+    lines += std::isfinite(own) ? 1.0 : 0.0;
+  }
+  const DirectionStatistics measured = measureDirections(fibres, axons, options.cutSpacing);
+  Json directions;
+  directions["mean_dispersion_deg"] = rounded(meanDispersion(fibres));
+  directions["tangent_dispersion_deg"] = rounded(meanTangentDispersion(fibres));
+  directions["p2"] = rounded(measured.p2);
+  directions["p2_by_axon_volume"] = rounded(measured.p2ByAxonVolume);
+  directions["kappa"] = rounded(measured.kappa);
+  directions["odi"] = rounded(measured.odi);
+  directions["local_spread_deg"] = rounded(measured.localSpread);
+  directions["twist"] = rounded(measured.twist);
+  directions["sinuosity"] = rounded(sinuosity / lines);
+  return directions;
+}
+
 Json judgedSurfaces(const SubstrateCertificate& certificate)
 {
   Json judged = Json::array();
@@ -165,6 +217,10 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   if (substrate.leaving)
   {
     manifest["extra_walkers_leaving"] = substrate.leaving->share;
+  }
+  if (contents.fibres != nullptr)
+  {
+    manifest["directions"] = directionsOf(*contents.fibres, contents.certificate, substrate.certificate);
   }
   manifest["faults"] = substrate.certificate.faults;
   manifest["provenance"] = stagesOf(contents.provenance);

@@ -104,7 +104,7 @@ class ManifestSchema(CactusTestCase):
 
             return damage
 
-        optional = {"extra_walkers_leaving"}
+        optional = {"extra_walkers_leaving", "directions"}
         self.assertLess(optional, set(sound))
         damages = [entry(name, [[]]) for name in sound]
         damages += [lambda manifest, name=name: manifest.pop(name) for name in sound if name not in optional]
@@ -112,6 +112,7 @@ class ManifestSchema(CactusTestCase):
         damages += [entry("path", "../elsewhere.ply", "files", 0), entry("path", "/etc/passwd", "files", 0), entry("fibre", 0.5, "files", 0)]
         damages += [entry("README.txt", "0" * 63, "sha256"), entry("../x", "0" * 64, "sha256"), entry("simulator", "mcdc")]
         damages += [entry("id", "1", "provenance", -1), entry("inputs", {"Outer": [{"port": 0}]}, "provenance", -1)]
+        damages += [entry("p2", "0.9", "directions"), lambda manifest: manifest["directions"].pop("twist")]
         for number, damage in enumerate(damages):
             with self.subTest(damage=number):
                 manifest = copy.deepcopy(sound)

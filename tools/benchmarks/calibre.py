@@ -8,7 +8,7 @@ Inner surfaces are cut every 0.25 µm. From differences of ln r at distances alo
 short axons): its deviation, and the distance at which the correlation falls to one half. Beside them: the diffusivity along axons, 1/<1/α> of those
 that run through most of the domain; the Kolmogorov-Smirnov distance of outer radii to their targets and the ratio of their means; fibres whose myelin
 is not as asked; the part of the length where the axon's radius is below
-a voxel, as asked and on final surfaces; and the time of the four stages.
+a voxel, as asked and on final surfaces; whether the substrate is certified; and the time of the four stages.
 """
 
 import argparse
@@ -93,8 +93,8 @@ def main():
     parser.add_argument("--beads", type=float, nargs="+", default=[], metavar="AMPLITUDE", help="CalibreModel Beads, in place of --variations")
     parser.add_argument("--voxel", type=float, default=0.1)
     options = parser.parse_args()
-    print("| fraction | asked | seed | outer ln r before, after | inner ln r | half at (µm) | 1/<1/α> | Γ0 (µm) | beads: amplitude, spacing (µm) | FVF | necks below a voxel: asked, reached | radii: KS, mean | iterations, pairs | not as asked | s |")
-    print("|---" * 15 + "|")
+    print("| fraction | asked | seed | outer ln r before, after | inner ln r | half at (µm) | 1/<1/α> | Γ0 (µm) | beads: amplitude, spacing (µm) | FVF | necks below a voxel: asked, reached | radii: KS, mean | iterations, pairs | not as asked | certified | s |")
+    print("|---" * 16 + "|")
     for fraction in options.fractions:
         for variation in options.beads or options.variations:
             asked = {"CalibreModel": "Beads", "BeadAmplitude": variation} if options.beads else {"CalibreVariation": variation}
@@ -110,6 +110,7 @@ def main():
                 statistics = SubstrateStatistics(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1), CutSpacing=SPACING)
                 summary, table, profiles = (servermanager.Fetch(statistics, idx=port) for port in (0, 1, 3))
                 convergence = servermanager.Fetch(optimised, idx=1)
+                certificate = servermanager.Fetch(SubstrateCertificate(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1)))
                 ids, outer, inner = columns(profiles, "FibreId", "OuterDiameter_um", "InnerDiameter_um")
                 arc, = columns(profiles, "ArcLength_um")
                 lines = {"outer": [], "inner": []}
@@ -143,6 +144,7 @@ def main():
                     f"{distance(measured[whole], targets[whole]):.3f}, {value('MeanOuterRadius_um') / value('MeanTargetRadius_um'):.3f}",
                     f"{rows}, {pairs:g}",
                     f"{(myelin[np.isin(made, long)] > 0).sum()} of {len(long)}",
+                    "yes" if certificate.GetColumnByName("Certified").GetTuple1(0) else "no",
                     f"{took:.1f}",
                 ]
                 print("| " + " | ".join(cells) + " |", flush=True)

@@ -114,6 +114,7 @@ def asked_and_reached(manifest, certificate, fibres, dispersion):
     """[(quantity, asked or None, reached)] of a substrate. `certificate` = {quantity: value}, `fibres` = rows of its table by fibre,
     `dispersion` = the mean angle in degrees between fibres and their bundle's axis, or None."""
     fraction, g = asked_fraction(manifest), asked_g_ratio(manifest)
+    directions = manifest.get("directions", {})
     axons = fraction * g * g if fraction is not None and g is not None else None
     axons = only(values.get("TargetAxonVolumeFraction") for values in stages_of(manifest, *COATING)
                  if values.get("GRatioModel") == "TargetAxonVolumeFraction") or axons
@@ -128,6 +129,11 @@ def asked_and_reached(manifest, certificate, fibres, dispersion):
         ("mean outer radius (µm)", AskedRadii(manifest).mean(), mean_radius(fibres, "OuterRadius_um")),
         ("mean inner radius (µm)", None, mean_radius(fibres, "InnerRadius_um")),
         ("mean dispersion (degrees)", (source_of_all(manifest, ["MeanDispersion"]) or {}).get("MeanDispersion"), dispersion),
+        ("orientation dispersion index (ODI)", None, directions.get("odi")),
+        ("p2 of directions", None, directions.get("p2")),
+        ("angle between fibres within 10 µm (degrees)", None, directions.get("local_spread_deg")),
+        ("twist of the bundle", None, directions.get("twist")),
+        ("sinuosity", (source_of_all(manifest, ["Sinuosity"]) or {}).get("Sinuosity"), directions.get("sinuosity")),
         ("smallest gap between fibres (µm)", certificate.get("MinimumGap_um"), certificate.get("SmallestGap_um")),
         ("thinnest myelin (µm)", None, certificate.get("SmallestMyelin_um")),
         ("triangles", None, certificate.get("Triangles")),

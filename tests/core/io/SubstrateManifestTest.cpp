@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateManifest.h"
 
+#include "base/Constants.h"
+#include "base/JsonText.h"
 #include "base/Sha256.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -39,6 +42,44 @@ TEST(SubstrateManifest, SaysWhatWasWritten)
   EXPECT_EQ(manifest->written.folders, std::set<std::string>{ "outer" });
   EXPECT_NE(text.find("\n  \"domain\": [-15.0, 15.0, -15.0, 15.0, -15.0, 15.0],\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\"volume_um3\": null, \"area_um2\": 0.1,"), std::string::npos) << "JSON has no NaN";
+}
+
+// Two straight fibres, each at 10° to z, and 20° to each other.
+TEST(SubstrateManifest, HasTheDirectionsOfTheFibres)
+{
+  const double slant = std::tan(10.0 * cactus::pi / 180.0);
+  cactus::Fibres fibres;
+  fibres.domain = cactus::Domain::cube(30.0);
+  for (const int side : { -1, 1 })
+  {
+    fibres.addFibre(side + 2, 1, 0.5);
+    for (const double z : { -20.0, -3.0, 20.0 })
+    {
+      fibres.addPoint({ side * slant * z, 2.0 * side, z }, 0.5);
+    }
+  }
+  cactus::SubstrateFolderContents contents;
+  contents.domain = fibres.domain;
+  EXPECT_EQ(cactus::manifestText(contents, {}, {}).find("directions"), std::string::npos);
+  contents.fibres = &fibres;
+  cactus::WrittenSubstrate substrate;
+  substrate.certificate.fibres.resize(1);
+  substrate.certificate.fibres[0].fibreId = 1; // the other one has no axon
+  substrate.certificate.fibres[0].innerRadius.mean = 0.3;
+  const auto manifest = cactus::parsedJson(cactus::manifestText(contents, substrate, {}));
+  ASSERT_TRUE(manifest);
+  const cactus::Json& directions = manifest->at("directions");
+  const double p2 = 1.5 * std::pow(std::cos(10.0 * cactus::pi / 180.0), 2.0) - 0.5;
+  EXPECT_NEAR(directions.at("mean_dispersion_deg").get<double>(), 10.0, 1e-5);
+  EXPECT_NEAR(directions.at("tangent_dispersion_deg").get<double>(), 10.0, 1e-5);
+  EXPECT_NEAR(directions.at("p2").get<double>(), p2, 1e-5);
+  EXPECT_NEAR(directions.at("p2_by_axon_volume").get<double>(), p2, 1e-5);
+  EXPECT_NEAR(directions.at("odi").get<double>(), 2.0 / cactus::pi * std::atan(1.0 / directions.at("kappa").get<double>()), 1e-5);
+  EXPECT_NEAR(directions.at("local_spread_deg").get<double>(), 20.0, 1e-5);
+  EXPECT_NEAR(directions.at("sinuosity").get<double>(), 1.0, 1e-5);
+  fibres = fibres.emptyCopy();
+  const auto none = cactus::parsedJson(cactus::manifestText(contents, substrate, {}));
+  EXPECT_TRUE(none->at("directions").at("p2").is_null()) << "JSON has no NaN";
 }
 
 TEST(SubstrateManifest, CountsBeyond32Bits)
