@@ -93,15 +93,19 @@ void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
   }
   vtkDataArray* myelin =
     scalarsNotAmong(input->GetCellData(), input->GetPointData(), myelinFractionName, input->GetNumberOfPoints(), "point data");
-  vtkDataArray* fibreId = scalars(input->GetCellData(), "FibreId", input->GetNumberOfCells());
-  vtkDataArray* bundleId = scalars(input->GetCellData(), "BundleId", input->GetNumberOfCells());
-  vtkDataArray* targetRadius = scalars(input->GetCellData(), "TargetRadius", input->GetNumberOfCells());
+  const auto ofCells = [input](const char* name)
+  {
+    return scalarsNotAmong(
+      input->GetPointData(), input->GetCellData(), name, input->GetNumberOfCells(), "cell data, a value per fibre");
+  };
+  vtkDataArray* fibreId = ofCells("FibreId");
+  vtkDataArray* bundleId = ofCells("BundleId");
+  vtkDataArray* targetRadius = ofCells("TargetRadius");
 
   std::vector<std::pair<const char*, vtkDataArray*>> columns;
   for (const ColumnFacts& column : fibreColumns())
   {
-    if (vtkDataArray* array = scalarsNotAmong(
-          input->GetPointData(), input->GetCellData(), column.name, input->GetNumberOfCells(), "cell data, a value per fibre"))
+    if (vtkDataArray* array = ofCells(column.name))
     {
       columns.emplace_back(column.name, array);
     }

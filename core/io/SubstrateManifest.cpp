@@ -108,7 +108,8 @@ Json rounded(double value)
   return std::isfinite(result) ? Json(result) : Json();
 }
 
-/// The directions of the fibres that the surfaces were made of, as SubstrateStatistics measures them.
+/// The directions of the fibres that the surfaces were made of, as SubstrateStatistics measures them; but here an axon's volume
+/// along it is that of its mean radius.
 Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& options, const SubstrateCertificate& certificate)
 {
   std::map<int, double> radii;
@@ -119,14 +120,15 @@ Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& optio
   const std::vector<FibreCut> none;
   std::vector<AxonSections> axons;
   double sinuosity = 0.0;
-  double lines = 0.0;
+  double length = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     const auto radius = radii.find(fibres.fibreIds[f]);
     axons.push_back({ &none, radius != radii.end() ? radius->second : std::numeric_limits<double>::quiet_NaN() });
     const double own = centreLineShape(fibres, f).sinuosity;
-    sinuosity += std::isfinite(own) ? own : 0.0;
-    lines += std::isfinite(own) ? 1.0 : 0.0;
+    const double weight = std::isfinite(own) ? lengthInDomain(fibres, f) : 0.0;
+    sinuosity += weight > 0.0 ? weight * own : 0.0;
+    length += weight;
   }
   const DirectionStatistics measured = measureDirections(fibres, axons, options.cutSpacing);
   Json directions;
@@ -138,7 +140,7 @@ Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& optio
   directions["odi"] = rounded(measured.odi);
   directions["local_spread_deg"] = rounded(measured.localSpread);
   directions["twist"] = rounded(measured.twist);
-  directions["sinuosity"] = rounded(sinuosity / lines);
+  directions["sinuosity"] = rounded(sinuosity / length);
   return directions;
 }
 
@@ -218,7 +220,7 @@ std::string manifestText(const SubstrateFolderContents& contents, const WrittenS
   {
     manifest["extra_walkers_leaving"] = substrate.leaving->share;
   }
-  if (contents.fibres != nullptr)
+  if (contents.fibres != nullptr && !contents.sample) // neighbours of a sample are not neighbours
   {
     manifest["directions"] = directionsOf(*contents.fibres, contents.certificate, substrate.certificate);
   }

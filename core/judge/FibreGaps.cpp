@@ -39,7 +39,7 @@ struct FibrePair
   std::size_t image = 0; ///< of b: 0 for itself, or 1 + the number of its shift
 };
 
-/// An image of a fibre, as a FibrePair has it, near one that is in its place; or the reverse.
+/// Fibre `inPlace` and an image of fibre `other`, by rank, that come near each other. Images are numbered as in FibrePair.
 struct NearImage
 {
   std::size_t inPlace = 0;
@@ -47,14 +47,22 @@ struct NearImage
   std::size_t image = 0;
 };
 
-Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh)
+/// Returns the box of a tree's triangles.
+Eigen::AlignedBox3d boxOf(const TriangleTree& tree)
 {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : mesh.points)
+  if (tree.empty())
   {
-    box.extend(point);
+    return {};
   }
-  return box;
+  const FloatBox& box = tree.nodes()[0].box;
+  return { box.lower.head<3>().cast<double>().matrix(), box.upper.head<3>().cast<double>().matrix() };
+}
+
+FloatBox shifted(const FloatBox& box, const Eigen::Vector3d& shift)
+{
+  const Eigen::Vector3d lower = box.lower.head<3>().cast<double>().matrix() + shift;
+  const Eigen::Vector3d upper = box.upper.head<3>().cast<double>().matrix() + shift;
+  return shift.isZero(0.0) ? box : FloatBox::around(lower, upper, upper);
 }
 
 /// Returns the triangles of a shifted mesh that come within a distance of a box, by their own boxes.
@@ -115,7 +123,7 @@ public:
         "Measuring gaps", from, middle);
     std::vector<std::vector<FibrePair>> pairs = this->pairsOf(near);
     const double beyond = middle + (this->Shifts.empty() ? 0.0 : imagesShare * (1.0 - from));
-    this->addPairsAcross(context, middle, beyond, sharing, known, pairs);
+    this->addPairsAcross(context, middle, beyond, pairs);
     known.part("gaps").loop(
       sharing, pairs.size(), context,
       [&](std::size_t rank)
@@ -156,13 +164,13 @@ private:
 
   std::size_t likeliestNeighbour(std::size_t rank) const;
   double gapToLikeliest(std::size_t rank) const;
-  std::vector<std::size_t> thoseWithin(std::size_t rank, double distance) const;
+  std::vector<std::size_t> thoseWithin(
+    std::size_t rank, double distance, const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
   void addThoseAround(std::size_t rank, std::vector<std::size_t>& found) const;
   std::vector<std::size_t> thoseOnAllSides(const Eigen::Vector3d& point) const;
   std::vector<std::vector<FibrePair>> pairsOf(const std::vector<std::vector<std::size_t>>& near) const;
   std::vector<NearImage> imagesNear(std::size_t rank) const;
-  void addPairsAcross(const Context& context, double from, double to, const Sharing& sharing, const Recollection& known,
-    std::vector<std::vector<FibrePair>>& pairs) const;
+  void addPairsAcross(const Context& context, double from, double to, std::vector<std::vector<FibrePair>>& pairs) const;
   void measure(FibrePair& pair) const;
   bool hasPieceInside(
     const TreedSurface& inside, std::size_t insideRank, const TreedSurface& around, std::size_t aroundRank) const;
@@ -243,13 +251,14 @@ double GapSearch::gapToLikeliest(std::size_t rank) const
   return likeliest == rank ? infinite : smallestGap(this->surface(rank)->tree, this->surface(likeliest)->tree).distance;
 }
 
-/// Returns the fibres with a part whose box is within `distance` of one of this fibre's.
-std::vector<std::size_t> GapSearch::thoseWithin(std::size_t rank, double distance) const
+/// Returns the other fibres with a part whose box is within `distance` of one of this fibre's, once it is shifted (µm).
+std::vector<std::size_t> GapSearch::thoseWithin(std::size_t rank, double distance, const Eigen::Vector3d& shift) const
 {
   std::vector<std::size_t> found;
   const double squared = distance * distance;
-  for (const FloatBox& box : this->Outer.branches(this->Present[rank]))
+  for (const FloatBox& branch : this->Outer.branches(this->Present[rank]))
   {
+    const FloatBox box = shifted(branch, shift);
     const auto isNear = [&](const FloatBox& other) { return double(box.squaredDistance(other)) <= squared; };
     visitPlaces(this->Branches, isNear,
       [&](std::uint32_t place)
@@ -340,77 +349,32 @@ std::vector<std::vector<FibrePair>> GapSearch::pairsOf(const std::vector<std::ve
   return pairs;
 }
 
-/// Returns the fibres with an image of which a part's box comes within the bound of a fibre's gap.
+/// Returns pairs of a fibre and an image of another one that are within the bound of this fibre's gap, by the boxes of their
+/// parts. Either of the two may be this fibre.
 std::vector<NearImage> GapSearch::imagesNear(std::size_t rank) const
 {
   std::vector<NearImage> found;
-  const double squared = this->Bound[rank] * this->Bound[rank];
-  for (std::size_t side = 0; side < 2 * this->Shifts.size(); ++side)
+  for (std::size_t image = 1; image <= this->Shifts.size(); ++image)
   {
-    const std::size_t image = side / 2 + 1;
-    const Eigen::Vector3d shift = side % 2 == 0 ? this->Shifts[side / 2] : Eigen::Vector3d(-this->Shifts[side / 2]);
-    std::vector<std::size_t> others;
-    for (const FloatBox& box : this->Outer.branches(this->Present[rank]))
+    const Eigen::Vector3d& shift = this->Shifts[image - 1];
+    for (const std::size_t other : this->thoseWithin(rank, this->Bound[rank], -shift))
     {
-      // The fibre is shifted the other way, in place of all others.
-      const Eigen::Vector3d lower = box.lower.head<3>().cast<double>().matrix() - shift;
-      const Eigen::Vector3d upper = box.upper.head<3>().cast<double>().matrix() - shift;
-      const FloatBox own = FloatBox::around(lower, upper, upper);
-      const auto isNear = [&](const FloatBox& other) { return double(own.squaredDistance(other)) <= squared; };
-      visitPlaces(this->Branches, isNear,
-        [&](std::uint32_t place)
-        {
-          const std::size_t other = this->RankOf[this->Branches.order()[place]];
-          if (other != rank && isNear(this->Branches.boxes()[place]))
-          {
-            others.push_back(other);
-          }
-          return false;
-        });
+      found.push_back({ rank, other, image });
     }
-    std::sort(others.begin(), others.end());
-    others.erase(std::unique(others.begin(), others.end()), others.end());
-    for (const std::size_t other : others)
+    for (const std::size_t other : this->thoseWithin(rank, this->Bound[rank], shift))
     {
-      found.push_back(side % 2 == 0 ? NearImage{ rank, other, image } : NearImage{ other, rank, image });
+      found.push_back({ other, rank, image });
     }
   }
   return found;
 }
 
-/// Adds the pairs of a fibre and the image of another one, each once, under the fibre that is in its place.
-void GapSearch::addPairsAcross(const Context& context, double from, double to, const Sharing& sharing, const Recollection& known,
-  std::vector<std::vector<FibrePair>>& pairs) const
+/// Adds the pairs of a fibre and an image of another one, each once.
+void GapSearch::addPairsAcross(const Context& context, double from, double to, std::vector<std::vector<FibrePair>>& pairs) const
 {
-  if (this->Shifts.empty())
-  {
-    return;
-  }
-  std::vector<std::vector<NearImage>> near(pairs.size());
-  known.part("images").loop(
-    sharing, near.size(), context, [&](std::size_t rank) { near[rank] = this->imagesNear(rank); },
-    [&](std::size_t rank)
-    {
-      ByteWriter put;
-      for (const NearImage& one : near[rank])
-      {
-        put(one.inPlace);
-        put(one.other);
-        put(one.image);
-      }
-      return put.bytes();
-    },
-    [&](std::size_t rank, const std::string& bytes)
-    {
-      for (ByteReader get(bytes); !get.isAtEnd();)
-      {
-        NearImage& one = near[rank].emplace_back();
-        get(one.inPlace);
-        get(one.other);
-        get(one.image);
-      }
-    },
-    "Measuring gaps", from, to);
+  std::vector<std::vector<NearImage>> near(this->Shifts.empty() ? 0 : pairs.size());
+  parallelFor(
+    near.size(), context, [&](std::size_t rank) { near[rank] = this->imagesNear(rank); }, "Measuring gaps", from, to);
   std::set<std::array<std::size_t, 3>> all;
   for (const std::vector<NearImage>& ofRank : near)
   {
@@ -434,10 +398,11 @@ void GapSearch::measure(FibrePair& pair) const
   if (pair.image > 0)
   {
     const Eigen::Vector3d& shift = this->Shifts[pair.image - 1];
-    const TriangleMesh image = partNear(b->mesh, shift, boxOf(a->mesh), below);
-    const TriangleMesh inPlace = partNear(a->mesh, Eigen::Vector3d::Zero(), boxOf(image), below);
-    pair.gap = smallestGap(TriangleTree(inPlace), TriangleTree(image), below).distance;
-    return; // the domain has nothing inside of what lies beyond it
+    const TriangleMesh image = partNear(b->mesh, shift, boxOf(a->tree), below);
+    const TriangleTree ofImage(image);
+    const TriangleMesh inPlace = partNear(a->mesh, Eigen::Vector3d::Zero(), boxOf(ofImage), below);
+    pair.gap = smallestGap(TriangleTree(inPlace), ofImage, below).distance;
+    return; // surfaces end at the domain's faces: none lies inside another one's image
   }
   pair.gap = smallestGap(a->tree, b->tree, below).distance;
   pair.nested = pair.gap > 0.0 && (this->hasPieceInside(*a, pair.a, *b, pair.b) || this->hasPieceInside(*b, pair.b, *a, pair.a));

@@ -127,6 +127,8 @@ std::vector<BadInput> badInputs()
       "array MyelinFraction must have one component and 6 values" },
     { "GRatioOfPoints", [](vtkPolyData* data) { addOnes(data->GetPointData(), "TargetGRatio", 6); },
       "array TargetGRatio must be cell data" },
+    { "FibreIdOfPoints", [](vtkPolyData* data) { addOnes(data->GetPointData(), "FibreId", 6); },
+      "array FibreId must be cell data, a value per fibre" },
     { "AxisRatioOfTooMany", [](vtkPolyData* data) { addOnes(data->GetCellData(), "TargetAxisRatio", 3); },
       "array TargetAxisRatio must have one component and 2 values" },
     { "NegativeRadius", [](vtkPolyData* data) { data->GetPointData()->GetArray("Radius")->SetComponent(4, 0, -0.5); },

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
@@ -63,6 +64,31 @@ Fibres repeated()
 }
 
 } // namespace
+
+TEST(PeriodicImages, ShiftsOfTheDomainLeadToEachNeighbourOnce)
+{
+  Domain domain = Domain::cube(4.0);
+  domain.upper[2] = 5.0;
+  EXPECT_TRUE(domain.shiftsToImages().empty());
+  for (const bool alongZ : { false, true })
+  {
+    domain.periodic = { { true, true, alongZ } };
+    std::set<std::tuple<double, double, double>> neighbours;
+    for (const Eigen::Vector3d& shift : domain.shiftsToImages())
+    {
+      for (const double sense : { -1.0, 1.0 })
+      {
+        EXPECT_TRUE(neighbours.emplace(sense * shift[0] / 4.0, sense * shift[1] / 4.0, sense * shift[2] / 7.0).second);
+      }
+    }
+    EXPECT_EQ(neighbours.size(), alongZ ? 26U : 8U);
+    EXPECT_EQ(neighbours.count({ 0.0, 0.0, 0.0 }), 0U);
+    for (const auto& [x, y, z] : neighbours)
+    {
+      EXPECT_TRUE(std::abs(x) <= 1.0 && std::abs(y) <= 1.0 && std::abs(z) <= (alongZ ? 1.0 : 0.0));
+    }
+  }
+}
 
 TEST(PeriodicImages, NoneThatMayTouchIsMissing)
 {

@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/JsonText.h"
 #include "base/Sha256.h"
+#include "judge/SubstrateStatistics.h"
 
 #include <gtest/gtest.h>
 
@@ -77,6 +78,18 @@ TEST(SubstrateManifest, HasTheDirectionsOfTheFibres)
   EXPECT_NEAR(directions.at("odi").get<double>(), 2.0 / cactus::pi * std::atan(1.0 / directions.at("kappa").get<double>()), 1e-5);
   EXPECT_NEAR(directions.at("local_spread_deg").get<double>(), 20.0, 1e-5);
   EXPECT_NEAR(directions.at("sinuosity").get<double>(), 1.0, 1e-5);
+  // A curved one, of which less is in the domain: means are over length, as in the statistics.
+  fibres.addFibre(7, 1, 0.5);
+  for (const Eigen::Vector3d& point : { Eigen::Vector3d(5, 5, 0), Eigen::Vector3d(7, 5, 6), Eigen::Vector3d(5, 5, 12) })
+  {
+    fibres.addPoint(point, 0.5);
+  }
+  const auto more = cactus::parsedJson(cactus::manifestText(contents, substrate, {}))->at("directions");
+  const cactus::SubstrateStatistics statistics = cactus::measureSubstrate(fibres, {}, {});
+  EXPECT_GT(statistics.meanSinuosity, 1.005);
+  EXPECT_NEAR(more.at("sinuosity").get<double>(), statistics.meanSinuosity, 1e-5);
+  EXPECT_NEAR(more.at("twist").get<double>(), statistics.directions.twist, 1e-5);
+  EXPECT_NEAR(more.at("kappa").get<double>(), statistics.directions.kappa, 1e-4 * statistics.directions.kappa);
   fibres = fibres.emptyCopy();
   const auto none = cactus::parsedJson(cactus::manifestText(contents, substrate, {}));
   EXPECT_TRUE(none->at("directions").at("p2").is_null()) << "JSON has no NaN";

@@ -5,6 +5,7 @@
 
 #include "../FindingsInMemory.h"
 #include "ExampleSurfaces.h"
+#include "base/Domain.h"
 #include "base/Error.h"
 #include "mesh/SurfaceCheck.h"
 #include "mesh/SurfaceDistance.h"
@@ -145,6 +146,43 @@ TEST(SurfaceSpacing, MovesWhatIsTooNearAcrossHeldFaces)
     EXPECT_EQ(distanceToImage(right, left, { 2.0, 0.0, 0.0 }) >= 0.02, held != 0);
     EXPECT_EQ(distanceToImage(above, below, { 0.0, 0.0, 40.0 }) >= 0.02, held == all);
     EXPECT_LT(distanceToImage(right, left, { 2.0, 0.0, 0.0 }), 0.0215);
+  }
+}
+
+// Two boxes that are 0.018 apart across a face, an edge or a corner of a domain of four slabs.
+TEST(SurfaceSpacing, LooksAcrossAllHeldFacesEdgesAndCorners)
+{
+  Domain domain;
+  domain.lower = { -3, -3, -20 };
+  domain.upper = { 3, 3, 20 };
+  domain.periodic = { { true, true, true } };
+  const Eigen::AlignedBox3d box(domain.lower, domain.upper);
+  ASSERT_EQ(domain.shiftsToImages().size(), 13U);
+  for (const Eigen::Vector3d& shift : domain.shiftsToImages())
+  {
+    const Eigen::Vector3d side = shift.cwiseSign();
+    const double way = 0.018 / side.norm(); // along each axis
+    // In the middle between the faces along an axis that is not crossed.
+    const auto boxAt = [&](double sign, double part)
+    {
+      const Eigen::Vector3d middle = sign * side.cwiseProduct(domain.upper - Eigen::Vector3d::Constant(0.5 + part * way));
+      return example::box(middle - Eigen::Vector3d::Constant(0.5), middle + Eigen::Vector3d::Constant(0.5));
+    };
+    for (const int threads : { 1, 3 })
+    {
+      Context context;
+      context.threads = threads;
+      TriangleMesh one = boxAt(1.0, 0.4);
+      TriangleMesh other = boxAt(-1.0, 0.6);
+      ASSERT_NEAR(distanceToImage(one, other, shift), 0.018, 1e-9);
+      const SpacingReport report = keepApart({ &one, &other }, std::vector<std::size_t>{ 1 }, 0.02, box, context, 0.0, 1.0,
+        Sharing(), Recollection(), std::uint8_t(0x3f));
+      EXPECT_EQ(report.moved.size(), 2U) << shift.transpose();
+      EXPECT_TRUE(report.tooNear.empty());
+      const double distance = distanceToImage(one, other, shift);
+      EXPECT_GE(distance, 0.02) << shift.transpose();
+      EXPECT_LT(distance, 0.0225);
+    }
   }
 }
 
