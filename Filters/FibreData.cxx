@@ -53,8 +53,8 @@ vtkDataArray* scalars(vtkFieldData* data, const char* name, vtkIdType expected)
   return array;
 }
 
-/// Returns it, too. Refuses one that is among `others`, the data of the points in place of the cells or the reverse, where it
-/// would have no effect.
+/// Returns an array of `data` as scalars() does. Refuses one of that name among `others`, the data of the points in place of the
+/// cells or the reverse, where it would have no effect.
 vtkDataArray* scalarsNotAmong(
   vtkFieldData* others, vtkFieldData* data, const char* name, vtkIdType expected, const char* kindOfData)
 {

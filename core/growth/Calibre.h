@@ -25,9 +25,9 @@ struct SeedOptions
 /// first control point. Other variations of calibre (beading) belong here: callers use only these fractions and the longest
 /// piece.
 ///
-/// The fraction is 1 - ρ u(l) with ρ the
-/// SurfaceRoughness and u a smooth random function from 0 to 1: a cubic B-spline over the length l whose coefficients follow the
-/// arcsine distribution, so that most are near 0 or 1. It depends only on seed, fibre id and length.
+/// The fraction is 1 - ρ u(l) with ρ the SurfaceRoughness and u a smooth random function from 0 to 1: a cubic B-spline over the
+/// length l whose coefficients follow the arcsine distribution, so that most are near 0 or 1. It depends only on seed, fibre id
+/// and length.
 class Calibre
 {
 public:

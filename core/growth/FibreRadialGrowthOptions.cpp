@@ -44,9 +44,8 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
         "it grows, at random and smoothly along it. 0: the capsules themselves grow.")
       .add("SeedDensity", &Options::seedDensity, limits::seedDensity,
         "Random points per µm³ of its capsules from which a fibre grows, as in the paper: the fewer, the more uneven its "
-        "surface, and "
-        "the thicker thin fibres end. Cones join the points to the centre line, so that the fibre stays in one piece. "
-        "SectionAxisRatio of bundles has no effect on such fibres. 0: fibres grow from their whole capsules.")
+        "surface, and the thicker thin fibres end. Cones join the points to the centre line, so that the fibre stays in one "
+        "piece. SectionAxisRatio of bundles has no effect on such fibres. 0: fibres grow from their whole capsules.")
       .advise(" (0: capsules)")
       .add("Margin", &Options::margin, limits::imageMargin,
         "Width in µm by which the image extends beyond the domain on every side, rounded up to whole voxels.")

@@ -119,16 +119,10 @@ Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& optio
   }
   const std::vector<FibreCut> none;
   std::vector<AxonSections> axons;
-  double sinuosity = 0.0;
-  double length = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     const auto radius = radii.find(fibres.fibreIds[f]);
     axons.push_back({ &none, radius != radii.end() ? radius->second : std::numeric_limits<double>::quiet_NaN() });
-    const double own = centreLineShape(fibres, f).sinuosity;
-    const double weight = std::isfinite(own) ? lengthInDomain(fibres, f) : 0.0;
-    sinuosity += weight > 0.0 ? weight * own : 0.0;
-    length += weight;
   }
   const DirectionStatistics measured = measureDirections(fibres, axons, options.cutSpacing);
   Json directions;
@@ -140,7 +134,7 @@ Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& optio
   directions["odi"] = rounded(measured.odi);
   directions["local_spread_deg"] = rounded(measured.localSpread);
   directions["twist"] = rounded(measured.twist);
-  directions["sinuosity"] = rounded(sinuosity / length);
+  directions["sinuosity"] = rounded(meanSinuosity(fibres));
   return directions;
 }
 

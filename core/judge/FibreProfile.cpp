@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 namespace cactus
 {
@@ -335,6 +336,23 @@ CentreLineShape centreLineShape(const Fibres& fibres, std::size_t fibre)
   }
   shape.undulation = std::sqrt(squares / (left - entered));
   return shape;
+}
+
+double meanSinuosity(const Fibres& fibres)
+{
+  double sum = 0.0;
+  double length = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const double sinuosity = centreLineShape(fibres, f).sinuosity;
+    if (std::isfinite(sinuosity))
+    {
+      const double own = lengthInDomain(fibres, f);
+      sum += own * sinuosity;
+      length += own;
+    }
+  }
+  return length > 0.0 ? sum / length : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace cactus

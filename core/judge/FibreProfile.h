@@ -113,4 +113,7 @@ struct CentreLineShape
 /// Returns the shape of fibre number `fibre`'s centre line.
 CentreLineShape centreLineShape(const Fibres& fibres, std::size_t fibre);
 
+/// Returns the mean sinuosity over the lengths of fibres in the domain that have one; NaN if none has.
+double meanSinuosity(const Fibres& fibres);
+
 } // namespace cactus

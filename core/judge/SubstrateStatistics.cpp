@@ -243,7 +243,6 @@ void sumUpCuts(SubstrateStatistics& result)
   }
   result.effectiveRadius = all.value();
   result.middleEffectiveRadius = middle.value();
-  result.meanSinuosity = meanOver(result.fibres, [](const FibreStatistics& f) { return f.line.sinuosity; });
   result.meanUndulation = meanOver(result.fibres, [](const FibreStatistics& f) { return f.line.undulation; });
   result.meanOuterAxisRatio = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerRadius.axisRatio; });
   result.meanInnerAxisRatio = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerRadius.axisRatio; });
@@ -320,6 +319,7 @@ SubstrateStatistics measureSubstrate(const Fibres& fibres, const FibreSurfaces& 
     axons.push_back({ &fibre.innerCuts, fibre.innerRadius.mean });
   }
   result.directions = measureDirections(fibres, axons, options.cutSpacing);
+  result.meanSinuosity = meanSinuosity(fibres);
   result.meanTargetRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.targetRadius; });
   result.meanOuterRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.outerRadius.mean; });
   result.meanInnerRadius = meanOver(result.fibres, [](const FibreStatistics& f) { return f.innerRadius.mean; });

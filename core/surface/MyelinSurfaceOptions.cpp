@@ -79,8 +79,7 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
       .whereGiven("NodeLength")
       .add("InternodeOrder", &Options::internodeOrder, { "Random", "Thinnest first" },
         "The internodes that lose their myelin first. Random: each is as likely as any other. Thinnest first: all of the fibre "
-        "with "
-        "the smallest TargetRadius, then of the next; of the last fibre some, at random.")
+        "with the smallest TargetRadius, then of the next; of the last fibre some, at random.")
       .whereGiven("InternodeLoss")
       .add("RemyelinatedFraction", &Options::remyelinatedFraction, limits::part,
         "Fraction of the lost internodes whose myelin has come back, thinner than it was.")
