@@ -6,6 +6,7 @@
 #include "PlacementData.h"
 #include "base/Error.h"
 #include "base/Limits.h"
+#include "base/SphericalHarmonics.h"
 #include "fibres/JoinFibres.h"
 
 #include <vtkCellArray.h>
@@ -36,6 +37,7 @@ namespace
 {
 
 constexpr const char* grownName = "GrownFibreVolumeFraction";
+constexpr const char* harmonicsName = "OrientationHarmonics";
 constexpr const char* convergedName = "Converged";
 
 /// Returns a one-component array with `expected` tuples, or null if there is none of that name.
@@ -78,6 +80,20 @@ double grownFractionOf(vtkPolyData* input)
   return std::isfinite(fraction) ? std::max(fraction, 0.0) : 0.0;
 }
 
+/// Returns the coefficients of the directions that the fibres of a block were made for; none if unknown.
+std::vector<double> orientationHarmonicsOf(vtkPolyData* input)
+{
+  vtkDataArray* array = input->GetFieldData()->GetArray(harmonicsName);
+  std::vector<double> coefficients;
+  for (vtkIdType i = 0; array != nullptr && array->GetNumberOfComponents() == 1 && i < array->GetNumberOfTuples(); ++i)
+  {
+    coefficients.push_back(array->GetTuple1(i));
+  }
+  const bool isFinite =
+    std::all_of(coefficients.begin(), coefficients.end(), [](double coefficient) { return std::isfinite(coefficient); });
+  return isFinite && orderOfHarmonics(coefficients.size()) >= 0 ? coefficients : std::vector<double>();
+}
+
 /// Adds the fibres of one block. Their radii are NaN where the block has none and they are not needed.
 void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
 {
@@ -112,6 +128,7 @@ void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
   }
 
   fibres.grownFraction = grownFractionOf(input);
+  fibres.orientationHarmonics = orientationHarmonicsOf(input);
   auto cells = vtk::TakeSmartPointer(input->GetLines()->NewIterator());
   vtkIdType cell = 0;
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell(), ++cell)
@@ -334,13 +351,23 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   fresh->SetFieldData(kept);
   output->ShallowCopy(fresh);
   setDomain(output, fibres.domain);
-  for (const char* name : { grownName, convergedName }) // those of the first of several inputs
+  for (const char* name : { grownName, harmonicsName, convergedName }) // those of the first of several inputs
   {
     output->GetFieldData()->RemoveArray(name);
   }
   if (fibres.grownFraction > 0.0)
   {
     addNumber(output->GetFieldData(), grownName, fibres.grownFraction);
+  }
+  if (!fibres.orientationHarmonics.empty())
+  {
+    vtkNew<vtkDoubleArray> harmonics;
+    harmonics->SetName(harmonicsName);
+    for (const double coefficient : fibres.orientationHarmonics)
+    {
+      harmonics->InsertNextValue(coefficient);
+    }
+    output->GetFieldData()->AddArray(harmonics);
   }
 }
 

@@ -119,16 +119,36 @@ void turnDirections(vtkDataSetAttributes* data, const Placement& placement)
   }
 }
 
+/// Rotates the coefficients of the distribution of directions that fibres were made for.
+void turnAskedDirections(vtkFieldData* data, const Placement& placement)
+{
+  vtkDataArray* asked = data->GetArray("OrientationHarmonics");
+  const int order = asked != nullptr ? orderOfHarmonics(std::size_t(asked->GetNumberOfValues())) : -1;
+  if (order < 0)
+  {
+    return;
+  }
+  std::vector<double> coefficients;
+  for (vtkIdType i = 0; i < asked->GetNumberOfValues(); ++i)
+  {
+    coefficients.push_back(asked->GetTuple1(i));
+  }
+  HarmonicRotation(placement.axes, order).turn(coefficients);
+  vtkNew<vtkDoubleArray> turned; // the input may have the other one, too
+  turned->SetName("OrientationHarmonics");
+  for (const double coefficient : coefficients)
+  {
+    turned->InsertNextValue(coefficient);
+  }
+  data->AddArray(turned);
+}
+
 /// Rotates the coefficients of spherical harmonics and axes of bundles of SubstrateSampler.
 void turnOrientations(vtkDataSetAttributes* data, const Placement& placement)
 {
   auto* fod = vtkFloatArray::SafeDownCast(data->GetArray("FOD"));
-  int order = 0;
-  while (fod != nullptr && int(harmonicCount(order)) < fod->GetNumberOfComponents())
-  {
-    order += 2;
-  }
-  if (fod != nullptr && int(harmonicCount(order)) == fod->GetNumberOfComponents())
+  const int order = fod != nullptr ? orderOfHarmonics(std::size_t(fod->GetNumberOfComponents())) : -1;
+  if (order >= 0)
   {
     const HarmonicRotation rotation(placement.axes, order);
     changeArray(data, fod, [&](std::vector<double>& tuple) { rotation.turn(tuple); });
@@ -293,6 +313,7 @@ void place(vtkDataObject* output, const Placement& placement)
   turnDirections(data->GetPointData(), placement);
   turnDirections(data->GetCellData(), placement);
   turnOrientations(data->GetPointData(), placement);
+  turnAskedDirections(output->GetFieldData(), placement);
   scaleLengths(data->GetPointData(), "Radius", placement.scale);
   scaleLengths(data->GetCellData(), "Radius", placement.scale);
   scaleLengths(data->GetCellData(), "TargetRadius", placement.scale);

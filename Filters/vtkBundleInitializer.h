@@ -41,7 +41,8 @@ public:
     WATSON = 0,
     CONE = 1,
     COHERENT = 2,
-    HARMONICS = 3
+    HARMONICS = 3,
+    PEAKS = 4
   };
   enum Mixings
   {
@@ -90,6 +91,9 @@ public:
   CACTUS_NUMBER_PROPERTY(ODI)
   CACTUS_WHOLE_PROPERTY(DispersionModel)
   CACTUS_TEXT_PROPERTY(OrientationHarmonics)
+  CACTUS_TEXT_PROPERTY(OrientationPeaks)
+  CACTUS_FILE_PROPERTY(OrientationFile)
+  CACTUS_VECTOR_PROPERTY(OrientationVoxel)
   CACTUS_NUMBER_PROPERTY(CorrelationLength)
   CACTUS_NUMBER_PROPERTY(Sinuosity)
   CACTUS_NUMBER_PROPERTY(UndulationWavelength)

@@ -59,6 +59,7 @@ void fillSubstrate(vtkTable* table, const cactus::SubstrateStatistics& s)
   number("LocalSpread_deg", s.directions.localSpread);
   number("Twist", s.directions.twist);
   number("AzimuthRatio", s.directions.azimuthRatio);
+  number("AngularCorrelation", s.directions.angularCorrelation);
   number("MeanTargetRadius_um", s.meanTargetRadius);
   number("MeanOuterRadius_um", s.meanOuterRadius);
   number("MeanInnerRadius_um", s.meanInnerRadius);

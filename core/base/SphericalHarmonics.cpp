@@ -44,6 +44,17 @@ std::size_t harmonicCount(int order)
   return std::size_t(order + 1) * std::size_t(order + 2) / 2;
 }
 
+int orderOfHarmonics(std::size_t count)
+{
+  constexpr int highest = 16;
+  int order = 0;
+  while (order < highest && harmonicCount(order) < count)
+  {
+    order += 2;
+  }
+  return harmonicCount(order) == count ? order : -1;
+}
+
 std::vector<double> harmonicsAt(const Eigen::Vector3d& direction, int order)
 {
   std::vector<double> values(harmonicCount(order), 0.0);

@@ -17,6 +17,9 @@ namespace cactus
 /// Returns their number: (order + 1)(order + 2)/2. `order` is even and not negative, here and below.
 std::size_t harmonicCount(int order);
 
+/// Returns the order that has this number of them; -1 if none has, or more than 16.
+int orderOfHarmonics(std::size_t count);
+
 /// Returns all of them at a direction (unit vector), by their indices.
 std::vector<double> harmonicsAt(const Eigen::Vector3d& direction, int order);
 

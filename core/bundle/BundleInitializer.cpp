@@ -320,7 +320,7 @@ Fibres initialiseLayers(const BundleInitializerOptions& options, const Context& 
   return std::move(*best);
 }
 
-Fibres initialiseByHarmonics(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
+Fibres initialiseAnywhere(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
 {
   requireMemoryFor(options);
   Fibres fibres = layLinesInSpace(options, context);
@@ -361,9 +361,9 @@ Fibres initialiseInterpenetrating(
 
 Fibres initialiseAny(const BundleInitializerOptions& options, const Context& context, BundleInitializerReport& report)
 {
-  if (options.dispersionModel == DispersionModel::Harmonics)
+  if (options.isAnywhere())
   {
-    return initialiseByHarmonics(options, context, report);
+    return initialiseAnywhere(options, context, report);
   }
   if (options.isLayered())
   {

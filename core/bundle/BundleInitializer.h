@@ -31,7 +31,7 @@ struct BundleInitializerReport
 /// fibres follow its paths. With the other models fibres are straight, and each passes through its circle at an angle from the
 /// model. Packing is repeated until the capsules' volume in the domain is within 1 % of the one asked for.
 ///
-/// DispersionModel::Harmonics: see layLinesInSpace().
+/// DispersionModel::Harmonics and Peaks: see layLinesInSpace().
 ///
 /// Border::Walls, or layers: the plane is the first face, and circles lie wholly inside both end faces and do not overlap
 /// there. With Coherent a random flow within the walls (see CoherentFlow.h) carries the centres to the opposite face. With the

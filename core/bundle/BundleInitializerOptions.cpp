@@ -42,17 +42,17 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
         "Mean angle in degrees between fibres and their bundle's axis. Coherent fibres of a domain that is cut: at any place "
         "along them, without their undulation. All others: between their ends; with walls, about 35 can be reached if fibres "
         "start and end within a cube's faces, and a Margin allows more.")
-      .where("DispersionModel", { 0, 1, 2 })
-      .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent", "Harmonics" },
+      .where("DispersionModel", { 0, 1, 2, 4 })
+      .add("DispersionModel", &Options::dispersionModel, { "Watson", "Cone", "Coherent", "Harmonics", "Peaks" },
         "Distribution of the fibres' directions. Coherent: neighbouring fibres have similar directions and follow a smooth "
         "random flow that has the same statistics everywhere; angles to the axis have Watson's distribution. The flow preserves "
         "areas: fibres are as dense everywhere as where they were packed, and keep their directions in the optimiser. Watson "
         "(about the axis) and Cone (uniform within a cone about it): straight fibres with independent directions, as in the "
         "paper. Dense fibres then have to wind around each other, and their final tangents are more dispersed than asked for. "
         "Layers of two crossing bundles use Watson instead of Coherent, because they are too thin for a flow. Harmonics: "
-        "straight "
-        "fibres with directions from any distribution (OrientationHarmonics), such as one measured in a voxel, laid evenly in "
-        "space; needs the border Cut.")
+        "straight fibres with directions from any distribution (OrientationHarmonics), such as one measured in a voxel, laid "
+        "evenly in space. Peaks: the same for any number of bundles with an axis and a share each (OrientationPeaks), whose "
+        "directions have Watson's distribution about the axis. Harmonics and Peaks need the border Cut.")
       .add("CorrelationLength", &Options::correlationLength, limits::correlationLength,
         "Lateral distance in µm over which the directions of neighbours are similar in the dispersion model Coherent. It does "
         "not depend on the domain's size, but in a periodic domain is at most a third of Side. With a shorter length, or a "
@@ -123,13 +123,14 @@ void BundleInitializerOptions::validate() const
       text("MinimumRadius ", radius.minimum, " µm makes capsules of less than ", limits::radius.lowest, " µm where they fill ",
         fibreVolumeFraction, " to be grown to ", grownFibreVolumeFraction, ": enlarge MinimumRadius or FibreVolumeFraction"));
   }
-  if (dispersionModel == DispersionModel::Harmonics && (!isCutOut() || numberOfBundles != 1))
+  if (this->isAnywhere() && (!isCutOut() || numberOfBundles != 1))
   {
-    throw InvalidInput(isCutOut()
-                         ? "NumberOfBundles is 2: give 1 with DispersionModel Harmonics, which has the directions of all fibres"
-                         : "DispersionModel Harmonics needs Border Cut: walls bound bundles along z");
+    const char* name = dispersionModel == DispersionModel::Peaks ? "Peaks" : "Harmonics";
+    throw InvalidInput(
+      isCutOut() ? text("NumberOfBundles is 2: give 1 with DispersionModel ", name, ", which has the directions of all fibres")
+                 : text("DispersionModel ", name, " needs Border Cut: walls bound bundles along z"));
   }
-  if (numberOfBundles == 1 && dispersionModel != DispersionModel::Harmonics)
+  if (numberOfBundles == 1 && !this->isAnywhere())
   {
     const double norm = direction.norm();
     if (!std::isfinite(norm) || norm < limits::shortestDirection)
@@ -162,10 +163,11 @@ void BundleInitializerOptions::requirePeriodic() const
 {
   const char* name = border == Border::Periodic ? "Periodic" : "Periodic across";
   const bool isAlongZ = direction.x() == 0.0 && direction.y() == 0.0;
-  if (numberOfBundles != 1 || dispersionModel == DispersionModel::Harmonics || !isAlongZ)
+  if (numberOfBundles != 1 || this->isAnywhere() || !isAlongZ)
   {
     throw InvalidInput(text(numberOfBundles != 1                            ? "NumberOfBundles is 2"
                             : dispersionModel == DispersionModel::Harmonics ? "DispersionModel is Harmonics"
+                            : dispersionModel == DispersionModel::Peaks     ? "DispersionModel is Peaks"
                                                                             : "Direction is not along z",
       ": use Border Cut, since Border ", name, " needs one bundle along z"));
   }
@@ -185,10 +187,12 @@ void BundleInitializerOptions::requirePeriodic() const
 void BundleInitializerOptions::requireUnmyelinated() const
 {
   constexpr double largestShare = 0.95; // of the fibres' volume, since there is a fibre with myelin
-  if (dispersionModel == DispersionModel::Harmonics || this->isLayered())
+  if (this->isAnywhere() || this->isLayered())
   {
     throw InvalidInput(text("UnmyelinatedFraction is ", unmyelinated.fraction, ": give 0 with ",
-      this->isLayered() ? "bundles in layers, or choose Mixing Interpenetrating with Border Cut" : "DispersionModel Harmonics"));
+      this->isLayered()                               ? "bundles in layers, or choose Mixing Interpenetrating with Border Cut"
+      : dispersionModel == DispersionModel::Harmonics ? "DispersionModel Harmonics"
+                                                      : "DispersionModel Peaks"));
   }
   if (this->unmyelinatedShare() > largestShare)
   {
@@ -251,7 +255,7 @@ Eigen::Matrix3d turnTo(const Eigen::Vector3d& direction)
 
 Eigen::Matrix3d BundleInitializerOptions::turn() const
 {
-  const bool hasDirection = numberOfBundles == 1 && dispersionModel != DispersionModel::Harmonics;
+  const bool hasDirection = numberOfBundles == 1 && !this->isAnywhere();
   return hasDirection ? turnTo(direction) : Eigen::Matrix3d::Identity();
 }
 
@@ -262,7 +266,7 @@ Eigen::Vector3d BundleInitializerOptions::extent() const
 
 Surroundings surroundings(const BundleInitializerOptions& options)
 {
-  if (options.dispersionModel == DispersionModel::Harmonics)
+  if (options.isAnywhere())
   {
     constexpr double around = 4.0; // µm, for fibres of all directions that part
     return { options.margin < 0.0 ? around : options.margin, 0.0 };

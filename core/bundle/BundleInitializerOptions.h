@@ -51,7 +51,7 @@ struct BundleInitializerOptions
   double fibreVolumeFraction = 0.6;
   RadiusDistributionOptions radius; ///< outer radii of the fibres
   CalibreVariation calibre;         ///< how they vary along a fibre
-  UnmyelinatedAxons unmyelinated;   ///< among them; not with DispersionModel::Harmonics and bundles in layers
+  UnmyelinatedAxons unmyelinated;   ///< among them; not with isAnywhere() and bundles in layers
   /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules start thinner than the sampled
   /// target radii by sqrt(fibreVolumeFraction / this), so that grown fibres have the target radii; 0: capsules have the target
   /// radii.
@@ -63,9 +63,10 @@ struct BundleInitializerOptions
   /// With Coherent, fibres follow a flow; with the others they are straight. Layers of two crossing bundles are too thin for a
   /// flow, so that their fibres are drawn as with Watson.
   DispersionModel dispersionModel = DispersionModel::Coherent;
-  /// With DispersionModel::Harmonics, coefficients of the distribution of directions, see OrientationDistribution. Needs
-  /// Border::Cut and one bundle.
+  /// With DispersionModel::Harmonics, coefficients of the distribution of directions, see HarmonicsDistribution. Needs
+  /// Border::Cut and numberOfBundles 1, as does Peaks.
   std::vector<double> harmonics;
+  std::vector<Eigen::Vector3d> peaks; ///< with DispersionModel::Peaks, see PeaksDistribution
   /// Lateral distance over which the directions of DispersionModel::Coherent are alike (see StationaryFlow). Between walls it may
   /// be 0: four times the mean shift of the fibres from face to face, at least a 32nd of the face (see CoherentFlow).
   double correlationLength = 8.0;
@@ -95,6 +96,11 @@ struct BundleInitializerOptions
   bool isPeriodic() const { return this->border == Border::PeriodicAcross || this->border == Border::Periodic; }
   /// Tells whether two bundles have layers of their own.
   bool isLayered() const { return this->numberOfBundles == 2 && (this->mixing == Mixing::Layers || !this->isCutOut()); }
+  /// Tells whether straight fibres are laid evenly in space, see layLinesInSpace().
+  bool isAnywhere() const
+  {
+    return this->dispersionModel == DispersionModel::Harmonics || this->dispersionModel == DispersionModel::Peaks;
+  }
   /// Returns the lateral correlation length (µm): in a periodic domain at most a third of its side, so that some waves fit in.
   double lateralCorrelationLength() const;
   /// Returns the box around the origin in which the fibres are asked for.
@@ -121,7 +127,7 @@ Eigen::Matrix3d turnTo(const Eigen::Vector3d& direction);
 /// How far the fibres extend beyond the domain, in µm.
 struct Surroundings
 {
-  double sides = 0.0; ///< beyond each lateral face; with layers and with DispersionModel::Harmonics beyond all faces
+  double sides = 0.0; ///< beyond each lateral face; with layers and with isAnywhere() beyond all faces
   double ends = 0.0;  ///< beyond the faces that the fibres of a single bundle run to; with Border::Periodic they are repeated
 };
 

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace cactus
@@ -61,6 +62,7 @@ struct Line
   Eigen::Vector3d first;
   Eigen::Vector3d last;
   double lengthInDomain;
+  int bundle;
 };
 
 /// Lines of a sequence, which are made as far as they are asked for.
@@ -68,7 +70,7 @@ class LineSequence
 {
 public:
   explicit LineSequence(const BundleInitializerOptions& options)
-    : Distribution(options.harmonics)
+    : Distribution(orientationDistribution(options))
     , Points(options.seed)
     , Box(options.domain())
     , Around(surroundings(options).sides)
@@ -85,6 +87,22 @@ public:
     return this->Lines[place];
   }
 
+  /// Returns the coefficients of the directions asked for, of which fibres fill this fraction (see Fibres::orientationHarmonics).
+  std::vector<double> harmonics(double fraction) const
+  {
+    std::vector<double> scaled = this->Distribution->harmonics();
+    const double integral = scaled.front() * std::sqrt(4.0 * pi);
+    if (!(integral > 0.0))
+    {
+      return {};
+    }
+    for (double& value : scaled)
+    {
+      value *= fraction / integral;
+    }
+    return scaled;
+  }
+
 private:
   /// Adds the next line that comes near the domain, if this one does.
   void addNext()
@@ -92,7 +110,7 @@ private:
     // Lines through this ball around the domain and its surroundings are laid evenly on the disc across each direction.
     const double reach = 0.5 * this->Box.size().norm() + std::sqrt(3.0) * this->Around;
     const std::array<double, 4> point = this->Points.at(this->Next++);
-    const Eigen::Vector3d direction = this->Distribution.at(point[0], point[1]);
+    const auto [direction, bundle] = this->Distribution->at(point[0], point[1]);
     const double distance = reach * std::sqrt(point[2]);
     const double azimuth = 2.0 * pi * point[3];
     const double half = std::sqrt(reach * reach - distance * distance);
@@ -104,12 +122,12 @@ private:
     if (2.0 * half * (part[1] - part[0]) > this->Shortest)
     {
       const std::array<double, 2> inside = this->Box.clip(begin, end);
-      this->Lines.push_back(
-        { begin + (end - begin) * part[0], begin + (end - begin) * part[1], 2.0 * half * std::max(0.0, inside[1] - inside[0]) });
+      this->Lines.push_back({ begin + (end - begin) * part[0], begin + (end - begin) * part[1],
+        2.0 * half * std::max(0.0, inside[1] - inside[0]), bundle });
     }
   }
 
-  OrientationDistribution Distribution;
+  std::unique_ptr<OrientationDistribution> Distribution;
   ShiftedHalton Points;
   Domain Box;
   double Around;
@@ -162,12 +180,13 @@ Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& c
   Fibres fibres;
   fibres.domain = options.domain();
   fibres.grownFraction = options.grownFibreVolumeFraction;
+  fibres.orientationHarmonics = lines.harmonics(options.fibreVolumeFraction);
   for (const double radius : radiiOf(options, enough))
   {
     const Line& line = lines[fibres.size()];
     const Eigen::Vector3d whole = line.last - line.first;
     const int segments = std::max(2, static_cast<int>(std::lround(whole.norm() / options.controlPointSpacing(radius))));
-    fibres.addFibre(static_cast<int>(fibres.size()) + 1, 1, radius);
+    fibres.addFibre(static_cast<int>(fibres.size()) + 1, line.bundle, radius);
     for (int k = 0; k <= segments; ++k)
     {
       fibres.addPoint(line.first + whole * (static_cast<double>(k) / segments), radius);

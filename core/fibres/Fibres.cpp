@@ -118,6 +118,7 @@ Fibres Fibres::emptyCopy() const
   Fibres copy;
   copy.domain = this->domain;
   copy.grownFraction = this->grownFraction;
+  copy.orientationHarmonics = this->orientationHarmonics;
   return copy;
 }
 

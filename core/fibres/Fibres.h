@@ -28,6 +28,9 @@ struct Fibres
   Domain domain;
   /// Fraction of the domain that the fibres are to fill once growth has brought them to their target radii; 0 if unknown.
   double grownFraction = 0.0;
+  /// Coefficients of the distribution of directions that the fibres were made for, in real spherical harmonics of the degrees up
+  /// to 8 (see base/SphericalHarmonics.h); their integral over the sphere is the fraction filled before growth. Empty if unknown.
+  std::vector<double> orientationHarmonics;
 
   std::size_t size() const { return offsets.size() - 1; }
   std::size_t pointCount(std::size_t fibre) const { return offsets[fibre + 1] - offsets[fibre]; }
@@ -41,7 +44,7 @@ struct Fibres
   void setMyelinFraction(double fraction);
   /// Appends the control points [first, last) of `from` to the last fibre.
   void addPoints(const Fibres& from, std::size_t first, std::size_t last);
-  /// Returns fibres with the same domain and grown fraction, and no fibre yet.
+  /// Returns fibres with the same domain, grown fraction and harmonics, and no fibre yet.
   Fibres emptyCopy() const;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <unordered_set>
@@ -36,6 +37,19 @@ std::vector<int> freeIds(const std::vector<int>& taken, const std::vector<int>& 
   return ids;
 }
 
+/// Returns the sum of two lists of harmonics; none if one is unknown.
+std::vector<double> sumOf(const std::vector<double>& a, const std::vector<double>& b)
+{
+  if (a.empty() || b.empty())
+  {
+    return {};
+  }
+  std::vector<double> sum = a.size() < b.size() ? b : a;
+  const std::vector<double>& shorter = a.size() < b.size() ? a : b;
+  std::transform(shorter.begin(), shorter.end(), sum.begin(), sum.begin(), std::plus<>());
+  return sum;
+}
+
 } // namespace
 
 void appendFibres(const Fibres& added, Fibres& all)
@@ -58,6 +72,7 @@ void appendFibres(const Fibres& added, Fibres& all)
   }
   const bool isKnown = all.grownFraction > 0.0 && added.grownFraction > 0.0;
   all.grownFraction = isKnown ? all.grownFraction + added.grownFraction : 0.0;
+  all.orientationHarmonics = sumOf(all.orientationHarmonics, added.orientationHarmonics);
 }
 
 Fibres joinFibres(std::vector<Fibres> inputs)

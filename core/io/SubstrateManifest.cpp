@@ -134,6 +134,10 @@ Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& optio
   directions["odi"] = rounded(measured.odi);
   directions["local_spread_deg"] = rounded(measured.localSpread);
   directions["twist"] = rounded(measured.twist);
+  if (!fibres.orientationHarmonics.empty())
+  {
+    directions["angular_correlation"] = rounded(measured.angularCorrelation);
+  }
   directions["sinuosity"] = rounded(meanSinuosity(fibres));
   return directions;
 }

@@ -2,6 +2,7 @@
 #include "judge/DirectionStatistics.h"
 
 #include "base/Constants.h"
+#include "base/SphericalHarmonics.h"
 #include "bundle/DirectionDistribution.h"
 
 #include <Eigen/Eigenvalues>
@@ -93,6 +94,21 @@ void addSpread(const std::vector<FibrePlace>& middles, WeightedMean& spread)
   }
 }
 
+/// Correlation of two functions on the sphere, each about its mean, by their coefficients.
+double correlationOf(const std::vector<double>& a, const std::vector<double>& b)
+{
+  double product = 0.0;
+  double squareOfA = 0.0;
+  double squareOfB = 0.0;
+  for (std::size_t i = 1; i < a.size(); ++i)
+  {
+    product += a[i] * b[i];
+    squareOfA += a[i] * a[i];
+    squareOfB += b[i] * b[i];
+  }
+  return squareOfA > 0.0 && squareOfB > 0.0 ? product / std::sqrt(squareOfA * squareOfB) : notANumber;
+}
+
 } // namespace
 
 double watsonConcentration(double meanSquaredCosine)
@@ -117,6 +133,8 @@ double watsonConcentration(double meanSquaredCosine)
 DirectionStatistics measureDirections(const Fibres& fibres, const std::vector<AxonSections>& axons, double spacing)
 {
   std::map<int, BundleDirections> bundles;
+  const int order = orderOfHarmonics(fibres.orientationHarmonics.size());
+  std::vector<double> harmonics(fibres.orientationHarmonics.size(), 0.0); // of directions by volume
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     BundleDirections& bundle = bundles[fibres.bundleIds[f]];
@@ -131,7 +149,11 @@ DirectionStatistics measureDirections(const Fibres& fibres, const std::vector<Ax
       bundle.centre += place.point;
       ++bundle.places;
       cut = std::find_if(cut, cuts.end(), [&](const FibreCut& c) { return c.number >= place.number; });
-      bundle.byVolume += (cut != cuts.end() && cut->number == place.number ? cut->area : usualArea) * dyad;
+      const double area = cut != cuts.end() && cut->number == place.number ? cut->area : usualArea;
+      bundle.byVolume += area * dyad;
+      const std::vector<double> values = order > 0 ? harmonicsAt(place.direction, order) : std::vector<double>();
+      std::transform(values.begin(), values.end(), harmonics.begin(), harmonics.begin(),
+        [&](double value, double sum) { return sum + area * value; });
     }
     if (!places.empty())
     {
@@ -187,6 +209,7 @@ DirectionStatistics measureDirections(const Fibres& fibres, const std::vector<Ax
   result.localSpread = spread.value();
   result.twist = twist.value();
   result.azimuthRatio = azimuths.value();
+  result.angularCorrelation = correlationOf(harmonics, fibres.orientationHarmonics);
   return result;
 }
 

@@ -27,6 +27,10 @@ struct DirectionStatistics
   /// Larger over smaller mean square of directions across the axis, along their principal axes, over all places: 1 if all
   /// azimuths are alike. Mean as above.
   double azimuthRatio = 0.0;
+  /// Angular correlation coefficient of the axons' directions by volume with those that the fibres were made for
+  /// (Fibres::orientationHarmonics; Anderson 2005, Magn Reson Med 54:1194), over degrees from 2 to 8 at most: 1 if they are as
+  /// asked for. NaN where none were, or all directions alike.
+  double angularCorrelation = 0.0;
 };
 
 /// The concentration κ of the Watson distribution (density ∝ exp(κ cos²θ)) with this mean of cos²θ: 0 up to a third, at most

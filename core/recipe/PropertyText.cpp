@@ -59,7 +59,7 @@ std::string textFrom(const PropertyFacts& facts, const Json& value)
   {
     return value.get<std::string>();
   }
-  const bool isTable = facts.name == "RadiusTable" || facts.name == "OrientationHarmonics";
+  const bool isTable = facts.name == "RadiusTable" || facts.name == "OrientationHarmonics" || facts.name == "OrientationPeaks";
   if (!isTable || !isNumbers(value))
   {
     failValue(facts, value, isTable ? "a text or a list of numbers" : "a text");

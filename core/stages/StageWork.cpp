@@ -158,7 +158,7 @@ RadiusDistributionOptions withTableOf(const Stage& stage)
 /// Tells whether angles have Watson's distribution.
 bool hasKappa(DispersionModel model)
 {
-  return model == DispersionModel::Watson || model == DispersionModel::Coherent;
+  return model == DispersionModel::Watson || model == DispersionModel::Coherent || model == DispersionModel::Peaks;
 }
 
 /// Returns the mean angle (degrees) that a stage asks for, as an angle, κ or ODI.
@@ -172,7 +172,7 @@ double meanDispersionOf(const BundleInitializerStage& stage)
   validateProperties(stage);
   if (!hasKappa(stage.options.dispersionModel))
   {
-    throw InvalidInput("WatsonKappa and ODI are for DispersionModel Watson and Coherent: set both to 0");
+    throw InvalidInput("WatsonKappa and ODI are for DispersionModel Watson, Coherent and Peaks: set both to 0");
   }
   if (stage.watsonKappa != 0.0 && stage.odi != 0.0)
   {
@@ -187,6 +187,17 @@ double meanDispersionOf(const BundleInitializerStage& stage)
   return angle;
 }
 
+/// Returns the numbers of a text.
+std::vector<double> numbersOf(const char* name, std::string_view text)
+{
+  std::vector<double> numbers;
+  if (!takeNumbers(text, numbers))
+  {
+    throw InvalidInput(std::string(name) + " holds \"" + excerpt(text) + "\", which is no number");
+  }
+  return numbers;
+}
+
 } // namespace
 
 BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage)
@@ -194,10 +205,28 @@ BundleInitializerOptions bundleOptions(const BundleInitializerStage& stage)
   BundleInitializerOptions options = stage.options;
   options.radius = withTableOf(stage);
   options.meanDispersion = meanDispersionOf(stage);
-  std::string_view harmonics = stage.orientationHarmonics;
-  if (options.dispersionModel == DispersionModel::Harmonics && !takeNumbers(harmonics, options.harmonics))
+  if (!options.isAnywhere())
   {
-    throw InvalidInput("OrientationHarmonics holds \"" + excerpt(harmonics) + "\", which is no number");
+    return options;
+  }
+  if (!stage.orientationFile.empty())
+  {
+    throw InvalidInput("OrientationFile is read by ParaView's filter alone: give the voxel's numbers as OrientationHarmonics or "
+                       "OrientationPeaks");
+  }
+  if (options.dispersionModel == DispersionModel::Harmonics)
+  {
+    options.harmonics = numbersOf("OrientationHarmonics", stage.orientationHarmonics);
+    return options;
+  }
+  const std::vector<double> peaks = numbersOf("OrientationPeaks", stage.orientationPeaks);
+  if (peaks.size() % 3 != 0)
+  {
+    throw InvalidInput(text("OrientationPeaks has ", peaks.size(), " numbers: give three, x, y and z, for each bundle"));
+  }
+  for (std::size_t i = 0; i < peaks.size(); i += 3)
+  {
+    options.peaks.emplace_back(peaks[i], peaks[i + 1], peaks[i + 2]);
   }
   return options;
 }

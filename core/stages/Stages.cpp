@@ -96,9 +96,8 @@ const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
   static const auto list =
     withRadiusTable<BundleInitializerStage, BundleInitializerOptions>()
       .add("WatsonKappa", &BundleInitializerStage::watsonKappa, concentration,
-        "Concentration κ of Watson's distribution of angles (DispersionModel Watson or Coherent), in place of MeanDispersion: "
-        "104 "
-        "for 5°, 26.8 for 10°, 7.8 for 20°. 0: MeanDispersion or ODI says it.")
+        "Concentration κ of Watson's distribution of angles (DispersionModel Watson, Coherent or Peaks), in place of "
+        "MeanDispersion: 104 for 5°, 26.8 for 10°, 7.8 for 20°. 0: MeanDispersion or ODI says it.")
       .add("ODI", &BundleInitializerStage::odi, dispersionIndex,
         "Orientation dispersion index (2/π) arctan(1/κ) in place of MeanDispersion: 0.006 for 5°, 0.024 for 10°, 0.081 for 20°. "
         "0: MeanDispersion or WatsonKappa says it.")
@@ -109,7 +108,24 @@ const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
         "Coefficients of the distribution of directions in real spherical harmonics of even degrees, in the basis and order of "
         "MRtrix: 1, 6, 15, 28 or 45 numbers (degrees up to 0, 2, 4, 6 or 8; at most 16), separated by blanks or commas. The axes "
         "are those of the domain; the scale does not matter, and negative values count as 0. One number: all directions alike.")
-      .where("DispersionModel", { 3 });
+      .where("DispersionModel", { 3 })
+      .add("OrientationPeaks", &BundleInitializerStage::orientationPeaks,
+        "Bundles of the dispersion model Peaks: x, y and z of a vector for each, separated by blanks or commas. Its direction is "
+        "the bundle's axis, and its length goes with the bundle's share of the fibres' volume; 0 0 0: no fibres. Bundles have "
+        "the "
+        "ids 1, 2 and so on. For example \"0.5 0 0 0 0.3 0.3\".")
+      .where("DispersionModel", { 4 })
+      .add("OrientationFile", &BundleInitializerStage::orientationFile,
+        "NIfTI image (.nii, .nii.gz) with OrientationHarmonics or OrientationPeaks in each voxel, in place of them, such as "
+        "those "
+        "of MRtrix's dwi2fod and sh2peaks, or the arrays FOD and Peaks of SubstrateSampler. Axes of the domain are those of the "
+        "scanner. cactus-grow reads no images; a manifest has the numbers.")
+      .where("DispersionModel", { 3, 4 })
+      .add("OrientationVoxel", &BundleInitializerStage::orientationVoxel,
+        "Voxel of OrientationFile: its whole numbers i, j and k in the order of the file, from 0, as viewers such as mrview and "
+        "FSLeyes show them.")
+      .where("DispersionModel", { 3, 4 })
+      .whereGiven("OrientationFile");
   return list;
 }
 

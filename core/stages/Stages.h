@@ -37,6 +37,9 @@ struct BundleInitializerStage
   double watsonKappa = 0.0;         ///< in place of MeanDispersion, where it is above 0
   double odi = 0.0;                 ///< the same as an orientation dispersion index
   std::string orientationHarmonics; ///< coefficients as text, for DispersionModel::Harmonics
+  std::string orientationPeaks;     ///< axes as text, for DispersionModel::Peaks
+  std::string orientationFile;      ///< image whose voxel has these numbers, which only the filter reads
+  Eigen::Vector3d orientationVoxel = Eigen::Vector3d::Zero(); ///< its whole numbers i, j and k, from 0
 
   static const PropertyList<BundleInitializerStage>& properties();
 };

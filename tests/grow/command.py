@@ -169,7 +169,7 @@ class Command(unittest.TestCase):
             ({"BundleInitializer": {"NumberOfBundles": 5e9}}, r"NumberOfBundles is 5000000000: give 1 to 2"),
             ({"BundleInitializer": {"MaximumRadius": "2"}}, r"MaximumRadius is \"2\": give a number$"),
             ({"BundleInitializer": {"MinimumRadius": 3}}, r"BundleInitializer: .*MinimumRadius"),
-            ({"BundleInitializer": {"DispersionModel": "Wattson"}}, r'DispersionModel is "Wattson": give "Watson", "Cone", "Coherent" or "Harmonics"$'),
+            ({"BundleInitializer": {"DispersionModel": "Wattson"}}, r'DispersionModel is "Wattson": give "Watson", "Cone", "Coherent", "Harmonics" or "Peaks"$'),
             ({"CapsuleOptimizer": {"TrimToDomain": 1}}, r"TrimToDomain is 1: give true or false$"),
             ({"CapsuleOptimizer": {"KeepHistory": True}}, r"CapsuleOptimizer: KeepHistory is of use in ParaView only"),
             ({"MyelinSurface": {"Meshing": "VTK filters"}}, r"MyelinSurface: Meshing by VTK filters needs ParaView"),

@@ -4,6 +4,7 @@
 
 import os
 
+import nibabel
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main
 from paraview.simple import BundleInitializer
@@ -139,6 +140,69 @@ class BundleInitializerTest(CactusTestCase):
         other = ends(fetch(drawn_radii(Seed=6)))
         self.assertTrue((one[1] == again[1]).all())
         self.assertFalse(one[1].shape == other[1].shape and (one[1] == other[1]).all())
+
+    ANYWHERE = {"Side": 12, "FibreVolumeFraction": 0.3}
+
+    def save(self, voxel, values, affine, scale=1):
+        """A NIfTI image of 3 x 4 x 5 voxels that has these values in one voxel only."""
+        image = np.zeros((3, 4, 5, len(values)), np.float32 if scale == 1 else np.int16)
+        image[voxel] = np.asarray(values) / scale
+        nifti = nibabel.Nifti1Image(image, np.asarray(affine, float))
+        nifti.header.set_slope_inter(scale, 0)
+        path = os.path.join(self.folder, "image.nii.gz")
+        nibabel.save(nifti, path)
+        return path
+
+    def test_a_distribution_from_a_voxel_of_an_image(self):
+        """As the same numbers in a text; whichever way the image's axes run, and with numbers that are scaled."""
+        values = [1, 0, 0.25, 0.5, 0, -0.25]
+        asked = fetch(BundleInitializer(DispersionModel="Harmonics", OrientationHarmonics=" ".join(map(str, values)), **self.ANYWHERE))
+        harmonics = vtk_to_numpy(asked.GetFieldData().GetArray("OrientationHarmonics"))
+        np.testing.assert_allclose(harmonics, np.array(values) * 0.3 / np.sqrt(4 * np.pi), rtol=1e-12)
+        for affine, scale in ((np.diag([2, 2, 2, 1]), 1), (np.diag([-2, 2, 2, 1]), 1), (np.diag([2, 2, -2, 1]), 1), (np.diag([-2, 2, 2, 1]), 0.25)):
+            with self.subTest(affine=affine, scale=scale):
+                path = self.save((2, 1, 3), values, affine, scale)
+                found = BundleInitializer(DispersionModel="Harmonics", OrientationFile=path, OrientationVoxel=[2, 1, 3], **self.ANYWHERE)
+                np.testing.assert_array_equal(ends(fetch(found))[1], ends(asked)[1])
+                self.assertIn("OrientationHarmonics", fetch(found).GetFieldData().GetAbstractArray("Provenance").GetValue(0))
+        # A manifest has the numbers, so that the file is not needed again.
+        self.assertNotIn("image.nii.gz", fetch(found).GetFieldData().GetAbstractArray("Provenance").GetValue(0))
+
+    def test_peaks_are_bundles(self):
+        values = [0, 0, 0.5, np.nan, np.nan, np.nan, 0.18, 0, 0.24]
+        path = self.save((0, 3, 4), values, np.diag([-1, 1, 1, 1]))
+        image = BundleInitializer(DispersionModel="Peaks", MeanDispersion=4, OrientationFile=path, OrientationVoxel=[0, 3, 4], **self.ANYWHERE)
+        first, last, radii, bundles = ends(fetch(image))
+        self.assertEqual(set(bundles), {1, 3})
+        for bundle, axis in ((1, [0, 0, 1]), (3, [0.6, 0, 0.8])):
+            angles = angles_to(first[bundles == bundle], last[bundles == bundle], np.array(axis))
+            self.assertAlmostEqual(np.minimum(angles, 180 - angles).mean(), 4, delta=0.5)
+        text = BundleInitializer(DispersionModel="Peaks", MeanDispersion=4, OrientationPeaks="0 0 0.5 0 0 0 0.18 0 0.24", **self.ANYWHERE)
+        np.testing.assert_allclose(ends(fetch(text))[1], last, atol=1e-5)  # the image has single precision
+
+    def test_images_that_give_no_directions_are_refused(self):
+        path = self.save((0, 0, 0), [1, 0, 0, 0, 0, 0, 0], np.eye(4))
+        with open(os.path.join(self.folder, "text.nii"), "w", encoding="utf-8") as file:
+            file.write("no image")
+        for pattern, values in (
+            (r"OrientationVoxel has -1", {"OrientationVoxel": [0, -1, 0]}),
+            (r"OrientationVoxel has 0\.5", {"OrientationVoxel": [0.5, 0, 0]}),
+            (r"voxel 3 0 0 lies outside .*image\.nii\.gz, which has 3 x 4 x 5 voxels", {"OrientationVoxel": [3, 0, 0]}),
+            (r"voxel 1 0 0 of OrientationFile .*image\.nii\.gz has no directions", {"OrientationVoxel": [1, 0, 0]}),
+            (r"OrientationHarmonics has 7 coefficients", {}),
+            (r"OrientationPeaks has 7 numbers", {"DispersionModel": "Peaks"}),
+            (r"OrientationHarmonics and OrientationFile are both given", {"OrientationHarmonics": "1"}),
+            (r"OrientationPeaks and OrientationFile are both given", {"DispersionModel": "Peaks", "OrientationPeaks": "0 0 1"}),
+            (r"cannot open /no/such", {"OrientationFile": "/no/such"}),
+            (r"text\.nii", {"OrientationFile": os.path.join(self.folder, "text.nii")}),
+            (r"Border Cut", {"Border": "Walls"}),
+            (r"NumberOfBundles is 2", {"NumberOfBundles": 2, "DispersionModel": "Peaks", "OrientationFile": "", "OrientationPeaks": "0 0 1"}),
+        ):
+            with self.subTest(values=values):
+                bundle = BundleInitializer(**{"DispersionModel": "Harmonics", "OrientationFile": path, **self.ANYWHERE, **values})
+                with self.assertError(pattern):
+                    bundle.UpdatePipeline()
+                self.assertEqual(bundle.GetDataInformation().GetNumberOfCells(), 0)
 
     def test_what_cannot_be_is_refused_by_name(self):
         for pattern, values in (

@@ -74,7 +74,7 @@ NAMES = {
 }
 CHOICES = {
     ("BundleInitializer", "RadiusDistribution"): ["Gamma", "Lognormal", "Table", "Histogram"],
-    ("BundleInitializer", "DispersionModel"): ["Watson", "Cone", "Coherent", "Harmonics"],
+    ("BundleInitializer", "DispersionModel"): ["Watson", "Cone", "Coherent", "Harmonics", "Peaks"],
     ("BundleInitializer", "Border"): ["Cut", "Walls", "Periodic across", "Periodic"],
     ("BundleInitializer", "Mixing"): ["Interpenetrating", "Layers"],
     ("BundleInitializer", "CrossingStyle"): ["Interwoven", "Sheets"],

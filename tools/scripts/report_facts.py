@@ -131,6 +131,7 @@ def asked_and_reached(manifest, certificate, fibres, dispersion):
         ("mean dispersion (degrees)", (source_of_all(manifest, ["MeanDispersion"]) or {}).get("MeanDispersion"), dispersion),
         ("orientation dispersion index (ODI)", None, directions.get("odi")),
         ("p2 of directions", None, directions.get("p2")),
+        ("angular correlation with the directions asked for", None, directions.get("angular_correlation")),
         ("angle between fibres within 10 µm (degrees)", None, directions.get("local_spread_deg")),
         ("twist of the bundle", None, directions.get("twist")),
         ("sinuosity", (source_of_all(manifest, ["Sinuosity"]) or {}).get("Sinuosity"), directions.get("sinuosity")),

@@ -5,10 +5,13 @@
 #include "base/Error.h"
 #include "base/SphericalHarmonics.h"
 #include "bundle/BundleInitializer.h"
+#include "bundle/DirectionDistribution.h"
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -90,7 +93,8 @@ double meanOver(const OrientationDistribution& distribution, const std::function
   double sum = 0.0;
   for (int i = 0; i < side * side; ++i)
   {
-    sum += function(distribution.at((i % side + 0.5) / side, (i / side + 0.5) / side)); // NOLINT(bugprone-integer-division)
+    sum +=
+      function(distribution.at((i % side + 0.5) / side, (i / side + 0.5) / side).direction); // NOLINT(bugprone-integer-division)
   }
   return sum / (side * side);
 }
@@ -143,14 +147,115 @@ std::string messageFor(const BundleInitializerOptions& options)
 TEST(OrientationDistribution, HasTheMomentsOfItsHarmonics)
 {
   // ⟨P2⟩ of c0 Y00 + c2 Y20 is c2 / (√5 c0).
-  const OrientationDistribution along({ 2.0, 0.0, 0.0, 1.5, 0.0, 0.0 });
+  const HarmonicsDistribution along({ 2.0, 0.0, 0.0, 1.5, 0.0, 0.0 });
   const auto p2 = [](const Eigen::Vector3d& d) { return 1.5 * d.z() * d.z() - 0.5; };
   EXPECT_NEAR(meanOver(along, p2), 1.5 / (2.0 * std::sqrt(5.0)), 1e-4);
-  EXPECT_NEAR(meanOver(OrientationDistribution({ 3.0 }), p2), 0.0, 1e-4);
+  EXPECT_NEAR(meanOver(HarmonicsDistribution({ 3.0 }), p2), 0.0, 1e-4);
   // ⟨Y22⟩ is c22 / (√(4π) c0); √3 times a function with the mean square 1/5 of x² − y² is meant.
-  const OrientationDistribution across({ 2.0, 0.0, 0.0, 0.0, 0.0, 0.7 });
+  const HarmonicsDistribution across({ 2.0, 0.0, 0.0, 0.0, 0.0, 0.7 });
   const auto y22 = [](const Eigen::Vector3d& d) { return std::sqrt(15.0 / (16.0 * pi)) * (d.x() * d.x() - d.y() * d.y()); };
   EXPECT_NEAR(meanOver(across, y22), 0.7 / (2.0 * std::sqrt(4.0 * pi)), 1e-4);
+}
+
+std::vector<Eigen::Vector3d> weightedAxes()
+{
+  std::vector<Eigen::Vector3d> axes;
+  for (int i = 0; i < 3; ++i)
+  {
+    axes.emplace_back(2.0 * shares[std::size_t(i)] * peakAxes().col(i));
+  }
+  axes.insert(axes.begin() + 1, Eigen::Vector3d::Zero()); // of which there are no fibres
+  return axes;
+}
+
+TEST(OrientationDistribution, PeaksAreWatsonsAboutEachAxis)
+{
+  const PeaksDistribution peaked(weightedAxes(), 20.0);
+  constexpr int count = 300; // of quantiles each way
+  std::array<double, 4> drawn{};
+  std::array<Eigen::Vector3d, 4> across;
+  across.fill(Eigen::Vector3d::Zero());
+  std::vector<double> angles;
+  for (int i = 0; i < count * count; ++i)
+  {
+    const DrawnDirection one =
+      peaked.at((i % count + 0.5) / count, (i / count + 0.5) / count); // NOLINT(bugprone-integer-division)
+    ASSERT_TRUE(one.bundle == 1 || one.bundle == 3 || one.bundle == 4) << one.bundle;
+    const auto bundle = std::size_t(one.bundle - 1);
+    const Eigen::Vector3d axis = peakAxes().col(one.bundle == 1 ? 0 : one.bundle - 2);
+    ASSERT_NEAR(one.direction.norm(), 1.0, 1e-12);
+    const double along = one.direction.dot(axis);
+    drawn[bundle] += 1.0;
+    across[bundle] += (along < 0.0 ? -1.0 : 1.0) * one.direction - std::abs(along) * axis;
+    angles.push_back(std::acos(std::min(1.0, std::abs(along))));
+  }
+  EXPECT_NEAR(drawn[0] / (count * count), 0.5, 0.004);
+  EXPECT_NEAR(drawn[2] / (count * count), 0.3, 0.004);
+  EXPECT_NEAR(drawn[3] / (count * count), 0.2, 0.004);
+  for (const std::size_t bundle : { 0U, 2U, 3U })
+  {
+    EXPECT_LT(across[bundle].norm() / drawn[bundle], 1e-3); // no azimuth is preferred
+  }
+  double sum = 0.0;
+  for (const double angle : angles)
+  {
+    sum += angle / degree;
+  }
+  EXPECT_NEAR(sum / double(angles.size()), 20.0, 0.05);
+  EXPECT_LT(distanceToWatson(angles), 0.005);
+
+  // Without dispersion each bundle has one direction.
+  const PeaksDistribution straight({ Eigen::Vector3d(0.0, 3.0, 4.0) }, 0.0);
+  EXPECT_LT((straight.at(0.3, 0.8).direction - Eigen::Vector3d(0.0, 0.6, 0.8)).norm(), 1e-12);
+}
+
+TEST(OrientationDistribution, PeaksHaveTheHarmonicsOfTheirSum)
+{
+  const double kappa = 8.0;
+  const std::vector<double> summed = peaks(kappa, 8);
+  const std::vector<double> found = PeaksDistribution(weightedAxes(), watsonMeanAngle(kappa)).harmonics();
+  ASSERT_EQ(found.size(), summed.size());
+  const double scale = summed[0] / found[0];
+  for (std::size_t k = 0; k < found.size(); ++k)
+  {
+    EXPECT_NEAR(scale * found[k], summed[k], 1e-3 * summed[0]) << k;
+  }
+}
+
+TEST(OrientationDistribution, BundlesOfPeaksHaveTheirSharesAndAxes)
+{
+  BundleInitializerOptions options = optionsFor({});
+  options.side = 30.0;
+  options.fibreVolumeFraction = 0.4;
+  options.dispersionModel = DispersionModel::Peaks;
+  options.peaks = weightedAxes();
+  options.meanDispersion = 10.0;
+  BundleInitializerReport report;
+  const Fibres fibres = initialiseBundles(options, {}, &report);
+  EXPECT_NEAR(report.meanDispersion, 10.0, 0.5);
+  std::array<double, 5> volumes{};
+  std::array<Eigen::Matrix3d, 5> moments;
+  moments.fill(Eigen::Matrix3d::Zero());
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const auto bundle = std::size_t(fibres.bundleIds[f]);
+    const Eigen::Vector3d way = (fibres.points[fibres.offsets[f + 1] - 1] - fibres.points[fibres.offsets[f]]).normalized();
+    const double volume = capsuleVolumeInDomain(fibres, f);
+    volumes.at(bundle) += volume;
+    moments.at(bundle) += volume * way * way.transpose();
+  }
+  EXPECT_EQ(volumes[2], 0.0);
+  const std::array<std::size_t, 3> bundles{ 1, 3, 4 };
+  for (int i = 0; i < 3; ++i)
+  {
+    const std::size_t bundle = bundles[std::size_t(i)];
+    EXPECT_NEAR(volumes[bundle] / fibres.domain.volume(), 0.4 * shares[std::size_t(i)], 0.01);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments[bundle]);
+    EXPECT_LT(angleBetweenLines(solver.eigenvectors().col(2), peakAxes().col(i)), 1.0);
+  }
+  const std::vector<double> asked = peaks(watsonKappa(10.0), 8);
+  EXPECT_GT(correlation(fibres.orientationHarmonics, asked), 0.9999);
+  EXPECT_NEAR(fibres.orientationHarmonics[0] * std::sqrt(4.0 * pi), 0.4, 1e-9);
 }
 
 TEST(OrientationDistribution, FibresInSpaceHaveIt)
@@ -192,6 +297,16 @@ TEST(OrientationDistribution, WhatIsNoneIsNamed)
   expect(std::vector<double>(harmonicCount(18), 1.0), "OrientationHarmonics has 190 coefficients");
   expect({ -1.0 }, "OrientationHarmonics has no direction");
   expect({ std::numeric_limits<double>::quiet_NaN() }, "OrientationHarmonics has a coefficient that is no finite");
+  const auto expectOfPeaks = [](const std::vector<Eigen::Vector3d>& axes, const std::string& words)
+  {
+    BundleInitializerOptions options = optionsFor({});
+    options.dispersionModel = DispersionModel::Peaks;
+    options.peaks = axes;
+    EXPECT_NE(messageFor(options).find(words), std::string::npos) << messageFor(options);
+  };
+  expectOfPeaks({}, "OrientationPeaks has no peak");
+  expectOfPeaks({ Eigen::Vector3d::Zero() }, "OrientationPeaks has no peak");
+  expectOfPeaks({ Eigen::Vector3d::UnitX(), Eigen::Vector3d(1.0, std::nan(""), 0.0) }, "OrientationPeaks has a peak, 2, that");
   BundleInitializerOptions walled = optionsFor({ 1.0 });
   walled.border = Border::Walls;
   EXPECT_NE(messageFor(walled).find("Border Cut"), std::string::npos);

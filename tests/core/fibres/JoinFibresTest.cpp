@@ -51,12 +51,16 @@ TEST(JoinFibres, WhatTheyWereMadeForAddsUpWhereAllSaySo)
 {
   Fibres all = fibresWith({ { 1, 1 } });
   all.grownFraction = 0.3;
+  all.orientationHarmonics = { 0.3 };
   Fibres added = fibresWith({ { 2, 2 } });
   added.grownFraction = 0.25;
+  added.orientationHarmonics = { 0.2, 0.1, 0.0, 0.2, 0.0, 0.0 };
   appendFibres(added, all);
   EXPECT_DOUBLE_EQ(all.grownFraction, 0.55);
+  EXPECT_EQ(all.orientationHarmonics, (std::vector<double>{ 0.5, 0.1, 0.0, 0.2, 0.0, 0.0 })) << "the sum";
   appendFibres(fibresWith({ { 3, 3 } }), all);
   EXPECT_EQ(all.grownFraction, 0.0);
+  EXPECT_TRUE(all.orientationHarmonics.empty());
 }
 
 TEST(JoinFibres, PiecesOfOneSubstrateAreForWhatEachSays)

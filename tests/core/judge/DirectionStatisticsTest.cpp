@@ -3,6 +3,7 @@
 #include "judge/DirectionStatistics.h"
 #include "base/Constants.h"
 #include "base/Random.h"
+#include "base/SphericalHarmonics.h"
 #include "bundle/DirectionDistribution.h"
 
 #include <gtest/gtest.h>
@@ -143,6 +144,31 @@ TEST(DirectionStatistics, VolumesOfAxonsAreWeights)
     radii[f] = std::sqrt(1.0 / pi);
   }
   EXPECT_NEAR(fibres.measured(cuts, radii).p2ByAxonVolume, (8.0 * p2 + 6.0) / 14.0, 1e-9);
+}
+
+TEST(DirectionStatistics, CorrelationWithWhatWasAskedForIsThatOfLegendresPolynomials)
+{
+  // Asked for: all along z. There are as many places at 20° to it, and of three times the volume.
+  StraightFibres fibres;
+  fibres.add(Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());
+  fibres.add({ 20.0, 0.0, 0.0 }, tilted(20.0 * degree, 0.4));
+  const std::vector<double> radii{ 1.0, std::sqrt(3.0) };
+  EXPECT_TRUE(std::isnan(fibres.measured({}, radii).angularCorrelation)) << "nothing was asked for";
+  fibres.fibres.orientationHarmonics = harmonicsAt(Eigen::Vector3d::UnitZ(), 4);
+  // Σ (2l + 1) P_l(x) for l = 2 and 4 is the product of two directions' harmonics times 4π.
+  const auto product = [](double x)
+  { return 5.0 * (1.5 * x * x - 0.5) + 9.0 * (35.0 * std::pow(x, 4) - 30.0 * x * x + 3.0) / 8.0; };
+  const DirectionStatistics found = fibres.measured({}, radii);
+  const double cosine = std::cos(20.0 * degree);
+  const double places[] = { 8.0, 3.0 * 8.0 };
+  const double same = product(1.0);
+  const double other = product(cosine);
+  const double expected =
+    (places[0] * same + places[1] * other) /
+    std::sqrt(same * (places[0] * places[0] * same + 2.0 * places[0] * places[1] * other + places[1] * places[1] * same));
+  EXPECT_NEAR(found.angularCorrelation, expected, 1e-9);
+  fibres.fibres.orientationHarmonics = { 1.0 }; // all directions alike
+  EXPECT_TRUE(std::isnan(fibres.measured({}, radii).angularCorrelation));
 }
 
 } // namespace

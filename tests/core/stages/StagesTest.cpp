@@ -16,6 +16,19 @@
 namespace
 {
 
+std::string messageFor(const cactus::BundleInitializerStage& wrong)
+{
+  try
+  {
+    cactus::bundleOptions(wrong);
+  }
+  catch (const cactus::InvalidInput& error)
+  {
+    return error.what();
+  }
+  return "no error";
+}
+
 TEST(Stages, DescribeTheirProperties)
 {
   const auto stages = cactus::describeStages();
@@ -63,22 +76,10 @@ TEST(Stages, DispersionMayBeGivenAsKappaOrIndex)
     stage.odi = 2.0 / 3.14159265358979 * std::atan(1.0 / kappas[i]);
     EXPECT_NEAR(cactus::bundleOptions(stage).meanDispersion, 5.0 * (i + 1), 0.01 * 5.0 * (i + 1));
   }
-  const auto messageFor = [](const cactus::BundleInitializerStage& wrong) -> std::string
-  {
-    try
-    {
-      cactus::bundleOptions(wrong);
-    }
-    catch (const cactus::InvalidInput& error)
-    {
-      return error.what();
-    }
-    return "no error";
-  };
   stage.watsonKappa = 10.0;
   EXPECT_NE(messageFor(stage).find("both given"), std::string::npos);
   stage.options.dispersionModel = cactus::DispersionModel::Cone; // has neither
-  EXPECT_NE(messageFor(stage).find("are for DispersionModel Watson and Coherent"), std::string::npos);
+  EXPECT_NE(messageFor(stage).find("are for DispersionModel Watson, Coherent and Peaks"), std::string::npos);
   stage.options.dispersionModel = cactus::DispersionModel::Watson;
   stage.odi = 0.0;
   stage.watsonKappa = 1.0;
@@ -98,6 +99,27 @@ TEST(Stages, HarmonicsAreReadFromText)
   EXPECT_THROW(cactus::bundleOptions(stage), cactus::InvalidInput);
   stage.options.dispersionModel = cactus::DispersionModel::Watson;
   EXPECT_TRUE(cactus::bundleOptions(stage).harmonics.empty());
+}
+
+TEST(Stages, PeaksAreReadFromText)
+{
+  cactus::BundleInitializerStage stage;
+  stage.options.dispersionModel = cactus::DispersionModel::Peaks;
+  stage.orientationPeaks = "0 0 0.5, 1 -2 3";
+  const std::vector<Eigen::Vector3d> peaks = cactus::bundleOptions(stage).peaks;
+  ASSERT_EQ(peaks.size(), 2U);
+  EXPECT_EQ(peaks[0], Eigen::Vector3d(0.0, 0.0, 0.5));
+  EXPECT_EQ(peaks[1], Eigen::Vector3d(1.0, -2.0, 3.0));
+  stage.watsonKappa = 20.0;
+  EXPECT_NEAR(cactus::bundleOptions(stage).meanDispersion, cactus::watsonMeanAngle(20.0), 1e-9);
+  stage.orientationPeaks = "0 0 0.5 1";
+  EXPECT_EQ(messageFor(stage).find("OrientationPeaks has 4 numbers"), 0U);
+  stage.orientationPeaks = "0 0 z";
+  EXPECT_EQ(messageFor(stage).find("OrientationPeaks holds \"z\""), 0U);
+  stage.orientationFile = "fod.nii";
+  EXPECT_EQ(messageFor(stage).find("OrientationFile is read by ParaView's filter alone"), 0U);
+  stage.options.dispersionModel = cactus::DispersionModel::Watson; // which has no use for it
+  EXPECT_EQ(messageFor(stage), "no error");
 }
 
 } // namespace
