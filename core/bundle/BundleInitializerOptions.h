@@ -66,7 +66,7 @@ struct BundleInitializerOptions
   /// With DispersionModel::Harmonics, coefficients of the distribution of directions, see HarmonicsDistribution. Needs
   /// Border::Cut and numberOfBundles 1, as does Peaks.
   std::vector<double> harmonics;
-  std::vector<Eigen::Vector3d> peaks; ///< with DispersionModel::Peaks, see PeaksDistribution
+  std::vector<Eigen::Vector3d> peaks; ///< with DispersionModel::Peaks, see orientedBundles()
   /// Lateral distance over which the directions of DispersionModel::Coherent are alike (see StationaryFlow). Between walls it may
   /// be 0: four times the mean shift of the fibres from face to face, at least a 32nd of the face (see CoherentFlow).
   double correlationLength = 8.0;

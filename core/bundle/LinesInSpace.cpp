@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace cactus
@@ -26,9 +25,9 @@ namespace
 class ShiftedHalton
 {
 public:
-  explicit ShiftedHalton(std::uint64_t seed)
+  ShiftedHalton(std::uint64_t seed, std::uint64_t number)
   {
-    RandomEngine engine = randomStream(seed, RandomStage::Directions);
+    RandomEngine engine = randomStream(seed, RandomStage::Directions, number);
     for (double& shift : this->Shifts)
     {
       shift = uniform(engine);
@@ -62,16 +61,15 @@ struct Line
   Eigen::Vector3d first;
   Eigen::Vector3d last;
   double lengthInDomain;
-  int bundle;
 };
 
-/// Lines of a sequence, which are made as far as they are asked for.
+/// Lines of a bundle, which are made as far as they are asked for.
 class LineSequence
 {
 public:
-  explicit LineSequence(const BundleInitializerOptions& options)
-    : Distribution(orientationDistribution(options))
-    , Points(options.seed)
+  LineSequence(const BundleInitializerOptions& options, const OrientationDistribution& directions, std::uint64_t number)
+    : Directions(&directions)
+    , Points(options.seed, number)
     , Box(options.domain())
     , Around(surroundings(options).sides)
     , Shortest(2.0 * options.radius.minimum)
@@ -87,22 +85,6 @@ public:
     return this->Lines[place];
   }
 
-  /// Returns the coefficients of the directions asked for, of which fibres fill this fraction (see Fibres::orientationHarmonics).
-  std::vector<double> harmonics(double fraction) const
-  {
-    std::vector<double> scaled = this->Distribution->harmonics();
-    const double integral = scaled.front() * std::sqrt(4.0 * pi);
-    if (!(integral > 0.0))
-    {
-      return {};
-    }
-    for (double& value : scaled)
-    {
-      value *= fraction / integral;
-    }
-    return scaled;
-  }
-
 private:
   /// Adds the next line that comes near the domain, if this one does.
   void addNext()
@@ -110,7 +92,7 @@ private:
     // Lines through this ball around the domain and its surroundings are laid evenly on the disc across each direction.
     const double reach = 0.5 * this->Box.size().norm() + std::sqrt(3.0) * this->Around;
     const std::array<double, 4> point = this->Points.at(this->Next++);
-    const auto [direction, bundle] = this->Distribution->at(point[0], point[1]);
+    const Eigen::Vector3d direction = this->Directions->at(point[0], point[1]);
     const double distance = reach * std::sqrt(point[2]);
     const double azimuth = 2.0 * pi * point[3];
     const double half = std::sqrt(reach * reach - distance * distance);
@@ -122,12 +104,12 @@ private:
     if (2.0 * half * (part[1] - part[0]) > this->Shortest)
     {
       const std::array<double, 2> inside = this->Box.clip(begin, end);
-      this->Lines.push_back({ begin + (end - begin) * part[0], begin + (end - begin) * part[1],
-        2.0 * half * std::max(0.0, inside[1] - inside[0]), bundle });
+      this->Lines.push_back(
+        { begin + (end - begin) * part[0], begin + (end - begin) * part[1], 2.0 * half * std::max(0.0, inside[1] - inside[0]) });
     }
   }
 
-  std::unique_ptr<OrientationDistribution> Distribution;
+  const OrientationDistribution* Directions;
   ShiftedHalton Points;
   Domain Box;
   double Around;
@@ -149,20 +131,91 @@ std::vector<double> radiiOf(const BundleInitializerOptions& options, std::size_t
   return radii;
 }
 
+/// A line with the radius and the bundle of its fibre.
+struct LaidLine
+{
+  Line line;
+  double radius;
+  int bundle;
+};
+
+/// Fibres of several bundles, laid as far as they are asked for.
+class LaidBundles
+{
+public:
+  explicit LaidBundles(const BundleInitializerOptions& options)
+    : Options(&options)
+    , Bundles(orientedBundles(options))
+  {
+    for (const OrientedBundle& bundle : this->Bundles)
+    {
+      this->Lines.emplace_back(options, *bundle.directions, this->Lines.size());
+    }
+  }
+
+  /// Lays this number of fibres. Each is of the bundle that lacks most of its share of the volume in the domain.
+  std::vector<LaidLine> lay(std::size_t count)
+  {
+    std::vector<LaidLine> laid;
+    std::vector<double> volumes(this->Bundles.size(), 0.0);
+    std::vector<std::size_t> fibres(this->Bundles.size(), 0);
+    double all = 0.0;
+    for (const double radius : radiiOf(*this->Options, count))
+    {
+      std::size_t poorest = 0;
+      for (std::size_t b = 1; b < this->Bundles.size(); ++b)
+      {
+        const auto lack = [&](std::size_t bundle) { return this->Bundles[bundle].share * all - volumes[bundle]; };
+        poorest = lack(b) > lack(poorest) ? b : poorest;
+      }
+      const Line& line = this->Lines[poorest][fibres[poorest]++];
+      const double volume = pi * radius * radius * line.lengthInDomain;
+      volumes[poorest] += volume;
+      all += volume;
+      laid.push_back({ line, radius, this->Bundles[poorest].id });
+    }
+    return laid;
+  }
+
+  /// Returns the coefficients of the directions asked for, see Fibres::orientationHarmonics; none if there is no scale for them.
+  std::vector<double> harmonics() const
+  {
+    std::vector<double> sum;
+    for (const OrientedBundle& bundle : this->Bundles)
+    {
+      std::vector<double> own = bundle.directions->harmonics();
+      const double integral = own.front() * std::sqrt(4.0 * pi);
+      if (!(integral > 0.0))
+      {
+        return {};
+      }
+      sum.resize(own.size(), 0.0);
+      std::transform(own.begin(), own.end(), sum.begin(), sum.begin(),
+        [&](double value, double before)
+        { return before + value * bundle.share * this->Options->fibreVolumeFraction / integral; });
+    }
+    return sum;
+  }
+
+private:
+  const BundleInitializerOptions* Options;
+  std::vector<OrientedBundle> Bundles;
+  std::vector<LineSequence> Lines;
+};
+
 } // namespace
 
 Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& context)
 {
-  LineSequence lines(options);
+  LaidBundles bundles(options);
   const double wanted = options.fibreVolumeFraction * options.domain().volume();
   const auto volumeOf = [&](std::size_t count)
   {
     context.checkpoint();
-    const std::vector<double> radii = radiiOf(options, count);
     double volume = 0.0;
-    for (std::size_t i = 0; i < count; ++i)
+    for (const LaidLine& fibre : bundles.lay(count))
     {
-      volume += pi * radii[i] * radii[i] * lines[i].lengthInDomain;
+      volume += pi * fibre.radius * fibre.radius * fibre.line.lengthInDomain;
     }
     return volume;
   };
@@ -180,13 +233,12 @@ Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& c
   Fibres fibres;
   fibres.domain = options.domain();
   fibres.grownFraction = options.grownFibreVolumeFraction;
-  fibres.orientationHarmonics = lines.harmonics(options.fibreVolumeFraction);
-  for (const double radius : radiiOf(options, enough))
+  fibres.orientationHarmonics = bundles.harmonics();
+  for (const auto& [line, radius, bundle] : bundles.lay(enough))
   {
-    const Line& line = lines[fibres.size()];
     const Eigen::Vector3d whole = line.last - line.first;
     const int segments = std::max(2, static_cast<int>(std::lround(whole.norm() / options.controlPointSpacing(radius))));
-    fibres.addFibre(static_cast<int>(fibres.size()) + 1, line.bundle, radius);
+    fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle, radius);
     for (int k = 0; k <= segments; ++k)
     {
       fibres.addPoint(line.first + whole * (static_cast<double>(k) / segments), radius);

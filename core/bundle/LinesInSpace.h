@@ -8,10 +8,10 @@
 namespace cactus
 {
 
-/// Lays straight fibres with the directions of an orientation distribution (see orientationDistribution()) evenly in space, so
-/// that their lengths in the domain have that distribution by volume. Directions and places together follow a low-discrepancy
+/// Lays straight fibres of bundles with any distribution of directions (see orientedBundles()) evenly in space, so that their
+/// lengths in the domain have that distribution by volume. Directions and places together follow a low-discrepancy
 /// sequence (Halton 1960, Numer Math 2:84) with a random shift, thick fibres first. There are as many as fill the fraction asked
-/// for, and they end a little outside the domain. Those of DispersionModel::Harmonics are one bundle.
+/// for, and they end a little outside the domain.
 ///
 /// Fibres overlap as chance has it, more than those of a packed bundle. Throws as initialiseBundles() does.
 Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& context);

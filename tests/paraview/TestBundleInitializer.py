@@ -2,12 +2,13 @@
 # ctest-ranks: 2
 """BundleInitializer through ParaView: its faces, radii and directions checked with code of this file's own, and its errors."""
 
+import json
 import os
 
 import nibabel
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import BundleInitializer
+from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateSampler, SubstrateStatistics, SubstrateWriter
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -179,6 +180,26 @@ class BundleInitializerTest(CactusTestCase):
             self.assertAlmostEqual(np.minimum(angles, 180 - angles).mean(), 4, delta=0.5)
         text = BundleInitializer(DispersionModel="Peaks", MeanDispersion=4, OrientationPeaks="0 0 0.5 0 0 0 0.18 0 0.24", **self.ANYWHERE)
         np.testing.assert_allclose(ends(fetch(text))[1], last, atol=1e-5)  # the image has single precision
+
+    def test_directions_reached_are_compared_with_those_asked_for(self):
+        """On surfaces and in the manifest, by the distribution that SubstrateSampler finds."""
+        peaks = BundleInitializer(DispersionModel="Peaks", OrientationPeaks="0 0 0.5 0.3 0 0.4", Side=8, FibreVolumeFraction=0.2, GrownFibreVolumeFraction=0.4, MinimumRadius=0.4)
+        fibres = OutputPort(CapsuleOptimizer(Input=peaks), 0)
+        asked = vtk_to_numpy(fetch(peaks).GetFieldData().GetArray("OrientationHarmonics"))
+        surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, VoxelSize=0.15))
+        outer, inner = (OutputPort(surfaces, port) for port in (0, 1))
+        sampled = fetch(SubstrateSampler(Outer=outer, Inner=inner, Fibres=fibres, VoxelSize=8, HarmonicsOrder="8"))
+        reached = vtk_to_numpy(sampled.GetPointData().GetArray("FOD"))[0]
+        expected = reached[1:] @ asked[1:] / np.linalg.norm(reached[1:]) / np.linalg.norm(asked[1:])
+        table = fetch(SubstrateStatistics(Fibres=fibres, Outer=outer, Inner=inner))
+        self.assertAlmostEqual(table.GetColumnByName("AngularCorrelation").GetValue(0), expected, delta=0.01)
+        self.assertLess(expected, 0.995)
+        folder = os.path.join(self.folder, "substrate")
+        SubstrateWriter(Outer=outer, Inner=inner, Fibres=fibres, FolderName=folder).UpdatePipeline()
+        with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+            self.assertAlmostEqual(json.load(file)["directions"]["angular_correlation"], expected, delta=0.01)
+        table = fetch(SubstrateStatistics(Fibres=BundleInitializer(Side=8)))
+        self.assertTrue(np.isnan(table.GetColumnByName("AngularCorrelation").GetValue(0)))
 
     def test_images_that_give_no_directions_are_refused(self):
         path = self.save((0, 0, 0), [1, 0, 0, 0, 0, 0, 0], np.eye(4))

@@ -151,6 +151,11 @@ class Sampler(CactusTestCase):
         directions = numpy.array([[0.6, 0, 0.8], [0, 0, 1]]) @ turn.T
         numpy.testing.assert_allclose(array(image, "FOD")[0, 0, 0], fractions @ real_harmonics(directions, 8), atol=1e-5)
         numpy.testing.assert_allclose(array(image, "Peaks")[0, 0, 0][:6], (fractions[:, None] * directions)[::-1].ravel(), atol=1e-6)
+        # What a bundle was asked for turns with it.
+        bundle = BundleInitializer(DispersionModel="Peaks", MeanDispersion=0, OrientationPeaks="0.6 0 0.8", Side=6, FibreVolumeFraction=0.3)
+        placed = Placement(Input=bundle, **place)
+        asked = 0.3 * real_harmonics(numpy.array([[0.6, 0, 0.8]]) @ turn.T, 8)[0]
+        numpy.testing.assert_allclose(vtk_to_numpy(fetch(placed).GetFieldData().GetArray("OrientationHarmonics")), asked, atol=1e-9)
 
     def test_orientation_files_are_mrtrixs(self):
         """Volumes of a fourth dimension; MRtrix itself, where it is installed, finds the fibres' direction in them."""

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints what crossings of BundleInitializer reach, as rows of a Markdown table: two bundles at an angle, "three" along x, y and z, and "fod", three
-Watson peaks of κ = 8 with shares of 0.5, 0.3 and 0.2 as spherical harmonics.
+"""Prints what crossings of BundleInitializer reach, as rows of a Markdown table: two bundles at an angle, "three" along x, y and z, "peaks", three
+with shares of 0.5, 0.3 and 0.2 of one source (DispersionModel Peaks), and "fod", the same with κ = 8 as spherical harmonics.
 
     ./cactus pvpython tools/benchmarks/crossings.py --side 20 --fraction 0.6 -- three 90 60
+    ./cactus pvpython tools/benchmarks/crossings.py --side 20 --fraction 0.4 -- peaks
     ./cactus pvpython tools/benchmarks/crossings.py --side 30 --fraction 0.5 --parted -- fod
 
-Measured here: the deviation of tangents from their bundle's axis, least and most by azimuth, and their ratio; the angular correlation of the harmonics
+Measured here: the deviation of tangents from their bundle's axis, least and most by azimuth, their ratio, and how far that axis
+is from the one asked for; the angular correlation of the harmonics
 (degrees up to 8) of tangents by volume with those asked for, before and after CapsuleOptimizer; without --parted also each bundle's volume fraction,
 and the Kolmogorov-Smirnov distance of outer radii to those asked for.
 """
@@ -20,6 +22,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ORDER = 8
 PEAKS = np.array([[1, 2, 2], [2, 1, -2], [-2, 2, -1]]) / 3
+SHARES = (0.5, 0.3, 0.2)
 
 
 def harmonics(directions):
@@ -47,7 +50,7 @@ def peaks_as_harmonics():
     z = 1 - (2 * np.arange(count) + 1) / count
     angle = np.pi * (3 - np.sqrt(5)) * np.arange(count)
     sphere = np.stack([np.sqrt(1 - z * z) * np.cos(angle), np.sqrt(1 - z * z) * np.sin(angle), z], axis=1)
-    density = sum(share * np.exp(8 * ((sphere @ peak) ** 2 - 1)) for share, peak in zip((0.5, 0.3, 0.2), PEAKS))
+    density = sum(share * np.exp(8 * ((sphere @ peak) ** 2 - 1)) for share, peak in zip(SHARES, PEAKS))
     return harmonics(sphere).T @ density / count
 
 
@@ -65,14 +68,23 @@ def tangents(data, side):
 
 
 def deviations(data, side):
-    """Least and most deviation from the axis (degrees, root mean square) of each bundle."""
+    """Least and most deviation from the axis (degrees, root mean square) of each bundle, and the axis."""
     ways, volumes, bundles = tangents(data, side)
-    found = []
+    found, axes = [], []
     for bundle in np.unique(bundles):
         mine = bundles == bundle
-        moments = np.linalg.eigvalsh((ways[mine] * volumes[mine, None]).T @ ways[mine] / volumes[mine].sum())
+        moments, vectors = np.linalg.eigh((ways[mine] * volumes[mine, None]).T @ ways[mine] / volumes[mine].sum())
         found.append(np.degrees(np.arcsin(np.sqrt(moments[:2]))))
-    return np.array(found)
+        axes.append(vectors[:, 2])
+    return np.array(found), np.array(axes)
+
+
+def axes_of(kind):
+    """The axes asked for, of each bundle."""
+    if kind in ("three", "peaks"):
+        return np.eye(3) if kind == "three" else PEAKS
+    half = np.radians(float(kind) / 2)
+    return np.array([[np.sin(half), 0, np.cos(half)], [-np.sin(half), 0, np.cos(half)]])
 
 
 def correlation(data, side, asked):
@@ -86,6 +98,9 @@ def sources(kind, side, fraction, grown, seed):
     if kind == "three":
         return [BundleInitializer(Direction=way, FibreVolumeFraction=fraction / 3, GrownFibreVolumeFraction=grown / 3, **common) for way in np.eye(3)]
     common.update(FibreVolumeFraction=fraction, GrownFibreVolumeFraction=grown)
+    if kind == "peaks":
+        peaks = PEAKS * np.array(SHARES)[:, None]
+        return [BundleInitializer(DispersionModel="Peaks", OrientationPeaks=" ".join(map(repr, peaks.ravel().tolist())), **common)]
     if kind == "fod":
         return [BundleInitializer(DispersionModel="Harmonics", OrientationHarmonics=" ".join(map(repr, peaks_as_harmonics().tolist())), **common)]
     return [BundleInitializer(NumberOfBundles=2, CrossingAngle=float(kind), **common)]
@@ -105,8 +120,8 @@ def main():
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--parted", action="store_true", help="end after CapsuleOptimizer")
     options = parser.parse_args()
-    print("| kind | seed | iterations, pairs left | longer by | deviations (°) | ratio before, after | correlation before, after | volume fractions | KS |")
-    print("|---" * 9 + "|")
+    print("| kind | seed | iterations, pairs left | longer by | deviations (°) | ratio before, after | axes off by (°) | correlation before, after | volume fractions | KS |")
+    print("|---" * 10 + "|")
     for kind in options.kinds:
         for seed in range(1, options.seeds + 1):
             bundles = sources(kind, options.side, options.fraction, options.grown, seed)
@@ -114,8 +129,8 @@ def main():
             fibres = OutputPort(optimised, 0)
             convergence = servermanager.Fetch(optimised, idx=1)
             before, after = [servermanager.Fetch(bundle) for bundle in bundles], servermanager.Fetch(fibres)
-            spread = deviations(after, options.side)
-            start = np.concatenate([deviations(data, options.side) for data in before])
+            spread, axes = deviations(after, options.side)
+            start = np.concatenate([deviations(data, options.side)[0] for data in before])
             ratios = [parts[:, 1] / parts[:, 0] for parts in (start, spread)]
             cells = [
                 kind,
@@ -124,6 +139,7 @@ def main():
                 f"{100 * after.GetFieldData().GetArray('LengthIncrease').GetValue(0):.1f} %",
                 f"{spread[:, 0].min():.1f} to {spread[:, 1].max():.1f}",
                 ", ".join(f"{part.min():.2f} to {part.max():.2f}" for part in ratios),
+                "" if kind == "fod" else ", ".join(f"{np.degrees(np.arcsin(np.linalg.norm(np.cross(a, b)))):.1f}" for a, b in zip(axes, axes_of(kind))),
                 ", ".join(f"{correlation(data, options.side, peaks_as_harmonics()):.3f}" for data in (before[0], after)) if kind == "fod" else "",
             ]
             if not options.parted:

@@ -6,6 +6,7 @@
 #include "base/SphericalHarmonics.h"
 #include "bundle/BundleInitializer.h"
 #include "bundle/DirectionDistribution.h"
+#include "optimiser/CapsuleOptimizer.h"
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -93,8 +94,7 @@ double meanOver(const OrientationDistribution& distribution, const std::function
   double sum = 0.0;
   for (int i = 0; i < side * side; ++i)
   {
-    sum +=
-      function(distribution.at((i % side + 0.5) / side, (i / side + 0.5) / side).direction); // NOLINT(bugprone-integer-division)
+    sum += function(distribution.at((i % side + 0.5) / side, (i / side + 0.5) / side)); // NOLINT(bugprone-integer-division)
   }
   return sum / (side * side);
 }
@@ -168,52 +168,42 @@ std::vector<Eigen::Vector3d> weightedAxes()
   return axes;
 }
 
-TEST(OrientationDistribution, PeaksAreWatsonsAboutEachAxis)
+TEST(OrientationDistribution, AxialIsWatsonsAboutItsAxis)
 {
-  const PeaksDistribution peaked(weightedAxes(), 20.0);
+  const Eigen::Vector3d axis = peakAxes().col(2);
+  const AxialDistribution axial(axis, 20.0);
   constexpr int count = 300; // of quantiles each way
-  std::array<double, 4> drawn{};
-  std::array<Eigen::Vector3d, 4> across;
-  across.fill(Eigen::Vector3d::Zero());
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
   std::vector<double> angles;
+  double sum = 0.0;
   for (int i = 0; i < count * count; ++i)
   {
-    const DrawnDirection one =
-      peaked.at((i % count + 0.5) / count, (i / count + 0.5) / count); // NOLINT(bugprone-integer-division)
-    ASSERT_TRUE(one.bundle == 1 || one.bundle == 3 || one.bundle == 4) << one.bundle;
-    const auto bundle = std::size_t(one.bundle - 1);
-    const Eigen::Vector3d axis = peakAxes().col(one.bundle == 1 ? 0 : one.bundle - 2);
-    ASSERT_NEAR(one.direction.norm(), 1.0, 1e-12);
-    const double along = one.direction.dot(axis);
-    drawn[bundle] += 1.0;
-    across[bundle] += (along < 0.0 ? -1.0 : 1.0) * one.direction - std::abs(along) * axis;
+    const Eigen::Vector3d one =
+      axial.at((i % count + 0.5) / count, (i / count + 0.5) / count); // NOLINT(bugprone-integer-division)
+    ASSERT_NEAR(one.norm(), 1.0, 1e-12);
+    const double along = one.dot(axis);
+    across += (along < 0.0 ? -1.0 : 1.0) * one - std::abs(along) * axis;
     angles.push_back(std::acos(std::min(1.0, std::abs(along))));
+    sum += angles.back() / degree;
   }
-  EXPECT_NEAR(drawn[0] / (count * count), 0.5, 0.004);
-  EXPECT_NEAR(drawn[2] / (count * count), 0.3, 0.004);
-  EXPECT_NEAR(drawn[3] / (count * count), 0.2, 0.004);
-  for (const std::size_t bundle : { 0U, 2U, 3U })
-  {
-    EXPECT_LT(across[bundle].norm() / drawn[bundle], 1e-3); // no azimuth is preferred
-  }
-  double sum = 0.0;
-  for (const double angle : angles)
-  {
-    sum += angle / degree;
-  }
-  EXPECT_NEAR(sum / double(angles.size()), 20.0, 0.05);
+  EXPECT_LT(across.norm() / (count * count), 1e-3); // no azimuth is preferred
+  EXPECT_NEAR(sum / (count * count), 20.0, 0.02);
   EXPECT_LT(distanceToWatson(angles), 0.005);
 
-  // Without dispersion each bundle has one direction.
-  const PeaksDistribution straight({ Eigen::Vector3d(0.0, 3.0, 4.0) }, 0.0);
-  EXPECT_LT((straight.at(0.3, 0.8).direction - Eigen::Vector3d(0.0, 0.6, 0.8)).norm(), 1e-12);
+  const AxialDistribution straight(Eigen::Vector3d(0.0, 0.6, 0.8), 0.0);
+  EXPECT_LT((straight.at(0.3, 0.8) - Eigen::Vector3d(0.0, 0.6, 0.8)).norm(), 1e-12);
 }
 
 TEST(OrientationDistribution, PeaksHaveTheHarmonicsOfTheirSum)
 {
   const double kappa = 8.0;
   const std::vector<double> summed = peaks(kappa, 8);
-  const std::vector<double> found = PeaksDistribution(weightedAxes(), watsonMeanAngle(kappa)).harmonics();
+  BundleInitializerOptions options = optionsFor({});
+  options.side = 6.0;
+  options.dispersionModel = DispersionModel::Peaks;
+  options.peaks = weightedAxes();
+  options.meanDispersion = watsonMeanAngle(kappa);
+  const std::vector<double> found = initialiseBundles(options).orientationHarmonics;
   ASSERT_EQ(found.size(), summed.size());
   const double scale = summed[0] / found[0];
   for (std::size_t k = 0; k < found.size(); ++k)
@@ -249,9 +239,9 @@ TEST(OrientationDistribution, BundlesOfPeaksHaveTheirSharesAndAxes)
   for (int i = 0; i < 3; ++i)
   {
     const std::size_t bundle = bundles[std::size_t(i)];
-    EXPECT_NEAR(volumes[bundle] / fibres.domain.volume(), 0.4 * shares[std::size_t(i)], 0.01);
+    EXPECT_NEAR(volumes[bundle] / fibres.domain.volume(), 0.4 * shares[std::size_t(i)], 0.005);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments[bundle]);
-    EXPECT_LT(angleBetweenLines(solver.eigenvectors().col(2), peakAxes().col(i)), 1.0);
+    EXPECT_LT(angleBetweenLines(solver.eigenvectors().col(2), peakAxes().col(i)), 1.5);
   }
   const std::vector<double> asked = peaks(watsonKappa(10.0), 8);
   EXPECT_GT(correlation(fibres.orientationHarmonics, asked), 0.9999);
@@ -266,7 +256,6 @@ TEST(OrientationDistribution, FibresInSpaceHaveIt)
   BundleInitializerReport report;
   const Fibres fibres = initialiseBundles(options, {}, &report);
   validate(fibres);
-  EXPECT_GT(correlation(harmonicsOf(fibres, 8), asked), 0.97);
   EXPECT_NEAR(report.fibreVolumeFraction, 0.5, 0.01);
   EXPECT_NEAR(capsuleVolumeInDomain(fibres) / fibres.domain.volume(), 0.5, 0.01);
   EXPECT_EQ(fibres.grownFraction, 0.9);
@@ -286,6 +275,18 @@ TEST(OrientationDistribution, FibresInSpaceHaveIt)
   {
     EXPECT_LT(std::abs(even[k] / even[0]), 0.25);
   }
+}
+
+TEST(OrientationDistribution, FibresThatWindHaveIt)
+{
+  const std::vector<double> asked = peaks(8.0, 8);
+  BundleInitializerOptions options = optionsFor(asked);
+  options.side = 24.0;
+  options.fibreVolumeFraction = 0.4;
+  Fibres fibres = initialiseBundles(options);
+  EXPECT_LT(correlation(harmonicsOf(fibres, 8), asked), 0.95) << "they are laid with a sharper one";
+  ASSERT_EQ(optimise(fibres, {}, {}).reason, StopReason::Converged);
+  EXPECT_GT(correlation(harmonicsOf(fibres, 8), asked), 0.98);
 }
 
 TEST(OrientationDistribution, WhatIsNoneIsNamed)
