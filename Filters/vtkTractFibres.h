@@ -61,6 +61,7 @@ public:
   CACTUS_NUMBER_PROPERTY(BeadSpacingDeviation)
   CACTUS_NUMBER_PROPERTY(BeadLength)
   CACTUS_NUMBER_PROPERTY(SectionAxisRatio)
+  CACTUS_NUMBER_PROPERTY(GRatio)
   CACTUS_NUMBER_PROPERTY(UnmyelinatedFraction)
   CACTUS_NUMBER_PROPERTY(UnmyelinatedRadius)
   CACTUS_NUMBER_PROPERTY(UnmyelinatedRadiusDeviation)

@@ -45,7 +45,11 @@ const PropertyList<CalibreVariation>& CalibreVariation::properties()
         "on average over the final inner surfaces. Axons of the corpus callosum have 0.76 (mouse) to 0.84 (monkey). Growth seeds "
         "the fibres so, in directions that turn at random along each of them. As they grow, neighbours flatten each other, by "
         "themselves to 0.93 where fibres fill 0.7, 0.84 at 0.9, 0.81 at 0.95; a larger ratio cannot be had there, so the default "
-        "has an effect below 0.89 only. Fibres of more than 0.7 µm are rounder. 1: growth alone shapes them.");
+        "has an effect below 0.89 only. Fibres of more than 0.7 µm are rounder. 1: growth alone shapes them.")
+      .add("GRatio", &Options::gRatio, limits::gRatioOrNone,
+        "g-ratio of these fibres (diameter of the axon over that of the fibre), whatever MyelinSurface says of the others, so "
+        "that each of several bundles can have its own. They carry it as TargetGRatio; axons without myelin keep 1. 0: "
+        "MyelinSurface's GRatioModel.");
   return list;
 }
 

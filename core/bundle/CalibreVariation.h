@@ -20,8 +20,9 @@ enum class CalibreModel
 ///
 ///     r(s) = R N (1 - g + g exp(σ z(s)))
 ///
-/// with z the process of variance 1, g the g-ratio (0.7, or that of RadiusHistogramGRatio where radii are those of axons), R the
-/// fibre's radius, and N so that the mean of r² is R². Beads: 1 + a b(s) takes the place of exp(σ z(s)), see BeadShape.
+/// with z the process of variance 1, g the g-ratio (gRatio, if given, or 0.7, or that of RadiusHistogramGRatio where radii are
+/// those of axons), R the fibre's radius, and N so that the mean of r² is R². Beads: 1 + a b(s) takes the place of exp(σ z(s)),
+/// see BeadShape.
 struct CalibreVariation
 {
   CalibreModel model = CalibreModel::Lognormal;
@@ -35,6 +36,7 @@ struct CalibreVariation
   BeadShape beads;
   /// Mean axis ratio of the axons' sections on final surfaces, in [0.7, 1]. 1: growth alone shapes them.
   double sectionAxisRatio = 0.85;
+  double gRatio = 0.0; ///< of fibres with myelin; 0: the stage that makes surfaces says it
 
   static const PropertyList<CalibreVariation>& properties();
   /// Throws InvalidInput for beads that are too near to each other. Precondition: validateProperties().

@@ -268,8 +268,8 @@ void varyBy(const Calibre& calibre, const BundleInitializerOptions& options, Fib
     const double apart = lengths.back() / static_cast<double>(lengths.size() - 1);
     lengths.resize(period);
     const double radius = fibres.radii[first];
-    const bool isBare = fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio;
-    const double gRatio = isBare ? bareGRatio : expectedGRatio(options.radius, radius / thinning);
+    const double given = fibres.columns.value(targetGRatioColumn.name, f); // NaN: none
+    const double gRatio = given > 0.0 ? given : expectedGRatio(options.radius, radius / thinning);
     const std::vector<double> varied =
       calibre.radii({ std::move(lengths), apart, half, repeats, radius, gRatio, thinnest, fibres.fibreIds[f] });
     for (std::size_t p = first; p <= last; ++p)
@@ -283,6 +283,13 @@ void varyBy(const Calibre& calibre, const BundleInitializerOptions& options, Fib
 
 void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
 {
+  for (std::size_t f = 0; f < fibres.size() && options.calibre.gRatio > 0.0; ++f)
+  {
+    if (fibres.columns.value(targetGRatioColumn.name, f) != bareGRatio)
+    {
+      fibres.columns.set(targetGRatioColumn.name, f, options.calibre.gRatio);
+    }
+  }
   if (options.calibre.model == CalibreModel::Beads)
   {
     varyBy(BeadedCalibre(options), options, fibres);

@@ -201,6 +201,17 @@ class BundleInitializerTest(CactusTestCase):
         table = fetch(SubstrateStatistics(Fibres=BundleInitializer(Side=8)))
         self.assertTrue(np.isnan(table.GetColumnByName("AngularCorrelation").GetValue(0)))
 
+    def test_each_source_has_its_own_g_ratio(self):
+        common = {"Side": 8, "FibreVolumeFraction": 0.15, "GrownFibreVolumeFraction": 0.3, "MinimumRadius": 0.7, "MaximumRadius": 1, "CalibreVariation": 0}
+        sources = [BundleInitializer(GRatio=0.55, **common), BundleInitializer(Seed=2, **common)]
+        fibres = OutputPort(CapsuleOptimizer(Input=sources), 0)
+        surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres, VoxelSize=0.12), GRatio=0.75)
+        outer, inner = (OutputPort(surfaces, port) for port in (0, 1))
+        table = fetch(SubstrateStatistics(Fibres=fibres, Outer=outer, Inner=inner), 1)
+        bundles, g_ratios = (vtk_to_numpy(table.GetColumnByName(name)) for name in ("BundleId", "GRatio"))
+        for bundle, asked in ((1, 0.55), (2, 0.75)):
+            self.assertAlmostEqual(np.nanmean(g_ratios[bundles == bundle]), asked, delta=0.03)
+
     def test_images_that_give_no_directions_are_refused(self):
         path = self.save((0, 0, 0), [1, 0, 0, 0, 0, 0, 0], np.eye(4))
         with open(os.path.join(self.folder, "text.nii"), "w", encoding="utf-8") as file:

@@ -16,7 +16,7 @@ from paraview.simple import (BundleInitializer, CapsuleOptimizer, CurvedBundles,
 
 PROGRAM = os.path.join(os.environ["CACTUS_TOOLS"], "cactus-grow")
 BUNDLE = {"Side": 4, "Border": "Walls", "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "MeanDispersion": 3, "GrownFibreVolumeFraction": 0}
-OTHER = {**BUNDLE, "RadiusDistribution": "Lognormal", "Seed": 2}
+OTHER = {**BUNDLE, "RadiusDistribution": "Lognormal", "GRatio": 0.55, "Seed": 2}
 TABLE = {**BUNDLE, "RadiusDistribution": "Table", "DispersionModel": "Watson"}
 GROWTH = {"VoxelSize": 0.2, "GrowthIterations": 1, "Seed": 3}
 NODES = {"NodeLength": 0.8, "InternodeFactor": 1, "ParanodeLength": 0.5, "NodeConstriction": 0.8, "NodeSeed": 5,

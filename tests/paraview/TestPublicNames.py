@@ -28,6 +28,7 @@ NAMES = {
         "BeadSpacingDeviation": 2.3,
         "BeadLength": 2,
         "SectionAxisRatio": 0.85,
+        "GRatio": 0,
         "UnmyelinatedFraction": 0,
         "UnmyelinatedRadius": 0.12,
         "UnmyelinatedRadiusDeviation": 0.05,

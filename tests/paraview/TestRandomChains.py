@@ -104,7 +104,9 @@ def parameters(seed, index):
         bundle["Mixing"] = place.choice("Interpenetrating", "Layers")
         bundle["CorrelationLength"] = bundle["CorrelationLength"] or 8
         if place.seldom(0.2, True, False):
-            bundle.update(DispersionModel="Harmonics", NumberOfBundles=1, OrientationHarmonics=f"1 0 0 {place.uniform(-0.5, 2)} 0 0")
+            bundle.update(DispersionModel=place.choice("Harmonics", "Peaks"), NumberOfBundles=1, OrientationHarmonics=f"1 0 0 {place.uniform(-0.5, 2)} 0 0",
+                          OrientationPeaks=f"0 0 0.5 {place.uniform(-1, 1)} 0.3 0")
+    bundle["GRatio"] = place.seldom(0.7, 0.0, place.uniform(0.3, 0.9))
     bundle["SectionAxisRatio"] = place.seldom(0.4, 1.0, place.uniform(0.7, 1))
     adagrad = draw.seldom(0.15, True, False)
     optimiser = {

@@ -105,6 +105,34 @@ TEST(VaryingCalibre, IsTheStationaryProcessAskedFor)
   }
 }
 
+TEST(VaryingCalibre, IsThatOfTheAxonInsideAGivenMyelin)
+{
+  const auto spread = [](double gRatio)
+  {
+    BundleInitializerOptions options = equalRadii(0.8, 0.1);
+    options.calibre.gRatio = gRatio;
+    Fibres fibres = straightFibres(1, 400.0, 0.8);
+    varyCalibre(options, fibres);
+    EXPECT_EQ(fibres.columns.value(targetGRatioColumn.name, 0), gRatio);
+    double squares = 0.0;
+    for (const double radius : fibres.radii)
+    {
+      squares += std::pow(radius / 0.8 - 1.0, 2);
+    }
+    return std::sqrt(squares / double(fibres.radii.size()));
+  };
+  EXPECT_NEAR(spread(0.9) / spread(0.5), 0.9 / 0.5, 0.05);
+
+  // One without myelin stays so.
+  BundleInitializerOptions options = equalRadii(0.8);
+  options.calibre.gRatio = 0.6;
+  Fibres fibres = straightFibres(2, 20.0, 0.8);
+  fibres.columns.set(targetGRatioColumn.name, 1, bareGRatio);
+  varyCalibre(options, fibres);
+  EXPECT_EQ(fibres.columns.value(targetGRatioColumn.name, 0), 0.6);
+  EXPECT_EQ(fibres.columns.value(targetGRatioColumn.name, 1), bareGRatio);
+}
+
 TEST(VaryingCalibre, OfALongerFibreIsTheSameInItsMiddle)
 {
   Fibres shorter = straightFibres(2, 20.0, 0.8);
