@@ -4,7 +4,7 @@
  * @brief Lays a bundle of fibres around each of some streamlines, as the start of a substrate that follows a tract.
  *
  * Input: polylines, such as vtkTractogramReader's, with or without cell data `BundleId`. Output: fibres as those of
- * vtkBundleInitializer, in a cubic domain around the origin whose middle lies on a streamline; axes keep their directions. The
+ * vtkBundleInitializer, in a box around the origin whose middle lies on a streamline; axes keep their directions. The
  * method and its guarantees are documented in cactus::layTractFibres. A warning says where bends had to be rounded off, or where
  * a streamline that ends in the domain was continued.
  */
@@ -35,6 +35,7 @@ public:
   CACTUS_WHOLE_PROPERTY(LengthUnit)
   CACTUS_NUMBER_PROPERTY(ScaleFactor)
   CACTUS_NUMBER_PROPERTY(Side)
+  CACTUS_NUMBER_PROPERTY(Length)
   CACTUS_NUMBER_PROPERTY(FibreVolumeFraction)
   CACTUS_NUMBER_PROPERTY(GrownFibreVolumeFraction)
   CACTUS_NUMBER_PROPERTY(BundleDiameter)

@@ -47,7 +47,8 @@ TractSizes sizesOf(const TractFibresOptions& options)
   sizes.thinning = sizes.straight.thinning();
   sizes.straight.radius = options.radius.scaled(sizes.thinning);
   sizes.straight.unmyelinated = options.unmyelinated.scaled(sizes.thinning);
-  sizes.reach = std::sqrt(3.0) * (0.5 * options.side + options.margin + options.radius.maximum);
+  const Eigen::Vector3d half = (0.5 * options.domain().size()).array() + options.margin + options.radius.maximum;
+  sizes.reach = options.length > 0.0 ? half.norm() : std::sqrt(3.0) * half.x();
   return sizes;
 }
 
@@ -77,7 +78,7 @@ ChosenStretches stretchesWithin(
   for (const StreamlinePlace& place : choice.places)
   {
     const TractStretch stretch = stretchAround(streamlines, place, choice.middle, options.scale(), 2.0 * reach, reach / 64.0);
-    const double length = lengthWithin(stretch.points, Domain::cube(options.side));
+    const double length = lengthWithin(stretch.points, options.domain());
     if (length > 0.0)
     {
       chosen.places.push_back(place);
@@ -92,8 +93,8 @@ void requireMemoryForTract(const TractFibresOptions& options, const TractSizes& 
 {
   const double each = meanCircleArea(sizes.straight.radius);
   const double circles = fewestCircles + options.fibreVolumeFraction * 4.0 * radius * radius / each;
-  const double width = options.side + 2.0 * (options.margin + options.radius.maximum);
-  const double points = options.fibreVolumeFraction * std::pow(width, 3) / (each * sizes.straight.controlPointSpacing(0.0));
+  const Eigen::Array3d widths = options.domain().size().array() + 2.0 * (options.margin + options.radius.maximum);
+  const double points = options.fibreVolumeFraction * widths.prod() / (each * sizes.straight.controlPointSpacing(0.0));
   requireMemory(circles * 600.0 + points * 160.0, text("Side ", options.side, " µm with ", circles, " fibres"),
     "choose a smaller Side, a smaller Margin or larger radii");
 }
@@ -115,6 +116,7 @@ std::vector<PlacedCircle> circlesWithin(
   square.fibreVolumeFraction = density;
   const double needed = std::sqrt(fewestCircles * meanCircleArea(square.radius) / square.fibreVolumeFraction);
   square.side = std::max({ 2.0 * (radius + square.radius.maximum), 4.0 * square.radius.maximum, needed });
+  square.length = 0.0;
   square.margin = 0.0;
   square.seed = sizes.straight.seed + (static_cast<std::uint64_t>(path) << 32); // users' seeds have 31 bits
   std::vector<Bundle> bundles = { layOutSingle(square, square.fibreVolumeFraction) };
@@ -194,7 +196,7 @@ Fibres layBundles(const Streamlines& streamlines, const StreamlineChoice& choice
 {
   const bool coversDomain = chosen.places.size() == 1 && options.bundleDiameter == 0.0;
   Fibres fibres;
-  fibres.domain = Domain::cube(options.side);
+  fibres.domain = options.domain();
   reached.streamlines = chosen.places.size();
   reached.bundleDiameter = 2.0 * radius;
   reached.middle = choice.middle;
@@ -239,10 +241,11 @@ Fibres layTractFibres(
   const StreamlineChoice choice = chooseStreamlines(streamlines, options, sizes.reach / options.scale());
   const ChosenStretches chosen = stretchesWithin(streamlines, choice, options, sizes.reach);
   const bool coversDomain = chosen.places.size() == 1 && options.bundleDiameter == 0.0;
+  const double volume = options.length > 0.0 ? options.domain().volume() : std::pow(options.side, 3); // the same bits as ever
   double radius = 0.5 * options.bundleDiameter;
   if (options.bundleDiameter == 0.0)
   {
-    radius = coversDomain ? sizes.reach : std::sqrt(std::pow(options.side, 3) / (pi * chosen.length));
+    radius = coversDomain ? sizes.reach : std::sqrt(volume / (pi * chosen.length));
   }
   requireMemoryForTract(options, sizes, radius);
 

@@ -38,7 +38,9 @@ const PropertyList<TractFibresOptions>& TractFibresOptions::properties()
       .add("ScaleFactor", &Options::scaleFactor, limits::scaleFactor,
         "Length in the substrate over the same length in the tract. 1: true size, at which most tracts are almost straight. "
         "0.001: 1 mm of the tract becomes 1 µm, so that a substrate shows how the tract bends.")
-      .add("Side", &Options::side, limits::side, "Side of the cubic domain in µm. The cube is centred on the origin.")
+      .add("Side", &Options::side, limits::side,
+        "Side of the domain along x and y in µm. The domain is centred on the origin, and a cube if Length is 0.")
+      .add("Length", &Options::length, limits::length, "Length of the domain along z in µm; 0: as Side.")
       .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
         "Fraction of a bundle's cross-section that the fibres' circles cover, from 0 to 1. Random circles with a wide spread of "
         "radii can be packed to about 0.84. If the fraction cannot be reached, an error says which one can.")
@@ -75,6 +77,7 @@ BundleInitializerOptions TractFibresOptions::straightBundle() const
 {
   BundleInitializerOptions straight;
   straight.side = side;
+  straight.length = length;
   straight.border = Border::Walls;
   straight.margin = margin;
   straight.fibreVolumeFraction = fibreVolumeFraction;

@@ -48,7 +48,8 @@ struct TractFibresOptions
   double pointZ = 0.0;
   TractUnit lengthUnit = TractUnit::AsRead; ///< unit of the streamlines' points
   double scaleFactor = 1.0;                 ///< length in the substrate over length in the tract
-  double side = 30.0;                       ///< side of the cubic domain [-side/2, side/2]³
+  double side = 30.0;                       ///< of the domain along x and y
+  double length = 0.0;                      ///< of the domain along z; 0: side
   /// Fraction of each bundle's cross-section that the fibres' circles cover.
   double fibreVolumeFraction = 0.6;
   /// Fraction of each bundle that growth is to fill later; see BundleInitializerOptions.
@@ -69,6 +70,8 @@ struct TractFibresOptions
   void validate() const;
   /// Returns the straight bundle of the same fibres, whose faces are as wide as the domain with its margin.
   BundleInitializerOptions straightBundle() const;
+  /// Returns the box around the origin in which the fibres are asked for.
+  Domain domain() const { return this->straightBundle().domain(); }
   /// Returns micrometres in the substrate for one unit of the streamlines.
   double scale() const
   {

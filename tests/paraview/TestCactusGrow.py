@@ -109,12 +109,12 @@ class CactusGrow(CactusTestCase):
     TRACT = {"Side": 5, "ScaleFactor": 0.001, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0, "CalibreVariation": 0.15}
 
     def test_fibres_along_a_tract(self):
-        path = self.tract("tract.tck")
+        path, box = self.tract("tract.tck"), {**self.TRACT, "Length": 6}
         reader = TractogramReader(FileName=path, LengthUnit="Millimetre")
-        fibres = OutputPort(CapsuleOptimizer(Input=TractFibres(Input=reader, **self.TRACT)), 0)
+        fibres = OutputPort(CapsuleOptimizer(Input=TractFibres(Input=reader, **box)), 0)
         self.write(fibres, GROWTH, {})
         # Named as it is found from where the recipe is; the record has the path as it was given.
-        self.grow({"TractogramReader": {"FileName": path, "LengthUnit": "Millimetre"}, "TractFibres": self.TRACT,
+        self.grow({"TractogramReader": {"FileName": path, "LengthUnit": "Millimetre"}, "TractFibres": box,
                    "FibreRadialGrowth": GROWTH}, "grown")
         self.assertSame("filters", "grown")
         self.grow(self.path("filters"), "again")

@@ -143,6 +143,24 @@ TEST(TractFibres, StraightTractMakesAStraightBundleThatFillsTheDomain)
   EXPECT_DOUBLE_EQ(report.fibreVolumeFraction, capsuleVolumeInDomain(fibres) / fibres.domain.volume());
 }
 
+TEST(TractFibres, ABoxIsFilledFromEndToEnd)
+{
+  TractFibresOptions options = optionsOf(12.0);
+  options.length = 30.0;
+  TractFibresReport report;
+  const Fibres fibres = layTractFibres(straightAlong(Eigen::Vector3d(1, 2, 3).normalized(), 500.0), options, {}, &report);
+  EXPECT_EQ(fibres.domain.upper, Eigen::Vector3d(6.0, 6.0, 15.0));
+  EXPECT_EQ(fibres.domain.lower, Eigen::Vector3d(-6.0, -6.0, -15.0));
+  EXPECT_NEAR(report.fibreVolumeFraction, 0.7, 0.04);
+  for (int third = 0; third < 3; ++third)
+  {
+    Fibres part = fibres;
+    part.domain.lower.z() = -15.0 + 10.0 * third;
+    part.domain.upper.z() = -5.0 + 10.0 * third;
+    EXPECT_NEAR(capsuleVolumeInDomain(part) / part.domain.volume(), 0.7, 0.06) << third;
+  }
+}
+
 TEST(TractFibres, FibresOfAnArcKeepTheirDistanceFromIt)
 {
   TractFibresReport report;
