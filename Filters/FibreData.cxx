@@ -221,6 +221,11 @@ void takeBack(const Placement& placement, Fibres& fibres)
       radius /= placement.scale;
     }
   }
+  if (!fibres.orientationHarmonics.empty())
+  {
+    const int order = orderOfHarmonics(fibres.orientationHarmonics.size());
+    HarmonicRotation(placement.axes.transpose(), order).turn(fibres.orientationHarmonics);
+  }
 }
 
 /// Does what tractFrom() does.

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,12 @@ std::vector<double> orientationOf(const cactus::BundleInitializerStage& stage)
     voxel[axis] = static_cast<std::size_t>(number);
   }
   std::vector<double> values = cactus::NiftiFile(stage.orientationFile).voxel(voxel);
-  if (stage.options.dispersionModel == cactus::DispersionModel::Peaks)
+  for (std::size_t i = 0; stage.options.dispersionModel == cactus::DispersionModel::Peaks && i + 3 <= values.size(); i += 3)
   {
-    std::replace_if(
-      values.begin(), values.end(), [](double value) { return std::isnan(value); }, 0.0);
+    if (std::isnan(values[i]) && std::isnan(values[i + 1]) && std::isnan(values[i + 2]))
+    {
+      std::fill_n(values.begin() + std::ptrdiff_t(i), 3, 0.0);
+    }
   }
   if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; }))
   {

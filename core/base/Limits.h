@@ -175,8 +175,9 @@ inline constexpr Range part{ 0.0, 1.0 };
 
 /// Ratio of an axon's diameter to its fibre's.
 inline constexpr Range gRatio{ 0.05, 0.99 };
-/// The same of a single fibre, which may have no myelin (1).
+/// The same, where 0 stands for none given.
 inline constexpr Range gRatioOrNone{ gRatio.lowest, gRatio.highest, "", 0.0 };
+/// The same of a single fibre, which may have no myelin (1).
 inline constexpr Range gRatioOrBare{ gRatio.lowest, 1.0 };
 /// Its standard deviation from fibre to fibre.
 inline constexpr Range gRatioDeviation{ 0.0, 0.3 };

@@ -71,9 +71,10 @@ const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properti
       .where("Border", { 0, 2, 3 })
       .where("DispersionModel", { 2 })
       .add("NumberOfBundles", &Options::numberOfBundles, limits::bundles,
-        "One bundle, or two that cross in the x-z plane, symmetric about z. For more bundles, connect several sources to one "
-        "CapsuleOptimizer, each with its Direction and its share of the volume fractions.")
-      .advise("; for more bundles connect several sources, each with its Direction, to one CapsuleOptimizer")
+        "One bundle, or two that cross in the x-z plane, symmetric about z. For more bundles, use DispersionModel Peaks, or "
+        "connect several sources to one CapsuleOptimizer, each with its Direction and its share of the volume fractions.")
+      .advise("; for more bundles use DispersionModel Peaks, or connect several sources, each with its Direction, to one "
+              "CapsuleOptimizer")
       .add("Direction", &Options::direction,
         "Axis of the bundle: x, y and z of a vector of any length. A direction and its opposite are the same. Another one than "
         "z needs the border Cut. Sources with the same Seed and other directions give bundles that are independent.")

@@ -15,7 +15,7 @@ enum class DispersionModel
   Cone,   ///< independent, uniform in the cap of a cone around the axis
   /// similar for neighbours: fibres follow a smooth random flow (see StationaryFlow, and CoherentFlow between walls)
   Coherent,
-  Harmonics, ///< independent, from any distribution on the sphere (see OrientationDistribution)
+  Harmonics, ///< independent, from any distribution on the sphere (see HarmonicsDistribution)
   Peaks      ///< independent, of any number of bundles with Watson's distribution about an axis each
 };
 

@@ -50,10 +50,11 @@ double meanSine(const std::vector<double>& coefficients, int order)
     expansion *= l == 0 ? 1.0 : (l - 3.0) * (l - 1.0) / ((l + 2.0) * l);
     for (std::size_t i = harmonicCount(l) - std::size_t(2 * l + 1); i < harmonicCount(l); ++i)
     {
-      sum += 0.5 * expansion * coefficients[i] * coefficients[i];
+      const double relative = coefficients[i] / coefficients[0];
+      sum += 0.5 * expansion * relative * relative;
     }
   }
-  return std::max(0.0, sum / (coefficients[0] * coefficients[0]));
+  return std::max(0.0, sum);
 }
 
 Eigen::Vector3d directionAt(double z, double azimuth)

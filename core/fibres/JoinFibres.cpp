@@ -68,6 +68,10 @@ void appendFibres(const Fibres& added, Fibres& all)
   }
   if (isPartOfTheSame)
   {
+    if (all.orientationHarmonics != added.orientationHarmonics)
+    {
+      all.orientationHarmonics.clear();
+    }
     return;
   }
   const bool isKnown = all.grownFraction > 0.0 && added.grownFraction > 0.0;

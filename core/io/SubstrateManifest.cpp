@@ -134,7 +134,7 @@ Json directionsOf(const Fibres& fibres, const SubstrateCertificateOptions& optio
   directions["odi"] = rounded(measured.odi);
   directions["local_spread_deg"] = rounded(measured.localSpread);
   directions["twist"] = rounded(measured.twist);
-  if (!fibres.orientationHarmonics.empty())
+  if (fibres.orientationHarmonics.size() > 1) // otherwise all directions alike were asked for
   {
     directions["angular_correlation"] = rounded(measured.angularCorrelation);
   }

@@ -107,7 +107,9 @@ const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
       .add("OrientationHarmonics", &BundleInitializerStage::orientationHarmonics,
         "Coefficients of the distribution of directions in real spherical harmonics of even degrees, in the basis and order of "
         "MRtrix: 1, 6, 15, 28 or 45 numbers (degrees up to 0, 2, 4, 6 or 8; at most 16), separated by blanks or commas. The axes "
-        "are those of the domain; the scale does not matter, and negative values count as 0. One number: all directions alike.")
+        "are those of the domain; the scale does not matter, and negative values count as 0. One number: all directions alike. "
+        "Fibres are laid with a sharper distribution, by as much as they will broaden it where FibreVolumeFraction of the domain "
+        "is filled, so let one source have all of it.")
       .where("DispersionModel", { 3 })
       .add("OrientationPeaks", &BundleInitializerStage::orientationPeaks,
         "Bundles of the dispersion model Peaks: x, y and z of a vector for each, separated by blanks or commas. Its direction is "
@@ -122,8 +124,8 @@ const PropertyList<BundleInitializerStage>& BundleInitializerStage::properties()
         "scanner. cactus-grow reads no images; a manifest has the numbers.")
       .where("DispersionModel", { 3, 4 })
       .add("OrientationVoxel", &BundleInitializerStage::orientationVoxel,
-        "Voxel of OrientationFile: its whole numbers i, j and k in the order of the file, from 0, as viewers such as mrview and "
-        "FSLeyes show them.")
+        "Voxel of OrientationFile: its whole numbers i, j and k in the order of the file, from 0, as nibabel and FSLeyes have "
+        "them. mrview numbers the voxels of some images otherwise, since it turns their axes.")
       .where("DispersionModel", { 3, 4 })
       .whereGiven("OrientationFile");
   return list;

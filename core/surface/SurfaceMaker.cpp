@@ -343,10 +343,10 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   std::iota(made.begin(), made.end(), std::size_t(0));
   std::vector<std::size_t> tooNear; // known so far, increasing
   bool isOneGone = false;           // one of these
-  bool isOneChanged = false;        // one of these, when it was checked after its move
+  bool isLookedAtAgain = false;     // whether these are looked at once more
   BoundsOfFibres bounds;
   std::set<std::size_t> moved;
-  for (int attempt = 0; !made.empty() || isOneGone || (isOneChanged && attempt <= remakes); ++attempt)
+  for (int attempt = 0; !made.empty() || isOneGone || isLookedAtAgain; ++attempt)
   {
     // Surfaces that were too near are checked again, since the other one of the pair may be new, or gone.
     std::vector<std::size_t> changed;
@@ -362,8 +362,8 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
       tooNear.begin(), tooNear.end(), [this](std::size_t i) { return this->Pairs[i].state == MyelinState::NoFibre; });
     isOneGone = gone != tooNear.end();
     tooNear.erase(gone, tooNear.end());
-    isOneChanged = std::any_of(tooNear.begin(), tooNear.end(),
-      [&](std::size_t i) { return std::binary_search(spacing.moved.begin(), spacing.moved.end(), i); });
+    // Those that were moved in vain were changed again as they were checked, and may be apart now.
+    isLookedAtAgain = !isLookedAtAgain && made.empty() && !tooNear.empty();
   }
   for (const std::size_t i : tooNear)
   {

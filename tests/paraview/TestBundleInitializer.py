@@ -8,7 +8,7 @@ import os
 import nibabel
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main
-from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, SubstrateSampler, SubstrateStatistics, SubstrateWriter
+from paraview.simple import BundleInitializer, CapsuleOptimizer, FibreRadialGrowth, MyelinSurface, OutputPort, Placement, SubstrateSampler, SubstrateStatistics, SubstrateWriter
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 
@@ -170,6 +170,10 @@ class BundleInitializerTest(CactusTestCase):
         self.assertNotIn("image.nii.gz", fetch(found).GetFieldData().GetAbstractArray("Provenance").GetValue(0))
 
     def test_peaks_are_bundles(self):
+        self.save((0, 3, 4), [0, 0, 0.5, np.nan, 0.3, 0.4], np.eye(4))
+        half = BundleInitializer(DispersionModel="Peaks", OrientationFile=os.path.join(self.folder, "image.nii.gz"), OrientationVoxel=[0, 3, 4], **self.ANYWHERE)
+        with self.assertError("nan"):
+            half.UpdatePipeline()
         values = [0, 0, 0.5, np.nan, np.nan, np.nan, 0.18, 0, 0.24]
         path = self.save((0, 3, 4), values, np.diag([-1, 1, 1, 1]))
         image = BundleInitializer(DispersionModel="Peaks", MeanDispersion=4, OrientationFile=path, OrientationVoxel=[0, 3, 4], **self.ANYWHERE)
@@ -194,6 +198,10 @@ class BundleInitializerTest(CactusTestCase):
         table = fetch(SubstrateStatistics(Fibres=fibres, Outer=outer, Inner=inner))
         self.assertAlmostEqual(table.GetColumnByName("AngularCorrelation").GetValue(0), expected, delta=0.01)
         self.assertLess(expected, 0.995)
+        place = {"RotationX": 50, "RotationZ": 20, "PositionX": 3}
+        placed = Placement(Input=outer, **place)
+        turned = fetch(SubstrateStatistics(Fibres=Placement(Input=fibres, **place), Outer=OutputPort(placed, 0), Inner=OutputPort(placed, 1)))
+        self.assertAlmostEqual(turned.GetColumnByName("AngularCorrelation").GetValue(0), table.GetColumnByName("AngularCorrelation").GetValue(0), places=5)
         folder = os.path.join(self.folder, "substrate")
         SubstrateWriter(Outer=outer, Inner=inner, Fibres=fibres, FolderName=folder).UpdatePipeline()
         with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
@@ -226,7 +234,7 @@ class BundleInitializerTest(CactusTestCase):
             (r"OrientationHarmonics and OrientationFile are both given", {"OrientationHarmonics": "1"}),
             (r"OrientationPeaks and OrientationFile are both given", {"DispersionModel": "Peaks", "OrientationPeaks": "0 0 1"}),
             (r"cannot open /no/such", {"OrientationFile": "/no/such"}),
-            (r"text\.nii", {"OrientationFile": os.path.join(self.folder, "text.nii")}),
+            (r"text\.nii: (this is no NIfTI image|.*[Hh]eader)", {"OrientationFile": os.path.join(self.folder, "text.nii")}),
             (r"Border Cut", {"Border": "Walls"}),
             (r"NumberOfBundles is 2", {"NumberOfBundles": 2, "DispersionModel": "Peaks", "OrientationFile": "", "OrientationPeaks": "0 0 1"}),
         ):

@@ -106,7 +106,9 @@ def asked_fraction(manifest):
 
 
 def asked_g_ratio(manifest):
-    """The one g-ratio of all fibres; None in the other models."""
+    """The one g-ratio of all fibres; None in the other models, and where a bundle has its own."""
+    if any(source.get("GRatio") for source in stages_of(manifest, "BundleInitializer", "TractFibres", "CurvedBundles")):
+        return None
     return only(values.get("GRatio") if values.get("GRatioModel") == "Constant" else None for values in stages_of(manifest, *COATING))
 
 

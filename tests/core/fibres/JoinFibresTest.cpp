@@ -67,12 +67,15 @@ TEST(JoinFibres, PiecesOfOneSubstrateAreForWhatEachSays)
 {
   Fibres all = fibresWith({ { 1, 1 } });
   all.grownFraction = 0.6;
+  all.orientationHarmonics = { 0.2 };
   for (const int id : { 2, 3 })
   {
     Fibres piece = fibresWith({ { id, 1 } });
     piece.grownFraction = 0.6;
+    piece.orientationHarmonics = { id == 2 ? 0.2 : 0.3 };
     appendFibres(piece, all);
     EXPECT_EQ(all.grownFraction, 0.6);
+    EXPECT_EQ(all.orientationHarmonics.size(), id == 2 ? 1U : 0U) << "none where pieces differ";
   }
   // Another bundle counts its fibres from 1, too.
   Fibres bundle = fibresWith({ { 1, 1 } });
