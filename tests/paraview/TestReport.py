@@ -197,6 +197,12 @@ class Report(CactusTestCase):
         rows = {row[0]: row[1:] for row in Page(self.made(folder, "--no-pictures")).rows}
         for name in ("fibre volume fraction (FVF)", "mean outer radius (µm)", "mean dispersion (degrees)"):
             self.assertNotRegex(rows[name][0], r"\d", name)
+        shutil.rmtree(folder)
+        self.assertIn("GRatio", stages[0]["properties"])
+        stages[0]["properties"]["GRatio"] = 0.5  # of one bundle, whatever MyelinSurface says
+        rows = {row[0]: row[1:] for row in Page(self.made(self.changed(provenance=stages), "--no-pictures")).rows}
+        for name in ("aggregate g-ratio", "axon volume fraction (AVF)", "myelin volume fraction (MVF)"):
+            self.assertNotRegex(rows[name][0], r"\d", name)
 
     def test_radii_that_hardly_differ(self):
         with open(os.path.join(self.substrate, "manifest.json"), encoding="utf-8") as file:

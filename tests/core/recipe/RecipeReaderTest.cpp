@@ -111,8 +111,8 @@ TEST(RecipeReader, WithoutOptimiserSeveralSourcesAreBlocks)
 TEST(RecipeReader, NumbersThatAMemberCannotHoldAreRefused)
 {
   EXPECT_EQ(refusal(R"({"BundleInitializer": {"NumberOfBundles": 4294967297}})"),
-    "BundleInitializer: NumberOfBundles is 4294967297: give 1 to 2; for more bundles connect several sources, each with its "
-    "Direction, to one CapsuleOptimizer");
+    "BundleInitializer: NumberOfBundles is 4294967297: give 1 to 2; for more bundles use DispersionModel Peaks, or connect "
+    "several sources, each with its Direction, to one CapsuleOptimizer");
   for (const char* wrong : { "1", "[1, 0]", "[1, 0, 0, 0]", "[1, 0, \"0\"]" })
   {
     EXPECT_EQ(refusal(R"({"BundleInitializer": {"Direction": )" + std::string(wrong) + "}}"),
