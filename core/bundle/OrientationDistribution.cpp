@@ -230,11 +230,14 @@ HarmonicsDistribution::HarmonicsDistribution(std::vector<double> coefficients, d
     throw InvalidInput("OrientationHarmonics has a coefficient that is no finite number");
   }
   std::vector<double> values;
-  for (std::size_t cell = 0; cell < rows * columns; ++cell)
+  for (std::size_t row = 0; row < rows; ++row)
   {
-    const double z = (static_cast<double>(cell / columns) + 0.5) / rows;
-    const double azimuth = 2.0 * pi * (static_cast<double>(cell % columns) + 0.5) / columns;
-    values.push_back(valueAt(this->Asked, order, directionAt(z, azimuth)));
+    for (std::size_t column = 0; column < columns; ++column)
+    {
+      const double z = (static_cast<double>(row) + 0.5) / rows;
+      const double azimuth = 2.0 * pi * (static_cast<double>(column) + 0.5) / columns;
+      values.push_back(valueAt(this->Asked, order, directionAt(z, azimuth)));
+    }
   }
   const double variance = variationByWinding(this->Asked, order, fraction);
   if (variance > 0.0)
