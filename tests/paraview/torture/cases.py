@@ -26,6 +26,8 @@ import subprocess
 import tempfile
 import zlib
 
+import nibabel
+import numpy
 from cactus_testing import environment_of_its_own, produce
 from paraview import servermanager, simple
 from paraview.servermanager import vtkSMPropertyHelper
@@ -34,7 +36,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 from torture import inputs
 from torture.answers import CLASS_MISMATCH, CPLUSPLUS, PIPELINE, THINGS, Reports, fingerprint, is_empty, leaves, marks, not_finite
 from torture.files import kept, playground, spoilt_files
-from torture.targets import RADII, is_legal, limits, targets, values
+from torture.targets import DIRECTIONS, RADII, is_legal, limits, targets, values
 
 # Small enough that every stage takes a fraction of a second.
 SMALL = {
@@ -170,6 +172,7 @@ class Bench:
         os.chdir(self.folder)
         with open(RADII, "w") as file:
             file.write(SMALL["BundleInitializer"]["RadiusTable"])
+        nibabel.save(nibabel.Nifti1Image(numpy.ones((9, 9, 9, 1), numpy.float32), numpy.eye(4)), DIRECTIONS)  # all alike
         self.reports = Reports()
         self.targets = targets()
         self.good = self._good_data()
@@ -302,7 +305,7 @@ class Bench:
         element = self.targets[name].number(one)
         if element.find("BooleanDomain") is not None or element.find("EnumerationDomain") is not None:
             return []
-        if element.get("name") == "Direction":  # of any length
+        if element.get("name") in ("Direction", "OrientationVoxel"):  # of any length; of an image that only the filter knows
             return []
         low, high = limits(element)
         needed = {"min": low} if element.tag == "IntVectorProperty" else {"min": low, "max": high}

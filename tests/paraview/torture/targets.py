@@ -54,10 +54,11 @@ class Target:
         return found
 
 
-RADII = "radii.txt"  # a file that is there
+RADII = "radii.txt"  # files that are there
+DIRECTIONS = "directions.nii"
 # A value of each kind where any but 0, or some text, makes another property count.
 GIVEN = {
-    "RadiusTableFile": RADII, "UnmyelinatedFraction": 0.3, "IntVectorProperty": 1.0, "DoubleVectorProperty": 0.5, "StringVectorProperty": "given",
+    "RadiusTableFile": RADII, "OrientationFile": DIRECTIONS, "UnmyelinatedFraction": 0.3, "IntVectorProperty": 1.0, "DoubleVectorProperty": 0.5, "StringVectorProperty": "given",
 }
 
 
