@@ -15,6 +15,8 @@ X11 = ctypes.CDLL("libX11.so.6")
 XTST = ctypes.CDLL("libXtst.so.6")
 X11.XOpenDisplay.restype = ctypes.c_void_p
 X11.XDefaultRootWindow.restype = ctypes.c_ulong
+WINDOW_IS_GONE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda display, error: 0)  # where X11 would end this program
+X11.XSetErrorHandler(WINDOW_IS_GONE)
 
 
 class Attributes(ctypes.Structure):
