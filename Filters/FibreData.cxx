@@ -80,20 +80,6 @@ double grownFractionOf(vtkPolyData* input)
   return std::isfinite(fraction) ? std::max(fraction, 0.0) : 0.0;
 }
 
-/// Returns the coefficients of the directions that the fibres of a block were made for; none if unknown.
-std::vector<double> orientationHarmonicsOf(vtkPolyData* input)
-{
-  vtkDataArray* array = input->GetFieldData()->GetArray(harmonicsName);
-  std::vector<double> coefficients;
-  for (vtkIdType i = 0; array != nullptr && array->GetNumberOfComponents() == 1 && i < array->GetNumberOfTuples(); ++i)
-  {
-    coefficients.push_back(array->GetTuple1(i));
-  }
-  const bool isFinite =
-    std::all_of(coefficients.begin(), coefficients.end(), [](double coefficient) { return std::isfinite(coefficient); });
-  return isFinite && orderOfHarmonics(coefficients.size()) >= 0 ? coefficients : std::vector<double>();
-}
-
 /// Adds the fibres of one block. Their radii are NaN where the block has none and they are not needed.
 void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
 {
@@ -128,7 +114,7 @@ void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
   }
 
   fibres.grownFraction = grownFractionOf(input);
-  fibres.orientationHarmonics = orientationHarmonicsOf(input);
+  fibres.orientationHarmonics = orientationHarmonicsOf(input->GetFieldData());
   auto cells = vtk::TakeSmartPointer(input->GetLines()->NewIterator());
   vtkIdType cell = 0;
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell(), ++cell)
@@ -366,14 +352,32 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   }
   if (!fibres.orientationHarmonics.empty())
   {
-    vtkNew<vtkDoubleArray> harmonics;
-    harmonics->SetName(harmonicsName);
-    for (const double coefficient : fibres.orientationHarmonics)
-    {
-      harmonics->InsertNextValue(coefficient);
-    }
-    output->GetFieldData()->AddArray(harmonics);
+    setOrientationHarmonics(fibres.orientationHarmonics, output->GetFieldData());
   }
+}
+
+std::vector<double> orientationHarmonicsOf(vtkFieldData* data)
+{
+  vtkDataArray* array = data->GetArray(harmonicsName);
+  std::vector<double> coefficients;
+  for (vtkIdType i = 0; array != nullptr && array->GetNumberOfComponents() == 1 && i < array->GetNumberOfTuples(); ++i)
+  {
+    coefficients.push_back(array->GetTuple1(i));
+  }
+  const bool isFinite =
+    std::all_of(coefficients.begin(), coefficients.end(), [](double coefficient) { return std::isfinite(coefficient); });
+  return isFinite && orderOfHarmonics(coefficients.size()) >= 0 ? coefficients : std::vector<double>();
+}
+
+void setOrientationHarmonics(const std::vector<double>& coefficients, vtkFieldData* data)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(harmonicsName);
+  for (const double coefficient : coefficients)
+  {
+    array->InsertNextValue(coefficient);
+  }
+  data->AddArray(array);
 }
 
 void addColumns(const Fibres& fibres, const std::string& prefix, vtkFieldData* data)

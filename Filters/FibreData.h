@@ -69,6 +69,10 @@ void addColumns(const Fibres& fibres, const std::string& prefix, vtkFieldData* d
 /// Returns the colour of a direction of length 1: red, green and blue are its parts along x, y and z.
 std::array<unsigned char, 3> directionColour(const Eigen::Vector3d& direction);
 
+/// Read and write field data `OrientationHarmonics`, see Fibres::orientationHarmonics; none, if there are none that can be.
+std::vector<double> orientationHarmonicsOf(vtkFieldData* data);
+void setOrientationHarmonics(const std::vector<double>& coefficients, vtkFieldData* data);
+
 /// Adds the colours `Direction` to polylines (red, green and blue are the parts of the tangent along x, y and z, as in diffusion
 /// imaging), which views show if no array is chosen.
 void addDirectionColours(vtkPolyData* fibres);

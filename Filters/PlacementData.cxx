@@ -122,25 +122,12 @@ void turnDirections(vtkDataSetAttributes* data, const Placement& placement)
 /// Rotates the coefficients of the distribution of directions that fibres were made for.
 void turnAskedDirections(vtkFieldData* data, const Placement& placement)
 {
-  vtkDataArray* asked = data->GetArray("OrientationHarmonics");
-  const int order = asked != nullptr ? orderOfHarmonics(std::size_t(asked->GetNumberOfValues())) : -1;
-  if (order < 0)
+  std::vector<double> coefficients = orientationHarmonicsOf(data);
+  if (!coefficients.empty())
   {
-    return;
+    HarmonicRotation(placement.axes, orderOfHarmonics(coefficients.size())).turn(coefficients);
+    setOrientationHarmonics(coefficients, data); // a new array, since the input may have the other one, too
   }
-  std::vector<double> coefficients;
-  for (vtkIdType i = 0; i < asked->GetNumberOfValues(); ++i)
-  {
-    coefficients.push_back(asked->GetTuple1(i));
-  }
-  HarmonicRotation(placement.axes, order).turn(coefficients);
-  vtkNew<vtkDoubleArray> turned; // the input may have the other one, too
-  turned->SetName("OrientationHarmonics");
-  for (const double coefficient : coefficients)
-  {
-    turned->InsertNextValue(coefficient);
-  }
-  data->AddArray(turned);
 }
 
 /// Rotates the coefficients of spherical harmonics and axes of bundles of SubstrateSampler.

@@ -7,9 +7,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace cactus
 {
+
+namespace
+{
+
+/// Returns the name of a model whose fibres are laid anywhere in space.
+const char* nameAnywhere(DispersionModel model)
+{
+  return model == DispersionModel::Peaks ? "Peaks" : "Harmonics";
+}
+
+} // namespace
 
 const PropertyList<BundleInitializerOptions>& BundleInitializerOptions::properties()
 {
@@ -126,7 +138,7 @@ void BundleInitializerOptions::validate() const
   }
   if (this->isAnywhere() && (!isCutOut() || numberOfBundles != 1))
   {
-    const char* name = dispersionModel == DispersionModel::Peaks ? "Peaks" : "Harmonics";
+    const char* name = nameAnywhere(dispersionModel);
     throw InvalidInput(
       isCutOut() ? text("NumberOfBundles is 2: give 1 with DispersionModel ", name, ", which has the directions of all fibres")
                  : text("DispersionModel ", name, " needs Border Cut: walls bound bundles along z"));
@@ -166,11 +178,10 @@ void BundleInitializerOptions::requirePeriodic() const
   const bool isAlongZ = direction.x() == 0.0 && direction.y() == 0.0;
   if (numberOfBundles != 1 || this->isAnywhere() || !isAlongZ)
   {
-    throw InvalidInput(text(numberOfBundles != 1                            ? "NumberOfBundles is 2"
-                            : dispersionModel == DispersionModel::Harmonics ? "DispersionModel is Harmonics"
-                            : dispersionModel == DispersionModel::Peaks     ? "DispersionModel is Peaks"
-                                                                            : "Direction is not along z",
-      ": use Border Cut, since Border ", name, " needs one bundle along z"));
+    const std::string what = numberOfBundles != 1 ? "NumberOfBundles is 2"
+                             : this->isAnywhere() ? text("DispersionModel is ", nameAnywhere(dispersionModel))
+                                                  : "Direction is not along z";
+    throw InvalidInput(text(what, ": use Border Cut, since Border ", name, " needs one bundle along z"));
   }
   if (border == Border::Periodic && dispersionModel != DispersionModel::Coherent && meanDispersion > 0.0)
   {
@@ -191,9 +202,8 @@ void BundleInitializerOptions::requireUnmyelinated() const
   if (this->isAnywhere() || this->isLayered())
   {
     throw InvalidInput(text("UnmyelinatedFraction is ", unmyelinated.fraction, ": give 0 with ",
-      this->isLayered()                               ? "bundles in layers, or choose Mixing Interpenetrating with Border Cut"
-      : dispersionModel == DispersionModel::Harmonics ? "DispersionModel Harmonics"
-                                                      : "DispersionModel Peaks"));
+      this->isLayered() ? "bundles in layers, or choose Mixing Interpenetrating with Border Cut"
+                        : text("DispersionModel ", nameAnywhere(dispersionModel))));
   }
   if (this->unmyelinatedShare() > largestShare)
   {

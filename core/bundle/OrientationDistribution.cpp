@@ -33,6 +33,11 @@ int orderOf(const std::vector<double>& coefficients)
   return order;
 }
 
+std::size_t placeOfHarmonic(int l, int m)
+{
+  return static_cast<std::size_t>(l * (l + 1) / 2 + m);
+}
+
 double valueAt(const std::vector<double>& coefficients, int order, const Eigen::Vector3d& direction)
 {
   const std::vector<double> harmonics = harmonicsAt(direction, order);
@@ -48,7 +53,7 @@ double meanSine(const std::vector<double>& coefficients, int order)
   for (int l = 0; l <= order; l += 2)
   {
     expansion *= l == 0 ? 1.0 : (l - 3.0) * (l - 1.0) / ((l + 2.0) * l);
-    for (std::size_t i = harmonicCount(l) - std::size_t(2 * l + 1); i < harmonicCount(l); ++i)
+    for (std::size_t i = placeOfHarmonic(l, -l); i <= placeOfHarmonic(l, l); ++i)
     {
       const double relative = coefficients[i] / coefficients[0];
       sum += 0.5 * expansion * relative * relative;
@@ -145,8 +150,6 @@ public:
 
 private:
   static constexpr int blurredOrder = 16;
-
-  static std::size_t placeOfHarmonic(int l, int m) { return static_cast<std::size_t>(l * (l + 1) / 2 + m); }
 
   std::vector<double> Factors;                 ///< per even degree
   std::vector<std::vector<double>> AtAzimuth0; ///< harmonics per row
@@ -327,12 +330,12 @@ std::vector<double> AxialDistribution::harmonics() const
     for (int l = 0; l <= comparedOrder; l += 2)
     {
       const double ofPolynomial = std::sqrt(4.0 * pi / (2.0 * l + 1.0));
-      means[std::size_t(l / 2)] += ofPolynomial * values[std::size_t(l * (l + 1) / 2)] / quantiles;
+      means[std::size_t(l / 2)] += ofPolynomial * values[placeOfHarmonic(l, 0)] / quantiles;
     }
   }
   for (int l = 0; l <= comparedOrder; l += 2)
   {
-    for (std::size_t i = harmonicCount(l) - std::size_t(2 * l + 1); i < harmonicCount(l); ++i)
+    for (std::size_t i = placeOfHarmonic(l, -l); i <= placeOfHarmonic(l, l); ++i)
     {
       coefficients[i] *= means[std::size_t(l / 2)];
     }
