@@ -3,6 +3,7 @@
 
 #include "FibreData.h"
 #include "InputBlocks.h"
+#include "LegacyText.h"
 #include "base/FastChecksum.h"
 #include "fibres/ColumnTable.h"
 
@@ -206,7 +207,7 @@ void setProvenance(vtkDataObject* data, const Provenance& records, int port)
   array->SetName(arrayName);
   for (const std::string& record : provenanceOfOutput(records, port, checksumOfData(data)))
   {
-    array->InsertNextValue(record);
+    array->InsertNextValue(withoutKeywords(record));
   }
   data->GetFieldData()->AddArray(array);
 }

@@ -6,6 +6,9 @@
 #include "base/Threads.h"
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
+#include <thread>
 
 namespace cactus
 {
@@ -38,6 +41,20 @@ Context Context::part(double from, double to) const
     { whole(from + (to - from) * fraction, message); };
   }
   return part;
+}
+
+Context Context::forThreads() const
+{
+  Context shared = *this;
+  shared.cancelled = [this, own = std::this_thread::get_id(), isStopped = std::make_shared<std::atomic<bool>>(false)]
+  {
+    if (std::this_thread::get_id() == own && stopRequested())
+    {
+      *isStopped = true;
+    }
+    return isStopped->load();
+  };
+  return shared;
 }
 
 void Context::checkpoint() const

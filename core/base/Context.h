@@ -35,6 +35,9 @@ struct Context
   bool stopRequested() const { return cancelled && cancelled(); }
   /// Throws Cancelled once the caller wants the operation to stop.
   void checkpoint() const;
+  /// Returns a context that several threads may ask whether to stop: only the thread that calls this one asks the caller. This
+  /// object must outlive it.
+  Context forThreads() const;
 };
 
 } // namespace cactus

@@ -21,10 +21,6 @@ std::optional<Json> parsedJson(const std::string& text);
 
 /// Writes a value on one line, with a blank after each comma and colon. Bytes that are not UTF-8 (a file name may hold any) are
 /// replaced by U+FFFD.
-///
-/// VTK's reader of legacy image files, by which a ParaView server sends images to its client, looks for words such as "spacing"
-/// and "origin" in the whole file, field data included, after any white space and every 255 characters. So these words are
-/// written behind a quotation mark with white space nearby, or with an escape that JSON readers turn back.
 std::string singleLine(const Json& value);
 
 } // namespace cactus

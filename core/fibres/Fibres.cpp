@@ -316,17 +316,6 @@ std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)
   return axes;
 }
 
-Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId)
-{
-  const auto axes = bundleAxes(fibres);
-  const auto found = axes.find(bundleId);
-  if (found == axes.end())
-  {
-    throw InvalidInput("there is no bundle " + std::to_string(bundleId));
-  }
-  return found->second;
-}
-
 double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis)
 {
   // atan2 keeps full precision at small angles, where acos loses half the digits.

@@ -95,11 +95,8 @@ double meanDispersion(const Fibres& fibres, int bundleId = 0);
 /// Returns the same for the directions of all segments, weighted by their length.
 double meanTangentDispersion(const Fibres& fibres, int bundleId = 0);
 
-/// Returns the axis (unit vector) of a bundle: the normalised sum of its fibres' end-to-end unit directions, each reversed if it
-/// points against the first fibre's; +z if every fibre ends where it begins.
-Eigen::Vector3d bundleAxis(const Fibres& fibres, int bundleId);
-
-/// Returns the axes of all bundles, by BundleId.
+/// Returns the axes (unit vectors) of all bundles, by BundleId: the normalised sum of a bundle's end-to-end unit directions, each
+/// reversed if it points against the first fibre's; +z if every fibre ends where it begins.
 std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres);
 
 } // namespace cactus

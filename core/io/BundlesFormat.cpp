@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/FolderFormat.h"
 
-#include <atomic>
 #include <map>
-#include <memory>
-#include <thread>
 
 namespace cactus
 {
@@ -38,21 +35,6 @@ std::map<int, BundleSurfaces> byBundle(const FibreSurfaces& all)
   return bundles;
 }
 
-/// Returns a context for several threads: only the thread that made it asks the caller whether to stop.
-Context askedByOne(const Context& context)
-{
-  Context shared = context;
-  shared.cancelled = [&context, own = std::this_thread::get_id(), isStopped = std::make_shared<std::atomic<bool>>(false)]
-  {
-    if (std::this_thread::get_id() == own && context.stopRequested())
-    {
-      *isStopped = true;
-    }
-    return isStopped->load();
-  };
-  return shared;
-}
-
 /// For no simulator: a PLY file per bundle and kind of surface.
 class BundlesFormat : public FolderFormat
 {
@@ -75,7 +57,7 @@ public:
       inTurn.push_back(&entry.second);
     }
     const auto fileOf = [&](std::size_t i) -> const SubstrateFile& { return written.files[inTurn[i]->places.front()]; };
-    const Context context = askedByOne(run.context);
+    const Context context = run.context.forThreads();
     std::vector<std::string> checksums(inTurn.size());
     run.sharing.loop(
       inTurn.size(), context,

@@ -326,23 +326,6 @@ void visitNear(const TriangleTree& a, const TriangleTree& b, const Nearest& near
 
 } // namespace
 
-SurfaceGap triangleGap(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b, double below)
-{
-  Nearest nearest(below, 0.0);
-  if (!heldApart(a, b, nearest.squared))
-  {
-    compare(Facet(a), Facet(b), nearest);
-  }
-  SurfaceGap gap;
-  if (nearest.found)
-  {
-    gap.distance = std::sqrt(nearest.squared);
-    gap.pointA = nearest.onA;
-    gap.pointB = nearest.onB;
-  }
-  return gap;
-}
-
 SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double below)
 {
   Nearest nearest(below, heightError(a, b));

@@ -25,14 +25,9 @@ struct SurfaceGap
   bool found() const { return this->distance < std::numeric_limits<double>::infinity(); }
 };
 
-/// Returns the shortest distance of two triangles (µm), if it is below `below`: between a corner and a face, between two edges,
-/// or exactly 0 if they meet (see trianglesMeet()). Otherwise finds nothing. Accurate to a few units in the last place of the
-/// coordinates, and never 0 by rounding.
-SurfaceGap triangleGap(const std::array<Eigen::Vector3d, 3>& a, const std::array<Eigen::Vector3d, 3>& b,
-  double below = std::numeric_limits<double>::infinity());
-
-/// Returns the shortest distance of two surfaces (µm) over all pairs of triangles, if it is below `below`; else finds nothing. It
-/// is 0 exactly if they meet. One surface inside the other has a distance, too.
+/// Returns the shortest distance of two surfaces (µm) over all pairs of triangles, between a corner and a face or between two
+/// edges, if it is below `below`; else finds nothing. It is 0 exactly if they meet (see trianglesMeet()), accurate to a few units
+/// in the last place of the coordinates, and never 0 by rounding. One surface inside the other has a distance, too.
 SurfaceGap smallestGap(const TriangleTree& a, const TriangleTree& b, double below = std::numeric_limits<double>::infinity());
 
 /// Returns the triangles of `a` that come nearer than `distance` (µm, positive) to `b`, or meet it, in increasing order.

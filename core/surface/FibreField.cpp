@@ -321,7 +321,7 @@ LabelImageView FibreField::repeated(const SampleRange& range, LabelBuffer& buffe
       at += length;
     }
   }
-  thread_local LabelBuffer own;
+  LabelBuffer own;
   for (const Part& z : parts[2])
   {
     for (const Part& y : parts[1])
@@ -355,13 +355,6 @@ LabelImageView FibreField::samplesAt(const NodeRange& range, int more, LabelBuff
     samples.count[axis] = this->Samples.sampleOf(axis, range.first[axis] + range.count[axis] - 1) - samples.first[axis] + 1;
   }
   return this->samplesAround(samples, more, buffer);
-}
-
-double FibreField::atSample(std::int32_t fibre, int i, int j, int k) const
-{
-  LabelBuffer buffer;
-  const LabelImageView held = this->samplesAround({ { { i, j, k } }, { { 1, 1, 1 } } }, farthestNeighbour, buffer);
-  return this->field(held, fibre, held.grid.index(i, j, k), i, j, k);
 }
 
 LabelImageView FibreField::samplesFor(const NodeRange& range, LabelBuffer& buffer) const

@@ -85,8 +85,6 @@ public:
   /// Does the same for a range of samples.
   LabelImageView samplesAround(const SampleRange& range, int more, LabelBuffer& buffer) const;
 
-  /// Returns the field of a fibre at a sample of the image.
-  double atSample(std::int32_t fibre, int i, int j, int k) const;
   /// Returns the image around a range of nodes, as far as atNodes() reads it.
   LabelImageView samplesFor(const NodeRange& range, LabelBuffer& buffer) const;
   /// Computes the field of a fibre at nodes of the lattice; nodes beyond its faces have the value of the nearest one inside.

@@ -68,7 +68,7 @@ template <typename Visit>
 void forEachRow(const FibreField& field, const ImagePieces& pieces, std::size_t piece, Visit&& visit)
 {
   const SampleRange range = pieces.samplesOf(piece);
-  thread_local LabelBuffer buffer;
+  LabelBuffer buffer;
   const LabelImageView held = field.samplesAround(range, 0, buffer);
   const std::array<int, 3> begin = pieces.begin(piece);
   for (int k = range.first[2]; k < range.first[2] + range.count[2]; ++k)

@@ -207,15 +207,11 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
     return;
   }
   const NodeRange range = atMost.widened(reach);
-  thread_local LabelBuffer samples;
+  LabelBuffer samples;
   const LabelImageView held = field.samplesFor(range, samples);
-  thread_local std::vector<float> buffer;
-  thread_local std::vector<float> before;
-  thread_local std::vector<float> part;
-  for (std::vector<float>* scratch : { &buffer, &before, &part })
-  {
-    scratch->resize(std::max(scratch->size(), range.size()));
-  }
+  std::vector<float> buffer(range.size());
+  std::vector<float> before(range.size());
+  std::vector<float> part(range.size());
   field.atNodes(this->Fibre, range, held, buffer.data());
   const std::vector<Piece> near = this->place(pieces, std::min(passes, nodesBeside + 1), buffer, range);
   whole = {};

@@ -86,8 +86,7 @@ bool ThinFibres::areNear(const NodeRange& range) const
 
 bool ThinFibres::smoothingAt(const NodeRange& range, const LabelImageView& held, float* out) const
 {
-  thread_local std::vector<float> inside;
-  inside.resize(std::max(inside.size(), range.size()));
+  std::vector<float> inside(range.size());
   if (!this->areNear(range) || !this->smoothingInside(range, held, inside.data()))
   {
     return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/FibreRadialGrowth.h"
 
+#include "FieldAtSample.h"
 #include "GrowthExamples.h"
 #include "Sanitized.h"
 #include "base/Constants.h"
@@ -473,14 +474,14 @@ TEST(FibreRadialGrowth, NeighboursKeepTheGapAlongAnyLine)
           for (int i = 0; i + 1 < image.grid.count[0]; ++i)
           {
             const double x = image.grid.position(i, j, k).x();
-            const double l0 = field.atSample(1, i, j, k);
-            const double l1 = field.atSample(1, i + 1, j, k);
+            const double l0 = fieldAtSample(field, 1, i, j, k);
+            const double l1 = fieldAtSample(field, 1, i + 1, j, k);
             if (l0 > 0.0 && l1 <= 0.0)
             {
               leftEnd = x + 0.05 * l0 / (l0 - l1);
             }
-            const double r0 = field.atSample(2, i, j, k);
-            const double r1 = field.atSample(2, i + 1, j, k);
+            const double r0 = fieldAtSample(field, 2, i, j, k);
+            const double r1 = fieldAtSample(field, 2, i + 1, j, k);
             if (r0 <= 0.0 && r1 > 0.0)
             {
               rightBegin = x + 0.05 * r0 / (r0 - r1);

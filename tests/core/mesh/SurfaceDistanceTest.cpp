@@ -2,6 +2,7 @@
 #include "mesh/SurfaceDistance.h"
 
 #include "ExampleSurfaces.h"
+#include "TriangleGap.h"
 #include "mesh/SurfaceIntersection.h"
 #include "mesh/TriangleIntersection.h"
 
@@ -80,7 +81,7 @@ TEST(SurfaceDistance, TrianglesAreAsFarApartAsTheSlabBetweenThem)
         b[i] = a[(i + 1) % 3] + 0.05 * b[i]; // close by
       }
     }
-    const auto gap = cactus::triangleGap(a, b);
+    const auto gap = triangleGap(a, b);
     if (cactus::trianglesMeet(a, b))
     {
       ++meeting;
@@ -89,8 +90,8 @@ TEST(SurfaceDistance, TrianglesAreAsFarApartAsTheSlabBetweenThem)
     else
     {
       expectNearest(gap, a, b);
-      EXPECT_FALSE(cactus::triangleGap(a, b, 0.999 * gap.distance).found());
-      EXPECT_EQ(cactus::triangleGap(a, b, 1.001 * gap.distance).distance, gap.distance);
+      EXPECT_FALSE(triangleGap(a, b, 0.999 * gap.distance).found());
+      EXPECT_EQ(triangleGap(a, b, 1.001 * gap.distance).distance, gap.distance);
     }
     if (HasFailure())
     {
@@ -117,7 +118,7 @@ TEST(SurfaceDistance, SmallestGapIsThatOfAllPairs)
       double own = std::numeric_limits<double>::infinity();
       for (std::size_t t = 0; t < b.triangles.size(); ++t)
       {
-        own = std::min(own, cactus::triangleGap(pointsOf(a, s), pointsOf(b, t)).distance);
+        own = std::min(own, triangleGap(pointsOf(a, s), pointsOf(b, t)).distance);
       }
       smallest = std::min(smallest, own);
       if (own < reach)
@@ -127,7 +128,7 @@ TEST(SurfaceDistance, SmallestGapIsThatOfAllPairs)
     }
     const auto gap = cactus::smallestGap(treeA, treeB);
     EXPECT_EQ(gap.distance, smallest);
-    EXPECT_EQ(cactus::triangleGap(pointsOf(a, gap.triangleA), pointsOf(b, gap.triangleB)).distance, smallest);
+    EXPECT_EQ(triangleGap(pointsOf(a, gap.triangleA), pointsOf(b, gap.triangleB)).distance, smallest);
     EXPECT_EQ(cactus::smallestGap(treeA, treeB, 1.01 * smallest).distance, smallest);
     EXPECT_FALSE(cactus::smallestGap(treeA, treeB, 0.99 * smallest).found());
     EXPECT_EQ(cactus::trianglesNear(treeA, treeB, reach), near);
@@ -159,7 +160,7 @@ TEST(SurfaceDistance, TreesFindWhatTrianglesDo)
     }
     const cactus::TriangleTree a(meshes[0]);
     const cactus::TriangleTree b(meshes[1]);
-    const double distance = cactus::triangleGap(pointsOf(meshes[0], 0), pointsOf(meshes[1], 0)).distance;
+    const double distance = triangleGap(pointsOf(meshes[0], 0), pointsOf(meshes[1], 0)).distance;
     ASSERT_EQ(cactus::smallestGap(a, b).distance, distance) << "trial " << trial;
     ASSERT_EQ(cactus::smallestGap(a, b, 1.0001 * distance + 1e-9).distance, distance) << "trial " << trial;
     ASSERT_EQ(cactus::smallestGap(a, b, 0.9999 * distance).found(), distance == 0.0) << "trial " << trial;

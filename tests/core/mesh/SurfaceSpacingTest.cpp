@@ -5,10 +5,10 @@
 
 #include "../FindingsInMemory.h"
 #include "ExampleSurfaces.h"
+#include "TriangleGap.h"
 #include "base/Domain.h"
 #include "base/Error.h"
 #include "mesh/SurfaceCheck.h"
-#include "mesh/SurfaceDistance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantee: a fibre's image holds its field; contoured linearly it is closed, and cut off where the caps belong.
 #include "surface/FibreImage.h"
+#include "FieldAtSample.h"
 #include "base/Error.h"
 #include "growth/FibreRadialGrowth.h"
 #include "surface/FibreSurvey.h"
@@ -142,7 +143,7 @@ TEST(FibreImage, HoldsTheFieldOfOneFibre)
       {
         for (int i = grid.lower[0] + 1; i < grid.lower[0] + grid.count[0] - 1; ++i)
         {
-          ASSERT_EQ(double(at(image, i, j, k)), field.atSample(fibre, i, j, k));
+          ASSERT_EQ(double(at(image, i, j, k)), fieldAtSample(field, fibre, i, j, k));
           inside += at(image, i, j, k) > 0.0f ? 1 : 0;
         }
       }
