@@ -3,7 +3,7 @@
  * @class vtkCurvedBundles
  * @brief Lays fibres in a bundle that bends or fans out, or in two that kiss, as the start of a substrate.
  *
- * Output: fibres as those of vtkBundleInitializer, in a cubic domain around the origin. The method and its guarantees are
+ * Output: fibres as those of vtkBundleInitializer, in a box around the origin. The method and its guarantees are
  * documented in cactus::layCurvedBundles.
  */
 #ifndef vtkCurvedBundles_h
@@ -26,6 +26,7 @@ public:
   CACTUS_NUMBER_PROPERTY(FanAngle)
   CACTUS_NUMBER_PROPERTY(KissDistance)
   CACTUS_NUMBER_PROPERTY(Side)
+  CACTUS_NUMBER_PROPERTY(Length)
   CACTUS_NUMBER_PROPERTY(FibreVolumeFraction)
   CACTUS_NUMBER_PROPERTY(GrownFibreVolumeFraction)
   CACTUS_NUMBER_PROPERTY(Margin)

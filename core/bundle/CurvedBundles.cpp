@@ -27,6 +27,7 @@ BundleInitializerOptions squareFor(const CurvedBundlesOptions& options, BundleIn
 {
   constexpr double fewest = 64.0;
   const double needed = std::sqrt(fewest * meanCircleArea(straight.radius) / straight.fibreVolumeFraction);
+  straight.length = 0.0;
   straight.side = std::max(needed, 2.0 * (std::max(options.reach(), farthestPlace(options)) + options.radius.maximum));
   straight.margin = 0.0;
   return straight;
@@ -37,7 +38,7 @@ void requireMemoryForCurves(const CurvedBundlesOptions& options, const BundleIni
 {
   const double each = meanCircleArea(square.radius);
   const double circles = options.fibreVolumeFraction * square.side * square.side / each;
-  const double points = circles * 2.0 * options.reach() / square.controlPointSpacing(0.0);
+  const double points = circles * 2.0 * options.reachAlong() / square.controlPointSpacing(0.0);
   requireMemory(circles * 600.0 + points * 160.0, text("Side ", options.side, " µm with ", circles, " fibres"),
     "choose a smaller Side, a smaller Margin or larger radii");
 }
@@ -50,7 +51,7 @@ Fibres fibresAlongCurves(const CurvedBundlesOptions& options, const BundleInitia
   packFaces(bundles, square, context);
   const Circles& circles = bundles.front().bottom;
   Fibres fibres;
-  fibres.domain = Domain::cube(options.side);
+  fibres.domain = options.domain();
   for (std::size_t i = 0; i < circles.size(); ++i)
   {
     const GuideCurve curve = guideCurve(options, circles.centres[i].x());

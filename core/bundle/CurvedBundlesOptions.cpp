@@ -15,8 +15,9 @@ namespace
 {
 
 constexpr Range bendRange{ 0.1, 1e6, " µm" };
-/// A fan of more than 106° has no width where it enters a cube.
 constexpr Range fanRange{ 0.1, 90.0, "°" };
+/// Smallest width of a fan where it enters, over that where it leaves; in a cube one of 90° has 0.17.
+constexpr double narrowestEntry = 0.1;
 constexpr Range kissRange{ 0.1, 1e5, " µm", 0.0 };
 
 /// Returns the smallest radius (µm) with which a guide curve (see guideCurve()) in the domain with its margin bends; not positive
@@ -27,7 +28,7 @@ double sharpestBend(const CurvedBundlesOptions& options)
   switch (options.shape)
   {
   case BundleShape::Fan:
-    return options.side / std::sin(0.5 * options.fanAngle * degree) - std::max(0.0, options.reach() - edge);
+    return options.height() / std::sin(0.5 * options.fanAngle * degree) - std::max(0.0, options.reach() - edge);
   case BundleShape::Kiss:
     return options.bendRadius + 0.5 * options.kiss() - std::min(options.kiss(), options.reach());
   default:
@@ -54,7 +55,7 @@ const PropertyList<CurvedBundlesOptions>& CurvedBundlesOptions::properties()
       .where("Shape", { 0, 2 })
       .add("FanAngle", &Options::fanAngle, fanRange,
         "Angle in degrees between the two edges of the fan where it leaves the domain. It enters with all fibres along z, and so "
-        "narrow that it is as wide as the domain where it leaves: Side · (1 - 2 tan(FanAngle / 4)). Fibres beside it run along "
+        "narrow that it is as wide as the domain where it leaves: Side - 2 Length tan(FanAngle / 4). Fibres beside it run along "
         "with its edges.")
       .where("Shape", { 1 })
       .add("KissDistance", &Options::kissDistance, kissRange,
@@ -62,7 +63,9 @@ const PropertyList<CurvedBundlesOptions>& CurvedBundlesOptions::properties()
         "x. "
         "0: half of Side, which fills the domain there.")
       .where("Shape", { 2 })
-      .add("Side", &Options::side, limits::side, "Side of the cubic domain in µm. The cube is centred on the origin.")
+      .add("Side", &Options::side, limits::side,
+        "Side of the domain along x and y in µm. The domain is centred on the origin, and a cube if Length is 0.")
+      .add("Length", &Options::length, limits::length, "Length of the domain along z in µm; 0: as Side.")
       .add("FibreVolumeFraction", &Options::fibreVolumeFraction, limits::fraction,
         "Fraction of the bundles that the fibres' capsules fill, from 0 to 1: of a fan, where it enters. Random fibres with a "
         "wide "
@@ -85,13 +88,19 @@ const PropertyList<CurvedBundlesOptions>& CurvedBundlesOptions::properties()
 
 double CurvedBundlesOptions::fanEntry() const
 {
-  return side * (1.0 - 2.0 * std::tan(0.25 * fanAngle * degree));
+  return side * (1.0 - 2.0 * (height() / side) * std::tan(0.25 * fanAngle * degree));
 }
 
 void CurvedBundlesOptions::validate() const
 {
   validateProperties(*this);
   this->straightBundle().validate();
+  if (shape == BundleShape::Fan && fanEntry() < narrowestEntry * side)
+  {
+    const double widest = std::atan(0.5 * (1.0 - narrowestEntry) * side / height()) / (0.25 * degree);
+    throw InvalidInput(text("FanAngle ", fanAngle, "° is too wide for a domain of Length ", height(),
+      " µm, where the fan would have no width where it enters: give at most ", widest, "°, or enlarge Side"));
+  }
   const double sharpest = sharpestBend(*this);
   const double least = 2.0 * radius.maximum;
   if (sharpest >= least)
@@ -111,6 +120,7 @@ BundleInitializerOptions CurvedBundlesOptions::straightBundle() const
 {
   BundleInitializerOptions straight;
   straight.side = side;
+  straight.length = length;
   straight.border = Border::Walls;
   straight.margin = margin;
   straight.fibreVolumeFraction = fibreVolumeFraction;

@@ -25,7 +25,8 @@ struct CurvedBundlesOptions
   double bendRadius = 30.0;  ///< of the fibre through the middle of the domain, or of the middle of each kissing bundle
   double fanAngle = 30.0;    ///< degrees, between the two edges of the fan where it leaves the domain
   double kissDistance = 0.0; ///< between the middles of the two bundles where they touch; 0: half of the side
-  double side = 30.0;        ///< side of the cubic domain [-side/2, side/2]³
+  double side = 30.0;        ///< of the domain along x and y
+  double length = 0.0;       ///< of the domain along z; 0: side
   /// Fraction of the bundles that the fibres' capsules fill: of a fan, where it enters.
   double fibreVolumeFraction = 0.6;
   /// Fraction of the bundles that growth is to fill later; see BundleInitializerOptions.
@@ -43,8 +44,13 @@ struct CurvedBundlesOptions
   void validate() const;
   /// Returns the straight bundle of the same fibres.
   BundleInitializerOptions straightBundle() const;
-  /// Returns the largest coordinate of a control point in the domain with its margin, on any axis.
+  /// Returns the box around the origin in which the fibres are asked for.
+  Domain domain() const { return this->straightBundle().domain(); }
+  double height() const { return this->length > 0.0 ? this->length : this->side; }
+  /// Returns the largest coordinate of a control point in the domain with its margin, along x or y.
   double reach() const { return 0.5 * this->side + this->margin + this->radius.maximum; }
+  /// Returns the same along z.
+  double reachAlong() const { return 0.5 * this->height() + this->margin + this->radius.maximum; }
   /// Returns the distance of the middles of two kissing bundles, which is how wide each is.
   double kiss() const { return this->kissDistance > 0.0 ? this->kissDistance : 0.5 * this->side; }
   /// Returns the width of a fan where it enters: it is as wide as the domain where it leaves.

@@ -27,12 +27,19 @@ void appendArc(double place, double height, double radius, double from, double t
   }
 }
 
-/// Returns an arc through the domain's middle plane as far as it is within `reach` along z.
-std::vector<Eigen::Vector2d> arcThroughMiddle(double place, double radius, double reach)
+/// Returns an arc through the domain's middle plane as far as it is within reach along z. One that ends before, along x, goes on
+/// straight until it is beyond reach.
+std::vector<Eigen::Vector2d> arcThroughMiddle(double place, double radius, const CurvedBundlesOptions& options)
 {
-  const double half = std::asin(std::min(1.0, reach / std::abs(radius)));
+  const double half = std::asin(std::min(1.0, options.reachAlong() / std::abs(radius)));
   std::vector<Eigen::Vector2d> points;
   appendArc(place, 0.0, radius, -half, half, points);
+  if (options.reachAlong() >= std::abs(radius) && std::abs(points.back().x()) < options.reach())
+  {
+    const double end = std::copysign(options.reach(), radius);
+    points.insert(points.begin(), { end, points.front().y() });
+    points.emplace_back(end, points.back().y());
+  }
   return points;
 }
 
@@ -48,14 +55,14 @@ FanArc fanArc(const CurvedBundlesOptions& options, double place)
   const double edge = 0.5 * options.fanEntry();
   const double within = std::clamp(place, -edge, edge);
   const double angle = 0.5 * options.fanAngle * degree * within / edge;
-  return { angle, options.side / std::sin(angle) - (place - within) };
+  return { angle, options.height() / std::sin(angle) - (place - within) };
 }
 
 std::vector<Eigen::Vector2d> fanCurve(const CurvedBundlesOptions& options, double place)
 {
   constexpr double straight = 1e-9;
   const double bottom = guideHeight(options);
-  std::vector<Eigen::Vector2d> points = { { place, -options.reach() } };
+  std::vector<Eigen::Vector2d> points = { { place, -options.reachAlong() } };
   const FanArc arc = fanArc(options, place);
   Eigen::Vector2d direction = Eigen::Vector2d::UnitY();
   if (std::abs(arc.angle) < straight)
@@ -67,7 +74,7 @@ std::vector<Eigen::Vector2d> fanCurve(const CurvedBundlesOptions& options, doubl
     appendArc(place, bottom, arc.radius, 0.0, std::abs(arc.angle), points);
     direction = Eigen::Vector2d(std::sin(arc.angle), std::cos(arc.angle));
   }
-  const double left = options.reach() - points.back().y();
+  const double left = options.reachAlong() - points.back().y();
   if (left > 0.0)
   {
     points.emplace_back(points.back() + left / direction.y() * direction);
@@ -79,7 +86,7 @@ std::vector<Eigen::Vector2d> fanCurve(const CurvedBundlesOptions& options, doubl
 
 double guideHeight(const CurvedBundlesOptions& options)
 {
-  return options.shape == BundleShape::Fan ? -0.5 * options.side : 0.0;
+  return options.shape == BundleShape::Fan ? -0.5 * options.height() : 0.0;
 }
 
 GuideCurve guideCurve(const CurvedBundlesOptions& options, double place)
@@ -96,10 +103,10 @@ GuideCurve guideCurve(const CurvedBundlesOptions& options, double place)
     {
       return {};
     }
-    return { place < 0.0 ? 1 : 2, arcThroughMiddle(place, sense * (options.bendRadius - inward), options.reach()) };
+    return { place < 0.0 ? 1 : 2, arcThroughMiddle(place, sense * (options.bendRadius - inward), options) };
   }
   default:
-    return { 1, arcThroughMiddle(place, options.bendRadius - place, options.reach()) };
+    return { 1, arcThroughMiddle(place, options.bendRadius - place, options) };
   }
 }
 
@@ -111,7 +118,7 @@ double farthestPlace(const CurvedBundlesOptions& options)
   case BundleShape::Kiss:
     return std::min(reach, options.kiss());
   case BundleShape::Bend: // a curve beside the middle, on the outer side, comes in at a corner
-    return std::hypot(options.bendRadius + reach, reach) - options.bendRadius;
+    return std::hypot(options.bendRadius + reach, options.reachAlong()) - options.bendRadius;
   default:
     return reach;
   }
@@ -120,7 +127,7 @@ double farthestPlace(const CurvedBundlesOptions& options)
 double bundlesShare(const CurvedBundlesOptions& options)
 {
   constexpr int places = 1024;
-  const Domain domain = Domain::cube(options.side);
+  const Domain domain = options.domain();
   const double width = 2.0 * farthestPlace(options) / places;
   double area = 0.0;
   for (int i = 0; i < places; ++i)
@@ -132,7 +139,7 @@ double bundlesShare(const CurvedBundlesOptions& options)
       area += std::max(0.0, part[1] - part[0]) * (points[p] - points[p - 1]).norm() * width;
     }
   }
-  return area / (options.side * options.side);
+  return area / (options.side * options.height());
 }
 
 } // namespace cactus

@@ -21,8 +21,8 @@ struct GuideCurve
 /// middle, or its lowest z for a fan.
 double guideHeight(const CurvedBundlesOptions& options);
 
-/// Returns the curve through a place (x, µm) of that plane, as far as it is within reach() of the origin along z; without points
-/// where no bundle is.
+/// Returns the curve through a place (x, µm) of that plane, as far as it is within reachAlong() of the origin along z; without
+/// points where no bundle is.
 ///
 /// Curves of a bend are arcs about one axis. So are those of each of two kissing bundles, which fill the places up to kiss() from
 /// x = 0 on both sides, and bend away from it. A curve of a fan is an arc up to the highest z, and then straight. Its angle there

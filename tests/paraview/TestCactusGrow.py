@@ -121,7 +121,7 @@ class CactusGrow(CactusTestCase):
         self.assertSame("filters", "again")
 
     def test_curved_bundles(self):
-        laid = {"Shape": "Kiss", "BendRadius": 12, "Side": 5, "Margin": 1, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0}
+        laid = {"Shape": "Kiss", "BendRadius": 12, "Side": 5, "Length": 6, "Margin": 1, "FibreVolumeFraction": 0.25, "MinimumRadius": 0.4, "GrownFibreVolumeFraction": 0}
         self.write(OutputPort(CapsuleOptimizer(Input=CurvedBundles(**laid)), 0), GROWTH, {})
         self.grow({"CurvedBundles": laid, "FibreRadialGrowth": GROWTH}, "grown")
         self.assertSame("filters", "grown")

@@ -144,6 +144,67 @@ TEST(GuideCurves, TwoBundlesKissAtTheirDistance)
   EXPECT_EQ(options.kiss(), 6.0);
 }
 
+TEST(CurvedBundles, NoFibreEndsInTheDomain)
+{
+  for (const BundleShape shape : { BundleShape::Bend, BundleShape::Fan, BundleShape::Kiss })
+  {
+    for (const double length : { 0.0, 6.0, 30.0 })
+    {
+      for (const double kissDistance : { 2.2, 5.0, 0.0 })
+      {
+        CurvedBundlesOptions options = curved(shape);
+        options.length = length;
+        options.kissDistance = kissDistance;
+        options.bendRadius = shape == BundleShape::Kiss ? 4.0 + 0.5 * options.kiss() : 9.0;
+        options.fanAngle = 25.0;
+        const Fibres fibres = layCurvedBundles(options);
+        EXPECT_EQ(fibres.domain.upper, Eigen::Vector3d(6.0, 6.0, length > 0.0 ? 0.5 * length : 6.0));
+        for (std::size_t f = 0; f < fibres.size(); ++f)
+        {
+          EXPECT_LE(fibres.domain.depth(fibres.points[fibres.offsets[f]]), 1e-9);
+          EXPECT_LE(fibres.domain.depth(fibres.points[fibres.offsets[f + 1] - 1]), 1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(CurvedBundles, ABoxIsFilledFromEndToEnd)
+{
+  CurvedBundlesOptions options = curved(BundleShape::Bend);
+  options.bendRadius = 30.0;
+  options.length = 30.0;
+  double filled = 0.0;
+  const Fibres fibres = layCurvedBundles(options, {}, &filled);
+  EXPECT_NEAR(bundlesShare(options), 1.0, 1e-3);
+  EXPECT_NEAR(filled, 0.7, 0.01);
+  for (int third = 0; third < 3; ++third)
+  {
+    Fibres part = fibres;
+    part.domain.lower.z() = -15.0 + 10.0 * third;
+    part.domain.upper.z() = -5.0 + 10.0 * third;
+    EXPECT_NEAR(capsuleVolumeInDomain(part) / part.domain.volume(), 0.7, 0.06) << third;
+  }
+}
+
+TEST(CurvedBundles, AFanTooWideForItsLengthNamesTheWidestThatWorks)
+{
+  CurvedBundlesOptions options = curved(BundleShape::Fan);
+  options.length = 30.0;
+  options.fanAngle = 60.0;
+  try
+  {
+    options.validate();
+    FAIL();
+  }
+  catch (const InvalidInput& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("give at most 40.8"), std::string::npos) << error.what();
+  }
+  options.fanAngle = 40.8;
+  EXPECT_NO_THROW(options.validate());
+}
+
 TEST(CurvedBundles, FibresOfNoShapeOverlap)
 {
   for (const BundleShape shape : { BundleShape::Bend, BundleShape::Fan, BundleShape::Kiss })
