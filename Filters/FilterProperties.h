@@ -3,10 +3,13 @@
 #pragma once
 
 #include <vtkIndent.h>
+#include <vtkType.h>
 #include <vtkWrappingHints.h>
 
 #include <memory>
 #include <ostream>
+
+class vtkAlgorithm;
 
 namespace cactus
 {
@@ -37,7 +40,27 @@ public:
   virtual void print(std::ostream& out, vtkIndent indent) const = 0;
 };
 
+/// Does the same as vtkAlgorithm::ComputePipelineMTime, except that a stopped filter counts as changed until it has run, so that
+/// whoever requests its output gets the warning; later stages would otherwise not request it again. Not for several ranks, of
+/// which one would enter an exchange alone: these run again after a change, or by Write.
+int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time);
+
 } // namespace cactus
+
+/// Prints the properties as well, for a class with a member `std::unique_ptr<cactus::FilterProperties> Properties`.
+#define CACTUS_PRINTS_PROPERTIES                                                                                                 \
+  void PrintSelf(ostream& os, vtkIndent indent) override                                                                         \
+  {                                                                                                                              \
+    this->Superclass::PrintSelf(os, indent);                                                                                     \
+    this->Properties->print(os, indent);                                                                                         \
+  }
+
+/// Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks.
+#define CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED                                                                                    \
+  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override     \
+  {                                                                                                                              \
+    return cactus::pipelineTime(this, time);                                                                                     \
+  }
 
 /// Asks a run to stop without changing the filter: of several ranks, one that was asked too late would otherwise run again, and
 /// wait for the others.

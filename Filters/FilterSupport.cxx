@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterSupport.h"
 
+#include "FilterProperties.h"
 #include "InputBlocks.h"
 #include "ProgressLog.h"
 #include "Ranks.h"

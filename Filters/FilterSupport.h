@@ -42,11 +42,6 @@ int guarded(vtkAlgorithm* self, const Sharing& sharing, const std::function<void
 /// Reports that work was stopped before RequestData, which a signal may prevent; RequestData then does not repeat it.
 void noteStopped(vtkAlgorithm* self, const std::string& message);
 
-/// Does the same as vtkAlgorithm::ComputePipelineMTime, except that a stopped filter counts as changed until it has run, so that
-/// whoever requests its output gets the warning; later stages would otherwise not request it again. Not for several ranks, of
-/// which one would enter an exchange alone: these run again after a change, or by Write.
-int pipelineTime(vtkAlgorithm* self, vtkMTimeType* time);
-
 /// Runs `work` for RequestInformation and RequestUpdateExtent, which ignore its exceptions: RequestData fails in the same way,
 /// and reports them.
 void quietly(const std::function<void()>& work);

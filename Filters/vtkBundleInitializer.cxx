@@ -85,12 +85,6 @@ vtkBundleInitializer::vtkBundleInitializer()
   this->SetNumberOfInputPorts(0);
 }
 
-int vtkBundleInitializer::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -113,10 +107,4 @@ int vtkBundleInitializer::RequestData(vtkInformation*, vtkInformationVector**, v
         vtkWarningMacro(<< remarks);
       }
     });
-}
-
-void vtkBundleInitializer::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -14,7 +14,7 @@
 #define vtkBundleInitializer_h
 
 #include "CactusFiltersModule.h"
-#include "FilterProperties.h"
+#include "OptionProperties.h"
 
 #include <vtkPolyDataAlgorithm.h>
 
@@ -23,7 +23,7 @@ class CACTUSFILTERS_EXPORT vtkBundleInitializer : public vtkPolyDataAlgorithm
 public:
   static vtkBundleInitializer* New();
   vtkTypeMacro(vtkBundleInitializer, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   enum RadiusDistributions
   {
@@ -59,33 +59,11 @@ public:
   CACTUS_NUMBER_PROPERTY(Length)
   CACTUS_NUMBER_PROPERTY(FibreVolumeFraction)
   CACTUS_NUMBER_PROPERTY(GrownFibreVolumeFraction)
-  CACTUS_WHOLE_PROPERTY(RadiusDistribution)
-  CACTUS_NUMBER_PROPERTY(GammaShape)
-  CACTUS_NUMBER_PROPERTY(GammaScale)
-  CACTUS_NUMBER_PROPERTY(LognormalMean)
-  CACTUS_NUMBER_PROPERTY(LognormalDeviation)
-  CACTUS_TEXT_PROPERTY(RadiusTable)
-  CACTUS_FILE_PROPERTY(RadiusTableFile)
-  CACTUS_TEXT_PROPERTY(RadiusTableColumn)
-  CACTUS_NUMBER_PROPERTY(RadiusTableFactor)
-  CACTUS_WHOLE_PROPERTY(RadiusHistogram)
-  CACTUS_NUMBER_PROPERTY(RadiusHistogramFactor)
-  CACTUS_NUMBER_PROPERTY(RadiusHistogramGRatio)
-  CACTUS_NUMBER_PROPERTY(MinimumRadius)
-  CACTUS_NUMBER_PROPERTY(MaximumRadius)
-  CACTUS_WHOLE_PROPERTY(CalibreModel)
-  CACTUS_NUMBER_PROPERTY(CalibreVariation)
-  CACTUS_NUMBER_PROPERTY(CalibreCorrelationLength)
-  CACTUS_NUMBER_PROPERTY(BeadAmplitude)
-  CACTUS_NUMBER_PROPERTY(BeadSpacing)
-  CACTUS_NUMBER_PROPERTY(BeadSpacingDeviation)
-  CACTUS_NUMBER_PROPERTY(BeadLength)
+  CACTUS_RADIUS_DISTRIBUTION_PROPERTIES
+  CACTUS_CALIBRE_VARIATION_PROPERTIES
   CACTUS_NUMBER_PROPERTY(SectionAxisRatio)
   CACTUS_NUMBER_PROPERTY(GRatio)
-  CACTUS_NUMBER_PROPERTY(UnmyelinatedFraction)
-  CACTUS_NUMBER_PROPERTY(UnmyelinatedRadius)
-  CACTUS_NUMBER_PROPERTY(UnmyelinatedRadiusDeviation)
-  CACTUS_WHOLE_PROPERTY(UnmyelinatedCluster)
+  CACTUS_UNMYELINATED_AXONS_PROPERTIES
   CACTUS_WHOLE_PROPERTY(Border)
   CACTUS_NUMBER_PROPERTY(MeanDispersion)
   CACTUS_NUMBER_PROPERTY(WatsonKappa)
@@ -105,14 +83,10 @@ public:
   CACTUS_WHOLE_PROPERTY(CrossingStyle)
   CACTUS_NUMBER_PROPERTY(SheetThickness)
   CACTUS_NUMBER_PROPERTY(Margin)
-  CACTUS_NUMBER_PROPERTY(SpacingFactor)
-  CACTUS_NUMBER_PROPERTY(MinimumSpacing)
-  CACTUS_NUMBER_PROPERTY(MaximumSpacing)
+  CACTUS_CONTROL_POINT_SPACING_PROPERTIES
   CACTUS_WHOLE_PROPERTY(Seed)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

@@ -534,9 +534,3 @@ int vtkCapsuleOptimizer::RequestData(vtkInformation* request, vtkInformationVect
       }
     });
 }
-
-void vtkCapsuleOptimizer::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
-}

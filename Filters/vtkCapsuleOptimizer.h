@@ -48,7 +48,7 @@ class CACTUSFILTERS_EXPORT vtkCapsuleOptimizer : public vtkPolyDataAlgorithm
 public:
   static vtkCapsuleOptimizer* New();
   vtkTypeMacro(vtkCapsuleOptimizer, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   /** How gradients become steps. */
   enum DescentMethods

@@ -19,12 +19,6 @@ vtkCurvedBundles::vtkCurvedBundles()
   this->SetNumberOfInputPorts(0);
 }
 
-int vtkCurvedBundles::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkCurvedBundles::RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -40,10 +34,4 @@ int vtkCurvedBundles::RequestData(vtkInformation*, vtkInformationVector**, vtkIn
       cactus::toPolyData(fibres, output);
       cactus::setProvenance(output, cactus::provenanceOf(cactus::curvedRecord(stage, options, fibres.size(), filled)), 0);
     });
-}
-
-void vtkCurvedBundles::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

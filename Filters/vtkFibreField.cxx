@@ -107,11 +107,6 @@ int vtkFibreField::RequestUpdateExtent(vtkInformation*, vtkInformationVector** i
   return 1;
 }
 
-int vtkFibreField::ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -171,10 +166,4 @@ int vtkFibreField::RequestData(vtkInformation* request, vtkInformationVector** i
                         << " fibres have no voxel in the label image: their blocks are empty");
       }
     });
-}
-
-void vtkFibreField::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -26,7 +26,7 @@ class CACTUSFILTERS_EXPORT vtkFibreField : public vtkMultiBlockDataSetAlgorithm
 public:
   static vtkFibreField* New();
   vtkTypeMacro(vtkFibreField, vtkMultiBlockDataSetAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   /** Values of Select. */
   enum
@@ -43,8 +43,7 @@ public:
   CACTUS_SWITCH_PROPERTY(ClipToDomain)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
 
 protected:
   vtkFibreField();

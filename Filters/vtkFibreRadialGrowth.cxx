@@ -154,12 +154,6 @@ int vtkFibreRadialGrowth::RequestUpdateExtent(vtkInformation*, vtkInformationVec
   return 1;
 }
 
-int vtkFibreRadialGrowth::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkFibreRadialGrowth::RequestData(vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -232,10 +226,4 @@ void vtkFibreRadialGrowth::solve(vtkDataObject* input, const cactus::Fibres& fib
   this->Aimed = std::move(aimed);
   this->GrowthParameterTime = this->GetMTime();
   this->GrowthInputTime = cactus::changeTime(input);
-}
-
-void vtkFibreRadialGrowth::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -28,7 +28,7 @@
 #define vtkFibreRadialGrowth_h
 
 #include "CactusFiltersModule.h"
-#include "FilterProperties.h"
+#include "OptionProperties.h"
 
 #include <vtkDataObject.h>
 #include <vtkImageAlgorithm.h>
@@ -49,24 +49,16 @@ class CACTUSFILTERS_EXPORT vtkFibreRadialGrowth : public vtkImageAlgorithm
 public:
   static vtkFibreRadialGrowth* New();
   vtkTypeMacro(vtkFibreRadialGrowth, vtkImageAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
-  CACTUS_NUMBER_PROPERTY(VoxelSize)
-  CACTUS_NUMBER_PROPERTY(TargetFibreVolumeFraction)
-  CACTUS_WHOLE_PROPERTY(GrowthIterations)
-  CACTUS_NUMBER_PROPERTY(MinimumGap)
-  CACTUS_NUMBER_PROPERTY(SurfaceTolerance)
-  CACTUS_NUMBER_PROPERTY(SurfaceRoughness)
-  CACTUS_NUMBER_PROPERTY(SeedDensity)
-  CACTUS_NUMBER_PROPERTY(Margin)
+  CACTUS_FIBRE_RADIAL_GROWTH_PROPERTIES
   CACTUS_WHOLE_PROPERTY(Seed)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
   /** Returns the fibres from which the image was made, which may differ from the present input; null before. */
   vtkDataObject* GrownFibres() const { return this->Fibres; }
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
 
 protected:
   vtkFibreRadialGrowth();

@@ -68,12 +68,6 @@ int vtkHistologyMask::RequestUpdateExtent(vtkInformation*, vtkInformationVector*
   return 1;
 }
 
-int vtkHistologyMask::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkHistologyMask::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -106,10 +100,4 @@ int vtkHistologyMask::RequestData(vtkInformation* request, vtkInformationVector*
       cactus::addNumber(output->GetFieldData(), "PixelSize_um", mask.pixelSize);
       cactus::setProvenance(output, cactus::recordOf(this, "HistologyMask", stage, { "Outer", "Inner" }), 0);
     });
-}
-
-void vtkHistologyMask::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

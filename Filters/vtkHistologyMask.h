@@ -23,15 +23,14 @@ class CACTUSFILTERS_EXPORT vtkHistologyMask : public vtkImageAlgorithm
 public:
   static vtkHistologyMask* New();
   vtkTypeMacro(vtkHistologyMask, vtkImageAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_WHOLE_PROPERTY(Normal)
   CACTUS_NUMBER_PROPERTY(Position)
   CACTUS_NUMBER_PROPERTY(PixelSize)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
 
 protected:
   vtkHistologyMask();

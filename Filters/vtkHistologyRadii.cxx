@@ -205,9 +205,3 @@ int vtkHistologyRadii::RequestData(vtkInformation* request, vtkInformationVector
       cactus::setProvenance(table, cactus::recordOf(this, "HistologyRadii", stage, { "Input" }), 0);
     });
 }
-
-void vtkHistologyRadii::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
-}

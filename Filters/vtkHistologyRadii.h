@@ -23,7 +23,7 @@ class CACTUSFILTERS_EXPORT vtkHistologyRadii : public vtkTableAlgorithm
 public:
   static vtkHistologyRadii* New();
   vtkTypeMacro(vtkHistologyRadii, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_NUMBER_PROPERTY(PixelSize)
   CACTUS_NUMBER_PROPERTY(SmallestRadius)

@@ -130,11 +130,6 @@ int vtkLesion::RequestUpdateExtent(vtkInformation*, vtkInformationVector** input
   return 1;
 }
 
-int vtkLesion::ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkLesion::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -177,10 +172,4 @@ int vtkLesion::RequestData(vtkInformation* request, vtkInformationVector**, vtkI
         cactus::setProvenance(output, provenance, port++);
       }
     });
-}
-
-void vtkLesion::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -26,7 +26,7 @@ class CACTUSFILTERS_EXPORT vtkLesion : public vtkPolyDataAlgorithm
 public:
   static vtkLesion* New();
   vtkTypeMacro(vtkLesion, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_NUMBER_PROPERTY(AxonLoss)
   CACTUS_NUMBER_PROPERTY(MyelinLoss)
@@ -42,8 +42,7 @@ public:
   CACTUS_WHOLE_PROPERTY(Seed)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
 
 protected:
   vtkLesion();

@@ -275,12 +275,6 @@ int vtkMyelinSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector*
   return 1;
 }
 
-int vtkMyelinSurface::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkMyelinSurface::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   cactus::RankTeam ranks;
@@ -435,10 +429,4 @@ std::vector<cactus::FibreSurfacePair> vtkMyelinSurface::makeSurfaces(cactus::Sur
     }
   }
   return fibres;
-}
-
-void vtkMyelinSurface::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -29,7 +29,7 @@
 #define vtkMyelinSurface_h
 
 #include "CactusFiltersModule.h"
-#include "FilterProperties.h"
+#include "OptionProperties.h"
 
 #include <vtkDataObject.h>
 #include <vtkPolyDataAlgorithm.h>
@@ -50,7 +50,7 @@ class CACTUSFILTERS_EXPORT vtkMyelinSurface : public vtkPolyDataAlgorithm
 public:
   static vtkMyelinSurface* New();
   vtkTypeMacro(vtkMyelinSurface, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   /** Values of GRatioModel. */
   enum
@@ -61,24 +61,7 @@ public:
     TARGET_AXON_VOLUME_FRACTION = 3
   };
 
-  CACTUS_WHOLE_PROPERTY(GRatioModel)
-  CACTUS_NUMBER_PROPERTY(GRatio)
-  CACTUS_NUMBER_PROPERTY(GRatioDeviation)
-  CACTUS_NUMBER_PROPERTY(TargetAxonVolumeFraction)
-  CACTUS_SWITCH_PROPERTY(MyelinFollowsAxon)
-  CACTUS_NUMBER_PROPERTY(NodeLength)
-  CACTUS_NUMBER_PROPERTY(InternodeFactor)
-  CACTUS_NUMBER_PROPERTY(ParanodeLength)
-  CACTUS_NUMBER_PROPERTY(NodeConstriction)
-  CACTUS_WHOLE_PROPERTY(NodeSeed)
-  CACTUS_NUMBER_PROPERTY(InternodeLoss)
-  CACTUS_WHOLE_PROPERTY(InternodeOrder)
-  CACTUS_NUMBER_PROPERTY(RemyelinatedFraction)
-  CACTUS_NUMBER_PROPERTY(RemyelinatedGRatio)
-  CACTUS_WHOLE_PROPERTY(SmoothingIterations)
-  CACTUS_NUMBER_PROPERTY(DecimationError)
-  CACTUS_NUMBER_PROPERTY(MinimumAngle)
-  CACTUS_SWITCH_PROPERTY(ClipToDomain)
+  CACTUS_MYELIN_SURFACE_PROPERTIES
   CACTUS_WHOLE_PROPERTY(Seed)
 
   /** Values of Meshing. */
@@ -98,9 +81,7 @@ public:
   /** Returns the fibres from which the label image was grown, as they were then; null unless it comes directly from growth. */
   vtkDataObject* GrownFibres() const { return this->Fibres; }
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

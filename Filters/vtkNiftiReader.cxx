@@ -165,11 +165,6 @@ vtkNiftiReader::vtkNiftiReader()
   this->SetNumberOfInputPorts(0);
 }
 
-int vtkNiftiReader::ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkNiftiReader::CanReadFile(const char* name)
 {
   std::error_code error;
@@ -228,10 +223,4 @@ int vtkNiftiReader::RequestData(vtkInformation* request, vtkInformationVector**,
       output->GetPointData()->SetScalars(values);
       cactus::setProvenance(output, cactus::provenanceOf(cactus::niftiRecord(stage)), 0);
     });
-}
-
-void vtkNiftiReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

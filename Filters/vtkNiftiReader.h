@@ -25,7 +25,7 @@ class CACTUSFILTERS_EXPORT vtkNiftiReader : public vtkImageAlgorithm
 public:
   static vtkNiftiReader* New();
   vtkTypeMacro(vtkNiftiReader, vtkImageAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   /** Whether the file is one of these by its content (ParaView asks before it offers this reader). */
   int CanReadFile(const char* name);
@@ -33,9 +33,7 @@ public:
   CACTUS_FILE_PROPERTY(FileName)
   CACTUS_WHOLE_PROPERTY(LengthUnit)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

@@ -195,9 +195,3 @@ void vtkNiftiWriter::WriteData()
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
   }
 }
-
-void vtkNiftiWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
-}

@@ -20,7 +20,7 @@ class CACTUSFILTERS_EXPORT vtkNiftiWriter : public vtkWriter
 public:
   static vtkNiftiWriter* New();
   vtkTypeMacro(vtkNiftiWriter, vtkWriter);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_FILE_PROPERTY(FileName)
   CACTUS_TEXT_PROPERTY(Array)

@@ -226,9 +226,3 @@ int vtkPlacement::RequestData(vtkInformation* request, vtkInformationVector** in
       }
     });
 }
-
-void vtkPlacement::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
-}

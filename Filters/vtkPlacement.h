@@ -24,7 +24,7 @@ class CACTUSFILTERS_EXPORT vtkPlacement : public vtkPassInputTypeAlgorithm
 public:
   static vtkPlacement* New();
   vtkTypeMacro(vtkPlacement, vtkPassInputTypeAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_WHOLE_PROPERTY(Place)
   CACTUS_NUMBER_PROPERTY(PositionX)

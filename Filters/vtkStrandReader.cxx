@@ -43,9 +43,3 @@ int vtkStrandReader::RequestData(vtkInformation*, vtkInformationVector**, vtkInf
       cactus::setProvenance(output, cactus::provenanceOf(cactus::strandRecord(stage)), 0);
     });
 }
-
-void vtkStrandReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
-}

@@ -23,7 +23,7 @@ class CACTUSFILTERS_EXPORT vtkStrandReader : public vtkPolyDataAlgorithm
 public:
   static vtkStrandReader* New();
   vtkTypeMacro(vtkStrandReader, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   /** Whether the file is one of these by its content (ParaView asks before it offers this reader). */
   int CanReadFile(const char* name);

@@ -50,9 +50,3 @@ void vtkStrandWriter::WriteData()
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
   }
 }
-
-void vtkStrandWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
-}

@@ -19,7 +19,7 @@ class CACTUSFILTERS_EXPORT vtkStrandWriter : public vtkWriter
 public:
   static vtkStrandWriter* New();
   vtkTypeMacro(vtkStrandWriter, vtkWriter);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_FILE_PROPERTY(FileName)
 

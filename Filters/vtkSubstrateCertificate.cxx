@@ -73,12 +73,6 @@ int vtkSubstrateCertificate::RequestUpdateExtent(vtkInformation*, vtkInformation
   return 1;
 }
 
-int vtkSubstrateCertificate::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkSubstrateCertificate::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   cactus::RankTeam ranks;
@@ -120,10 +114,4 @@ void vtkSubstrateCertificate::judge(const cactus::Sharing& all, bool isAsked, vt
   {
     cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
   }
-}
-
-void vtkSubstrateCertificate::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -35,15 +35,13 @@ class CACTUSFILTERS_EXPORT vtkSubstrateCertificate : public vtkTableAlgorithm
 public:
   static vtkSubstrateCertificate* New();
   vtkTypeMacro(vtkSubstrateCertificate, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_NUMBER_PROPERTY(MinimumGap)
   CACTUS_NUMBER_PROPERTY(CutSpacing)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

@@ -46,12 +46,6 @@ int vtkSubstrateProduction::RequestUpdateExtent(vtkInformation*, vtkInformationV
   return 1;
 }
 
-int vtkSubstrateProduction::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkSubstrateProduction::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   cactus::RankTeam ranks;
@@ -134,10 +128,4 @@ int vtkSubstrateProduction::Write()
   this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // SetErrorCode() would count as a
                                                                                            // change
   return isWritten ? 1 : 0;
-}
-
-void vtkSubstrateProduction::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -18,8 +18,8 @@
 #define vtkSubstrateProduction_h
 
 #include "CactusFiltersModule.h"
-#include "FilterProperties.h"
 #include "KeptFolder.h"
+#include "OptionProperties.h"
 
 #include <vtkNew.h>
 #include <vtkTable.h>
@@ -30,34 +30,10 @@ class CACTUSFILTERS_EXPORT vtkSubstrateProduction : public vtkTableAlgorithm
 public:
   static vtkSubstrateProduction* New();
   vtkTypeMacro(vtkSubstrateProduction, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
-  CACTUS_NUMBER_PROPERTY(VoxelSize)
-  CACTUS_NUMBER_PROPERTY(TargetFibreVolumeFraction)
-  CACTUS_WHOLE_PROPERTY(GrowthIterations)
-  CACTUS_NUMBER_PROPERTY(MinimumGap)
-  CACTUS_NUMBER_PROPERTY(SurfaceTolerance)
-  CACTUS_NUMBER_PROPERTY(SurfaceRoughness)
-  CACTUS_NUMBER_PROPERTY(SeedDensity)
-  CACTUS_NUMBER_PROPERTY(Margin)
-  CACTUS_WHOLE_PROPERTY(GRatioModel)
-  CACTUS_NUMBER_PROPERTY(GRatio)
-  CACTUS_NUMBER_PROPERTY(GRatioDeviation)
-  CACTUS_NUMBER_PROPERTY(TargetAxonVolumeFraction)
-  CACTUS_SWITCH_PROPERTY(MyelinFollowsAxon)
-  CACTUS_NUMBER_PROPERTY(NodeLength)
-  CACTUS_NUMBER_PROPERTY(InternodeFactor)
-  CACTUS_NUMBER_PROPERTY(ParanodeLength)
-  CACTUS_NUMBER_PROPERTY(NodeConstriction)
-  CACTUS_WHOLE_PROPERTY(NodeSeed)
-  CACTUS_NUMBER_PROPERTY(InternodeLoss)
-  CACTUS_WHOLE_PROPERTY(InternodeOrder)
-  CACTUS_NUMBER_PROPERTY(RemyelinatedFraction)
-  CACTUS_NUMBER_PROPERTY(RemyelinatedGRatio)
-  CACTUS_WHOLE_PROPERTY(SmoothingIterations)
-  CACTUS_NUMBER_PROPERTY(DecimationError)
-  CACTUS_NUMBER_PROPERTY(MinimumAngle)
-  CACTUS_SWITCH_PROPERTY(ClipToDomain)
+  CACTUS_FIBRE_RADIAL_GROWTH_PROPERTIES
+  CACTUS_MYELIN_SURFACE_PROPERTIES
   CACTUS_WHOLE_PROPERTY(Seed)
   CACTUS_FILE_PROPERTY(FolderName)
   CACTUS_WHOLE_PROPERTY(Format)
@@ -70,9 +46,7 @@ public:
   /** Writes the folder, whether or not anything has changed. Returns 1, or 0 if it could not be written. */
   int Write();
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

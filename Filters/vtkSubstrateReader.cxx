@@ -316,12 +316,6 @@ int vtkSubstrateReader::FillOutputPortInformation(int port, vtkInformation* info
   return 1;
 }
 
-int vtkSubstrateReader::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkSubstrateReader::CanReadFile(const char* name)
 {
   return name != nullptr && cactus::isSubstrate(name) ? 1 : 0;
@@ -374,10 +368,4 @@ int vtkSubstrateReader::RequestData(vtkInformation*, vtkInformationVector**, vtk
         vtkWarningMacro(<< stage.fileName << ": " << remark);
       }
     });
-}
-
-void vtkSubstrateReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

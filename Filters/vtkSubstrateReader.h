@@ -25,16 +25,14 @@ class CACTUSFILTERS_EXPORT vtkSubstrateReader : public vtkPolyDataAlgorithm
 public:
   static vtkSubstrateReader* New();
   vtkTypeMacro(vtkSubstrateReader, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   /** Whether it is a manifest of ours, or a folder with one, by its content (ParaView asks before it offers this reader). */
   int CanReadFile(const char* name);
 
   CACTUS_FILE_PROPERTY(FileName)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

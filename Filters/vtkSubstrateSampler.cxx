@@ -137,12 +137,6 @@ int vtkSubstrateSampler::RequestUpdateExtent(vtkInformation*, vtkInformationVect
   return 1;
 }
 
-int vtkSubstrateSampler::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkSubstrateSampler::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -173,10 +167,4 @@ int vtkSubstrateSampler::RequestData(vtkInformation* request, vtkInformationVect
       const auto provenance = cactus::recordOf(this, "SubstrateSampler", stage, { "Outer", "Inner", "Fibres" });
       cactus::setProvenance(output, provenance, 0);
     });
-}
-
-void vtkSubstrateSampler::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

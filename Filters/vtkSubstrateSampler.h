@@ -29,15 +29,14 @@ class CACTUSFILTERS_EXPORT vtkSubstrateSampler : public vtkImageAlgorithm
 public:
   static vtkSubstrateSampler* New();
   vtkTypeMacro(vtkSubstrateSampler, vtkImageAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_NUMBER_PROPERTY(VoxelSize)
   CACTUS_WHOLE_PROPERTY(HarmonicsOrder)
   CACTUS_SWITCH_PROPERTY(Peaks)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
 
 protected:
   vtkSubstrateSampler();

@@ -241,12 +241,6 @@ int vtkSubstrateStatistics::RequestUpdateExtent(vtkInformation*, vtkInformationV
   return 1;
 }
 
-int vtkSubstrateStatistics::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -282,10 +276,4 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
         cactus::setProvenance(vtkTable::GetData(outputs, port), provenance, port);
       }
     });
-}
-
-void vtkSubstrateStatistics::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -30,7 +30,7 @@ class CACTUSFILTERS_EXPORT vtkSubstrateStatistics : public vtkTableAlgorithm
 public:
   static vtkSubstrateStatistics* New();
   vtkTypeMacro(vtkSubstrateStatistics, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_NUMBER_PROPERTY(CutSpacing)
   CACTUS_WHOLE_PROPERTY(NumberOfBins)
@@ -40,8 +40,7 @@ public:
   CACTUS_WHOLE_PROPERTY(WalkSeed)
   CACTUS_WHOLE_PROPERTY(NumberOfThreads)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
 
 protected:
   vtkSubstrateStatistics();

@@ -78,12 +78,6 @@ int vtkSubstrateWriter::RequestUpdateExtent(vtkInformation*, vtkInformationVecto
   return 1;
 }
 
-int vtkSubstrateWriter::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkSubstrateWriter::RequestData(vtkInformation* request, vtkInformationVector**, vtkInformationVector* outputs)
 {
   cactus::RankTeam ranks;
@@ -149,10 +143,4 @@ int vtkSubstrateWriter::Write()
   this->ErrorCode = isWritten ? vtkErrorCode::NoError : vtkErrorCode::CannotOpenFileError; // SetErrorCode() would count as a
                                                                                            // change
   return isWritten ? 1 : 0;
-}
-
-void vtkSubstrateWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -38,7 +38,7 @@ class CACTUSFILTERS_EXPORT vtkSubstrateWriter : public vtkTableAlgorithm
 public:
   static vtkSubstrateWriter* New();
   vtkTypeMacro(vtkSubstrateWriter, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_FILE_PROPERTY(FolderName)
   CACTUS_WHOLE_PROPERTY(Format)
@@ -55,9 +55,7 @@ public:
   /** Writes the folder, whether or not anything has changed. Returns 1, or 0 if it could not be written. */
   int Write();
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

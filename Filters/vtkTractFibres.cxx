@@ -36,11 +36,6 @@ int vtkTractFibres::RequestUpdateExtent(vtkInformation*, vtkInformationVector** 
   return 1;
 }
 
-int vtkTractFibres::ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkTractFibres::RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   return cactus::guarded(this,
@@ -70,10 +65,4 @@ int vtkTractFibres::RequestData(vtkInformation* request, vtkInformationVector** 
         vtkWarningMacro(<< remarks);
       }
     });
-}
-
-void vtkTractFibres::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

@@ -12,7 +12,7 @@
 #define vtkTractFibres_h
 
 #include "CactusFiltersModule.h"
-#include "FilterProperties.h"
+#include "OptionProperties.h"
 
 #include <vtkPolyDataAlgorithm.h>
 
@@ -21,7 +21,7 @@ class CACTUSFILTERS_EXPORT vtkTractFibres : public vtkPolyDataAlgorithm
 public:
   static vtkTractFibres* New();
   vtkTypeMacro(vtkTractFibres, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_WHOLE_PROPERTY(Select)
   CACTUS_WHOLE_PROPERTY(FirstStreamline)
@@ -40,41 +40,15 @@ public:
   CACTUS_NUMBER_PROPERTY(GrownFibreVolumeFraction)
   CACTUS_NUMBER_PROPERTY(BundleDiameter)
   CACTUS_NUMBER_PROPERTY(Margin)
-  CACTUS_WHOLE_PROPERTY(RadiusDistribution)
-  CACTUS_NUMBER_PROPERTY(GammaShape)
-  CACTUS_NUMBER_PROPERTY(GammaScale)
-  CACTUS_NUMBER_PROPERTY(LognormalMean)
-  CACTUS_NUMBER_PROPERTY(LognormalDeviation)
-  CACTUS_TEXT_PROPERTY(RadiusTable)
-  CACTUS_FILE_PROPERTY(RadiusTableFile)
-  CACTUS_TEXT_PROPERTY(RadiusTableColumn)
-  CACTUS_NUMBER_PROPERTY(RadiusTableFactor)
-  CACTUS_WHOLE_PROPERTY(RadiusHistogram)
-  CACTUS_NUMBER_PROPERTY(RadiusHistogramFactor)
-  CACTUS_NUMBER_PROPERTY(RadiusHistogramGRatio)
-  CACTUS_NUMBER_PROPERTY(MinimumRadius)
-  CACTUS_NUMBER_PROPERTY(MaximumRadius)
-  CACTUS_WHOLE_PROPERTY(CalibreModel)
-  CACTUS_NUMBER_PROPERTY(CalibreVariation)
-  CACTUS_NUMBER_PROPERTY(CalibreCorrelationLength)
-  CACTUS_NUMBER_PROPERTY(BeadAmplitude)
-  CACTUS_NUMBER_PROPERTY(BeadSpacing)
-  CACTUS_NUMBER_PROPERTY(BeadSpacingDeviation)
-  CACTUS_NUMBER_PROPERTY(BeadLength)
+  CACTUS_RADIUS_DISTRIBUTION_PROPERTIES
+  CACTUS_CALIBRE_VARIATION_PROPERTIES
   CACTUS_NUMBER_PROPERTY(SectionAxisRatio)
   CACTUS_NUMBER_PROPERTY(GRatio)
-  CACTUS_NUMBER_PROPERTY(UnmyelinatedFraction)
-  CACTUS_NUMBER_PROPERTY(UnmyelinatedRadius)
-  CACTUS_NUMBER_PROPERTY(UnmyelinatedRadiusDeviation)
-  CACTUS_WHOLE_PROPERTY(UnmyelinatedCluster)
-  CACTUS_NUMBER_PROPERTY(SpacingFactor)
-  CACTUS_NUMBER_PROPERTY(MinimumSpacing)
-  CACTUS_NUMBER_PROPERTY(MaximumSpacing)
+  CACTUS_UNMYELINATED_AXONS_PROPERTIES
+  CACTUS_CONTROL_POINT_SPACING_PROPERTIES
   CACTUS_WHOLE_PROPERTY(Seed)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

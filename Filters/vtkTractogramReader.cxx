@@ -21,12 +21,6 @@ vtkTractogramReader::vtkTractogramReader()
   this->SetNumberOfInputPorts(0);
 }
 
-int vtkTractogramReader::ComputePipelineMTime(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time)
-{
-  return cactus::pipelineTime(this, time);
-}
-
 int vtkTractogramReader::CanReadFile(const char* name)
 {
   return name != nullptr && cactus::isTractogram(name) ? 1 : 0;
@@ -48,10 +42,4 @@ int vtkTractogramReader::RequestData(vtkInformation*, vtkInformationVector**, vt
       cactus::toPolyData(std::move(tractogram), output);
       cactus::setProvenance(output, cactus::provenanceOf(cactus::tractogramRecord(stage)), 0);
     });
-}
-
-void vtkTractogramReader::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
 }

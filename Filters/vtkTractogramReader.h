@@ -26,7 +26,7 @@ class CACTUSFILTERS_EXPORT vtkTractogramReader : public vtkPolyDataAlgorithm
 public:
   static vtkTractogramReader* New();
   vtkTypeMacro(vtkTractogramReader, vtkPolyDataAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   /** Whether the file is one of these by its content (ParaView asks before it offers this reader). */
   int CanReadFile(const char* name);
@@ -35,9 +35,7 @@ public:
   CACTUS_WHOLE_PROPERTY(LengthUnit)
   CACTUS_NUMBER_PROPERTY(Radius)
 
-  /** Counts as changed after it was stopped, so that a new request repeats the warning; not on several ranks. */
-  int ComputePipelineMTime(vtkInformation*, vtkInformationVector**, vtkInformationVector*, int, vtkMTimeType* time) override;
-
+  CACTUS_COUNTS_AS_CHANGED_ONCE_STOPPED
   CACTUS_ABORT_IS_NO_CHANGE
 
 protected:

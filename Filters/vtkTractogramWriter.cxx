@@ -66,9 +66,3 @@ void vtkTractogramWriter::WriteData()
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
   }
 }
-
-void vtkTractogramWriter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->Properties->print(os, indent);
-}

@@ -20,7 +20,7 @@ class CACTUSFILTERS_EXPORT vtkTractogramWriter : public vtkWriter
 public:
   static vtkTractogramWriter* New();
   vtkTypeMacro(vtkTractogramWriter, vtkWriter);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  CACTUS_PRINTS_PROPERTIES
 
   CACTUS_FILE_PROPERTY(FileName)
   CACTUS_WHOLE_PROPERTY(LengthUnit)
