@@ -199,11 +199,10 @@ void BundleInitializerOptions::requirePeriodic() const
 void BundleInitializerOptions::requireUnmyelinated() const
 {
   constexpr double largestShare = 0.95; // of the fibres' volume, since there is a fibre with myelin
-  if (this->isAnywhere() || this->isLayered())
+  if (this->isLayered())
   {
-    throw InvalidInput(text("UnmyelinatedFraction is ", unmyelinated.fraction, ": give 0 with ",
-      this->isLayered() ? "bundles in layers, or choose Mixing Interpenetrating with Border Cut"
-                        : text("DispersionModel ", nameAnywhere(dispersionModel))));
+    throw InvalidInput(text("UnmyelinatedFraction is ", unmyelinated.fraction,
+      ": give 0 with bundles in layers, or choose Mixing Interpenetrating with Border Cut"));
   }
   if (this->unmyelinatedShare() > largestShare)
   {

@@ -51,7 +51,7 @@ struct BundleInitializerOptions
   double fibreVolumeFraction = 0.6;
   RadiusDistributionOptions radius; ///< outer radii of the fibres
   CalibreVariation calibre;         ///< how they vary along a fibre
-  UnmyelinatedAxons unmyelinated;   ///< among them; not with isAnywhere() and bundles in layers
+  UnmyelinatedAxons unmyelinated;   ///< among them; not with bundles in layers
   /// Fraction of the domain that growth is to fill later, at least fibreVolumeFraction. Capsules start thinner than the sampled
   /// target radii by sqrt(fibreVolumeFraction / this), so that grown fibres have the target radii; 0: capsules have the target
   /// radii.

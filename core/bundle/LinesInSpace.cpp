@@ -4,6 +4,7 @@
 #include "base/Constants.h"
 #include "base/Random.h"
 #include "bundle/OrientationDistribution.h"
+#include "fibres/ColumnTable.h"
 
 #include <Eigen/Core>
 
@@ -137,7 +138,34 @@ struct LaidLine
   Line line;
   double radius;
   int bundle;
+  bool isBare = false; ///< an axon without myelin
 };
+
+double volumeInDomain(const LaidLine& fibre)
+{
+  return pi * fibre.radius * fibre.radius * fibre.line.lengthInDomain;
+}
+
+/// Returns lines beside a line, for axons of a radius that lie together: spread evenly over a disc across it (Vogel 1979, Math
+/// Biosci 44:179), which they would fill to 0.8.
+std::vector<Line> clusterAround(const Line& line, double radius, int count, const Domain& box)
+{
+  constexpr double density = 0.8;
+  const double goldenAngle = pi * (3.0 - std::sqrt(5.0));
+  const Eigen::Matrix3d across = turnTo((line.last - line.first).normalized());
+  std::vector<Line> lines;
+  for (int k = 0; k < count; ++k)
+  {
+    const double distance = count > 1 ? radius * std::sqrt((k + 0.5) / density) : 0.0;
+    const Eigen::Vector3d shift =
+      across * Eigen::Vector3d(distance * std::cos(k * goldenAngle), distance * std::sin(k * goldenAngle), 0.0);
+    Line beside{ line.first + shift, line.last + shift, 0.0 };
+    const std::array<double, 2> inside = box.clip(beside.first, beside.last);
+    beside.lengthInDomain = (beside.last - beside.first).norm() * std::max(0.0, inside[1] - inside[0]);
+    lines.push_back(beside);
+  }
+  return lines;
+}
 
 /// Fibres of several bundles, laid as far as they are asked for.
 class LaidBundles
@@ -153,28 +181,47 @@ public:
     }
   }
 
-  /// Lays this number of fibres. Each is of the bundle that lacks most of its share of the volume in the domain.
+  /// Lays this number of fibres with myelin, in place of those laid before.
   std::vector<LaidLine> lay(std::size_t count)
   {
     std::vector<LaidLine> laid;
-    std::vector<double> volumes(this->Bundles.size(), 0.0);
-    std::vector<std::size_t> fibres(this->Bundles.size(), 0);
-    double all = 0.0;
+    this->Volumes.assign(this->Bundles.size(), 0.0);
+    this->Used.assign(this->Bundles.size(), 0);
+    this->All = 0.0;
     for (const double radius : radiiOf(*this->Options, count))
     {
-      std::size_t poorest = 0;
-      for (std::size_t b = 1; b < this->Bundles.size(); ++b)
-      {
-        const auto lack = [&](std::size_t bundle) { return this->Bundles[bundle].share * all - volumes[bundle]; };
-        poorest = lack(b) > lack(poorest) ? b : poorest;
-      }
-      const Line& line = this->Lines[poorest][fibres[poorest]++];
-      const double volume = pi * radius * radius * line.lengthInDomain;
-      volumes[poorest] += volume;
-      all += volume;
-      laid.push_back({ line, radius, this->Bundles[poorest].id });
+      const std::size_t bundle = this->poorest();
+      laid.push_back({ this->Lines[bundle][this->Used[bundle]++], radius, this->Bundles[bundle].id });
+      this->count(bundle, volumeInDomain(laid.back()));
     }
     return laid;
+  }
+
+  /// Adds axons without myelin to the fibres just laid, in clusters, until they fill `wanted` (µm³) of the domain as nearly as
+  /// they can.
+  void addBare(double wanted, std::vector<LaidLine>& laid)
+  {
+    const UnmyelinatedAxons& axons = this->Options->unmyelinated;
+    const RadiusDistributionOptions radii = axons.radii();
+    constexpr std::uint64_t firstBare = std::uint64_t(1) << 36; // behind the numbers of all fibres with myelin
+    double filled = 0.0;
+    for (std::uint64_t i = firstBare; filled < wanted;)
+    {
+      const std::size_t bundle = this->poorest();
+      const Line& middle = this->Lines[bundle][this->Used[bundle]++];
+      for (const Line& line : clusterAround(middle, axons.radius, axons.cluster, this->Options->domain()))
+      {
+        const LaidLine axon{ line, sampleRadius(radii, this->Options->seed, i++), this->Bundles[bundle].id, true };
+        const double volume = volumeInDomain(axon);
+        if (filled + 0.5 * volume > wanted)
+        {
+          return;
+        }
+        filled += volume;
+        this->count(bundle, volume);
+        laid.push_back(axon);
+      }
+    }
   }
 
   /// Returns the coefficients of the directions asked for, see Fibres::orientationHarmonics; none if there is no scale for them.
@@ -198,9 +245,30 @@ public:
   }
 
 private:
+  /// Returns the bundle that lacks most of its share of the volume in the domain.
+  std::size_t poorest() const
+  {
+    std::size_t poorest = 0;
+    for (std::size_t b = 1; b < this->Bundles.size(); ++b)
+    {
+      const auto lack = [&](std::size_t bundle) { return this->Bundles[bundle].share * this->All - this->Volumes[bundle]; };
+      poorest = lack(b) > lack(poorest) ? b : poorest;
+    }
+    return poorest;
+  }
+
+  void count(std::size_t bundle, double volume)
+  {
+    this->Volumes[bundle] += volume;
+    this->All += volume;
+  }
+
   const BundleInitializerOptions* Options;
   std::vector<OrientedBundle> Bundles;
   std::vector<LineSequence> Lines;
+  std::vector<double> Volumes;   ///< µm³, of the fibres laid of each bundle, in the domain
+  double All = 0.0;              ///< µm³, of all of them
+  std::vector<std::size_t> Used; ///< lines of each bundle
 };
 
 } // namespace
@@ -208,14 +276,15 @@ private:
 Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& context)
 {
   LaidBundles bundles(options);
-  const double wanted = options.fibreVolumeFraction * options.domain().volume();
+  const double whole = options.fibreVolumeFraction * options.domain().volume();
+  const double wanted = (1.0 - options.unmyelinatedShare()) * whole;
   const auto volumeOf = [&](std::size_t count)
   {
     context.checkpoint();
     double volume = 0.0;
     for (const LaidLine& fibre : bundles.lay(count))
     {
-      volume += pi * fibre.radius * fibre.radius * fibre.line.lengthInDomain;
+      volume += volumeInDomain(fibre);
     }
     return volume;
   };
@@ -234,14 +303,23 @@ Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& c
   fibres.domain = options.domain();
   fibres.grownFraction = options.grownFibreVolumeFraction;
   fibres.orientationHarmonics = bundles.harmonics();
-  for (const auto& [line, radius, bundle] : bundles.lay(enough))
+  std::vector<LaidLine> laid = bundles.lay(enough);
+  if (options.unmyelinated.any())
   {
-    const Eigen::Vector3d whole = line.last - line.first;
-    const int segments = std::max(2, static_cast<int>(std::lround(whole.norm() / options.controlPointSpacing(radius))));
+    bundles.addBare(options.unmyelinatedShare() * whole, laid);
+  }
+  for (const auto& [line, radius, bundle, isBare] : laid)
+  {
+    const Eigen::Vector3d along = line.last - line.first;
+    const int segments = std::max(2, static_cast<int>(std::lround(along.norm() / options.controlPointSpacing(radius))));
     fibres.addFibre(static_cast<int>(fibres.size()) + 1, bundle, radius);
+    if (isBare)
+    {
+      fibres.columns.set(targetGRatioColumn.name, fibres.size() - 1, bareGRatio);
+    }
     for (int k = 0; k <= segments; ++k)
     {
-      fibres.addPoint(line.first + whole * (static_cast<double>(k) / segments), radius);
+      fibres.addPoint(line.first + along * (static_cast<double>(k) / segments), radius);
     }
   }
   return fibres;

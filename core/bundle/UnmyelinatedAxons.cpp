@@ -15,7 +15,7 @@ const PropertyList<UnmyelinatedAxons>& UnmyelinatedAxons::properties()
         "Fraction of the domain that axons without myelin fill once fibres are grown: a part of GrownFibreVolumeFraction. One "
         "surface bounds such an axon: MyelinSurface gives it as the outer and as the inner one. 0: all fibres have myelin. The "
         "corpus callosum of humans has about 0.05, that of mice 0.12. They are thin, so choose a VoxelSize of at most half of "
-        "their radius in FibreRadialGrowth. Not with the dispersion models Harmonics and Peaks, nor with bundles in layers.")
+        "their radius in FibreRadialGrowth. Not with bundles in layers.")
       .add("UnmyelinatedRadius", &Options::radius, limits::unmyelinatedRadius,
         "Mean radius in µm of the axons without myelin. Their radii are lognormal, from half to twice the mean.")
       .where("UnmyelinatedFraction", {})
