@@ -3,7 +3,6 @@
 
 #include "base/Error.h"
 #include "base/SinglePrecision.h"
-#include "surface/SmoothingKernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,22 @@ namespace cactus
 
 namespace
 {
+
+/// Computes the field of a fibre at a row of samples, as if samples outside all fibres were nearest to it. Returns whether one of
+/// these is above `outside`, so that its nearest fibre has to be determined. See LabelImage.
+bool fieldAlong(const std::int32_t* ids, const float* depths, int count, std::int32_t fibre, float gap, float outside, float* out)
+{
+  int doubtful = 0;
+  for (int n = 0; n < count; ++n)
+  {
+    // Without branches, so that it can be vectorised.
+    const int isOutside = int(ids[n] == 0);
+    const float other = -(depths[n] + gap);
+    out[n] = (int(ids[n] == fibre) | isOutside) != 0 ? depths[n] : other;
+    doubtful |= isOutside & int(depths[n] > outside);
+  }
+  return doubtful != 0;
+}
 
 /// A sample nearer to a face than this fraction of a voxel is left out: the cells between them would be too flat.
 constexpr double thinnestCell = 0.3;
@@ -367,7 +382,6 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
   const SampleRow row = this->Samples.rowOf(range);
   const auto gap = static_cast<float>(held.gap);
   const float outside = -0.5f * gap;
-  const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
   for (int k = 0; k < range.count[2]; ++k)
   {
     const int z = this->Samples.sampleOf(2, range.first[2] + k);
@@ -379,7 +393,7 @@ void FibreField::atNodes(std::int32_t fibre, const NodeRange& range, const Label
       const float* depths = held.depth + first;
       float* values = out + row.before;
       // Most samples are clearly in a fibre or outside all.
-      const bool isDoubtful = kernels.field(ids, depths, row.count, fibre, gap, outside, values);
+      const bool isDoubtful = fieldAlong(ids, depths, row.count, fibre, gap, outside, values);
       for (int i = 0; isDoubtful && i < row.count; ++i)
       {
         if (ids[i] == 0 && depths[i] > outside && !this->isNearest(held, fibre, row.first + i, y, z))

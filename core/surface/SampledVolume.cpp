@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/SampledVolume.h"
 
-#include "surface/SampledVolumeKernels.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +18,35 @@ constexpr int mostNewtonSteps = 40;
 constexpr double sampledTolerance = 1e-4;
 /// Sums in single precision are over so few samples that they are accurate to a millionth.
 constexpr std::size_t samplesAtOnce = 1024;
+
+/// Sums over samples in lanes, by the index modulo `lanes`, which can be vectorised.
+struct SampledSums
+{
+  static constexpr int lanes = 16;
+
+  float volume[lanes] = {};
+  float slope[lanes] = {};
+  float bend[lanes] = {};
+
+  /// Adds the volume of the samples' boxes above a level, and its derivatives; see SampledVolume::measureAt(). `count` is a
+  /// multiple of the lanes.
+  void add(const float* depths, const float* volumes, std::size_t count, float level, float perWidth)
+  {
+    for (std::size_t n = 0; n < count; n += lanes)
+    {
+      for (int lane = 0; lane < lanes; ++lane)
+      {
+        const float box = volumes[n + std::size_t(lane)];
+        const float t = std::max(std::min((depths[n + std::size_t(lane)] - level) * perWidth, 1.0f), -1.0f);
+        const float square = t * t;
+        const float rest = 1.0f - square;
+        volume[lane] += box * (0.5f + t * (15.0f - square * (10.0f - 3.0f * square)) * 0.0625f);
+        slope[lane] += box * rest * rest;
+        bend[lane] -= box * t * rest;
+      }
+    }
+  }
+};
 
 static_assert(samplesAtOnce % SampledSums::lanes == 0);
 
@@ -111,8 +138,8 @@ SampledVolume::Measure SampledVolume::measureAt(double level) const
   for (std::size_t begin = 0; begin < count; begin += samplesAtOnce)
   {
     SampledSums sums;
-    bestKernels<SampledVolumeKernels>().sum(this->Depths.data() + begin, this->Volumes.data() + begin,
-      std::min(samplesAtOnce, count - begin), float(level), float(perWidth), sums);
+    sums.add(this->Depths.data() + begin, this->Volumes.data() + begin, std::min(samplesAtOnce, count - begin), float(level),
+      float(perWidth));
     for (int lane = 0; lane < SampledSums::lanes; ++lane)
     {
       result.volume += sums.volume[lane];

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/SmoothedField.h"
 
-#include "surface/SmoothingKernels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -31,6 +29,17 @@ constexpr int nodesBeside = 3;
 static_assert(nodesBeside + 1 <= NearBlocks::around, "a block is held with a node beyond");
 /// The field elsewhere, µm: so low that no other field can compensate it.
 constexpr float farOutside = -1e6f;
+
+/// Smooths once along one axis, whose nodes are `step` apart in memory. If `part` is given, it is the fraction of the smoothing
+/// that is applied at each node. The first and the last `step` of `size` nodes are left out.
+void smoothAlong(std::size_t step, std::size_t size, const float* before, const float* part, float* values)
+{
+  for (std::size_t n = step; n + step < size; ++n)
+  {
+    const float whole = 0.5f * before[n] + 0.25f * (before[n - step] + before[n + step]);
+    values[n] = part == nullptr ? whole : (1.0f - part[n]) * before[n] + part[n] * whole;
+  }
+}
 
 /// Loads four floats from memory.
 inline FourFloats fourAt(const float* from)
@@ -224,14 +233,13 @@ void SmoothedField::smooth(const FibreField& field, const std::vector<Piece>& pi
   copyPieces(buffer, range, beside, near, &BlockPlace::unsmoothed);
   const bool isUniform = thin == nullptr || passes == 0 || !thin->smoothingAt(range, held, part.data());
   // Each pass leaves one node less on every side: values at the rim become wrong, and are not used. Strides stay.
-  const SmoothingKernels& kernels = bestKernels<SmoothingKernels>();
   const std::size_t rowLength(range.count[0]);
   for (int pass = 0; pass < passes; ++pass)
   {
     for (const std::size_t step : { std::size_t(1), rowLength, rowLength * std::size_t(range.count[1]) })
     {
       before.swap(buffer);
-      kernels.smooth(step, range.size(), before.data(), isUniform ? nullptr : part.data(), buffer.data());
+      smoothAlong(step, range.size(), before.data(), isUniform ? nullptr : part.data(), buffer.data());
     }
   }
   copyPieces(buffer, range, beside, near, &BlockPlace::values);
