@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/FibreCosts.h"
 
-#include "optimiser/FibreCostKernels.h"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <memory>
 #include <utility>
 
 namespace cactus
@@ -22,6 +18,12 @@ constexpr double shortestSegment = 0.75;
 
 /// Smallest radius of curvature, relative to the fibre's radius, that bends without cost.
 constexpr double sharpestBend = 1.2;
+
+/// Sums in a fixed order, whatever Eigen vectorises.
+double dotProduct(const Eigen::Vector3d& u, const Eigen::Vector3d& w)
+{
+  return u.x() * w.x() + u.y() * w.y() + u.z() * w.z();
+}
 
 } // namespace
 
@@ -60,27 +62,18 @@ FibreCosts::FibreCosts(const Fibres& fibres, const FibreCostWeights& weights, st
 FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double relaxation, const FibreGradients& gradients) const
 {
   FibreCostTotals totals;
-  const FibreCostKernels& kernels = bestKernels<FibreCostKernels>();
-  const std::size_t begin = fibres.offsets[f];
-  const std::size_t count = fibres.pointCount(f);
-  const FibreColumns columns = { count, fibres.points[begin].data(), &fibres.radii[begin], &this->ReferenceLength[begin],
-    &this->SmallestCosine[begin] };
-  const FibreColumnGradients to = { gradients.byPoint[begin].data(), &gradients.byRadius[begin], &gradients.stiffness[begin] };
-  const std::unique_ptr<double[]> room(new double[FibreCostKernels::roomFor(count)]);
   if (this->Weights.curvature > 0.0)
   {
-    const std::unique_ptr<std::uint32_t[]> sharp(new std::uint32_t[count]);
-    const std::size_t sharpOnes =
-      kernels.addCurvature(columns, relaxation * this->Weights.curvature, totals.curvature, to, room.get(), sharp.get());
-    for (std::size_t n = 0; n < sharpOnes; ++n)
+    this->addCurvature(fibres, f, relaxation * this->Weights.curvature, totals, gradients);
+    for (std::size_t i = fibres.offsets[f] + 1; i + 1 < fibres.offsets[f + 1]; ++i)
     {
-      this->addBendLimit(fibres, begin + sharp[n], totals, gradients);
+      this->addBendLimit(fibres, i, totals, gradients);
     }
   }
   if (this->Weights.length > 0.0)
   {
     this->addCompressionLimit(fibres, f, totals, gradients);
-    kernels.addLength(columns, relaxation * this->Weights.length, totals.length, to, room.get());
+    this->addLength(fibres, f, relaxation * this->Weights.length, totals, gradients);
   }
   if (this->Weights.compactness > 0.0)
   {
@@ -94,6 +87,88 @@ FibreCostTotals FibreCosts::add(const Fibres& fibres, std::size_t f, double rela
     this->addConfinement(fibres, f, share * this->Weights.compactness, totals, gradients);
   }
   return totals;
+}
+
+void FibreCosts::addCurvature(
+  const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const
+{
+  struct Bend
+  {
+    Eigen::Vector3d byU = Eigen::Vector3d::Zero(); // the segment before its control point
+    Eigen::Vector3d byW = Eigen::Vector3d::Zero(); // the segment after it
+    double byRadius = 0.0;
+    double stiffnessBefore = 0.0; // for the control point before it
+    double stiffness = 0.0;
+    double stiffnessAfter = 0.0;
+  };
+  const std::size_t begin = fibres.offsets[f];
+  const std::size_t count = fibres.pointCount(f);
+  if (count < 3)
+  {
+    return;
+  }
+  const Eigen::Vector3d* x = &fibres.points[begin];
+  const double* r = &fibres.radii[begin];
+  std::vector<Bend> bends(count + 2); // one behind its control point's number; the ends have none
+  Eigen::Vector3d u = x[1] - x[0];
+  double lengthU = std::sqrt(dotProduct(u, u));
+  for (std::size_t i = 1; i + 1 < count; ++i)
+  {
+    const Eigen::Vector3d w = x[i + 1] - x[i];
+    const double lengthW = std::sqrt(dotProduct(w, w));
+    const double squaredU = lengthU * lengthU;
+    const double squaredW = lengthW * lengthW;
+    const double inverse = 1.0 / (lengthU * lengthW);
+    const double cosine = dotProduct(u, w) * inverse;
+    const double radiusSum = r[i - 1] + r[i] + r[i + 1];
+    const double bend = 1.0 - cosine;
+    const double scale = weight * 3.0 / radiusSum;
+    const double cost = scale * bend * bend;
+    const double byCosine = -2.0 * scale * bend;
+    // (1 − cos θ)² ≈ θ⁴/4 has curvature 3 θ² ≈ 6 (1 − cos θ) in θ, and θ changes by 1/ℓ per unit of displacement.
+    const double curvature = 6.0 * scale * bend;
+    bends[i + 1] = { byCosine * (w * inverse - cosine / squaredU * u), byCosine * (u * inverse - cosine / squaredW * w),
+      -cost / radiusSum, 4.0 * curvature / squaredU, 4.0 * curvature * inverse * 4.0, 4.0 * curvature / squaredW };
+    totals.curvature += cost;
+    u = w;
+    lengthU = lengthW;
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Bend& before = bends[i];
+    const Bend& here = bends[i + 1];
+    const Bend& after = bends[i + 2];
+    Eigen::Vector3d& byPoint = gradients.byPoint[begin + i];
+    byPoint = byPoint + before.byW + (here.byU - here.byW) - after.byU;
+    double& byRadius = gradients.byRadius[begin + i];
+    byRadius = byRadius + before.byRadius + here.byRadius + after.byRadius;
+    double& stiffness = gradients.stiffness[begin + i];
+    stiffness = stiffness + before.stiffnessAfter + here.stiffness + after.stiffnessBefore;
+  }
+}
+
+void FibreCosts::addLength(
+  const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const
+{
+  for (std::size_t i = fibres.offsets[f]; i + 1 < fibres.offsets[f + 1]; ++i)
+  {
+    const Eigen::Vector3d along = fibres.points[i + 1] - fibres.points[i];
+    const double length = std::sqrt(dotProduct(along, along));
+    const double change = length - this->ReferenceLength[i];
+    const double first = fibres.radii[i];
+    const double last = fibres.radii[i + 1];
+    const double inverseRadii = 1.0 / first + 1.0 / last;
+    const double k = weight * 20.0 / inverseRadii;
+    totals.length += 0.5 * k * change * change;
+    const Eigen::Vector3d pull = k * change / length * along;
+    gradients.byPoint[i] -= pull;
+    gradients.byPoint[i + 1] += pull;
+    const double byInverse = -0.5 * k * change * change / inverseRadii;
+    gradients.byRadius[i] -= byInverse / (first * first);
+    gradients.byRadius[i + 1] -= byInverse / (last * last);
+    gradients.stiffness[i] += 2.0 * k;
+    gradients.stiffness[i + 1] += 2.0 * k;
+  }
 }
 
 /// Adds the limit of the bend at a control point.

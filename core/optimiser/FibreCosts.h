@@ -68,6 +68,10 @@ public:
   const BundleBox& boxOf(std::size_t fibre) const { return this->Boxes[fibre]; }
 
 private:
+  void addCurvature(
+    const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
+  void addLength(
+    const Fibres& fibres, std::size_t f, double weight, FibreCostTotals& totals, const FibreGradients& gradients) const;
   void addBendLimit(const Fibres& fibres, std::size_t i, FibreCostTotals& totals, const FibreGradients& gradients) const;
   void addCompressionLimit(const Fibres& fibres, std::size_t f, FibreCostTotals& totals, const FibreGradients& gradients) const;
   void addChord(
