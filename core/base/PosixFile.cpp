@@ -44,6 +44,14 @@ int writeAll(int descriptor, const char* data, std::size_t size)
   return 0;
 }
 
+void makeAlike(int descriptor, const struct stat& other)
+{
+  const bool sameGroup =
+    ::fchown(descriptor, other.st_uid, other.st_gid) == 0 || ::fchown(descriptor, static_cast<uid_t>(-1), other.st_gid) == 0;
+  const mode_t mode = other.st_mode & 07777;
+  ::fchmod(descriptor, sameGroup ? mode : (mode & ~mode_t(070)) | (mode & 07) << 3);
+}
+
 int synchronise(int descriptor)
 {
   int failed = ::fsync(descriptor);
@@ -119,25 +127,19 @@ DescriptorBuffer::DescriptorBuffer(int descriptor)
   this->setp(this->Buffer.data(), this->Buffer.data() + this->Buffer.size());
 }
 
-bool DescriptorBuffer::send(const char* data, std::size_t size)
+int DescriptorBuffer::sync()
 {
   if (this->Error == 0)
   {
-    this->Error = writeAll(this->Number, data, size);
+    this->Error = writeAll(this->Number, this->pbase(), static_cast<std::size_t>(this->pptr() - this->pbase()));
   }
-  return this->Error == 0;
-}
-
-bool DescriptorBuffer::flush()
-{
-  const bool sent = this->send(this->pbase(), static_cast<std::size_t>(this->pptr() - this->pbase()));
   this->setp(this->Buffer.data(), this->Buffer.data() + this->Buffer.size());
-  return sent;
+  return this->Error == 0 ? 0 : -1;
 }
 
 DescriptorBuffer::int_type DescriptorBuffer::overflow(int_type character)
 {
-  if (!this->flush())
+  if (this->sync() != 0)
   {
     return traits_type::eof();
   }
@@ -146,22 +148,6 @@ DescriptorBuffer::int_type DescriptorBuffer::overflow(int_type character)
     this->sputc(traits_type::to_char_type(character));
   }
   return traits_type::not_eof(character);
-}
-
-std::streamsize DescriptorBuffer::xsputn(const char* text, std::streamsize size)
-{
-  if (size < this->epptr() - this->pptr())
-  {
-    traits_type::copy(this->pptr(), text, static_cast<std::size_t>(size));
-    this->pbump(static_cast<int>(size));
-    return size;
-  }
-  return this->flush() && this->send(text, static_cast<std::size_t>(size)) ? size : 0;
-}
-
-int DescriptorBuffer::sync()
-{
-  return this->flush() ? 0 : -1;
 }
 
 } // namespace cactus

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <streambuf>
 #include <string>
+#include <sys/stat.h>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,10 @@ std::string systemMessage(int error);
 /// Writes all bytes, and returns 0 or the error number.
 int writeAll(int descriptor, const char* data, std::size_t size);
 
+/// Gives an open file or folder the owner, if permitted, and the permissions of another. If the group cannot be kept, it gets no
+/// more permissions than everybody has.
+void makeAlike(int descriptor, const struct stat& other);
+
 /// Flushes a file, or a folder's list of entries, to the disk. Returns 0 or the error number; also 0 on a file system that cannot
 /// do so.
 int synchronise(int descriptor);
@@ -73,13 +78,9 @@ public:
 
 protected:
   int_type overflow(int_type character) override;
-  std::streamsize xsputn(const char* text, std::streamsize size) override;
   int sync() override;
 
 private:
-  bool flush();
-  bool send(const char* data, std::size_t size);
-
   int Number;
   int Error = 0;
   std::vector<char> Buffer;
