@@ -41,17 +41,16 @@ AtomicFile::AtomicFile(const std::string& path)
   {
     this->fail(systemMessage(ENOENT));
   }
+  this->Stream.imbue(std::locale::classic());
+  this->Stream.open(this->Temporary, std::ios::binary);
+  if (!this->Stream)
+  {
+    this->fail(systemMessage(errno));
+  }
   if (replaces)
   {
     makeAlike(this->File.get(), former);
   }
-  if (::ftruncate(this->File.get(), 0) != 0)
-  {
-    this->fail(systemMessage(errno));
-  }
-  this->Buffer = std::make_unique<DescriptorBuffer>(this->File.get());
-  this->Stream = std::make_unique<std::ostream>(this->Buffer.get());
-  this->Stream->imbue(std::locale::classic());
 }
 
 AtomicFile::~AtomicFile()
@@ -64,11 +63,20 @@ AtomicFile::~AtomicFile()
 
 void AtomicFile::commit()
 {
-  this->Stream->flush();
-  int error = this->Buffer->error();
+  this->Stream.close();
+  const bool isWhole = this->Stream.good();
+  int error = 0;
+  if (!isWhole && ::lseek(this->File.get(), 0, SEEK_END) >= 0)
+  {
+    error = writeAll(this->File.get(), "\n", 1); // for the reason, which a stream does not keep
+  }
   if (error == 0)
   {
-    error = this->Stream->good() ? synchronise(this->File.get()) : EIO;
+    error = synchronise(this->File.get());
+  }
+  if (error == 0 && !isWhole)
+  {
+    error = EIO;
   }
   if (error == 0 && std::rename(this->Temporary.c_str(), this->Place.c_str()) != 0)
   {

@@ -4,8 +4,7 @@
 #include "base/PosixFile.h"
 
 #include <filesystem>
-#include <memory>
-#include <ostream>
+#include <fstream>
 #include <string>
 
 namespace cactus
@@ -26,7 +25,7 @@ public:
   ~AtomicFile();
 
   /// Writes numbers as in the C locale, whatever the program's locale is.
-  std::ostream& stream() { return *this->Stream; }
+  std::ostream& stream() { return this->Stream; }
   /// Closes and renames; throws FileError if something could not be written.
   void commit();
 
@@ -36,9 +35,8 @@ private:
   std::string Path;
   std::filesystem::path Place; ///< `path` with its links followed
   std::filesystem::path Temporary;
-  Descriptor File;
-  std::unique_ptr<DescriptorBuffer> Buffer;
-  std::unique_ptr<std::ostream> Stream;
+  Descriptor File; ///< has the lock
+  std::ofstream Stream;
   bool Committed = false;
 };
 

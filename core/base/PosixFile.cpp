@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace cactus
 {
@@ -118,36 +119,6 @@ std::string sha256OfFile(const fs::path& path)
     throw FileError("cannot read " + path.string() + ": " + systemMessage(errno));
   }
   return hash.digest();
-}
-
-DescriptorBuffer::DescriptorBuffer(int descriptor)
-  : Number(descriptor)
-  , Buffer(std::size_t(1) << 16)
-{
-  this->setp(this->Buffer.data(), this->Buffer.data() + this->Buffer.size());
-}
-
-int DescriptorBuffer::sync()
-{
-  if (this->Error == 0)
-  {
-    this->Error = writeAll(this->Number, this->pbase(), static_cast<std::size_t>(this->pptr() - this->pbase()));
-  }
-  this->setp(this->Buffer.data(), this->Buffer.data() + this->Buffer.size());
-  return this->Error == 0 ? 0 : -1;
-}
-
-DescriptorBuffer::int_type DescriptorBuffer::overflow(int_type character)
-{
-  if (this->sync() != 0)
-  {
-    return traits_type::eof();
-  }
-  if (!traits_type::eq_int_type(character, traits_type::eof()))
-  {
-    this->sputc(traits_type::to_char_type(character));
-  }
-  return traits_type::not_eof(character);
 }
 
 } // namespace cactus

@@ -3,12 +3,9 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <ostream>
-#include <streambuf>
 #include <string>
 #include <sys/stat.h>
 #include <utility>
-#include <vector>
 
 namespace cactus
 {
@@ -68,22 +65,5 @@ void requireNoPipe(const std::string& name, const std::filesystem::path& path);
 
 /// The SHA-256 checksum of a file, read piece by piece. Throws FileError.
 std::string sha256OfFile(const std::filesystem::path& path);
-
-/// A stream buffer that writes to a descriptor; it keeps the first error number.
-class DescriptorBuffer : public std::streambuf
-{
-public:
-  explicit DescriptorBuffer(int descriptor);
-  int error() const { return this->Error; }
-
-protected:
-  int_type overflow(int_type character) override;
-  int sync() override;
-
-private:
-  int Number;
-  int Error = 0;
-  std::vector<char> Buffer;
-};
 
 } // namespace cactus
