@@ -38,15 +38,17 @@ Descriptor takePartial(const std::filesystem::path& path, mode_t mode, const std
 {
   const std::string inUse =
     what + ": another process is writing it at this moment: wait until it has ended, or choose another name";
+  const std::string notOurs =
+    what + ": " + path.string() + ", in which it would be written, is there already, and not ours: rename it";
   constexpr int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   Descriptor file(::open(path.c_str(), flags | O_CREAT | O_EXCL, mode));
   const bool isNew = bool(file);
   if (!isNew && errno == EEXIST)
   {
     file = Descriptor(::open(path.c_str(), flags));
-    if (!file && errno == ENOENT)
+    if (!file)
     {
-      throw FileError(inUse);
+      throw FileError(errno == ENOENT ? inUse : notOurs);
     }
   }
   if (!file && errno == ENOENT)
@@ -71,9 +73,9 @@ Descriptor takePartial(const std::filesystem::path& path, mode_t mode, const std
   {
     throw FileError(inUse);
   }
-  if (!S_ISREG(held.st_mode) || held.st_uid != ::geteuid() || held.st_nlink != 1)
+  if (!isNew && (!S_ISREG(held.st_mode) || held.st_uid != ::geteuid() || held.st_nlink != 1))
   {
-    throw FileError(what + ": " + path.string() + ", in which it would be written, is there already, and not ours: rename it");
+    throw FileError(notOurs);
   }
   return file;
 }

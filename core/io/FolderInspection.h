@@ -18,7 +18,7 @@ struct FolderInspection
   std::vector<std::string> added;          ///< not written by us: files, links, folders (with a slash at the end)
   std::vector<std::string> changed;        ///< written by us, but changed since
   std::vector<std::string> writeProtected; ///< files and folders
-  std::vector<std::string> files;          ///< as written, without the manifest
+  std::vector<std::string> files;          ///< as written
   std::vector<std::string> folders;        ///< ours
 
   /// Tells whether nothing in it belongs to the user.

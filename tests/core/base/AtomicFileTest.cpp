@@ -218,5 +218,9 @@ TEST_F(AtomicFile, LeavesAloneWhatMayBeAnothers)
   fs::create_hard_link(this->Scratch / "mine", this->Scratch / cactus::partialName("a.strands"));
   EXPECT_NE(write(this->File, "new").find("is there already, and not ours"), std::string::npos);
   EXPECT_EQ(contentOf(this->Scratch / "mine"), "precious");
+  fs::remove(this->Scratch / cactus::partialName("a.strands"));
+  fs::create_symlink("mine", this->Scratch / cactus::partialName("a.strands"));
+  EXPECT_NE(write(this->File, "new").find("is there already, and not ours"), std::string::npos);
+  EXPECT_EQ(contentOf(this->Scratch / "mine"), "precious");
   EXPECT_FALSE(fs::exists(this->File));
 }
