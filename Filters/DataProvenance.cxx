@@ -4,7 +4,7 @@
 #include "FibreData.h"
 #include "InputBlocks.h"
 #include "LegacyText.h"
-#include "base/FastChecksum.h"
+#include "base/Hash64.h"
 #include "fibres/ColumnTable.h"
 
 #include <vtkAlgorithm.h>
@@ -30,7 +30,7 @@ constexpr const char* arrayName = "Provenance";
 /// Largest number of filters searched between two stages: pipelines may branch and join again.
 constexpr int mostFilters = 100;
 
-void add(FastChecksum& checksum, vtkDataArray* array)
+void add(Hash64& checksum, vtkDataArray* array)
 {
   if (array == nullptr)
   {
@@ -38,15 +38,17 @@ void add(FastChecksum& checksum, vtkDataArray* array)
     return;
   }
   checksum.add(static_cast<std::uint64_t>(array->GetDataType()));
-  checksum.add(array->GetVoidPointer(0),
-    static_cast<std::size_t>(array->GetNumberOfValues()) * static_cast<std::size_t>(array->GetDataTypeSize()));
+  const std::size_t bytes =
+    static_cast<std::size_t>(array->GetNumberOfValues()) * static_cast<std::size_t>(array->GetDataTypeSize());
+  checksum.add(bytes);
+  checksum.add(array->GetVoidPointer(0), bytes);
 }
 
 /// Returns the checksum that identifies our data: their points, and the arrays that later stages use. Empty for data of another
 /// type.
 std::string checksumOfData(vtkDataObject* data)
 {
-  FastChecksum checksum;
+  Hash64 checksum;
   if (auto* surface = vtkPolyData::SafeDownCast(data))
   {
     checksum.add(static_cast<std::uint64_t>(surface->GetNumberOfCells()));
@@ -67,7 +69,7 @@ std::string checksumOfData(vtkDataObject* data)
         add(checksum, array);
       }
     }
-    return checksum.digest();
+    return checksum.text();
   }
   if (auto* image = vtkImageData::SafeDownCast(data))
   {
@@ -78,7 +80,7 @@ std::string checksumOfData(vtkDataObject* data)
     {
       add(checksum, image->GetPointData()->GetArray(name));
     }
-    return checksum.digest();
+    return checksum.text();
   }
   return "";
 }
@@ -103,7 +105,9 @@ DataOrigin originOf(vtkDataObject* data)
   if (leaves.size() == 1 && leaves.front() == data)
   {
     origin.records = recordsIn(data);
-    origin.isChanged = origin.isKnown() && checksumOf(origin.records) != checksumOfData(data);
+    const std::string recorded = checksumOf(origin.records);
+    // Version 0.2.0 computed another checksum, of 16 digits, with which nothing can be compared.
+    origin.isChanged = origin.isKnown() && recorded.size() != 16 && recorded != checksumOfData(data);
     return origin;
   }
   for (vtkDataObject* leaf : leaves)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Hash64.h"
 
+#include <array>
+#include <charconv>
 #include <new>
 #include <xxhash.h>
 
@@ -28,6 +30,12 @@ void Hash64::add(const void* data, std::size_t size)
 std::uint64_t Hash64::value() const
 {
   return XXH3_64bits_digest(this->State.get());
+}
+
+std::string Hash64::text() const
+{
+  std::array<char, 16> digits{};
+  return "xxh3-" + std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), this->value(), 16).ptr);
 }
 
 std::uint64_t hash64(const void* data, std::size_t size, std::uint64_t seed)

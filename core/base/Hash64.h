@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 struct XXH3_state_s;
 
@@ -18,8 +19,11 @@ public:
   /// Throws std::bad_alloc.
   Hash64();
   void add(const void* data, std::size_t size);
+  void add(std::uint64_t number) { this->add(&number, sizeof(number)); }
   /// Returns the hash of all bytes added.
   std::uint64_t value() const;
+  /// Returns it as text: "xxh3-" and up to 16 hexadecimal digits.
+  std::string text() const;
 
 private:
   std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> State;

@@ -1,30 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 #include <string>
+
+struct evp_md_ctx_st;
 
 namespace cactus
 {
 
-/// The SHA-256 checksum (FIPS 180-4) of bytes added piece by piece; equal to the output of `sha256sum`.
+/// The SHA-256 checksum (FIPS 180-4, by OpenSSL) of bytes added piece by piece; equal to the output of `sha256sum`.
 class Sha256
 {
 public:
+  /// Throws std::runtime_error where OpenSSL is out of memory, or set up without it.
+  Sha256();
   void add(const void* data, std::size_t size);
   /// Returns 64 hexadecimal digits for all bytes added. Call it once, last.
   std::string digest();
 
 private:
-  void mix(const unsigned char* block);
-
-  std::array<std::uint32_t, 8> State{ 0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab,
-    0x5be0cd19 };
-  std::array<unsigned char, 64> Block{};
-  std::size_t Filled = 0;  ///< bytes in Block
-  std::uint64_t Bytes = 0; ///< bytes added
+  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> State;
 };
 
 /// Returns the checksum of a text.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateFolder.h"
 
-#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "fibres/SelectFibres.h"
 #include "io/CertificateText.h"
@@ -171,7 +170,7 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   requireRoom(contents.format, contents.domain, contents.voxelSize);
 }
 
-/// Writes everything but the surfaces, the manifest last: its existence shows that the folder is complete.
+/// Writes everything but the surfaces, the manifest last: it lists all else.
 void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, FolderWriter& writer)
 {
   if (hasStrandFile(contents))
@@ -185,14 +184,7 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
   writer.write("README.txt", readmeText(contents, substrate));
-  writer.list({ manifestName });
-  writer.putBy(manifestName,
-    [&](const std::string& path)
-    {
-      AtomicFile manifest(path);
-      manifest.stream() << manifestText(contents, substrate, writer.written());
-      manifest.commit();
-    });
+  writer.write(manifestName, manifestText(contents, substrate, writer.written()));
 }
 
 /// Judges and writes the parts that processes share.

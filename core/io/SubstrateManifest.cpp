@@ -243,16 +243,14 @@ std::optional<SubstrateManifest> readManifest(const std::string& text)
   {
     return std::nullopt;
   }
-  SubstrateManifest found;
-  found.version = isText(manifest, "version") ? manifest["version"].get<std::string>() : "";
   const auto checksums = manifest.find("sha256");
   const auto folders = manifest.find("folders");
-  found.hasChecksums = checksums != manifest.end() && checksums->is_object() && folders != manifest.end() &&
-                       folders->is_array() && isText(manifest, ownChecksum);
-  if (!found.hasChecksums)
+  if (checksums == manifest.end() || !checksums->is_object() || folders == manifest.end() || !folders->is_array() ||
+      !isText(manifest, ownChecksum))
   {
-    return found;
+    return std::nullopt;
   }
+  SubstrateManifest found;
   for (const auto& [path, checksum] : checksums->items())
   {
     if (checksum.is_string())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recipe/DataChecksum.h"
 
-#include "base/FastChecksum.h"
+#include "base/Hash64.h"
 
 #include <array>
 #include <cstddef>
@@ -24,25 +24,26 @@ enum class ArrayType : std::uint64_t
   Double = 11
 };
 
-void addArray(FastChecksum& checksum, ArrayType type, const void* values, std::size_t bytes)
+void addArray(Hash64& checksum, ArrayType type, const void* values, std::size_t bytes)
 {
   checksum.add(static_cast<std::uint64_t>(type));
+  checksum.add(bytes);
   checksum.add(values, bytes);
 }
 
-void addNone(FastChecksum& checksum)
+void addNone(Hash64& checksum)
 {
   checksum.add(static_cast<std::uint64_t>(ArrayType::None));
 }
 
 template <typename Value>
-void addArray(FastChecksum& checksum, ArrayType type, const std::vector<Value>& values)
+void addArray(Hash64& checksum, ArrayType type, const std::vector<Value>& values)
 {
   addArray(checksum, type, values.data(), values.size() * sizeof(Value));
 }
 
 /// Adds the values of this name, or none.
-void addNamed(FastChecksum& checksum, const std::vector<TractogramValues>& all, const char* name)
+void addNamed(Hash64& checksum, const std::vector<TractogramValues>& all, const char* name)
 {
   const TractogramValues* found = valuesNamed(all, name);
   if (found == nullptr)
@@ -55,8 +56,8 @@ void addNamed(FastChecksum& checksum, const std::vector<TractogramValues>& all, 
 
 /// Adds one number for each triangle of each surface.
 template <typename NumberOf>
-void addForTriangles(FastChecksum& checksum, const std::vector<FibreSurfacePair>& fibres,
-  const std::vector<std::size_t>& triangles, NumberOf&& numberOf)
+void addForTriangles(
+  Hash64& checksum, const std::vector<FibreSurfacePair>& fibres, const std::vector<std::size_t>& triangles, NumberOf&& numberOf)
 {
   std::vector<std::int32_t> numbers;
   for (std::size_t i = 0; i < fibres.size(); ++i)
@@ -70,7 +71,7 @@ void addForTriangles(FastChecksum& checksum, const std::vector<FibreSurfacePair>
 
 std::string dataChecksum(const Fibres& fibres)
 {
-  FastChecksum checksum;
+  Hash64 checksum;
   checksum.add(static_cast<std::uint64_t>(fibres.size()));
   addArray(checksum, ArrayType::Double, fibres.points);
   addArray(checksum, ArrayType::Double, fibres.radii);
@@ -84,12 +85,12 @@ std::string dataChecksum(const Fibres& fibres)
     values.resize(fibres.size(), std::numeric_limits<double>::quiet_NaN());
     addArray(checksum, ArrayType::Double, values);
   }
-  return checksum.digest();
+  return checksum.text();
 }
 
 std::string dataChecksum(const Tractogram& tractogram)
 {
-  FastChecksum checksum;
+  Hash64 checksum;
   checksum.add(static_cast<std::uint64_t>(tractogram.size()));
   addArray(checksum, ArrayType::Double, tractogram.points);
   addNamed(checksum, tractogram.pointValues, "Radius");
@@ -111,12 +112,12 @@ std::string dataChecksum(const Tractogram& tractogram)
       addNamed(checksum, tractogram.streamlineValues, column.name);
     }
   }
-  return checksum.digest();
+  return checksum.text();
 }
 
 std::string dataChecksum(const LabelImage& image)
 {
-  FastChecksum checksum;
+  Hash64 checksum;
   std::array<std::int32_t, 6> extent{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -130,7 +131,7 @@ std::string dataChecksum(const LabelImage& image)
   addArray(checksum, ArrayType::Int, image.fibreId);
   addArray(checksum, ArrayType::Float, image.depth);
   addNone(checksum); // it is no Field
-  return checksum.digest();
+  return checksum.text();
 }
 
 std::string dataChecksum(const std::vector<FibreSurfacePair>& fibres, const SurfaceSource& surfaces, int kind)
@@ -145,7 +146,7 @@ std::string dataChecksum(const std::vector<FibreSurfacePair>& fibres, const Surf
     triangles.push_back(mesh->triangles.size());
     triangleCount += mesh->triangles.size();
   }
-  FastChecksum checksum;
+  Hash64 checksum;
   checksum.add(static_cast<std::uint64_t>(triangleCount));
   addArray(checksum, ArrayType::Double, points);
   addNone(checksum); // they have no Radius
@@ -153,7 +154,7 @@ std::string dataChecksum(const std::vector<FibreSurfacePair>& fibres, const Surf
   addForTriangles(checksum, fibres, triangles, [](const FibreSurfacePair& fibre) { return fibre.bundleId; });
   addNone(checksum); // nor a TargetRadius
   addForTriangles(checksum, fibres, triangles, [kind](const FibreSurfacePair&) { return kind; });
-  return checksum.digest();
+  return checksum.text();
 }
 
 } // namespace cactus

@@ -27,6 +27,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -326,7 +327,8 @@ ProducedSubstrate produceSubstrate(
   ProductionOrder order = given;
   const std::string work = workFolderOf(folder);
   // For this run only: another run that fails, because this one has the folder, must not end it.
-  const Sharing sharing(team, work + '/' + Sharing(team).fromFirst(partialName(SurfaceSpool::stopName)));
+  const std::string stop = partialName(SurfaceSpool::stopName) + std::to_string(std::random_device()());
+  const Sharing sharing(team, work + '/' + Sharing(team).fromFirst(stop));
   ProducedSubstrate result;
   std::unique_ptr<SurfaceSpool> spool;
   bool isMade = false; // whether all surfaces are made

@@ -47,7 +47,7 @@ class Package(unittest.TestCase):
         depends = output("dpkg-deb", "--field", PACKAGE, "Depends")
         self.assertRegex(depends, rf"(^|, )paraview \(>= {PARAVIEW.split('-')[1]}")
         self.assertRegex(depends, r"(^|, )paraview \(<< ")
-        for package in ("python3-paraview", "libomp5", "libxxhash0", "libzip", "libstdc\\+\\+6"):
+        for package in ("python3-paraview", "libomp5", "libxxhash0", "libssl3", "libzip", "libstdc\\+\\+6"):
             self.assertRegex(depends, rf"(^|, ){package}")
         self.assertNotIn("cactus", depends)
 

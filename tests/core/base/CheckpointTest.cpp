@@ -122,6 +122,7 @@ TEST(Checkpoint, ChecksumIsXxh3)
     bytewise.add(&c, 1);
   }
   EXPECT_EQ(bytewise.value(), 0x07d9a92399ef92c6u);
+  EXPECT_EQ(bytewise.text(), "xxh3-7d9a92399ef92c6");
 }
 
 // Guarantee: a file with any damage is refused by name, and no run continues from it: one to three flipped bits anywhere...

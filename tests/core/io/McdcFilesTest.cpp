@@ -29,17 +29,10 @@ namespace
 using cactus_testing::contentOf;
 
 /// Two straight fibres with axons in a cube of this side, and what is written of them.
-class McdcFiles : public ::testing::Test
+class McdcFiles : public cactus_testing::ScratchFolder
 {
 protected:
-  void SetUp() override
-  {
-    this->Scratch = fs::path(::testing::TempDir()) / ("mcdc-files-test-" + std::to_string(::getpid()));
-    fs::remove_all(this->Scratch);
-    fs::create_directories(this->Scratch);
-    this->makeFibres(20.0);
-  }
-  void TearDown() override { fs::remove_all(this->Scratch); }
+  McdcFiles() { this->makeFibres(20.0); }
 
   void makeFibres(double side)
   {
@@ -101,7 +94,6 @@ protected:
     return points;
   }
 
-  fs::path Scratch;
   SubstrateFolderContents Contents;
 };
 

@@ -26,17 +26,10 @@ namespace
 using cactus_testing::contentOf;
 using example::surfacesOf;
 
-class SimulatorFolders : public ::testing::Test
+class SimulatorFolders : public cactus_testing::ScratchFolder
 {
 protected:
-  void SetUp() override
-  {
-    this->Scratch = fs::path(::testing::TempDir()) / ("simulator-folders-test-" + std::to_string(::getpid()));
-    fs::remove_all(this->Scratch);
-    fs::create_directories(this->Scratch);
-    this->Contents.domain = cactus::Domain::cube(10.0);
-  }
-  void TearDown() override { fs::remove_all(this->Scratch); }
+  SimulatorFolders() { this->Contents.domain = cactus::Domain::cube(10.0); }
 
   /// Two plates across the domain, this far (µm) from each other and from the faces below and above, with an axon in each.
   void takePlates(double gap, double fromFaces)
@@ -55,7 +48,6 @@ protected:
   }
   std::string readme() const { return contentOf(this->Scratch / "s/README.txt"); }
 
-  fs::path Scratch;
   cactus::SubstrateFolderContents Contents;
 };
 

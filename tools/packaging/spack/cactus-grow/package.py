@@ -22,6 +22,7 @@ class CactusGrow(CMakePackage):
     depends_on("random123")
     depends_on("libzip")
     depends_on("llvm-openmp")
+    depends_on("openssl@1.1:")
     depends_on("xxhash@0.8:")
     depends_on("zlib-api")
 
