@@ -107,20 +107,9 @@ public:
           near[rank] = this->thoseWithin(rank, this->Bound[rank]);
           this->addThoseAround(rank, near[rank]);
         },
-        [&](std::size_t rank)
-        {
-          ByteWriter put;
-          put(this->Bound[rank]);
-          put(near[rank]);
-          return put.bytes();
-        },
-        [&](std::size_t rank, const std::string& bytes)
-        {
-          ByteReader get(bytes);
-          get(this->Bound[rank]);
-          get(near[rank]);
-        },
-        "Measuring gaps", from, middle);
+        [&](std::size_t rank) { return bytesOf(this->Bound[rank], near[rank]); },
+        [&](std::size_t rank, const std::string& bytes) { getAll(bytes, this->Bound[rank], near[rank]); }, "Measuring gaps", from,
+        middle);
     std::vector<std::vector<FibrePair>> pairs = this->pairsOf(near);
     const double beyond = middle + (this->Shifts.empty() ? 0.0 : imagesShare * (1.0 - from));
     this->addPairsAcross(context, middle, beyond, pairs);
