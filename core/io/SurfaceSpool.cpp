@@ -6,7 +6,7 @@
 #include "base/PartialName.h"
 #include "base/Sha256.h"
 #include "io/NumberedName.h"
-#include "surface/FibreSurfacePair.h"
+#include "surface/SurfaceMaker.h"
 
 #include <algorithm>
 #include <set>
@@ -33,6 +33,12 @@ void makeFolders(const std::filesystem::path& folder)
   {
     throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
   }
+}
+
+/// Returns the beginning of the names of records of fibres whose outer surfaces are made.
+std::string recordsOfOuter()
+{
+  return std::string(SurfaceMaker::outerMade) + '/';
 }
 
 /// The file of one of `count` surfaces.
@@ -126,6 +132,7 @@ void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
 
 void SurfaceSpool::Files::endMoving(const std::vector<std::size_t>& moved)
 {
+  this->IsMoving = false;
   this->IsFinal = true;
   for (const std::size_t index : moved)
   {
@@ -144,14 +151,15 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
     makeFolders(this->Folder);
   }
   this->Log.emplace(this->Folder, identity, sharing);
+  const bool isFinal = this->Log->find(SurfaceMaker::keptApart) != nullptr;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::string name = madeOuter + std::to_string(i);
+    const std::string name = recordsOfOuter() + std::to_string(i);
     if (const std::string* known = this->Log->find(name))
     {
       FibreSurfacePair pair;
       getAll(*known, pair);
-      const bool isThere = this->Outer.has(i) && (!pair.isInnerMade || this->Inner.has(i));
+      const bool isThere = isFinal || (this->Outer.has(i) && (!pair.isInnerMade || this->Inner.has(i)));
       this->Found += isThere ? 1 : 0;
       if (!isThere) // a damaged file was removed
       {
@@ -159,6 +167,11 @@ SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identit
       }
     }
   }
+}
+
+bool SurfaceSpool::holdsSurfaces() const
+{
+  return this->Log->holds(recordsOfOuter());
 }
 
 void SurfaceSpool::remove()

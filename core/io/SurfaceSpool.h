@@ -32,8 +32,6 @@ class SurfaceSpool
 {
 public:
   static constexpr char stopName[] = "stop";
-  /// The beginning of the names of findings that are records of fibres whose outer surfaces are made (see SurfaceMaker).
-  static constexpr char madeOuter[] = "outer/";
 
   /// Makes the folder for `count` fibres, or continues in one of the same `identity`. Throws InvalidInput for a folder of another
   /// identity, and FileError. Collective: processes that share it make theirs together.
@@ -50,7 +48,7 @@ public:
   /// Tells whether all journals are empty. Call it only while no other process runs.
   bool isEmpty() const { return !this->Log->holds(""); }
   /// Tells whether a journal has a record of a fibre. Call it only while no other process runs.
-  bool holdsSurfaces() const { return this->Log->holds(madeOuter); }
+  bool holdsSurfaces() const;
 
   /// Removes all its own files, including half-written ones of a killed process; also the folder, if nothing else is in it.
   void remove();

@@ -206,7 +206,7 @@ void SurfaceMaker::makeFor(const std::vector<std::size_t>& which, const Changed&
 
 void SurfaceMaker::makeOuter(SurfaceStore& outer, SurfaceStore& inner)
 {
-  this->Pairs = this->Known.part("apart").once(this->Shared,
+  this->Pairs = this->Known.part(keptApart).once(this->Shared,
     [&]
     {
       this->Shares = this->isCommon() ? Progress{ 0.45, 0.55 } : Progress{ 0.95, 0.97 };
@@ -294,7 +294,7 @@ void SurfaceMaker::putInner(std::size_t i, const SmoothedField& field, MyelinPro
 void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
 {
   this->makeFor(
-    this->Order, { &outer, &inner }, this->Known.part("outer"),
+    this->Order, { &outer, &inner }, this->Known.part(outerMade),
     [&](std::size_t i)
     {
       FibreSurfacePair& pair = this->Pairs[i];

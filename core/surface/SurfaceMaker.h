@@ -25,6 +25,10 @@ namespace cactus
 class SurfaceMaker
 {
 public:
+  /// The names of what is known of each fibre whose outer surface is made, and of all of them once they are kept apart.
+  static constexpr char outerMade[] = "outer";
+  static constexpr char keptApart[] = "apart";
+
   /// All arguments passed by reference have to outlive the object. A surface is stored before the record of its fibre is noted in
   /// `known`; what an earlier run has noted there is not made again. Of processes that share the work, each has stores of its
   /// own, or all have those and `known` on a disk; fibres() is the same in all, and so are the surfaces. Throws as
