@@ -43,6 +43,13 @@ std::string contentOfJournal(const std::filesystem::path& path)
   return content;
 }
 
+/// Returns a record as it is in a file, with its length and checksum.
+std::string entryOf(const std::string& record)
+{
+  const std::string entry = bytesOf(record);
+  return entry + bytesOf(hash64(entry.data(), entry.size()));
+}
+
 } // namespace
 
 Journal::Journal(std::filesystem::path folder, std::string identity, const Sharing& sharing)
@@ -166,8 +173,7 @@ std::vector<std::filesystem::path> Journal::files() const
 /// Appends a record. Thread-safe.
 void Journal::add(const std::string& record)
 {
-  std::string entry = bytesOf(record);
-  entry += bytesOf(hash64(entry.data(), entry.size()));
+  const std::string entry = entryOf(record);
   const std::lock_guard<std::mutex> lock(this->Mutex);
   if (const int error = writeAll(this->File.get(), entry.data(), entry.size()))
   {
@@ -206,14 +212,25 @@ bool Journal::holds(const std::string& beginning) const
   return isHeld;
 }
 
-void Journal::remove()
+void Journal::clear()
 {
-  this->File = Descriptor();
   std::error_code ignored; // later readers report leftovers
   for (const std::filesystem::path& file : this->files())
   {
-    std::filesystem::remove(file, ignored);
+    if (file != this->Path)
+    {
+      std::filesystem::remove(file, ignored);
+    }
   }
+  std::filesystem::resize_file(this->Path, entryOf(this->Identity).size(), ignored);
+}
+
+void Journal::remove()
+{
+  this->clear();
+  this->File = Descriptor();
+  std::error_code ignored;
+  std::filesystem::remove(this->Path, ignored);
 }
 
 } // namespace cactus

@@ -36,6 +36,9 @@ public:
   bool foundSome() const { return this->FoundSome; }
   /// Tells whether any process has kept a finding whose name begins like this. Call it only while no other process runs.
   bool holds(const std::string& beginning) const;
+  /// Forgets all findings, those of other processes first; the journal stays this process's, the first one's. Nothing may be kept
+  /// afterwards.
+  void clear();
   /// Removes the files. Nothing may be kept afterwards.
   void remove();
 

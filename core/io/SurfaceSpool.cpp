@@ -176,6 +176,7 @@ bool SurfaceSpool::holdsSurfaces() const
 
 void SurfaceSpool::remove()
 {
+  this->Log->clear();      // so that surfaces left by a kill from here on are made again
   std::error_code ignored; // later readers report leftovers
   for (const char* kind : kinds)
   {

@@ -85,6 +85,9 @@ TEST_F(JournalTest, HoldsWhatAnyProcessHasKept)
   std::ofstream(this->folder / "journal-notes") << "of a user";
   Journal journal(this->folder, "mine", Sharing());
   EXPECT_EQ(journal.take("of 0").value_or(""), std::string("a\0b0", 4));
+  journal.clear();
+  EXPECT_FALSE(journal.holds(""));
+  EXPECT_THROW(Journal(this->folder, "mine", Sharing()), cactus::FileError) << "it is still at work";
   journal.remove();
   EXPECT_TRUE(fs::remove(this->folder / "journal-notes"));
   EXPECT_TRUE(fs::is_empty(this->folder));
