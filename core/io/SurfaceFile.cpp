@@ -73,7 +73,8 @@ SurfaceHeader headerOf(const TriangleMesh& surface)
     const auto isBelow = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a[2] < b[2]; };
     const auto [lowest, highest] = std::minmax_element(surface.points.begin(), surface.points.end(), isBelow);
     const double height = (*highest)[2] - (*lowest)[2];
-    const double most = std::min(height / leastLayerHeight, static_cast<double>(surface.triangles.size() / trianglesOfLayer));
+    const std::size_t mostByTriangles = surface.triangles.size() / trianglesOfLayer;
+    const double most = std::min(height / leastLayerHeight, static_cast<double>(mostByTriangles));
     header.lowest = (*lowest)[2];
     header.layers = most > 1.0 ? static_cast<std::uint64_t>(most) : 1;
     header.height = header.layers > 1 ? height / static_cast<double>(header.layers) : 1.0;
