@@ -351,8 +351,8 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   }
   auto made = std::make_unique<Result>();
   made->inputTime = cactus::changeTime(image);
-  cactus::SurfaceMaker maker(std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context,
-    byVtk ? &filters : nullptr, nullptr, sharing);
+  cactus::SurfaceMaker maker(
+    std::make_shared<cactus::LabelImageInMemory>(labels.view), facts, options, context, byVtk ? &filters : nullptr, sharing);
   const bool outerFollowsInner = options.hasNodes() || facts.hasMyelinFractions();
   auto fibres = this->makeSurfaces(maker, made->inputTime, outerFollowsInner, made->outer, sharing);
   const cactus::Domain domain = options.clipToDomain ? maker.box() : facts.domain; // of an image that was cut

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as bytes, in the byte order of the machine that wrote them.
+// Values as bytes, in the byte order of the machine that wrote them: numbers; strings, vectors and maps with their counts;
+// arrays; and types for which membersOf(value), declared beside the type, returns std::tie() of what is kept of them.
 #pragma once
 
 #include "base/Error.h"
@@ -7,22 +8,47 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <string>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace cactus
 {
 
-/// Appends numbers one after the other.
+template <typename Value>
+constexpr bool isNumber = std::is_arithmetic_v<Value> || std::is_enum_v<Value>;
+
+template <typename Value, typename = void>
+constexpr bool hasMembers = false;
+template <typename Value>
+constexpr bool hasMembers<Value, std::void_t<decltype(membersOf(std::declval<Value&>()))>> = true;
+
+/// Appends values one after the other.
 class ByteWriter
 {
 public:
   template <typename Value>
   void operator()(const Value& value)
   {
-    static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
-    this->Bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    if constexpr (isNumber<Value>)
+    {
+      this->Bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    }
+    else if constexpr (hasMembers<Value>)
+    {
+      std::apply(
+        [this](const auto&... member) { ((*this)(member), ...); }, membersOf(const_cast<Value&>(value))); // which are only read
+    }
+    else
+    {
+      for (const auto& element : value)
+      {
+        (*this)(element);
+      }
+    }
   }
   template <typename Value>
   void operator()(const std::vector<Value>& values)
@@ -30,6 +56,16 @@ public:
     (*this)(static_cast<std::uint64_t>(values.size()));
     for (const Value& value : values)
     {
+      (*this)(value);
+    }
+  }
+  template <typename Key, typename Value>
+  void operator()(const std::map<Key, Value>& values)
+  {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    for (const auto& [key, value] : values)
+    {
+      (*this)(key);
       (*this)(value);
     }
   }
@@ -51,7 +87,7 @@ private:
   std::string Bytes;
 };
 
-/// Reads the numbers in the same order. Throws FileError if bytes are missing.
+/// Reads the values in the same order. Throws FileError if bytes are missing.
 class ByteReader
 {
 public:
@@ -64,18 +100,41 @@ public:
   template <typename Value>
   void operator()(Value& value)
   {
-    static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
-    this->requireLeft(sizeof(value));
-    std::memcpy(&value, this->Bytes.data() + this->At, sizeof(value));
-    this->At += sizeof(value);
+    if constexpr (isNumber<Value>)
+    {
+      this->requireLeft(sizeof(value));
+      std::memcpy(&value, this->Bytes.data() + this->At, sizeof(value));
+      this->At += sizeof(value);
+    }
+    else if constexpr (hasMembers<Value>)
+    {
+      std::apply([this](auto&... member) { ((*this)(member), ...); }, membersOf(value));
+    }
+    else
+    {
+      for (auto& element : value)
+      {
+        (*this)(element);
+      }
+    }
   }
   template <typename Value>
   void operator()(std::vector<Value>& values)
   {
-    values.resize(this->count(sizeof(Value)));
+    values.resize(this->count(isNumber<Value> ? sizeof(Value) : 1));
     for (Value& value : values)
     {
       (*this)(value);
+    }
+  }
+  template <typename Key, typename Value>
+  void operator()(std::map<Key, Value>& values)
+  {
+    values.clear();
+    for (std::uint64_t left = this->count(1); left > 0; --left)
+    {
+      const auto key = this->get<Key>();
+      (*this)(values[key]);
     }
   }
   void operator()(std::string& text)
@@ -103,6 +162,8 @@ public:
     (*this)(value);
     return value;
   }
+  /// Returns how many bytes were read.
+  std::size_t at() const { return this->At; }
   bool isAtEnd() const { return this->At == this->Bytes.size(); }
 
 private:
@@ -124,19 +185,19 @@ private:
   std::size_t At = 0;
 };
 
-template <typename Value>
-std::string bytesOf(const std::vector<Value>& values)
+template <typename... Values>
+std::string bytesOf(const Values&... values)
 {
   ByteWriter put;
-  put(values);
-  return put.bytes();
+  (put(values), ...);
+  return std::move(put.bytes());
 }
 
-template <typename Value>
-void getAll(const std::string& bytes, std::vector<Value>& values)
+template <typename... Values>
+void getAll(const std::string& bytes, Values&... values)
 {
   ByteReader get(bytes);
-  get(values);
+  (get(values), ...);
 }
 
 } // namespace cactus

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Bytes.h"
 #include "base/Sharing.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,21 +55,22 @@ public:
     }
   }
 
-  /// Returns the cached result, or else that of compute(), which all processes call together. bytesOf(result), never empty, and
-  /// from(bytes) convert between result and bytes.
-  template <typename Compute, typename BytesOf, typename From>
-  auto once(const Sharing& sharing, Compute&& compute, BytesOf&& bytesOf, From&& from) const -> decltype(compute())
+  /// Returns the cached result, or else that of compute(), which all processes call together.
+  template <typename Compute>
+  auto once(const Sharing& sharing, Compute&& compute) const -> decltype(compute())
   {
     if (this->Store == nullptr)
     {
       return compute();
     }
     const std::string known = sharing.fromFirst(this->recall().value_or(std::string()));
+    decltype(compute()) result{};
     if (!known.empty())
     {
-      return from(known);
+      getAll(known, result);
+      return result;
     }
-    auto result = compute();
+    result = compute();
     if (sharing.isFirst())
     {
       this->note(bytesOf(result));
@@ -75,34 +78,44 @@ public:
     return result;
   }
 
+  /// Calls take(i, bytes) for those of `all` with a cached result, one after the other, and returns the others.
+  template <typename Take>
+  std::vector<std::size_t> takeKnown(const Sharing& sharing, const std::vector<std::size_t>& all, Take&& take) const
+  {
+    if (this->Store == nullptr)
+    {
+      return all;
+    }
+    std::vector<std::optional<std::string>> known;
+    std::vector<std::uint64_t> isKnown;
+    for (const std::size_t i : all)
+    {
+      known.push_back(this->part(std::to_string(i)).recall());
+      isKnown.push_back(known.back() ? 1 : 0);
+    }
+    sharing.addUp(isKnown); // one process may know results that others do not
+    std::vector<std::size_t> left;
+    for (std::size_t place = 0; place < all.size(); ++place)
+    {
+      if (isKnown[place] < std::uint64_t(sharing.size()))
+      {
+        left.push_back(all[place]);
+        continue;
+      }
+      take(all[place], *known[place]);
+      known[place].reset();
+    }
+    return left;
+  }
+
   /// Runs Sharing::loop() over the i without a cached result; calls take(i, bytes) for the others, one after the other.
   template <typename Body, typename BytesOf, typename Take>
   void loop(const Sharing& sharing, std::size_t count, const Context& context, Body&& body, BytesOf&& bytesOf, Take&& take,
     const std::string& message, double from, double to) const
   {
-    if (this->Store == nullptr)
-    {
-      sharing.loop(count, context, body, bytesOf, take, message, from, to);
-      return;
-    }
-    std::vector<std::uint64_t> isKnown(count, 0);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (const std::optional<std::string> bytes = this->part(std::to_string(i)).recall())
-      {
-        take(i, *bytes);
-        isKnown[i] = 1;
-      }
-    }
-    sharing.addUp(isKnown); // one process may know results that others do not
-    std::vector<std::size_t> left;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (isKnown[i] < std::uint64_t(sharing.size()))
-      {
-        left.push_back(i);
-      }
-    }
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    const std::vector<std::size_t> left = this->takeKnown(sharing, all, take);
     const double done = count > 0 ? 1.0 - static_cast<double>(left.size()) / static_cast<double>(count) : 0.0;
     sharing.loop(
       left.size(), context,

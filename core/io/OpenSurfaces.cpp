@@ -104,24 +104,10 @@ void describeOpened(const SubstrateFolderContents& contents, const std::string& 
     files[i].triangles = mesh.triangles.size();
     files[i].area = areaOf(mesh, all);
   };
-  const auto bytesOf = [&](std::size_t i)
-  {
-    ByteWriter put;
-    put(std::uint64_t(files[i].triangles));
-    put(files[i].area);
-    put(files[i].closed);
-    return put.bytes();
-  };
+  const auto described = [&](std::size_t i) { return bytesOf(files[i].triangles, files[i].area, files[i].closed); };
   const auto take = [&](std::size_t i, const std::string& bytes)
-  {
-    ByteReader get(bytes);
-    std::uint64_t triangles = 0;
-    get(triangles);
-    get(files[i].area);
-    get(files[i].closed);
-    files[i].triangles = triangles;
-  };
-  sharing.loop(open.size(), context, describe, bytesOf, take, "Opening surfaces", from, to);
+  { getAll(bytes, files[i].triangles, files[i].area, files[i].closed); };
+  sharing.loop(open.size(), context, describe, described, take, "Opening surfaces", from, to);
 }
 
 } // namespace cactus

@@ -20,10 +20,10 @@ struct SurfaceFileOwner
 /// Writes a surface into a file that can be read in parts: binary, in the byte order of this machine, and whole or not at all
 /// (see AtomicFile).
 ///
-/// Layout: title with the format number, a mark for the byte order, owner; the surface in layers along z, of 1 µm or more and 128
-/// triangles or more on average, each with the triangles whose lowest corners are in it and all their corners; for each layer its
-/// place, its highest corner, and the lowest layer that reaches it; the totals. A triangle takes about 17 bytes, or 25 if
-/// coordinates are not in single precision. Layers, their entries and the rest each have a Hash64 that includes the owner's.
+/// Layout: title with the format number, a mark for the byte order, owner, and the totals; the places of the layers; the surface
+/// in layers along z, of 1 µm or more and 128 triangles or more on average. Each has the triangles whose lowest corners are in
+/// it, all their corners, and the number of the lowest layer that reaches it. A triangle takes about 15 bytes, or 23 if
+/// coordinates are not in single precision. Each layer and the beginning have a Hash64; that of a layer includes the beginning's.
 ///
 /// Throws FileError, also if something else is at `path` already, or a file with another fingerprint.
 void writeSurface(const std::string& path, const SurfaceFileOwner& owner, const TriangleMesh& surface);

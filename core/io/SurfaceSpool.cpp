@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SurfaceSpool.h"
 
+#include "base/Bytes.h"
 #include "base/Error.h"
 #include "base/PartialName.h"
 #include "base/Sha256.h"
 #include "io/NumberedName.h"
-#include "surface/SurfaceNumbers.h"
+#include "surface/SurfaceMaker.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <set>
 #include <utility>
 
@@ -18,12 +17,6 @@ namespace cactus
 
 namespace
 {
-
-// First bytes of a journal's records.
-constexpr char outerMade = 'o';
-constexpr char spaced = 's';
-constexpr char spacingDone = 'S';
-constexpr char innerMade = 'i';
 
 constexpr const char* kinds[] = { "outer", "spaced", "inner" };
 
@@ -40,6 +33,12 @@ void makeFolders(const std::filesystem::path& folder)
   {
     throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
   }
+}
+
+/// Returns the beginning of the names of records of fibres whose outer surfaces are made.
+std::string recordsOfOuter()
+{
+  return std::string(SurfaceMaker::outerMade) + '/';
 }
 
 /// The file of one of `count` surfaces.
@@ -75,17 +74,17 @@ void removeFrom(const std::filesystem::path& folder, const std::set<std::string>
 } // namespace
 
 SurfaceSpool::Files::Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count)
-  : isSpaced(count, 0)
-  , Folder(std::move(folder))
+  : Folder(std::move(folder))
   , Kind(std::move(kind))
   , Fingerprint(fingerprint)
+  , IsSpaced(count, 0)
 {
 }
 
 std::string SurfaceSpool::Files::pathOf(std::size_t index) const
 {
-  const std::string kind = this->isSpaced[index] != 0 ? "spaced" : this->Kind;
-  const std::size_t count = this->isSpaced.size();
+  const std::string kind = this->IsSpaced[index] != 0 ? "spaced" : this->Kind;
+  const std::size_t count = this->IsSpaced.size();
   return (this->Folder / kind / folderName(index, count) / surfaceName(index, count)).string();
 }
 
@@ -101,7 +100,7 @@ auto SurfaceSpool::Files::from(std::size_t index, Read&& read) const
   catch (const Error&)
   {
     throw FileError("the surface " + path + " is damaged, or cannot be read: remove " +
-                    (this->isFinal ? "the folder " + this->Folder.string() + " and make all of it again"
+                    (this->IsFinal ? "the folder " + this->Folder.string() + " and make all of it again"
                                    : "it and run again, to make the surfaces of this fibre again"));
   }
 }
@@ -125,146 +124,59 @@ SurfacePart SurfaceSpool::Files::part(std::size_t index, double lower, double up
 
 void SurfaceSpool::Files::put(std::size_t index, TriangleMesh surface)
 {
-  this->isSpaced[index] = this->isSpacing ? 1 : 0;
+  this->IsSpaced[index] = this->IsMoving ? 1 : 0;
   const std::string path = this->pathOf(index);
   makeFolders(std::filesystem::path(path).parent_path());
   writeSurface(path, this->ownerOf(index), surface);
 }
 
+void SurfaceSpool::Files::endMoving(const std::vector<std::size_t>& moved)
+{
+  this->IsMoving = false;
+  this->IsFinal = true;
+  for (const std::size_t index : moved)
+  {
+    this->IsSpaced[index] = 1;
+  }
+}
+
 SurfaceSpool::SurfaceSpool(const std::string& folder, const std::string& identity, std::size_t count, const Sharing& sharing)
   : Folder(folder)
   , Count(count)
-  , IsFirst(sharing.isFirst())
   , Outer(folder, "outer", fingerprintOf(identity), count)
   , Inner(folder, "inner", fingerprintOf(identity), count)
-  , OuterNotes(count)
-  , SpacedNotes(count)
-  , InnerNotes(count)
 {
-  if (this->IsFirst)
+  if (sharing.isFirst())
   {
     makeFolders(this->Folder);
   }
-  this->Log.emplace(this->Folder, "journal", identity, sharing);
-  this->Findings.emplace(this->Folder, identity, sharing);
-  this->read(this->Log->takeRecords());
-  this->Outer.isFinal = this->Inner.isFinal = this->IsSpacingDone;
-  if (!this->IsSpacingDone)
-  {
-    // Moved surfaces are moved again, from their contours.
-    std::fill(this->Outer.isSpaced.begin(), this->Outer.isSpaced.end(), 0);
-  }
+  this->Log.emplace(this->Folder, identity, sharing);
+  const bool isFinal = this->Log->find(SurfaceMaker::keptApart) != nullptr;
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (this->IsSpacingDone && this->SpacedNotes[i].empty())
+    const std::string name = recordsOfOuter() + std::to_string(i);
+    if (const std::string* known = this->Log->find(name))
     {
-      throw FileError("a part of the journal in " + this->Folder.string() + " is missing: remove this folder");
-    }
-    const bool isFound = this->IsSpacingDone ? !this->InnerNotes[i].empty() || pairFrom(this->SpacedNotes[i].back()).isInnerMade
-                                             : !this->OuterNotes[i].empty();
-    this->Found += isFound ? 1 : 0;
-  }
-}
-
-void SurfaceSpool::read(const std::vector<std::string>& records)
-{
-  for (const std::string& record : records)
-  {
-    std::uint64_t index = 0;
-    constexpr std::size_t head = 2 + sizeof(index);
-    if (record.size() < head)
-    {
-      throw FileError("the journal in " + this->Folder.string() + " is damaged: remove this folder");
-    }
-    std::memcpy(&index, record.data() + 2, sizeof(index));
-    this->IsSpacingDone = this->IsSpacingDone || record[0] == spacingDone;
-    if (record[0] == spacingDone || index >= this->Count)
-    {
-      continue;
-    }
-    auto& notes = record[0] == outerMade ? this->OuterNotes : record[0] == spaced ? this->SpacedNotes : this->InnerNotes;
-    notes[index].push_back(record.substr(head));
-    if (record[0] == spaced)
-    {
-      this->Outer.isSpaced[index] = record[1];
+      FibreSurfacePair pair;
+      getAll(*known, pair);
+      const bool isThere = isFinal || (this->Outer.has(i) && (!pair.isInnerMade || this->Inner.has(i)));
+      this->Found += isThere ? 1 : 0;
+      if (!isThere) // a damaged file was removed
+      {
+        this->Log->take(name);
+      }
     }
   }
 }
 
-void SurfaceSpool::note(char step, std::size_t index, const FibreSurfacePair& pair, bool isMoved)
+bool SurfaceSpool::holdsSurfaces() const
 {
-  const std::uint64_t number = index;
-  std::string record{ step, static_cast<char>(isMoved ? 1 : 0) };
-  record.append(reinterpret_cast<const char*>(&number), sizeof(number));
-  this->Log->add(record + bytesOf(pair));
-}
-
-bool SurfaceSpool::recallOuter(std::size_t index, FibreSurfacePair& pair) const
-{
-  if (this->OuterNotes[index].empty())
-  {
-    return false;
-  }
-  FibreSurfacePair found = pairFrom(this->OuterNotes[index].back());
-  if (!this->Outer.has(index) || (found.isInnerMade && !this->Inner.has(index)))
-  {
-    return false; // a damaged file was removed
-  }
-  pair = std::move(found);
-  return true;
-}
-
-void SurfaceSpool::noteOuter(std::size_t index, const FibreSurfacePair& pair)
-{
-  this->note(outerMade, index, pair, false);
-}
-
-bool SurfaceSpool::recallSpaced(std::vector<FibreSurfacePair>& pairs) const
-{
-  for (std::size_t i = 0; this->IsSpacingDone && i < pairs.size(); ++i)
-  {
-    pairs[i] = pairFrom(this->SpacedNotes[i].back());
-  }
-  return this->IsSpacingDone;
-}
-
-void SurfaceSpool::noteSpaced(const std::vector<FibreSurfacePair>& pairs)
-{
-  this->Outer.isFinal = this->Inner.isFinal = true;
-  if (!this->IsFirst)
-  {
-    return; // each process knows all of them
-  }
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-  {
-    this->note(spaced, i, pairs[i], this->Outer.isSpaced[i] != 0);
-  }
-  this->note(spacingDone, 0, {}, false);
-}
-
-bool SurfaceSpool::recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const
-{
-  // The latest first, since its surface is the stored one.
-  const auto& notes = this->InnerNotes[index];
-  for (auto note = notes.rbegin(); note != notes.rend(); ++note)
-  {
-    FibreSurfacePair found = pairFrom(*note);
-    if (std::isnan(gRatio) || found.targetGRatio == gRatio)
-    {
-      pair = std::move(found);
-      return true;
-    }
-  }
-  return false;
-}
-
-void SurfaceSpool::noteInner(std::size_t index, const FibreSurfacePair& pair)
-{
-  this->note(innerMade, index, pair, false);
+  return this->Log->holds(recordsOfOuter());
 }
 
 void SurfaceSpool::remove()
 {
+  this->Log->clear();      // so that surfaces left by a kill from here on are made again
   std::error_code ignored; // later readers report leftovers
   for (const char* kind : kinds)
   {
@@ -282,7 +194,6 @@ void SurfaceSpool::remove()
     std::filesystem::remove(this->Folder / kind, ignored);
   }
   removeFrom(this->Folder, { stopName });
-  this->Findings->remove();
   this->Log->remove();
   std::filesystem::remove(this->Folder, ignored);
 }

@@ -2,11 +2,9 @@
 #pragma once
 
 #include "base/Sharing.h"
-#include "io/FindingsFile.h"
+#include "io/Journal.h"
 #include "io/SurfaceFile.h"
-#include "io/TeamLog.h"
 #include "mesh/SurfaceStore.h"
-#include "surface/SurfaceJournal.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,11 +16,11 @@
 namespace cactus
 {
 
-/// Surfaces on the disk while they are made, and the journal of their progress:
+/// Surfaces on the disk while they are made, and the journal of all that is known of them:
 ///
-///   FOLDER/journal            the record of each fibre; FOLDER/findings has the growth, which is solved for first, and the
-///                             results of keeping surfaces apart and of judging them; the other processes of a team have
-///                             FOLDER/journal-00001 and so on (see TeamLog)
+///   FOLDER/journal            the record of each fibre, the growth, which is solved for first, and the results of keeping
+///                             surfaces apart and of judging them, by name; each other process of a team has a file of its own,
+///                             FOLDER/journal-00001 and so on (see Journal)
 ///   FOLDER/outer/00000/…      outer surfaces as contoured, a file each, at most 1,000 in a folder
 ///   FOLDER/spaced/…, inner/…  surfaces that were moved to keep them apart, and inner surfaces
 ///   FOLDER/stop.partial-…     while one process of a team tells the others to end (see Sharing)
@@ -30,7 +28,7 @@ namespace cactus
 /// Files appear whole or not at all, and a surface in a journal is in its file. Reading one that was never put is an error. A
 /// file that is missing before surfaces are kept apart counts as a fibre without a record. Each request holds one surface in
 /// memory, or a part of it (see SurfaceFile.h). Any number of processes continues the work that any others have left.
-class SurfaceSpool : public SurfaceJournal
+class SurfaceSpool
 {
 public:
   static constexpr char stopName[] = "stop";
@@ -41,23 +39,16 @@ public:
 
   SurfaceStore& outer() { return this->Outer; }
   SurfaceStore& inner() { return this->Inner; }
-  /// Returns how many fibres' surfaces existed at the beginning: outer or, if these are spaced, inner ones.
+  /// Returns the cache of all that is known of the fibres.
+  Recollection findings() { return Recollection(*this->Log); }
+  /// Returns how many fibres' outer surfaces existed at the beginning.
   std::size_t found() const { return this->Found; }
   /// Tells whether an earlier run had left findings.
-  bool foundFindings() const { return this->Findings->foundSome(); }
-  /// Tells whether all journals and findings are empty. Call it only while no other process runs.
-  bool isEmpty() const { return !this->holdsSurfaces() && this->Findings->isEmpty(); }
+  bool foundSome() const { return this->Log->foundSome(); }
+  /// Tells whether all journals are empty. Call it only while no other process runs.
+  bool isEmpty() const { return !this->Log->holds(""); }
   /// Tells whether a journal has a record of a fibre. Call it only while no other process runs.
-  bool holdsSurfaces() const { return !this->Log->isEmpty(); }
-
-  bool recallOuter(std::size_t index, FibreSurfacePair& pair) const override;
-  void noteOuter(std::size_t index, const FibreSurfacePair& pair) override;
-  void beginSpacing() override { this->Outer.isSpacing = true; }
-  bool recallSpaced(std::vector<FibreSurfacePair>& pairs) const override;
-  void noteSpaced(const std::vector<FibreSurfacePair>& pairs) override;
-  bool recallInner(std::size_t index, double gRatio, FibreSurfacePair& pair) const override;
-  void noteInner(std::size_t index, const FibreSurfacePair& pair) override;
-  Recollection findings() override { return Recollection(*this->Findings); }
+  bool holdsSurfaces() const;
 
   /// Removes all its own files, including half-written ones of a killed process; also the folder, if nothing else is in it.
   void remove();
@@ -69,16 +60,14 @@ private:
   public:
     Files(std::filesystem::path folder, std::string kind, std::uint64_t fingerprint, std::size_t count);
 
-    std::size_t size() const override { return this->isSpaced.size(); }
+    std::size_t size() const override { return this->IsSpaced.size(); }
     bool has(std::size_t index) const;
     std::shared_ptr<const TriangleMesh> get(std::size_t index) const override;
     SurfacePart part(std::size_t index, double lower, double upper) const override;
     void put(std::size_t index, TriangleMesh surface) override;
-    void putElsewhere(std::size_t index, const std::string&) override { this->isSpaced[index] = this->isSpacing ? 1 : 0; }
-
-    bool isSpacing = false;
-    bool isFinal = false;       ///< surfaces are kept apart, so that a single one is not made again
-    std::vector<char> isSpaced; ///< whether it was put while isSpacing
+    void putElsewhere(std::size_t index, const std::string&) override { this->IsSpaced[index] = this->IsMoving ? 1 : 0; }
+    void beginMoving() override { this->IsMoving = true; }
+    void endMoving(const std::vector<std::size_t>& moved) override;
 
   private:
     std::string pathOf(std::size_t index) const;
@@ -89,24 +78,17 @@ private:
     std::filesystem::path Folder;
     std::string Kind;
     std::uint64_t Fingerprint;
+    std::vector<char> IsSpaced; ///< whether it was put while IsMoving
+    bool IsMoving = false;
+    bool IsFinal = false; ///< surfaces are kept apart, so that a single one is not made again
   };
-
-  void read(const std::vector<std::string>& records);
-  void note(char step, std::size_t index, const FibreSurfacePair& pair, bool isMoved);
 
   std::filesystem::path Folder;
   std::size_t Count;
   std::size_t Found = 0;
-  bool IsFirst;
-  std::optional<TeamLog> Log;
-  std::optional<FindingsFile> Findings;
+  std::optional<Journal> Log;
   Files Outer;
   Files Inner;
-  bool IsSpacingDone = false;
-  // Records of each fibre, in the order of the journal.
-  std::vector<std::vector<std::string>> OuterNotes;
-  std::vector<std::vector<std::string>> SpacedNotes;
-  std::vector<std::vector<std::string>> InnerNotes;
 };
 
 } // namespace cactus

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace cactus
@@ -36,6 +37,15 @@ struct FibreCertificate
   RadiusAlongFibre innerRadius;
   double gRatio = 0.0; ///< sqrt(inner volume / outer volume)
 };
+
+/// Lists all of a fibre's findings, see base/Bytes.h.
+inline auto membersOf(FibreCertificate& fibre)
+{
+  return std::tie(fibre.fibreId, fibre.bundleId, fibre.hasOuter, fibre.hasInner, fibre.outer, fibre.inner, fibre.isBare,
+    fibre.outerSelfIntersections, fibre.innerSelfIntersections, fibre.outerSelfNested, fibre.innerSelfNested, fibre.meetingFibres,
+    fibre.innerLeaves, fibre.gap, fibre.nearestFibre, fibre.myelinThickness, fibre.length, fibre.outerRadius, fibre.innerRadius,
+    fibre.gRatio);
+}
 
 /// The findings on a substrate, and the verdict. All yes-or-no answers come from exact predicates; none depends on rounding.
 struct SubstrateCertificate

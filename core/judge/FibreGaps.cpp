@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/FibreGaps.h"
 
+#include "base/Bytes.h"
 #include "base/Parallel.h"
 #include "mesh/SurfaceDistance.h"
 #include "mesh/SurfacePieces.h"
@@ -15,6 +16,7 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace cactus
@@ -38,6 +40,11 @@ struct FibrePair
   bool nested = false;
   std::size_t image = 0; ///< of b: 0 for itself, or 1 + the number of its shift
 };
+
+auto membersOf(FibrePair& pair)
+{
+  return std::tie(pair.a, pair.b, pair.gap, pair.nested, pair.image);
+}
 
 /// Fibre `inPlace` and an image of fibre `other`, by rank, that come near each other. Images are numbered as in FibrePair.
 struct NearImage
@@ -107,20 +114,9 @@ public:
           near[rank] = this->thoseWithin(rank, this->Bound[rank]);
           this->addThoseAround(rank, near[rank]);
         },
-        [&](std::size_t rank)
-        {
-          ByteWriter put;
-          put(this->Bound[rank]);
-          put(near[rank]);
-          return put.bytes();
-        },
-        [&](std::size_t rank, const std::string& bytes)
-        {
-          ByteReader get(bytes);
-          get(this->Bound[rank]);
-          get(near[rank]);
-        },
-        "Measuring gaps", from, middle);
+        [&](std::size_t rank) { return bytesOf(this->Bound[rank], near[rank]); },
+        [&](std::size_t rank, const std::string& bytes) { getAll(bytes, this->Bound[rank], near[rank]); }, "Measuring gaps", from,
+        middle);
     std::vector<std::vector<FibrePair>> pairs = this->pairsOf(near);
     const double beyond = middle + (this->Shifts.empty() ? 0.0 : imagesShare * (1.0 - from));
     this->addPairsAcross(context, middle, beyond, pairs);
@@ -133,26 +129,8 @@ public:
           this->measure(pair);
         }
       },
-      [&](std::size_t rank)
-      {
-        ByteWriter put;
-        for (const FibrePair& pair : pairs[rank])
-        {
-          put(pair.gap);
-          put(pair.nested);
-        }
-        return put.bytes();
-      },
-      [&](std::size_t rank, const std::string& bytes)
-      {
-        ByteReader get(bytes);
-        for (FibrePair& pair : pairs[rank])
-        {
-          get(pair.gap);
-          get(pair.nested);
-        }
-      },
-      "Measuring gaps", beyond, 1.0);
+      [&](std::size_t rank) { return bytesOf(pairs[rank]); },
+      [&](std::size_t rank, const std::string& bytes) { getAll(bytes, pairs[rank]); }, "Measuring gaps", beyond, 1.0);
     this->enter(pairs);
   }
 

@@ -6,6 +6,7 @@
 #include "mesh/TriangleMesh.h"
 
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace cactus
@@ -50,6 +51,12 @@ struct RadiusAlongFibre
   double circularity = 0.0; ///< mean over the cuts
   double axisRatio = 0.0;   ///< likewise
 };
+
+/// Lists all of a radius, see base/Bytes.h.
+inline auto membersOf(RadiusAlongFibre& radius)
+{
+  return std::tie(radius.cuts, radius.mean, radius.deviation, radius.circularity, radius.axisRatio);
+}
 
 RadiusAlongFibre radiusAlong(const std::vector<FibreCut>& cuts);
 

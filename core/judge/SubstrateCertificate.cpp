@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "judge/SubstrateCertificate.h"
 
+#include "base/Bytes.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Parallel.h"
@@ -8,7 +9,6 @@
 #include "judge/CertificateSummary.h"
 #include "judge/FibreExamination.h"
 #include "judge/FibreGaps.h"
-#include "judge/FindingsNumbers.h"
 
 #include <algorithm>
 #include <limits>
@@ -113,7 +113,7 @@ SubstrateCertificate certify(const Domain& domain, const FibreSurfaces& outer, c
     [&](std::size_t f, const std::string& bytes)
     {
       std::vector<FloatBox> branches;
-      getFindings(bytes, certificate.fibres[f], reach[f], branches);
+      getAll(bytes, certificate.fibres[f], reach[f], branches);
       surfaces.enter(f, std::move(branches));
     },
     "Looking at surfaces", 0.0, surfacesDone);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,11 @@ struct FloatBox
   static FloatBox around(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
   static FloatBox around(const Eigen::Vector3d& point) { return around(point, point, point); }
 };
+
+inline auto membersOf(FloatBox& box)
+{
+  return std::tie(box.lower, box.upper);
+}
 
 /// A tree of boxes, which finds those near something.
 ///

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace cactus
@@ -44,6 +45,15 @@ struct SurfaceReport
   /// Tells whether a simulator can tell inside from outside.
   bool sound() const { return closedManifold() && outward(); }
 };
+
+/// Lists all of a report, see base/Bytes.h.
+inline auto membersOf(SurfaceReport& report)
+{
+  return std::tie(report.triangles, report.points, report.components, report.openEdges, report.crowdedEdges, report.flippedEdges,
+    report.pinchedPoints, report.degenerateTriangles, report.repeatedCorners, report.inwardComponents, report.volume, report.area,
+    report.smallestAngle, report.largestSquaredEdgeRatio, report.smallestAltitude, report.largestAspect,
+    report.largestNormalAngle, report.pieces);
+}
 
 /// Throws InvalidInput if a triangle names a point that does not exist, or one with a coordinate that is not finite or beyond
 /// limits::coordinate.

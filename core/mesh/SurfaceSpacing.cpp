@@ -19,6 +19,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace cactus
@@ -91,6 +92,11 @@ struct SlabBox
   bool isChanged = false; ///< since it was measured
 };
 
+auto membersOf(SlabBox& slab)
+{
+  return std::tie(slab.box.min(), slab.box.max(), slab.isChanged);
+}
+
 /// The extents of a surface in consecutive slabs, from its first one.
 struct SlabBoxes
 {
@@ -100,6 +106,11 @@ struct SlabBoxes
   /// Returns that of a slab between the first and the last.
   SlabBox& in(int slab) { return this->boxes[std::size_t(slab - this->first)]; }
 };
+
+auto membersOf(SlabBoxes& slabs)
+{
+  return std::tie(slabs.first, slabs.boxes);
+}
 
 /// The part of a surface in a slab, with its search tree.
 struct TreedPart
@@ -130,6 +141,7 @@ public:
   };
 
   void add(std::int32_t point, double distance) { this->All.push_back({ point, distance }); }
+  void add(const Moves& more) { this->All.insert(this->All.end(), more.All.begin(), more.All.end()); }
 
   /// Sorts the moves; to be called after additions.
   void sort()
@@ -153,6 +165,9 @@ public:
     return this->has(points[0]) || this->has(points[1]) || this->has(points[2]);
   }
   const std::vector<Move>& all() const { return this->All; }
+
+  friend auto membersOf(Move& move) { return std::tie(move.point, move.distance); }
+  friend auto membersOf(Moves& moves) { return std::tie(moves.All); }
 
 private:
   std::vector<Move> All;
@@ -317,56 +332,6 @@ FloatBox floatBox(const Eigen::AlignedBox3d& box)
   return FloatBox::around(box.min(), box.max(), box.max());
 }
 
-std::string bytesOf(const SlabBoxes& slabs)
-{
-  ByteWriter put;
-  put(slabs.first);
-  for (const SlabBox& slab : slabs.boxes)
-  {
-    put(slab.isChanged);
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-    {
-      put(slab.box.min()[axis]);
-      put(slab.box.max()[axis]);
-    }
-  }
-  return put.bytes();
-}
-
-SlabBoxes boxesFrom(const std::string& bytes)
-{
-  ByteReader get(bytes);
-  SlabBoxes slabs;
-  get(slabs.first);
-  while (!get.isAtEnd())
-  {
-    SlabBox& slab = slabs.boxes.emplace_back();
-    get(slab.isChanged);
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-    {
-      get(slab.box.min()[axis]);
-      get(slab.box.max()[axis]);
-    }
-  }
-  return slabs;
-}
-
-std::string bytesOf(const std::map<std::size_t, Moves>& moves)
-{
-  ByteWriter put;
-  for (const auto& [surface, ofSurface] : moves)
-  {
-    put(static_cast<std::uint64_t>(surface));
-    put(static_cast<std::uint64_t>(ofSurface.all().size()));
-    for (const auto& [point, distance] : ofSurface.all())
-    {
-      put(point);
-      put(distance);
-    }
-  }
-  return put.bytes();
-}
-
 /// Joins the maps of all processes, each given as the bytes of several maps in sequence.
 std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
 {
@@ -375,11 +340,9 @@ std::map<std::size_t, Moves> joined(const std::vector<std::string>& all)
   {
     for (ByteReader get(bytes); !get.isAtEnd();)
     {
-      Moves& ofSurface = moves[std::size_t(get.get<std::uint64_t>())];
-      for (auto count = get.get<std::uint64_t>(); count > 0; --count)
+      for (const auto& [surface, ofSurface] : get.get<std::map<std::size_t, Moves>>())
       {
-        const auto point = get.get<std::int32_t>();
-        ofSurface.add(point, get.get<double>());
+        moves[surface].add(ofSurface);
       }
     }
   }
@@ -411,7 +374,7 @@ public:
     this->Shared.loop(
       surfaces.size(), context, [this](std::size_t s) { this->Boxes[s] = boxesBySlab(*this->Surfaces.get(s), this->InSlabs); },
       [this](std::size_t s) { return bytesOf(this->Boxes[s]); },
-      [this](std::size_t s, const std::string& bytes) { this->Boxes[s] = boxesFrom(bytes); });
+      [this](std::size_t s, const std::string& bytes) { getAll(bytes, this->Boxes[s]); });
     for (const std::size_t s : given)
     {
       this->give(s);
@@ -469,18 +432,12 @@ public:
         keepMarks(before, this->Boxes[s]);
         this->Surfaces.put(s, std::move(mesh));
       },
-      [&](std::size_t m)
-      {
-        ByteWriter put;
-        put(bytesOf(this->Boxes[moving[m]]));
-        put(this->Surfaces.bytesOf(moving[m]));
-        return put.bytes();
-      },
+      [&](std::size_t m) { return bytesOf(this->Boxes[moving[m]], this->Surfaces.bytesOf(moving[m])); },
       [&](std::size_t m, const std::string& bytes)
       {
-        ByteReader get(bytes);
-        this->Boxes[moving[m]] = boxesFrom(get.get<std::string>());
-        this->Surfaces.putElsewhere(moving[m], get.get<std::string>());
+        std::string surface;
+        getAll(bytes, this->Boxes[moving[m]], surface);
+        this->Surfaces.putElsewhere(moving[m], surface);
       });
     for (const std::size_t s : moving)
     {

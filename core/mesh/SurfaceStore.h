@@ -39,6 +39,11 @@ public:
   virtual std::string bytesOf(std::size_t /*index*/) const { return {}; }
   /// Takes a surface that another process has put, given as that one's bytesOf().
   virtual void putElsewhere(std::size_t index, const std::string& bytes) = 0;
+  /// Marks that all surfaces are made, and that those put from now on are moved ones. A run that is killed before endMoving()
+  /// leaves the surfaces as they were made.
+  virtual void beginMoving() {}
+  /// Marks that surfaces are moved no more. `moved` are those put since beginMoving(), by this run or by one before it.
+  virtual void endMoving(const std::vector<std::size_t>& /*moved*/) {}
 };
 
 /// Stores all surfaces in memory: of processes that share work, each has all of them.

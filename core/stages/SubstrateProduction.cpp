@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/SubstrateProduction.h"
 
-#include "base/Bytes.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Pace.h"
@@ -28,6 +27,7 @@
 #include <memory>
 #include <new>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -90,7 +90,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   {
     sum.add(fibres.domain.periodic.data(), sizeof(fibres.domain.periodic));
   }
-  const std::string values = "CACTUS " CACTUS_VERSION ", journal 12\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 13\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)
   {
@@ -180,6 +180,11 @@ struct SolvedFibres
   SolvedGrowth growth;
 };
 
+auto membersOf(SolvedFibres& solved)
+{
+  return std::tie(solved.factors, solved.growth.growth, solved.growth.fraction);
+}
+
 SolvedFibres solveGrowth(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, const Context& context, const Sharing& sharing)
 {
@@ -189,32 +194,13 @@ SolvedFibres solveGrowth(
   return solved;
 }
 
-std::string bytesOfSolved(const SolvedFibres& solved)
-{
-  ByteWriter put;
-  put(solved.factors);
-  put(solved.growth.growth);
-  put(solved.growth.fraction);
-  return put.bytes();
-}
-
-SolvedFibres solvedFrom(const std::string& bytes)
-{
-  SolvedFibres solved;
-  ByteReader get(bytes);
-  get(solved.factors);
-  get(solved.growth.growth);
-  get(solved.growth.fraction);
-  return solved;
-}
-
 /// Makes the surfaces of `made`, the fibres or a sample of them, into the spool, and returns the contents to be written.
 SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, const Fibres& made, const ProductionOrder& order,
   ProducedSubstrate& result, const Context& context, const Sharing& sharing)
 {
   const Context solving = context.part(0.0, growthSolved);
-  const SolvedFibres solved = spool.findings().part("growth").once(
-    sharing, [&] { return solveGrowth(fibres, order.growth, solving, sharing); }, bytesOfSolved, solvedFrom);
+  const SolvedFibres solved =
+    spool.findings().part("growth").once(sharing, [&] { return solveGrowth(fibres, order.growth, solving, sharing); });
   auto tiles = std::make_shared<GrownTiles>(scaledBy(solved.factors, fibres), order.growth, solved.growth.growth,
     keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()), context.threadCount());
   const double spacing = tiles->grid().spacing;
@@ -223,7 +209,7 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   facts.centreLines =
     order.surfaces.followsLines() || !made.myelinFractions.empty() ? std::make_shared<const Fibres>(fibres) : nullptr;
   const Context making = context.part(growthSolved, surfacesMade);
-  SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, &spool, sharing);
+  SurfaceMaker maker(tiles, facts, order.surfaces, making, nullptr, sharing, spool.findings());
   maker.makeOuter(spool.outer(), spool.inner());
   maker.makeInner(spool.outer(), spool.inner());
   result.fibres = maker.fibres();
@@ -401,7 +387,7 @@ ProducedSubstrate produceSubstrate(
   }
   catch (...)
   {
-    if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces() && !spool->foundFindings())
+    if (spool != nullptr && sharing.isFirst() && !spool->holdsSurfaces() && !spool->foundSome())
     {
       removeUseless(); // the solved growth would only conflict with other parameters
     }

@@ -45,7 +45,7 @@ struct ProducedSubstrate
   WrittenSubstrate written;
   std::vector<FibreSurfacePair> fibres; ///< without their meshes
   std::string remarks;                  ///< see remarkOnGrowth() and notAsAsked()
-  std::size_t found = 0;                ///< number of surfaces that an earlier run had left
+  std::size_t found = 0;                ///< number of fibres whose outer surfaces an earlier run had left
 };
 
 /// Thrown when the user has stopped a production that can continue from its work folder.

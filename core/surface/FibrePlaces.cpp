@@ -129,14 +129,12 @@ FoundFibres FibrePlaces::thinnerThan(
   }
   if (this->Field.knownFibres() != nullptr)
   {
-    return known.once(
-      sharing,
+    return known.once(sharing,
       [&]
       {
         return thinSize < mostOfAll * size ? findFibres(this->Field, thin, this->piecesOf(thin, context), context, sharing)
                                            : findFibres(this->Field, thin, context, sharing);
-      },
-      [](const FoundFibres& found) { return bytesOf(found); }, foundFrom);
+      });
   }
   FoundFibres found;
   for (const auto& fibre : this->Found)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace cactus
 {
@@ -30,6 +31,11 @@ struct SurfaceChange
   /// For an inner surface: its place is limited by the outer one.
   bool isHemmedIn = false;
 };
+
+inline auto membersOf(SurfaceChange& change)
+{
+  return std::tie(change.largestMove, change.droppedVolume, change.isHemmedIn);
+}
 
 /// The surfaces of one fibre and what was measured on them.
 struct FibreSurfacePair
@@ -60,6 +66,7 @@ struct FibreSurfacePair
   bool isFlawed = false;
   /// Whether the inner surface was made with the outer one, which has not been moved since.
   bool isInnerMade = false;
+  bool isMoved = false; ///< whether the outer surface was moved to keep it apart from others
 
   bool hasOwnGRatio() const { return !std::isnan(this->ownGRatio); }
   /// Tells whether the fibre is an axon without myelin.
@@ -74,5 +81,14 @@ struct FibreSurfacePair
   double largestMove() const { return std::max(this->outerChange.largestMove, this->innerChange.largestMove); }
   double droppedVolume() const { return this->outerChange.droppedVolume + this->innerChange.droppedVolume; }
 };
+
+/// Lists all of a pair but its meshes, see base/Bytes.h.
+inline auto membersOf(FibreSurfacePair& pair)
+{
+  return std::tie(pair.fibreId, pair.bundleId, pair.targetRadius, pair.outerReport, pair.innerReport, pair.outerChange,
+    pair.innerChange, pair.state, pair.volumeAsMade, pair.outerLevel, pair.thickness, pair.ownGRatio, pair.targetGRatio,
+    pair.nodes, pair.internodeLength, pair.wholeMyelin, pair.gRatio, pair.isWanted, pair.isFlawed, pair.isInnerMade,
+    pair.isMoved);
+}
 
 } // namespace cactus

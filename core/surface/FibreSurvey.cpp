@@ -146,32 +146,9 @@ void add(std::size_t piece, const PartOfFibre& part, FoundFibre& fibre)
   }
 }
 
-std::string bytesOfParts(const PartsOfPiece& parts)
+auto membersOf(PartOfFibre& part)
 {
-  ByteWriter put;
-  for (const auto& [id, part] : parts)
-  {
-    put(id);
-    put(part.depths);
-    put(part.samples);
-    put.addAll(part.first.data(), part.first.size());
-    put.addAll(part.last.data(), part.last.size());
-  }
-  return put.bytes();
-}
-
-PartsOfPiece partsFrom(const std::string& bytes)
-{
-  PartsOfPiece parts;
-  for (ByteReader get(bytes); !get.isAtEnd();)
-  {
-    PartOfFibre& part = parts[get.get<std::int32_t>()];
-    get(part.depths);
-    get(part.samples);
-    get.getAll(part.first.data(), part.first.size());
-    get.getAll(part.last.data(), part.last.size());
-  }
-  return parts;
+  return std::tie(part.depths, part.samples, part.first, part.last);
 }
 
 /// Returns the node of the first sample of a piece: node 1 is the field's first sample.
@@ -198,9 +175,8 @@ FoundFibres findThem(const FibreField& field, std::size_t count, const PieceAt& 
     const auto done = [&](std::size_t end) { return shareOfLooking * static_cast<double>(end) / static_cast<double>(count); };
     sharing.loop(
       parts.size(), context, [&](std::size_t i) { parts[i] = partsOf(field, pieces, pieceAt(first + i)); },
-      [&](std::size_t i) { return bytesOfParts(parts[i]); },
-      [&](std::size_t i, const std::string& bytes) { parts[i] = partsFrom(bytes); }, "looking for fibres", done(first),
-      done(first + parts.size()));
+      [&](std::size_t i) { return bytesOf(parts[i]); }, [&](std::size_t i, const std::string& bytes) { getAll(bytes, parts[i]); },
+      "looking for fibres", done(first), done(first + parts.size()));
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
       for (const auto& [id, part] : parts[i])
@@ -253,44 +229,6 @@ FoundFibre findFibre(const FibreField& field, std::int32_t fibre, const std::vec
     }
   }
   return found;
-}
-
-std::string bytesOf(const FoundFibres& fibres)
-{
-  ByteWriter put;
-  put(static_cast<std::uint64_t>(fibres.size()));
-  for (const auto& [id, fibre] : fibres)
-  {
-    put(id);
-    put(fibre.depths);
-    put(fibre.samples);
-    put(static_cast<std::uint64_t>(fibre.boxes.size()));
-    for (const FoundBox& box : fibre.boxes)
-    {
-      put(box.piece);
-      put.addAll(box.ends.data(), box.ends.size());
-    }
-  }
-  return put.bytes();
-}
-
-FoundFibres foundFrom(const std::string& bytes)
-{
-  FoundFibres fibres;
-  ByteReader get(bytes);
-  for (auto left = get.get<std::uint64_t>(); left > 0; --left)
-  {
-    FoundFibre& fibre = fibres[get.get<std::int32_t>()];
-    get(fibre.depths);
-    get(fibre.samples);
-    for (auto boxes = get.get<std::uint64_t>(); boxes > 0; --boxes)
-    {
-      FoundBox& box = fibre.boxes.emplace_back();
-      get(box.piece);
-      get.getAll(box.ends.data(), box.ends.size());
-    }
-  }
-  return fibres;
 }
 
 NodeRange nodesOf(const FibreField& field, const FoundBox& box)

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <string>
+#include <tuple>
 #include <vector>
 
 namespace cactus
@@ -24,6 +24,11 @@ struct FoundBox
   std::array<std::uint8_t, 3> ends{ {} }; ///< per axis: the first sample in the piece, plus 16 times the last one
 };
 
+inline auto membersOf(FoundBox& box)
+{
+  return std::tie(box.piece, box.ends);
+}
+
 /// The samples of a fibre found in one pass over a label image.
 struct FoundFibre
 {
@@ -31,6 +36,11 @@ struct FoundFibre
   double samples = 0.0;        ///< number of samples
   std::vector<FoundBox> boxes; ///< by piece, increasing
 };
+
+inline auto membersOf(FoundFibre& fibre)
+{
+  return std::tie(fibre.depths, fibre.samples, fibre.boxes);
+}
 
 /// Share of the total progress spent in the survey.
 constexpr double shareOfLooking = 0.01;
@@ -54,10 +64,6 @@ FoundFibres findFibres(const FibreField& field, const std::set<std::int32_t>& fi
 
 /// Does the same for one fibre, in an image that is known to be valid.
 FoundFibre findFibre(const FibreField& field, std::int32_t fibre, const std::vector<std::uint32_t>& pieces);
-
-/// Convert fibres found to bytes, and back.
-std::string bytesOf(const FoundFibres& fibres);
-FoundFibres foundFrom(const std::string& bytes);
 
 /// Returns the nodes of a box.
 NodeRange nodesOf(const FibreField& field, const FoundBox& box);

@@ -3,7 +3,7 @@
 
 #include "base/Domain.h"
 #include "base/Properties.h"
-#include "fibres/ColumnTable.h"
+#include "fibres/Fibres.h"
 #include "surface/GRatio.h"
 
 #include <cstdint>
@@ -13,7 +13,6 @@
 namespace cactus
 {
 
-struct Fibres;
 struct FibreRadialGrowthOptions;
 
 /// Which internodes lose their myelin.

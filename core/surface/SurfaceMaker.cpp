@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/SurfaceMaker.h"
 
+#include "base/Bytes.h"
 #include "base/Error.h"
 #include "base/Limits.h"
 #include "base/Memory.h"
 #include "base/Parallel.h"
 #include "mesh/SurfaceSpacing.h"
-#include "surface/SurfaceNumbers.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -117,20 +116,6 @@ const SmoothedField& outerOf(const SmoothedField& field, const MyelinProfile* pr
   return profile != nullptr && profile->lacksMyelin() ? profile->outer() : field;
 }
 
-std::string bytesOf(const std::vector<Eigen::Vector3d>& points)
-{
-  ByteWriter put;
-  put.addAll(points.data(), points.size());
-  return put.bytes();
-}
-
-std::vector<Eigen::Vector3d> pointsFrom(const std::string& bytes)
-{
-  std::vector<Eigen::Vector3d> points(bytes.size() / sizeof(Eigen::Vector3d));
-  ByteReader(bytes).getAll(points.data(), points.size());
-  return points;
-}
-
 /// Throws what myelinSurfaces() throws for options that do not suit the image.
 const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
 {
@@ -144,15 +129,15 @@ const LabelImageFacts& checked(const LabelImageFacts& facts, const MyelinSurface
 } // namespace
 
 SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts,
-  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters, SurfaceJournal* journal,
-  const Sharing& sharing)
+  const MyelinSurfaceOptions& options, const Context& context, const SurfaceFilters* filters, const Sharing& sharing,
+  const Recollection& known)
   : Facts(checked(facts, options))
   , Options(options)
   , Filters(filters)
   , Caller(context)
   , Shared(sharing)
-  , Journal(journal != nullptr ? *journal : NoJournal)
-  , Mesher(image, facts, options, filters, context, sharing, Journal.findings().part("thin"))
+  , Known(known)
+  , Mesher(image, facts, options, filters, context, sharing, known.part("thin"))
   , Pairs(fibresOf(facts, Mesher.places()))
   , Order(orderByPlace(Pairs, Mesher.places()))
 {
@@ -163,7 +148,7 @@ SurfaceMaker::SurfaceMaker(const std::shared_ptr<const LabelSource>& image, cons
 std::string SurfaceMaker::bytesOfFibre(std::size_t i, const Changed& stores) const
 {
   ByteWriter put;
-  put(bytesOf(this->Pairs[i]));
+  put(this->Pairs[i]);
   for (const SurfaceStore* store : stores)
   {
     put(store->bytesOf(i));
@@ -174,7 +159,7 @@ std::string SurfaceMaker::bytesOfFibre(std::size_t i, const Changed& stores) con
 void SurfaceMaker::takeFibre(std::size_t i, const std::string& bytes, const Changed& stores)
 {
   ByteReader get(bytes);
-  this->Pairs[i] = pairFrom(get.get<std::string>());
+  get(this->Pairs[i]);
   for (SurfaceStore* store : stores)
   {
     store->putElsewhere(i, get.get<std::string>());
@@ -192,32 +177,28 @@ void SurfaceMaker::forEachOf(const std::vector<std::size_t>& which, const Change
     [&](std::size_t i, const std::string& bytes) { this->takeFibre(which[i], bytes, stores); });
 }
 
-/// Does the same for all fibres; each process gets those near each other, which share samples. `isMade(i)` tells whether a fibre
-/// is finished, and then completes its pair; `body(i)` calls it, too.
-template <typename IsMade, typename Body>
-void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const Changed& stores, const char* message, double from, double to)
+/// Does the same for those of these fibres without a record in `known`, and notes theirs; each process gets those near each
+/// other, which share samples.
+template <typename Body>
+void SurfaceMaker::makeFor(const std::vector<std::size_t>& which, const Changed& stores, const Recollection& known, Body&& body,
+  const char* message, double from, double to)
 {
-  std::vector<std::uint64_t> made;
-  for (const std::size_t i : this->Order)
-  {
-    made.push_back(isMade(i) ? 1 : 0);
-  }
-  this->Shared.addUp(made); // one process may know results that others do not
-  std::vector<std::size_t> left;
+  const std::vector<std::size_t> left =
+    known.takeKnown(this->Shared, which, [this](std::size_t i, const std::string& bytes) { getAll(bytes, this->Pairs[i]); });
   std::vector<double> weights;
-  for (std::size_t place = 0; place < made.size(); ++place)
+  for (const std::size_t i : left)
   {
-    if (made[place] < std::uint64_t(this->Shared.size()))
-    {
-      const auto found = this->Mesher.places().all().find(this->Pairs[this->Order[place]].fibreId);
-      const bool isToBeMade = made[place] == 0 && found != this->Mesher.places().all().end();
-      left.push_back(this->Order[place]);
-      weights.push_back(isToBeMade ? 1.0 + found->second.size : 1.0);
-    }
+    const auto found = this->Mesher.places().all().find(this->Pairs[i].fibreId);
+    weights.push_back(found != this->Mesher.places().all().end() ? 1.0 + found->second.size : 1.0);
   }
-  const double done = made.empty() ? 0.0 : 1.0 - static_cast<double>(left.size()) / static_cast<double>(made.size());
+  const double done = which.empty() ? 0.0 : 1.0 - static_cast<double>(left.size()) / static_cast<double>(which.size());
   this->Shared.loopAlong(
-    weights, this->Caller, [&](std::size_t i) { body(left[i]); },
+    weights, this->Caller,
+    [&](std::size_t i)
+    {
+      body(left[i]);
+      known.part(std::to_string(left[i])).note(bytesOf(this->Pairs[left[i]]));
+    },
     [&](std::size_t i) { return this->bytesOfFibre(left[i], stores); },
     [&](std::size_t i, const std::string& bytes) { this->takeFibre(left[i], bytes, stores); }, message, from + done * (to - from),
     to);
@@ -225,18 +206,28 @@ void SurfaceMaker::forEachFibre(IsMade&& isMade, Body&& body, const Changed& sto
 
 void SurfaceMaker::makeOuter(SurfaceStore& outer, SurfaceStore& inner)
 {
-  if (this->Journal.recallSpaced(this->Pairs))
+  this->Pairs = this->Known.part(keptApart).once(this->Shared,
+    [&]
+    {
+      this->Shares = this->isCommon() ? Progress{ 0.45, 0.55 } : Progress{ 0.95, 0.97 };
+      this->contour(outer, inner);
+      outer.beginMoving();
+      if (this->Filters == nullptr)
+      {
+        this->spaceOut(outer, inner);
+      }
+      return std::move(this->Pairs);
+    });
+  std::vector<std::size_t> moved;
+  for (std::size_t i = 0; i < this->Pairs.size(); ++i)
   {
-    return;
+    if (this->Pairs[i].isMoved)
+    {
+      moved.push_back(i);
+    }
   }
-  this->Shares = this->isCommon() ? Progress{ 0.45, 0.55 } : Progress{ 0.95, 0.97 };
-  this->contour(outer, inner);
-  this->Journal.beginSpacing();
-  if (this->Filters == nullptr)
-  {
-    this->spaceOut(outer, inner);
-  }
-  this->Journal.noteSpaced(this->Pairs);
+  outer.endMoving(moved);
+  inner.endMoving({});
 }
 
 void SurfaceMaker::takeOuter(std::vector<FibreSurfacePair> fibres)
@@ -250,7 +241,7 @@ void SurfaceMaker::takeOuter(std::vector<FibreSurfacePair> fibres)
 
 void SurfaceMaker::makeInner(const SurfaceSource& outer, SurfaceStore& inner)
 {
-  this->isCommon() ? this->makeInnerOfCommonVolume(outer, inner) : this->makeEachInner(outer, inner);
+  this->isCommon() ? this->makeInnerOfCommonVolume(outer, inner) : this->makeEachInner(outer, inner, this->Known.part("inner"));
 }
 
 /// Returns the g-ratio of a fibre whose outer surface has this volume (µm³).
@@ -302,15 +293,10 @@ void SurfaceMaker::putInner(std::size_t i, const SmoothedField& field, MyelinPro
 
 void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
 {
-  const auto isMade = [&](std::size_t i) { return this->Journal.recallOuter(i, this->Pairs[i]); };
-  this->forEachFibre(
-    isMade,
+  this->makeFor(
+    this->Order, { &outer, &inner }, this->Known.part(outerMade),
     [&](std::size_t i)
     {
-      if (isMade(i))
-      {
-        return;
-      }
       FibreSurfacePair& pair = this->Pairs[i];
       this->withField(pair,
         [&](const SmoothedField& field, MyelinProfile* profile)
@@ -327,9 +313,8 @@ void SurfaceMaker::contour(SurfaceStore& outer, SurfaceStore& inner)
           }
         });
       outer.put(i, std::exchange(pair.outer, TriangleMesh()));
-      this->Journal.noteOuter(i, pair);
     },
-    { &outer, &inner }, this->isCommon() ? "making outer surfaces" : "making surfaces", shareOfLooking, this->Shares.contoured);
+    this->isCommon() ? "making outer surfaces" : "making surfaces", shareOfLooking, this->Shares.contoured);
 }
 
 /// Keeps outer surfaces apart. One that meets itself after a move, as a folding thin cap may, is made again with less coarsening
@@ -353,7 +338,7 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
     std::set_union(made.begin(), made.end(), tooNear.begin(), tooNear.end(), std::back_inserter(changed));
     const SpacingReport spacing = keepApart(outer, changed, gap, Eigen::AlignedBox3d(box.lower, box.upper), this->Caller,
       attempt == 0 ? this->Shares.contoured : this->Shares.spaced, this->Shares.spaced, this->Shared,
-      this->Journal.findings().part(text("apart ", attempt)), this->Mesher.field().heldFaces());
+      this->Known.part(text("apart ", attempt)), this->Mesher.field().heldFaces());
     tooNear = spacing.tooNear;
     moved.insert(spacing.moved.begin(), spacing.moved.end());
     made = this->checkMoved(spacing.moved, attempt, outer, bounds);
@@ -368,6 +353,10 @@ void SurfaceMaker::spaceOut(SurfaceStore& outer, const SurfaceSource& inner)
   for (const std::size_t i : tooNear)
   {
     this->Pairs[i].isFlawed = true;
+  }
+  for (const std::size_t i : moved)
+  {
+    this->Pairs[i].isMoved = true;
   }
   this->evenOuter({ moved.begin(), moved.end() }, outer);
   if (!this->isCommon()) // otherwise there is none yet
@@ -405,18 +394,12 @@ std::vector<std::size_t> SurfaceMaker::checkMoved(
       faults[i] = this->Mesher.checkOuter(pair);
       outer.put(moved[i], std::exchange(pair.outer, TriangleMesh()));
     },
-    [&](std::size_t i)
-    {
-      ByteWriter put;
-      put(this->bytesOfFibre(moved[i], { &outer }));
-      put(bytesOf(faults[i]));
-      return put.bytes();
-    },
+    [&](std::size_t i) { return bytesOf(this->bytesOfFibre(moved[i], { &outer }), faults[i]); },
     [&](std::size_t i, const std::string& bytes)
     {
-      ByteReader get(bytes);
-      this->takeFibre(moved[i], get.get<std::string>(), { &outer });
-      faults[i] = pointsFrom(get.get<std::string>());
+      std::string fibre;
+      getAll(bytes, fibre, faults[i]);
+      this->takeFibre(moved[i], fibre, { &outer });
     });
   std::vector<std::size_t> again;
   for (std::size_t i = 0; i < faults.size(); ++i)
@@ -477,23 +460,15 @@ void SurfaceMaker::keepInner(const SurfaceSource& outer, const SurfaceSource& in
     });
 }
 
-void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner)
+void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner, const Recollection& known)
 {
-  constexpr double anyGRatio = std::numeric_limits<double>::quiet_NaN();
-  const auto isMade = [&](std::size_t i)
-  {
-    FibreSurfacePair& pair = this->Pairs[i];
-    return std::isnan(pair.volumeAsMade) || pair.isInnerMade ||
-           this->Journal.recallInner(i, this->isCommon() ? pair.targetGRatio : anyGRatio, pair);
-  };
-  this->forEachFibre(
-    isMade,
+  std::vector<std::size_t> which;
+  std::copy_if(this->Order.begin(), this->Order.end(), std::back_inserter(which),
+    [this](std::size_t i) { return !std::isnan(this->Pairs[i].volumeAsMade) && !this->Pairs[i].isInnerMade; });
+  this->makeFor(
+    which, { &inner }, known,
     [&](std::size_t i)
     {
-      if (isMade(i))
-      {
-        return;
-      }
       FibreSurfacePair& pair = this->Pairs[i];
       if (pair.state != MyelinState::NoFibre)
       {
@@ -506,9 +481,8 @@ void SurfaceMaker::makeEachInner(const SurfaceSource& outer, SurfaceStore& inner
       {
         inner.put(i, TriangleMesh()); // replaces one made before the outer one was found to be empty
       }
-      this->Journal.noteInner(i, pair);
     },
-    { &inner }, "making inner surfaces", this->Shares.spaced, 1.0);
+    "making inner surfaces", this->Shares.spaced, 1.0);
 }
 
 /// Makes inner surfaces with one g-ratio for all, so that all axons together have the target volume; if a fibre cannot have that
@@ -551,7 +525,7 @@ void SurfaceMaker::makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceSt
     {
       pair.targetGRatio = pair.hasOwnGRatio() ? pair.ownGRatio : std::sqrt(square);
     }
-    this->makeEachInner(outer, inner);
+    this->makeEachInner(outer, inner, this->Known.part(text("inner ", round)));
     given = open = reached = 0.0;
     for (const FibreSurfacePair& pair : this->Pairs)
     {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "base/Context.h"
+#include "base/Recollection.h"
 #include "base/Sharing.h"
 #include "mesh/SurfaceStore.h"
 #include "surface/FibreMesher.h"
 #include "surface/FibreSurfacePair.h"
-#include "surface/SurfaceJournal.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,12 +25,17 @@ namespace cactus
 class SurfaceMaker
 {
 public:
-  /// All arguments passed by reference have to outlive the object. With a journal, recorded surfaces are not made again.
-  /// Of processes that share the work, each has stores of its own, or all have those and the journal on a disk; fibres() is the
-  /// same in all, and so are the surfaces. Throws as myelinSurfaces() does.
+  /// The names of what is known of each fibre whose outer surface is made, and of all of them once they are kept apart.
+  static constexpr char outerMade[] = "outer";
+  static constexpr char keptApart[] = "apart";
+
+  /// All arguments passed by reference have to outlive the object. A surface is stored before the record of its fibre is noted in
+  /// `known`; what an earlier run has noted there is not made again. Of processes that share the work, each has stores of its
+  /// own, or all have those and `known` on a disk; fibres() is the same in all, and so are the surfaces. Throws as
+  /// myelinSurfaces() does.
   SurfaceMaker(const std::shared_ptr<const LabelSource>& image, const LabelImageFacts& facts, const MyelinSurfaceOptions& options,
-    const Context& context, const SurfaceFilters* filters = nullptr, SurfaceJournal* journal = nullptr,
-    const Sharing& sharing = Sharing());
+    const Context& context, const SurfaceFilters* filters = nullptr, const Sharing& sharing = Sharing(),
+    const Recollection& known = {});
 
   /// Returns the records of all fibres, by increasing id; their meshes are in the stores.
   const std::vector<FibreSurfacePair>& fibres() const { return this->Pairs; }
@@ -61,8 +66,9 @@ private:
   void takeFibre(std::size_t i, const std::string& bytes, const Changed& stores);
   template <typename Body>
   void forEachOf(const std::vector<std::size_t>& which, const Changed& stores, Body&& body);
-  template <typename IsMade, typename Body>
-  void forEachFibre(IsMade&& isMade, Body&& body, const Changed& stores, const char* message, double from, double to);
+  template <typename Body>
+  void makeFor(const std::vector<std::size_t>& which, const Changed& stores, const Recollection& known, Body&& body,
+    const char* message, double from, double to);
   double targetGRatio(const SmoothedField& field, const FibreSurfacePair& pair, double volume) const;
   template <typename Body>
   void withField(FibreSurfacePair& pair, Body&& body) const;
@@ -75,7 +81,7 @@ private:
     const std::vector<std::size_t>& moved, int attempt, SurfaceStore& outer, BoundsOfFibres& bounds);
   void makeAgain(const std::vector<std::size_t>& which, double deeper, const BoundsOfFibres& bounds, SurfaceStore& outer);
   void keepInner(const SurfaceSource& outer, const SurfaceSource& inner);
-  void makeEachInner(const SurfaceSource& outer, SurfaceStore& inner);
+  void makeEachInner(const SurfaceSource& outer, SurfaceStore& inner, const Recollection& known);
   void makeInnerOfCommonVolume(const SurfaceSource& outer, SurfaceStore& inner);
 
   const LabelImageFacts& Facts;
@@ -83,8 +89,7 @@ private:
   const SurfaceFilters* Filters;
   const Context Caller;
   const Sharing Shared;
-  SurfaceJournal NoJournal;
-  SurfaceJournal& Journal;
+  const Recollection Known;
   FibreMesher Mesher;
   std::vector<FibreSurfacePair> Pairs;
   Progress Shares{ 0.0, 0.0 };

@@ -78,14 +78,12 @@ TEST(Recollection, WorksOutOnce)
 {
   const auto square = [](const Recollection& known, Team* team, int& times)
   {
-    return known.once(
-      Sharing(team),
+    return known.once(Sharing(team),
       [&]
       {
         ++times;
         return 49;
-      },
-      [](int value) { return std::to_string(value); }, [](const std::string& bytes) { return std::stoi(bytes); });
+      });
   };
   int times = 0;
   EXPECT_EQ(square({}, nullptr, times), 49);

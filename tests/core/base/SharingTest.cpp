@@ -11,7 +11,6 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -24,38 +23,6 @@ namespace
 
 using namespace cactus;
 using cactus_testing::inTeam;
-
-TEST(Bytes, ComeBackAsTheyWere)
-{
-  ByteWriter put;
-  put(std::int8_t(-3));
-  put(std::numeric_limits<double>::denorm_min());
-  put(std::string("a\0b", 3));
-  put(std::vector<float>{ 1.5F, -0.0F });
-  const std::string bytes = put.bytes();
-  ByteReader get(bytes);
-  EXPECT_EQ(get.get<std::int8_t>(), -3);
-  EXPECT_EQ(get.get<double>(), std::numeric_limits<double>::denorm_min());
-  EXPECT_EQ(get.get<std::string>(), std::string("a\0b", 3));
-  std::vector<float> numbers;
-  get(numbers);
-  EXPECT_EQ(numbers, (std::vector<float>{ 1.5F, -0.0F }));
-  EXPECT_TRUE(get.isAtEnd());
-  // A truncated message is detected anywhere: also a count beyond the memory.
-  for (std::size_t size = 0; size < bytes.size(); ++size)
-  {
-    const std::string cut = bytes.substr(0, size);
-    ByteReader from(cut);
-    const auto all = [&]
-    {
-      from.get<std::int8_t>();
-      from.get<double>();
-      from.get<std::string>();
-      from(numbers);
-    };
-    EXPECT_THROW(all(), FileError) << size;
-  }
-}
 
 TEST(Sharing, DoesEachThingOnceOnAnyNumberOfProcessesAndThreads)
 {

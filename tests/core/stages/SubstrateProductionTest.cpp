@@ -655,6 +655,17 @@ TEST_F(Production, LeavesAUsersFilesAmongItsOwn)
   fs::remove_all(this->folder("noted.work"));
 }
 
+// The journal is cleared first, and then the surfaces are removed.
+TEST_F(Production, MindsNothingThatAKilledRemovalHasLeft)
+{
+  this->killAt("removed", 0.93);
+  fs::resize_file(this->folder("removed.work/journal"), 80); // its identity
+  ASSERT_TRUE(fs::remove(this->folder("removed.work/outer/00000/00000.surface")));
+  EXPECT_EQ(this->produce("removed").found, 0u);
+  EXPECT_EQ(filesIn(this->folder("removed")), this->filesOfStages());
+  EXPECT_FALSE(fs::exists(this->folder("removed.work")));
+}
+
 TEST_F(Production, SaysWhatIsDamaged)
 {
   const auto damageAll = [&](const std::string& name)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/FibreSurvey.h"
+#include "base/Bytes.h"
 #include "base/Error.h"
 #include "surface/MeetingFibres.h"
 #include "surface/NearBlocks.h"
@@ -119,7 +120,8 @@ TEST(FibreSurvey, FindsBoxesAndDepths)
     for (const Domain& domain : domains())
     {
       const FibreField field(image.view, domain, true);
-      const FoundFibres found = foundFrom(bytesOf(findFibres(field))); // the bytes keep all of it
+      FoundFibres found;
+      getAll(bytesOf(findFibres(field)), found); // the bytes keep all of it
       ASSERT_EQ(found.size(), 3u);
       for (const auto& [id, fibre] : foundOneByOne(field, image.view))
       {

@@ -4,6 +4,7 @@
 #include "surface/MyelinSurface.h"
 #include "BundleBetweenWalls.h"
 #include "ThreadTeam.h"
+#include "base/Bytes.h"
 #include "base/Constants.h"
 #include "base/Error.h"
 #include "bundle/BundleInitializer.h"
@@ -22,7 +23,6 @@
 #include "surface/MeetingFibres.h"
 #include "surface/SurfaceFinishing.h"
 #include "surface/SurfaceMaker.h"
-#include "surface/SurfaceNumbers.h"
 #include "surface/SurfaceRemarks.h"
 #include "surface/VanishingFibre.h"
 
@@ -478,7 +478,7 @@ TEST(MyelinSurfaces, AreTheSameInProcessesThatShareThem)
       sharing.together(
         [&]
         {
-          SurfaceMaker maker(source, facts, options, {}, nullptr, nullptr, sharing);
+          SurfaceMaker maker(source, facts, options, {}, nullptr, sharing);
           SurfacesInMemory outer(maker.fibres().size());
           SurfacesInMemory inner(maker.fibres().size());
           maker.makeOuter(outer, inner);
