@@ -106,8 +106,9 @@ DataOrigin originOf(vtkDataObject* data)
   {
     origin.records = recordsIn(data);
     const std::string recorded = checksumOf(origin.records);
-    // Version 0.2.0 computed another checksum, of 16 digits, with which nothing can be compared.
-    origin.isChanged = origin.isKnown() && recorded.size() != 16 && recorded != checksumOfData(data);
+    // Version 0.2.0 computed another checksum, of 16 digits without a prefix, with which nothing can be compared.
+    const bool isOld = recorded.size() == 16 && recorded.rfind(Hash64::prefix, 0) != 0;
+    origin.isChanged = origin.isKnown() && !isOld && recorded != checksumOfData(data);
     return origin;
   }
   for (vtkDataObject* leaf : leaves)

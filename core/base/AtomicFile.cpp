@@ -16,6 +16,39 @@ namespace cactus
 
 namespace fs = std::filesystem;
 
+namespace
+{
+
+constexpr mode_t permissionBits = 07777;
+constexpr int attempts = 100;
+
+/// Removes leftovers of dead processes for the same file.
+void removeStale(const fs::path& place)
+{
+  for (const fs::path& partial : partialsOf(folderOf(place), place.filename().string()))
+  {
+    const Descriptor file(::open(partial.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status;
+    if (file && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() &&
+        status.st_nlink == 1 && lockForWriting(file.get()))
+    {
+      ::unlink(partial.c_str());
+    }
+  }
+}
+
+/// Gives a file the owner, if permitted, and the permissions of another. If the group cannot be kept, it gets no more permissions
+/// than everybody has.
+void makeAlike(int file, const struct stat& other)
+{
+  const bool sameGroup =
+    ::fchown(file, other.st_uid, other.st_gid) == 0 || ::fchown(file, static_cast<uid_t>(-1), other.st_gid) == 0;
+  const mode_t mode = other.st_mode & permissionBits;
+  ::fchmod(file, sameGroup ? mode : (mode & ~mode_t(070)) | (mode & 07) << 3);
+}
+
+} // namespace
+
 AtomicFile::AtomicFile(const std::string& path)
   : Path(path)
   , Place(followLinks(path))
@@ -24,6 +57,15 @@ AtomicFile::AtomicFile(const std::string& path)
   {
     this->fail(path.empty() ? "it has no name" : "this is the name of a folder");
   }
+  removeStale(this->Place);
+  this->open();
+  this->Buffer = std::make_unique<DescriptorBuffer>(this->File.get());
+  this->Stream = std::make_unique<std::ostream>(this->Buffer.get());
+  this->Stream->imbue(std::locale::classic());
+}
+
+void AtomicFile::open()
+{
   struct stat former;
   const bool replaces = ::stat(this->Place.c_str(), &former) == 0;
   if (replaces && !S_ISREG(former.st_mode))
@@ -34,23 +76,29 @@ AtomicFile::AtomicFile(const std::string& path)
   {
     this->fail("it is write-protected (" + systemMessage(errno) + "): permit writing, or name another file");
   }
-  this->Temporary = folderOf(this->Place) / partialName(this->Place.filename().string());
   // The replacement of a private file is private from the start.
-  this->File = takePartial(this->Temporary, replaces ? 0600 : 0666, "cannot write " + path);
-  if (!this->File)
+  const mode_t mode = replaces ? 0600 : 0666;
+  for (int attempt = 0; attempt < attempts; ++attempt)
   {
-    this->fail(systemMessage(ENOENT));
+    this->Temporary = folderOf(this->Place) / partialName(this->Place.filename().string());
+    this->File = Descriptor(::open(this->Temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
+    if (!this->File && errno != EEXIST)
+    {
+      this->fail(systemMessage(errno));
+    }
+    struct stat status;
+    // Another process may have taken the file for a leftover before it was locked.
+    if (this->File && (lockForWriting(this->File.get()) || errno != EWOULDBLOCK) && ::fstat(this->File.get(), &status) == 0 &&
+        status.st_nlink == 1)
+    {
+      if (replaces)
+      {
+        makeAlike(this->File.get(), former);
+      }
+      return;
+    }
   }
-  this->Stream.imbue(std::locale::classic());
-  this->Stream.open(this->Temporary, std::ios::binary);
-  if (!this->Stream)
-  {
-    this->fail(systemMessage(errno));
-  }
-  if (replaces)
-  {
-    makeAlike(this->File.get(), former);
-  }
+  this->fail("no temporary name is free");
 }
 
 AtomicFile::~AtomicFile()
@@ -63,30 +111,22 @@ AtomicFile::~AtomicFile()
 
 void AtomicFile::commit()
 {
-  this->Stream.close();
-  const bool isWhole = this->Stream.good();
-  int error = 0;
-  if (!isWhole && ::lseek(this->File.get(), 0, SEEK_END) >= 0)
-  {
-    error = writeAll(this->File.get(), "\n", 1); // for the reason, which a stream does not keep
-  }
+  this->Stream->flush();
+  int error = this->Buffer->error();
   if (error == 0)
   {
-    error = synchronise(this->File.get());
-  }
-  if (error == 0 && !isWhole)
-  {
-    error = EIO;
+    error = this->Stream->good() ? synchronise(this->File.get()) : EIO;
   }
   if (error == 0 && std::rename(this->Temporary.c_str(), this->Place.c_str()) != 0)
   {
     error = errno;
   }
-  this->Committed = error == 0;
-  if (error == 0)
+  if (error != 0)
   {
-    error = this->File.close();
+    this->fail(systemMessage(error));
   }
+  this->Committed = true;
+  error = this->File.close();
   if (error == 0)
   {
     error = synchroniseFolder(folderOf(this->Place));

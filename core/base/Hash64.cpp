@@ -35,7 +35,7 @@ std::uint64_t Hash64::value() const
 std::string Hash64::text() const
 {
   std::array<char, 16> digits{};
-  return "xxh3-" + std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), this->value(), 16).ptr);
+  return prefix + std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), this->value(), 16).ptr);
 }
 
 std::uint64_t hash64(const void* data, std::size_t size, std::uint64_t seed)

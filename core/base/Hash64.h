@@ -22,7 +22,8 @@ public:
   void add(std::uint64_t number) { this->add(&number, sizeof(number)); }
   /// Returns the hash of all bytes added.
   std::uint64_t value() const;
-  /// Returns it as text: "xxh3-" and up to 16 hexadecimal digits.
+  static constexpr char prefix[] = "xxh3-";
+  /// Returns it as text: the prefix and up to 16 hexadecimal digits.
   std::string text() const;
 
 private:

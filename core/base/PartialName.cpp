@@ -2,31 +2,64 @@
 #include "base/PartialName.h"
 
 #include "base/Error.h"
+#include "base/PosixFile.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <sys/random.h>
 
 namespace cactus
 {
 
+namespace fs = std::filesystem;
+
 namespace
 {
 
-constexpr char marker[] = ".cactus-partial";
+constexpr std::size_t digits = 16;
+constexpr std::size_t longestName = 255;
+const std::string marker = ".partial-";
+
+/// Returns the beginning of every partial name of `name`.
+std::string beginning(const std::string& name)
+{
+  return name.substr(0, longestName - marker.size() - digits) + marker;
+}
 
 } // namespace
 
 std::string partialName(const std::string& name)
 {
-  return name + marker;
+  std::array<unsigned char, digits / 2> drawn;
+  while (::getrandom(drawn.data(), drawn.size(), 0) != static_cast<ssize_t>(drawn.size()))
+  {
+    if (errno != EINTR)
+    {
+      throw FileError("cannot draw a random name: " + systemMessage(errno));
+    }
+  }
+  std::string random;
+  for (const unsigned char byte : drawn)
+  {
+    random += "0123456789abcdef"[byte >> 4];
+    random += "0123456789abcdef"[byte & 15];
+  }
+  return beginning(name) + random;
+}
+
+bool isPartialName(const std::string& candidate, const std::string& name)
+{
+  const std::string start = beginning(name);
+  return candidate.size() == start.size() + digits && candidate.compare(0, start.size(), start) == 0 &&
+         candidate.find_first_not_of("0123456789abcdef", start.size()) == std::string::npos;
 }
 
 std::string wholeName(const std::string& candidate)
 {
-  return candidate.substr(0, candidate.rfind(marker));
+  const std::string name = candidate.substr(0, candidate.rfind(marker));
+  return isPartialName(candidate, name) ? name : candidate;
 }
 
 bool lockForWriting(int descriptor)
@@ -34,50 +67,19 @@ bool lockForWriting(int descriptor)
   return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
 }
 
-Descriptor takePartial(const std::filesystem::path& path, mode_t mode, const std::string& what)
+std::vector<fs::path> partialsOf(const fs::path& folder, const std::string& name)
 {
-  const std::string inUse =
-    what + ": another process is writing it at this moment: wait until it has ended, or choose another name";
-  const std::string notOurs =
-    what + ": " + path.string() + ", in which it would be written, is there already, and not ours: rename it";
-  constexpr int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
-  Descriptor file(::open(path.c_str(), flags | O_CREAT | O_EXCL, mode));
-  const bool isNew = bool(file);
-  if (!isNew && errno == EEXIST)
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
   {
-    file = Descriptor(::open(path.c_str(), flags));
-    if (!file)
+    if (isPartialName(entry->path().filename().string(), name))
     {
-      throw FileError(errno == ENOENT ? inUse : notOurs);
+      found.push_back(entry->path());
     }
   }
-  if (!file && errno == ENOENT)
-  {
-    return file;
-  }
-  if (!file)
-  {
-    throw FileError(what + ": " + systemMessage(errno));
-  }
-  const bool isLocked = lockForWriting(file.get());
-  if (!isLocked && errno != EWOULDBLOCK && !isNew)
-  {
-    throw FileError(what + ": another process may be writing it, as " + path.string() +
-                    " is there and its file system knows no locks: remove that if none is");
-  }
-  struct stat held;
-  struct stat there;
-  // A writer that has just finished has renamed or removed the file.
-  if ((!isLocked && errno == EWOULDBLOCK) || ::fstat(file.get(), &held) != 0 || ::lstat(path.c_str(), &there) != 0 ||
-      held.st_ino != there.st_ino || held.st_dev != there.st_dev)
-  {
-    throw FileError(inUse);
-  }
-  if (!isNew && (!S_ISREG(held.st_mode) || held.st_uid != ::geteuid() || held.st_nlink != 1))
-  {
-    throw FileError(notOurs);
-  }
-  return file;
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 } // namespace cactus

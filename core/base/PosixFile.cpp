@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
-#include <vector>
 
 namespace cactus
 {
@@ -43,14 +42,6 @@ int writeAll(int descriptor, const char* data, std::size_t size)
     }
   }
   return 0;
-}
-
-void makeAlike(int descriptor, const struct stat& other)
-{
-  const bool sameGroup =
-    ::fchown(descriptor, other.st_uid, other.st_gid) == 0 || ::fchown(descriptor, static_cast<uid_t>(-1), other.st_gid) == 0;
-  const mode_t mode = other.st_mode & 07777;
-  ::fchmod(descriptor, sameGroup ? mode : (mode & ~mode_t(070)) | (mode & 07) << 3);
 }
 
 int synchronise(int descriptor)
@@ -119,6 +110,58 @@ std::string sha256OfFile(const fs::path& path)
     throw FileError("cannot read " + path.string() + ": " + systemMessage(errno));
   }
   return hash.digest();
+}
+
+DescriptorBuffer::DescriptorBuffer(int descriptor)
+  : Number(descriptor)
+  , Buffer(std::size_t(1) << 16)
+{
+  this->setp(this->Buffer.data(), this->Buffer.data() + this->Buffer.size());
+}
+
+bool DescriptorBuffer::send(const char* data, std::size_t size)
+{
+  if (this->Error == 0)
+  {
+    this->Error = writeAll(this->Number, data, size);
+  }
+  return this->Error == 0;
+}
+
+bool DescriptorBuffer::flush()
+{
+  const bool sent = this->send(this->pbase(), static_cast<std::size_t>(this->pptr() - this->pbase()));
+  this->setp(this->Buffer.data(), this->Buffer.data() + this->Buffer.size());
+  return sent;
+}
+
+DescriptorBuffer::int_type DescriptorBuffer::overflow(int_type character)
+{
+  if (!this->flush())
+  {
+    return traits_type::eof();
+  }
+  if (!traits_type::eq_int_type(character, traits_type::eof()))
+  {
+    this->sputc(traits_type::to_char_type(character));
+  }
+  return traits_type::not_eof(character);
+}
+
+std::streamsize DescriptorBuffer::xsputn(const char* text, std::streamsize size)
+{
+  if (size < this->epptr() - this->pptr())
+  {
+    traits_type::copy(this->pptr(), text, static_cast<std::size_t>(size));
+    this->pbump(static_cast<int>(size));
+    return size;
+  }
+  return this->flush() && this->send(text, static_cast<std::size_t>(size)) ? size : 0;
+}
+
+int DescriptorBuffer::sync()
+{
+  return this->flush() ? 0 : -1;
 }
 
 } // namespace cactus

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <ostream>
+#include <streambuf>
 #include <string>
-#include <sys/stat.h>
 #include <utility>
+#include <vector>
 
 namespace cactus
 {
@@ -44,10 +46,6 @@ std::string systemMessage(int error);
 /// Writes all bytes, and returns 0 or the error number.
 int writeAll(int descriptor, const char* data, std::size_t size);
 
-/// Gives an open file or folder the owner, if permitted, and the permissions of another. If the group cannot be kept, it gets no
-/// more permissions than everybody has.
-void makeAlike(int descriptor, const struct stat& other);
-
 /// Flushes a file, or a folder's list of entries, to the disk. Returns 0 or the error number; also 0 on a file system that cannot
 /// do so.
 int synchronise(int descriptor);
@@ -65,5 +63,26 @@ void requireNoPipe(const std::string& name, const std::filesystem::path& path);
 
 /// The SHA-256 checksum of a file, read piece by piece. Throws FileError.
 std::string sha256OfFile(const std::filesystem::path& path);
+
+/// A stream buffer that writes to a descriptor; it keeps the first error number.
+class DescriptorBuffer : public std::streambuf
+{
+public:
+  explicit DescriptorBuffer(int descriptor);
+  int error() const { return this->Error; }
+
+protected:
+  int_type overflow(int_type character) override;
+  std::streamsize xsputn(const char* text, std::streamsize size) override;
+  int sync() override;
+
+private:
+  bool flush();
+  bool send(const char* data, std::size_t size);
+
+  int Number;
+  int Error = 0;
+  std::vector<char> Buffer;
+};
 
 } // namespace cactus

@@ -8,24 +8,34 @@
 namespace cactus
 {
 
-Sha256::Sha256()
-  : State(EVP_MD_CTX_new(), &EVP_MD_CTX_free)
+namespace
 {
-  if (this->State == nullptr || EVP_DigestInit_ex(this->State.get(), EVP_sha256(), nullptr) != 1)
+
+void requireDone(bool isDone)
+{
+  if (!isDone)
   {
     throw std::runtime_error("OpenSSL cannot compute SHA-256");
   }
 }
 
+} // namespace
+
+Sha256::Sha256()
+  : State(EVP_MD_CTX_new(), &EVP_MD_CTX_free)
+{
+  requireDone(this->State != nullptr && EVP_DigestInit_ex(this->State.get(), EVP_sha256(), nullptr) == 1);
+}
+
 void Sha256::add(const void* data, std::size_t size)
 {
-  EVP_DigestUpdate(this->State.get(), data, size);
+  requireDone(EVP_DigestUpdate(this->State.get(), data, size) == 1);
 }
 
 std::string Sha256::digest()
 {
   std::array<unsigned char, 32> bytes{};
-  EVP_DigestFinal_ex(this->State.get(), bytes.data(), nullptr);
+  requireDone(EVP_DigestFinal_ex(this->State.get(), bytes.data(), nullptr) == 1);
   std::string text;
   for (const unsigned char byte : bytes)
   {

@@ -18,9 +18,6 @@ namespace cactus
 namespace
 {
 
-/// Item number of the first radius of axons without myelin, behind those of all others.
-constexpr std::uint64_t firstBareItem = std::uint64_t(1) << 36;
-
 /// Throws unless every circle has room in its rectangle.
 void requireFit(const Circles& circles, const char* property)
 {
@@ -160,8 +157,8 @@ Bundle layOutSingle(const BundleInitializerOptions& options, double density, dou
   bundle.myelinated = radii.size();
   if (options.unmyelinated.any())
   {
-    const std::vector<double> bare =
-      drawRadii(options.unmyelinated.radii(), options.seed, bareSurplus * share * area, itemOf(firstBareItem, bundle.id));
+    const std::vector<double> bare = drawRadii(
+      options.unmyelinated.radii(), options.seed, bareSurplus * share * area, itemOf(UnmyelinatedAxons::firstItem, bundle.id));
     radii.insert(radii.end(), bare.begin(), bare.end());
   }
   bundle.bottom.frameOf.assign(bundle.bottom.radii.size(), 0);

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace cactus
@@ -64,6 +65,19 @@ struct Line
   double lengthInDomain;
 };
 
+/// Returns the part of a segment of this length that is within `around` (µm) of the box, if it is longer than `shortest`.
+std::optional<Line> partNear(
+  const Domain& box, double around, const Eigen::Vector3d& begin, const Eigen::Vector3d& end, double length, double shortest)
+{
+  const std::array<double, 2> part = box.clip(begin, end, around);
+  if (!(length * (part[1] - part[0]) > shortest))
+  {
+    return std::nullopt;
+  }
+  const std::array<double, 2> inside = box.clip(begin, end);
+  return Line{ begin + (end - begin) * part[0], begin + (end - begin) * part[1], length * std::max(0.0, inside[1] - inside[0]) };
+}
+
 /// Lines of a bundle, which are made as far as they are asked for.
 class LineSequence
 {
@@ -101,12 +115,9 @@ private:
       turnTo(direction) * Eigen::Vector3d(distance * std::cos(azimuth), distance * std::sin(azimuth), 0.0);
     const Eigen::Vector3d begin = middle - half * direction;
     const Eigen::Vector3d end = middle + half * direction;
-    const std::array<double, 2> part = this->Box.clip(begin, end, this->Around);
-    if (2.0 * half * (part[1] - part[0]) > this->Shortest)
+    if (const std::optional<Line> line = partNear(this->Box, this->Around, begin, end, 2.0 * half, this->Shortest))
     {
-      const std::array<double, 2> inside = this->Box.clip(begin, end);
-      this->Lines.push_back(
-        { begin + (end - begin) * part[0], begin + (end - begin) * part[1], 2.0 * half * std::max(0.0, inside[1] - inside[0]) });
+      this->Lines.push_back(*line);
     }
   }
 
@@ -146,23 +157,28 @@ double volumeInDomain(const LaidLine& fibre)
   return pi * fibre.radius * fibre.radius * fibre.line.lengthInDomain;
 }
 
-/// Returns lines beside a line, for axons of a radius that lie together: spread evenly over a disc across it (Vogel 1979, Math
-/// Biosci 44:179), which they would fill to 0.8.
-std::vector<Line> clusterAround(const Line& line, double radius, int count, const Domain& box)
+/// Returns lines beside a line, for axons of a radius that lie together, as far as they are within `around` (µm) of the box:
+/// spread evenly over a disc across it (Vogel 1979, Math Biosci 44:179), which they would fill to 0.8.
+std::vector<Line> clusterAround(const Line& line, double radius, int count, const Domain& box, double around)
 {
   constexpr double density = 0.8;
   const double goldenAngle = pi * (3.0 - std::sqrt(5.0));
-  const Eigen::Matrix3d across = turnTo((line.last - line.first).normalized());
+  const Eigen::Vector3d direction = (line.last - line.first).normalized();
+  const Eigen::Matrix3d across = turnTo(direction);
+  const double widest = radius * std::sqrt(count / density);
+  const double half = box.size().norm() + std::sqrt(3.0) * around + widest; // beyond the box from each place beside the line
   std::vector<Line> lines;
   for (int k = 0; k < count; ++k)
   {
     const double distance = count > 1 ? radius * std::sqrt((k + 0.5) / density) : 0.0;
     const Eigen::Vector3d shift =
       across * Eigen::Vector3d(distance * std::cos(k * goldenAngle), distance * std::sin(k * goldenAngle), 0.0);
-    Line beside{ line.first + shift, line.last + shift, 0.0 };
-    const std::array<double, 2> inside = box.clip(beside.first, beside.last);
-    beside.lengthInDomain = (beside.last - beside.first).norm() * std::max(0.0, inside[1] - inside[0]);
-    lines.push_back(beside);
+    const Eigen::Vector3d begin = 0.5 * (line.first + line.last) + shift - half * direction;
+    const Eigen::Vector3d end = begin + 2.0 * half * direction;
+    if (const std::optional<Line> beside = partNear(box, around, begin, end, 2.0 * half, 2.0 * radius))
+    {
+      lines.push_back(*beside);
+    }
   }
   return lines;
 }
@@ -199,17 +215,18 @@ public:
 
   /// Adds axons without myelin to the fibres just laid, in clusters, until they fill `wanted` (µm³) of the domain as nearly as
   /// they can.
-  void addBare(double wanted, std::vector<LaidLine>& laid)
+  void addBare(double wanted, const Context& context, std::vector<LaidLine>& laid)
   {
     const UnmyelinatedAxons& axons = this->Options->unmyelinated;
     const RadiusDistributionOptions radii = axons.radii();
-    constexpr std::uint64_t firstBare = std::uint64_t(1) << 36; // behind the numbers of all fibres with myelin
     double filled = 0.0;
-    for (std::uint64_t i = firstBare; filled < wanted;)
+    for (std::uint64_t i = UnmyelinatedAxons::firstItem; filled < wanted;)
     {
+      context.checkpoint();
       const std::size_t bundle = this->poorest();
       const Line& middle = this->Lines[bundle][this->Used[bundle]++];
-      for (const Line& line : clusterAround(middle, axons.radius, axons.cluster, this->Options->domain()))
+      for (const Line& line :
+        clusterAround(middle, axons.radius, axons.cluster, this->Options->domain(), surroundings(*this->Options).sides))
       {
         const LaidLine axon{ line, sampleRadius(radii, this->Options->seed, i++), this->Bundles[bundle].id, true };
         const double volume = volumeInDomain(axon);
@@ -306,7 +323,7 @@ Fibres layLinesInSpace(const BundleInitializerOptions& options, const Context& c
   std::vector<LaidLine> laid = bundles.lay(enough);
   if (options.unmyelinated.any())
   {
-    bundles.addBare(options.unmyelinatedShare() * whole, laid);
+    bundles.addBare(options.unmyelinatedShare() * whole, context, laid);
   }
   for (const auto& [line, radius, bundle, isBare] : laid)
   {

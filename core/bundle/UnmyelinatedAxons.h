@@ -4,6 +4,8 @@
 #include "base/Properties.h"
 #include "bundle/RadiusDistribution.h"
 
+#include <cstdint>
+
 namespace cactus
 {
 
@@ -14,6 +16,8 @@ struct UnmyelinatedAxons
   double radius = 0.12;    ///< µm, mean
   double deviation = 0.05; ///< µm, standard deviation of the radius
   int cluster = 8;         ///< number of axons in a cluster; 1: none
+  /// Number of the first of them where random numbers are drawn by fibre: behind all fibres with myelin.
+  static constexpr std::uint64_t firstItem = std::uint64_t(1) << 36;
 
   static const PropertyList<UnmyelinatedAxons>& properties();
   bool any() const { return fraction > 0.0; }

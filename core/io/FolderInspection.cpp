@@ -4,16 +4,15 @@
 #include "base/Error.h"
 #include "base/Parallel.h"
 #include "base/PosixFile.h"
-#include "io/SubstrateManifest.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
-#include <optional>
+#include <string>
 #include <unistd.h>
-#include <utility>
 
 namespace cactus
 {
@@ -23,63 +22,232 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Reads the manifest of a folder; returns nothing if there is none of ours.
-std::optional<SubstrateManifest> manifestIn(const fs::path& folder)
+constexpr std::uintmax_t largestManifest = std::uintmax_t(1) << 29; ///< bytes; about 110 for a file
+
+bool sameTime(const timespec& a, const timespec& b)
 {
-  const fs::path path = folder / manifestName;
-  if (!fs::is_regular_file(fs::symlink_status(path)))
-  {
-    return std::nullopt;
-  }
-  std::ifstream file(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file)
-  {
-    throw FileError("cannot read " + path.string() + ": " + systemMessage(errno));
-  }
-  return readManifest(text);
+  return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
 }
 
-/// Sorts the entries of a folder into ours by their names, whose content is not compared yet, and others.
-FolderInspection sortedEntries(const fs::path& folder, const std::optional<SubstrateManifest>& manifest)
+/// Tells whether a file on the disk is unchanged.
+bool untouched(const struct stat& a, const struct stat& b)
 {
-  FolderInspection found;
-  found.isSubstrate = manifest.has_value();
-  WrittenFiles written = manifest ? manifest->written : WrittenFiles();
-  if (manifest)
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size && sameTime(a.st_mtim, b.st_mtim) &&
+         sameTime(a.st_ctim, b.st_ctim);
+}
+
+std::size_t entryCount(const fs::path& folder)
+{
+  std::size_t count = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
   {
-    written.checksums[manifestName] = "";
+    ++count;
   }
-  const auto noteProtection = [&](const std::string& path)
+  return count;
+}
+
+class Inspector
+{
+public:
+  Inspector(const fs::path& folder, const FolderInspection& earlier)
+    : Folder(folder)
+    , Earlier(earlier)
   {
-    if (::faccessat(AT_FDCWD, (folder / path).c_str(), W_OK, AT_EACCESS) != 0 && errno == EACCES)
+    this->Found.started = std::time(nullptr);
+  }
+
+  FolderInspection inspect(const Context& context)
+  {
+    struct stat status;
+    if (::lstat(this->Folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))
     {
-      found.writeProtected.push_back(path);
+      return this->Found;
+    }
+    this->Found.exists = true;
+    this->Found.folders[""] = status;
+    this->noteProtection("");
+    this->readManifestOfFolder();
+    if (this->Found.isSubstrate && !this->Found.isFinished)
+    {
+      return this->Found; // an early version's, of which it is unknown what is ours
+    }
+    this->walk("");
+    this->compare(context);
+    this->Found.empty = this->Found.folders.size() == 1 && this->Found.added.empty() && this->Found.files.empty();
+    for (auto* names : { &this->Found.added, &this->Found.changed, &this->Found.writeProtected })
+    {
+      std::sort(names->begin(), names->end());
+    }
+    return this->Found;
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& path, const std::string& why) const
+  {
+    throw FileError("cannot read " + (this->Folder / path).string() + ": " + why);
+  }
+
+  void noteProtection(const std::string& path)
+  {
+    if (::faccessat(AT_FDCWD, (this->Folder / path).c_str(), W_OK, AT_EACCESS) != 0 && errno == EACCES)
+    {
+      this->Found.writeProtected.push_back(path.empty() ? "." : path);
+    }
+  }
+
+  void readManifestOfFolder()
+  {
+    const fs::path path = this->Folder / manifestName;
+    std::error_code error;
+    if (!fs::is_regular_file(fs::symlink_status(path, error)) || fs::file_size(path, error) > largestManifest)
+    {
+      return;
+    }
+    std::ifstream file(path, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    if (!file)
+    {
+      this->fail(manifestName, systemMessage(errno));
+    }
+    if (const auto manifest = readManifest(text))
+    {
+      this->Manifest = *manifest;
+      this->Found.isSubstrate = true;
+      this->Found.isFinished = manifest->hasChecksums;
+    }
+  }
+
+  void walk(const std::string& under)
+  {
+    std::error_code error;
+    fs::directory_iterator entry(this->Folder / under, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    {
+      const std::string name = entry->path().filename().string();
+      this->visit(under.empty() ? name : under + "/" + name);
+    }
+    if (error)
+    {
+      this->fail(under, error.message());
+    }
+  }
+
+  void visit(const std::string& path)
+  {
+    struct stat status;
+    if (::lstat((this->Folder / path).c_str(), &status) != 0)
+    {
+      this->fail(path, systemMessage(errno));
+    }
+    if (S_ISDIR(status.st_mode))
+    {
+      if (this->Manifest.written.folders.count(path) == 0)
+      {
+        this->Found.added.push_back(path + "/");
+        return;
+      }
+      this->Found.folders[path] = status;
+      this->noteProtection(path);
+      this->walk(path);
+      return;
+    }
+    const bool ours = path == manifestName || this->Manifest.written.checksums.count(path) > 0;
+    if (!S_ISREG(status.st_mode) || !ours)
+    {
+      this->Found.added.push_back(path);
+      return;
+    }
+    this->noteProtection(path);
+    this->Found.files[path] = status;
+  }
+
+  /// Reads the files that the manifest lists, and moves changed ones to `changed`.
+  void compare(const Context& context)
+  {
+    if (!this->Found.isFinished)
+    {
+      return;
+    }
+    std::vector<std::string> paths;
+    for (const auto& file : this->Found.files)
+    {
+      const auto former = this->Earlier.files.find(file.first);
+      // A change within the clock tick in which a file was read would not be detected.
+      const bool known = former != this->Earlier.files.end() && untouched(former->second, file.second) &&
+                         file.second.st_ctim.tv_sec + 2 < this->Earlier.started;
+      if (!known && file.first != manifestName)
+      {
+        paths.push_back(file.first);
+      }
+    }
+    std::vector<char> same(paths.size(), 0);
+    parallelFor(paths.size(), context,
+      [&](std::size_t i) { same[i] = sha256OfFile(this->Folder / paths[i]) == this->Manifest.written.checksums.at(paths[i]); });
+    for (std::size_t i = 0; i < paths.size(); ++i)
+    {
+      if (same[i] == 0)
+      {
+        this->markChanged(paths[i]);
+      }
+    }
+    if (!this->Manifest.asWritten)
+    {
+      this->markChanged(manifestName);
+    }
+  }
+
+  void markChanged(const std::string& path)
+  {
+    this->Found.changed.push_back(path);
+    this->Found.files.erase(path);
+  }
+
+  const fs::path Folder;
+  const FolderInspection& Earlier;
+  SubstrateManifest Manifest;
+  FolderInspection Found;
+};
+
+} // namespace
+
+FolderInspection inspectFolder(const fs::path& folder, const Context& context, const FolderInspection& earlier)
+{
+  return Inspector(folder, earlier).inspect(context);
+}
+
+bool removeInspected(const fs::path& folder, const FolderInspection& inspection)
+{
+  const auto remove = [&](const std::string& path, const struct stat& as)
+  {
+    struct stat now;
+    const fs::path file = folder / path;
+    if (::lstat(file.c_str(), &now) == 0 && untouched(now, as))
+    {
+      ::unlink(file.c_str());
     }
   };
-  noteProtection(".");
-  for (fs::recursive_directory_iterator entry(folder), end; entry != end; ++entry)
+  for (const auto& file : inspection.files)
   {
-    const std::string path = entry->path().lexically_relative(folder).string();
-    const fs::file_type type = entry->symlink_status().type();
-    const bool isFolder = type == fs::file_type::directory;
-    if (isFolder ? written.folders.count(path) > 0 : type == fs::file_type::regular && written.checksums.count(path) > 0)
+    if (file.first != manifestName)
     {
-      (isFolder ? found.folders : found.files).push_back(path);
-      noteProtection(path);
-      continue;
+      remove(file.first, file.second);
     }
-    found.added.push_back(isFolder ? path + '/' : path);
-    entry.disable_recursion_pending();
   }
-  for (auto* names : { &found.added, &found.writeProtected, &found.files, &found.folders })
+  // In reverse order a folder comes after its content; the outermost, "", is the last.
+  for (auto inner = inspection.folders.rbegin(); inner != inspection.folders.rend(); ++inner)
   {
-    std::sort(names->begin(), names->end());
+    const auto manifest = inspection.files.find(manifestName);
+    if (inner->first.empty() && manifest != inspection.files.end() && entryCount(folder) == 1)
+    {
+      remove(manifestName, manifest->second);
+    }
+    ::rmdir((folder / inner->first).c_str());
   }
-  return found;
+  struct stat left;
+  return ::lstat(folder.c_str(), &left) != 0 && errno == ENOENT;
 }
 
-/// Returns up to five names, and how many more there are.
 std::string listed(const std::vector<std::string>& names)
 {
   constexpr std::size_t shown = 5;
@@ -89,102 +257,6 @@ std::string listed(const std::vector<std::string>& names)
     text += (i > 0 ? ", " : "") + names[i];
   }
   return names.size() > shown ? text + " and " + std::to_string(names.size() - shown) + " more" : text;
-}
-
-} // namespace
-
-FolderInspection inspectFolder(const fs::path& folder, const Context& context)
-{
-  try
-  {
-    const std::optional<SubstrateManifest> manifest = manifestIn(folder);
-    FolderInspection found = sortedEntries(folder, manifest);
-    const std::vector<std::string> ours = std::exchange(found.files, {});
-    std::vector<char> isSame(ours.size(), 0);
-    parallelFor(ours.size(), context,
-      [&](std::size_t i)
-      {
-        isSame[i] = ours[i] == manifestName ? manifest->asWritten
-                                            : sha256OfFile(folder / ours[i]) == manifest->written.checksums.at(ours[i]);
-      });
-    for (std::size_t i = 0; i < ours.size(); ++i)
-    {
-      (isSame[i] != 0 ? found.files : found.changed).push_back(ours[i]);
-    }
-    return found;
-  }
-  catch (const fs::filesystem_error& error)
-  {
-    throw FileError("cannot read " + error.path1().string() + ": " + error.code().message());
-  }
-}
-
-FolderInspection inspectReplaceable(const fs::path& place, const fs::path& where, const Context& context)
-{
-  std::error_code error;
-  const fs::file_type type = fs::symlink_status(where, error).type();
-  if (type == fs::file_type::not_found)
-  {
-    return {};
-  }
-  if (type != fs::file_type::directory)
-  {
-    throw FileError("FolderName " + place.string() + " is there already and not a folder: choose another one");
-  }
-  FolderInspection found = inspectFolder(where, context);
-  const std::string there = "folder " + place.string() + " is there already and ";
-  if (!found.isSubstrate && !found.added.empty())
-  {
-    throw FileError(
-      there + "is not a substrate folder (it has no manifest.json of ours with checksums): choose another FolderName");
-  }
-  if (!found.asWritten())
-  {
-    throw FileError(there + "holds " + contentsOf(found) +
-                    ": choose another FolderName, or move these out of it or remove them if they are not needed");
-  }
-  return found;
-}
-
-std::string contentsOf(const FolderInspection& found)
-{
-  std::vector<std::string> results;
-  std::vector<std::string> added;
-  for (const std::string& path : found.added)
-  {
-    (path.compare(0, 12, "mcdc/output/") == 0 ? results : added).push_back(path);
-  }
-  std::string text;
-  const auto say = [&](const char* what, const std::vector<std::string>& names)
-  {
-    if (!names.empty())
-    {
-      text += (text.empty() ? "" : "; ") + std::string(what) + " (" + listed(names) + ")";
-    }
-  };
-  say("results of simulations", results);
-  say("other data", added);
-  say("files that were changed after they were written", found.changed);
-  say("what is write-protected", found.writeProtected);
-  return text;
-}
-
-bool removeInspected(const fs::path& folder, const FolderInspection& inspection)
-{
-  for (const std::string& file : inspection.files)
-  {
-    if (file != manifestName)
-    {
-      ::unlink((folder / file).c_str());
-    }
-  }
-  // A folder comes after those in it.
-  for (auto inner = inspection.folders.rbegin(); inner != inspection.folders.rend(); ++inner)
-  {
-    ::rmdir((folder / *inner).c_str());
-  }
-  ::unlink((folder / manifestName).c_str());
-  return ::rmdir(folder.c_str()) == 0;
 }
 
 } // namespace cactus

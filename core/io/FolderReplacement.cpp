@@ -3,18 +3,16 @@
 
 #include "base/Error.h"
 #include "base/PartialName.h"
-#include "io/FolderInspection.h"
 #include "io/FolderPlace.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
 #include <fstream>
+#include <set>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
-#include <vector>
 
 namespace cactus
 {
@@ -25,44 +23,65 @@ namespace
 {
 
 constexpr char formerName[] = "former";
+constexpr int attempts = 100;
+constexpr mode_t permissionBits = 07777;
 
-bool isThere(const fs::path& path)
+/// Gives a folder the owners and permissions of the one that it replaces, as far as possible. If the group cannot be kept,
+/// permissions are only removed.
+void makeAlike(const FolderInspection& former, const fs::path& folder)
 {
-  std::error_code error;
-  return fs::exists(fs::symlink_status(path, error));
-}
-
-/// Gives everything in a folder the owner and permissions of what it replaces, as far as possible; what is new gets the folder's
-/// owner.
-void makeFolderAlike(const fs::path& former, const fs::path& folder)
-{
-  struct stat whole;
-  if (::lstat(former.c_str(), &whole) != 0)
+  const struct stat& whole = former.folders.at("");
+  const auto adapt = [&](const std::string& path)
   {
-    return;
-  }
-  const auto adapt = [&](const fs::path& path)
-  {
-    const Descriptor file(::open((folder / path).c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
+    const fs::path place = folder / path;
     struct stat status;
-    struct stat before;
-    if (!file || ::fstat(file.get(), &status) != 0)
+    if (::lstat(place.c_str(), &status) != 0)
     {
       return;
     }
-    if (::lstat((former / path).c_str(), &before) != 0 || (before.st_mode & S_IFMT) != (status.st_mode & S_IFMT))
+    bool sameGroup = status.st_gid == whole.st_gid;
+    if (!sameGroup || status.st_uid != whole.st_uid)
     {
-      before = whole;
-      before.st_mode = status.st_mode;
+      sameGroup = ::lchown(place.c_str(), whole.st_uid, whole.st_gid) == 0 ||
+                  ::lchown(place.c_str(), static_cast<uid_t>(-1), whole.st_gid) == 0;
     }
-    makeAlike(file.get(), before);
+    const auto& same = S_ISDIR(status.st_mode) ? former.folders : former.files;
+    const auto before = same.find(path);
+    if (before != same.end())
+    {
+      ::chmod(place.c_str(), before->second.st_mode & permissionBits & (sameGroup ? permissionBits : status.st_mode));
+    }
   };
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
   {
-    adapt(entry->path().lexically_relative(folder));
+    adapt(entry.path().lexically_relative(folder).string());
   }
-  adapt(".");
+  adapt("");
+}
+
+/// Removes the files and folders in `under`, a folder in `folder`, that are listed, and adds the others to `kept`.
+void removeListed(
+  const fs::path& folder, const std::string& under, const std::set<std::string>& listed, std::vector<std::string>& kept)
+{
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / under, error), end; !error && entry != end; entry.increment(error))
+  {
+    const std::string path = under + entry->path().filename().string();
+    const bool isFolder = entry->symlink_status().type() == fs::file_type::directory;
+    if (listed.count(wholeName(path)) == 0)
+    {
+      kept.push_back(path);
+    }
+    else if (isFolder)
+    {
+      removeListed(folder, path + "/", listed, kept);
+    }
+    else
+    {
+      ::unlink(entry->path().c_str());
+    }
+  }
+  ::rmdir((folder / under).c_str()); // succeeds if it is empty
 }
 
 } // namespace
@@ -79,7 +98,7 @@ FolderReplacement::FolderReplacement(const std::string& folder, const Context& c
   : FolderReplacement(placeOf(folder))
 {
   context.report(0.0, "Comparing the folder that is there with its manifest");
-  inspectReplaceable(this->Place, this->Place, context);
+  this->Former = inspectReplaceable(this->Place, this->Place, context);
   if (::mkdir((this->Container / FolderWriter::substrateName).c_str(), 0777) != 0)
   {
     this->fail(systemMessage(errno));
@@ -109,23 +128,42 @@ void FolderReplacement::fail(const std::string& why) const
 /// Makes the folder beside the place, or takes and empties one that a killed process has left.
 void FolderReplacement::hold()
 {
-  if (::mkdir(this->Container.c_str(), 0700) != 0 && errno != EEXIST)
+  for (int attempt = 0; attempt < attempts && !this->List; ++attempt)
   {
-    this->fail(systemMessage(errno));
+    const bool isNew = ::mkdir(this->Container.c_str(), 0700) == 0;
+    if (!isNew && errno != EEXIST)
+    {
+      this->fail(systemMessage(errno));
+    }
+    const int flags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | (isNew ? O_CREAT | O_EXCL : 0);
+    Descriptor list(::open((this->Container / FolderWriter::listName).c_str(), flags, 0600));
+    if (!list)
+    {
+      const int error = errno;
+      ::rmdir(this->Container.c_str()); // succeeds if it is empty: its writer was killed, or has just finished
+      if (isNew && error != ENOENT && error != EEXIST)
+      {
+        this->fail(systemMessage(error));
+      }
+      continue;
+    }
+    if (!lockForWriting(list.get()) && (!isNew || errno == EWOULDBLOCK))
+    {
+      this->fail(errno == EWOULDBLOCK
+                   ? "another process is writing it at this moment: wait until it has ended, or choose another FolderName"
+                   : "another process may be writing it, as " + this->Container.string() +
+                       " is there and its file system knows no locks: remove that if none is");
+    }
+    struct stat status;
+    if (::fstat(list.get(), &status) == 0 && status.st_nlink > 0) // otherwise its writer has just finished
+    {
+      this->List = std::move(list);
+    }
   }
   const auto refuse = [&](const std::string& why) { this->fail(this->Container.string() + why); };
-  const auto isList = [](const fs::directory_entry& entry) { return entry.path().filename() == FolderWriter::listName; };
-  std::error_code error;
-  const fs::directory_iterator first(this->Container, error);
-  const bool isOurs = !error && (first == fs::directory_iterator() || std::any_of(first, fs::directory_iterator(), isList));
-  if (!isOurs && error != std::errc::no_such_file_or_directory)
+  if (!this->List)
   {
     refuse(", in which it would be written, is there already, and not ours: rename it, or choose another FolderName");
-  }
-  this->List = takePartial(this->Container / FolderWriter::listName, 0600, "cannot write folder " + this->Place.string());
-  if (!this->List) // its writer has just finished
-  {
-    this->fail("another process is writing it at this moment: wait until it has ended, or choose another FolderName");
   }
   const fs::path former = this->Container / formerName;
   if (isThere(former) && !isThere(this->Place) && std::rename(former.c_str(), this->Place.c_str()) != 0)
@@ -142,86 +180,90 @@ void FolderReplacement::hold()
 /// Removes the new and the former folder. Returns a list of what is kept because it is the user's.
 std::string FolderReplacement::clean()
 {
-  std::vector<std::string> listed{ "" };
+  std::set<std::string> listed;
   std::ifstream list(this->Container / FolderWriter::listName, std::ios::binary);
   for (std::string path; std::getline(list, path);)
   {
-    listed.push_back(path);
-  }
-  // What is in a folder is listed after it.
-  for (auto path = listed.rbegin(); path != listed.rend(); ++path)
-  {
-    const fs::path place = this->Container / FolderWriter::substrateName / *path;
-    std::remove(place.c_str());
-    std::remove(partialName(place.string()).c_str());
-  }
-  const fs::path former = this->Container / formerName;
-  if (isThere(former))
-  {
-    const FolderInspection found = inspectFolder(former);
-    if (!found.asWritten())
-    {
-      return contentsOf(found);
-    }
-    removeInspected(former, found);
+    listed.insert(path);
   }
   FolderInspection kept;
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(this->Container, error), end; !error && entry != end; entry.increment(error))
+  removeListed(this->Container / FolderWriter::substrateName, "", listed, kept.added);
+  const fs::path former = this->Container / formerName;
+  const FolderInspection found = inspectFolder(former);
+  if (!found.asWritten())
   {
-    const std::string path = entry->path().lexically_relative(this->Container).string();
-    const bool isOuter = entry->symlink_status().type() == fs::file_type::directory && !fs::is_empty(entry->path());
-    if (path != FolderWriter::listName && !isOuter)
+    return contentsOf(found);
+  }
+  removeInspected(former, found);
+  std::error_code error;
+  for (fs::directory_iterator entry(this->Container, error), end; !error && entry != end; entry.increment(error))
+  {
+    const std::string name = entry->path().filename().string();
+    if (name != FolderWriter::listName && (name != FolderWriter::substrateName || kept.added.empty()))
     {
-      kept.added.push_back(path);
+      kept.added.push_back(name);
     }
   }
   return contentsOf(kept);
 }
 
-void FolderReplacement::commit(const Context& context)
+/// Moves the former folder out of its place, and the new one in; changes nothing if it throws.
+void FolderReplacement::putInPlace(const Context& context)
 {
-  // The whole file system at once: requests for thousands of single files take longer.
-  if (::syncfs(this->List.get()) != 0 && errno != ENOSYS)
-  {
-    this->fail(systemMessage(errno));
-  }
-  const fs::path substrate = this->Container / FolderWriter::substrateName;
   const fs::path former = this->Container / formerName;
-  makeFolderAlike(this->Place, substrate);
   const bool replaces = std::rename(this->Place.c_str(), former.c_str()) == 0;
   if (!replaces && errno != ENOENT)
   {
     this->fail(systemMessage(errno));
   }
-  if (std::rename(substrate.c_str(), this->Place.c_str()) != 0)
+  try
   {
-    const int error = errno;
-    std::rename(former.c_str(), this->Place.c_str());
-    this->fail(systemMessage(error));
-  }
-  synchroniseFolder(this->Container);
-  synchroniseFolder(folderOf(this->Place));
-  FolderInspection found;
-  if (replaces)
-  {
-    try
+    this->Former = inspectReplaceable(this->Place, former, context, this->Former); // it may have been changed at the last moment
+    if (std::rename((this->Container / FolderWriter::substrateName).c_str(), this->Place.c_str()) != 0)
     {
-      found = inspectReplaceable(this->Place, former, context.part(1.0, 1.0));
+      this->fail(systemMessage(errno));
     }
-    catch (...)
+  }
+  catch (...)
+  {
+    if (replaces)
     {
-      // It has been changed meanwhile, or the user has asked to stop.
-      std::rename(this->Place.c_str(), substrate.c_str());
       std::rename(former.c_str(), this->Place.c_str());
-      throw;
     }
+    throw;
   }
-  if (!replaces || removeInspected(former, found))
+}
+
+void FolderReplacement::commit(const Context& context)
+{
+  try
   {
-    this->release();
+    // The whole file system at once: requests for thousands of single files take longer.
+    if (::syncfs(this->List.get()) != 0 && errno != ENOSYS)
+    {
+      this->fail(systemMessage(errno));
+    }
+    this->Former = inspectReplaceable(this->Place, this->Place, context, this->Former);
+    if (this->Former.exists)
+    {
+      makeAlike(this->Former, this->Container / FolderWriter::substrateName);
+    }
+    // The rest is quick and cannot be stopped.
+    Context unstoppable;
+    unstoppable.threads = context.threads;
+    this->putInPlace(unstoppable);
+    synchroniseFolder(this->Container);
+    synchroniseFolder(folderOf(this->Place));
+    if (!this->Former.exists || removeInspected(this->Container / formerName, this->Former))
+    {
+      this->release();
+    }
+    this->List.close();
   }
-  this->List.close();
+  catch (const fs::filesystem_error& error)
+  {
+    this->fail(error.what());
+  }
 }
 
 /// Removes the folder beside the place, which is empty but for the list.
@@ -229,6 +271,7 @@ void FolderReplacement::release()
 {
   ::unlink((this->Container / FolderWriter::listName).c_str());
   ::rmdir(this->Container.c_str());
+  this->List.close();
 }
 
 } // namespace cactus

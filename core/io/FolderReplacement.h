@@ -3,6 +3,7 @@
 
 #include "base/Context.h"
 #include "base/PosixFile.h"
+#include "io/FolderInspection.h"
 #include "io/FolderWriter.h"
 
 #include <filesystem>
@@ -15,9 +16,9 @@ namespace cactus
 /// as we wrote it.
 ///
 /// It is written into NAME.partial (see FolderWriter), beside its place. Then the existing folder is moved to
-/// NAME.partial/former, the new one to the place, and the former one is read and removed, file by file, each as listed in its
-/// manifest; if the user has changed something in it, the two are moved back. The next write finds what a killed process has
-/// left: it puts a former folder back whose place is empty, and removes the rest if all of it is listed as ours.
+/// NAME.partial/former, the new one to the place, and the former one is removed, file by file, each as listed in its manifest.
+/// The next write finds what a killed process has left: it puts a former folder back whose place is empty, and removes the rest
+/// if all of it is listed as ours.
 class FolderReplacement
 {
 public:
@@ -41,11 +42,13 @@ private:
   [[noreturn]] void fail(const std::string& why) const;
   void hold();
   std::string clean();
+  void putInPlace(const Context& context);
   void release();
 
   std::filesystem::path Place;
   std::filesystem::path Container;
-  Descriptor List; ///< locked while this process writes
+  Descriptor List;         ///< locked while this process writes
+  FolderInspection Former; ///< the folder in the place
 };
 
 } // namespace cactus

@@ -30,14 +30,14 @@ public:
 
   std::optional<std::string> take(const std::string& name) override;
   void keep(const std::string& name, const std::string& bytes) override;
-  /// Returns what take() would, until then; null if that is nothing.
+  /// Returns a finding that take() has not returned yet, or null.
   const std::string* find(const std::string& name) const;
   /// Tells whether there were findings when it was opened.
   bool foundSome() const { return this->FoundSome; }
   /// Tells whether any process has kept a finding whose name begins like this. Call it only while no other process runs.
   bool holds(const std::string& beginning) const;
-  /// Forgets all findings, those of other processes first; the journal stays this process's, the first one's. Nothing may be kept
-  /// afterwards.
+  /// Forgets all findings, those of other processes first. Only the first process may call it, and it keeps its lock. Nothing may
+  /// be kept afterwards.
   void clear();
   /// Removes the files. Nothing may be kept afterwards.
   void remove();

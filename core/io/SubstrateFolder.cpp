@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/SubstrateFolder.h"
 
+#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "fibres/SelectFibres.h"
 #include "io/CertificateText.h"
@@ -170,7 +171,7 @@ void requireWritable(const SubstrateFolderContents& contents, const std::string&
   requireRoom(contents.format, contents.domain, contents.voxelSize);
 }
 
-/// Writes everything but the surfaces, the manifest last: it lists all else.
+/// Writes everything but the surfaces, the manifest last: its existence shows that the folder is complete.
 void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, FolderWriter& writer)
 {
   if (hasStrandFile(contents))
@@ -184,7 +185,14 @@ void writeTexts(const SubstrateFolderContents& contents, const WrittenSubstrate&
   writer.write("certificate.csv", certificateText(substrate.certificate));
   writer.write("certificate_fibres.csv", fibresText(substrate.certificate));
   writer.write("README.txt", readmeText(contents, substrate));
-  writer.write(manifestName, manifestText(contents, substrate, writer.written()));
+  writer.list({ manifestName });
+  writer.putBy(manifestName,
+    [&](const std::string& path)
+    {
+      AtomicFile manifest(path);
+      manifest.stream() << manifestText(contents, substrate, writer.written());
+      manifest.commit();
+    });
 }
 
 /// Judges and writes the parts that processes share.

@@ -243,14 +243,16 @@ std::optional<SubstrateManifest> readManifest(const std::string& text)
   {
     return std::nullopt;
   }
+  SubstrateManifest found;
+  found.version = isText(manifest, "version") ? manifest["version"].get<std::string>() : "";
   const auto checksums = manifest.find("sha256");
   const auto folders = manifest.find("folders");
-  if (checksums == manifest.end() || !checksums->is_object() || folders == manifest.end() || !folders->is_array() ||
-      !isText(manifest, ownChecksum))
+  found.hasChecksums = checksums != manifest.end() && checksums->is_object() && folders != manifest.end() &&
+                       folders->is_array() && isText(manifest, ownChecksum);
+  if (!found.hasChecksums)
   {
-    return std::nullopt;
+    return found;
   }
-  SubstrateManifest found;
   for (const auto& [path, checksum] : checksums->items())
   {
     if (checksum.is_string())

@@ -21,7 +21,9 @@ struct WrittenFiles
 /// The written files according to a manifest.
 struct SubstrateManifest
 {
-  bool asWritten = false; ///< whether the manifest itself is as it was written
+  std::string version;       ///< of CACTUS
+  bool hasChecksums = false; ///< those of version 0.1.0 had none
+  bool asWritten = false;    ///< whether the manifest itself is as it was written
   WrittenFiles written;
 };
 
@@ -32,7 +34,7 @@ constexpr char manifestName[] = "manifest.json";
 /// file written, including that of the manifest itself, computed with zeros in its place.
 std::string manifestText(const SubstrateFolderContents& contents, const WrittenSubstrate& substrate, const WrittenFiles& written);
 
-/// Reads a manifest. Returns nothing for any text that is none of ours, and for those of version 0.1.0, which had no checksums.
+/// Reads a manifest. Returns nothing for any text that is none of ours.
 std::optional<SubstrateManifest> readManifest(const std::string& text);
 
 } // namespace cactus

@@ -141,7 +141,7 @@ SubstrateDescription describeSubstrate(const std::string& path)
   }
   if (!manifest->asWritten)
   {
-    refuseFile(place, wasChanged);
+    refuseFile(place, manifest->hasChecksums ? wasChanged : "is of CACTUS 0.1.0, which kept no checksums of its files");
   }
   SubstrateDescription substrate;
   substrate.folder = folderOf(place).string();

@@ -26,7 +26,6 @@
 #include <filesystem>
 #include <memory>
 #include <new>
-#include <random>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -313,8 +312,7 @@ ProducedSubstrate produceSubstrate(
   ProductionOrder order = given;
   const std::string work = workFolderOf(folder);
   // For this run only: another run that fails, because this one has the folder, must not end it.
-  const std::string stop = partialName(SurfaceSpool::stopName) + std::to_string(std::random_device()());
-  const Sharing sharing(team, work + '/' + Sharing(team).fromFirst(stop));
+  const Sharing sharing(team, work + '/' + Sharing(team).fromFirst(partialName(SurfaceSpool::stopName)));
   ProducedSubstrate result;
   std::unique_ptr<SurfaceSpool> spool;
   bool isMade = false; // whether all surfaces are made

@@ -166,6 +166,25 @@ TEST(UnmyelinatedAxons, OfPeaksEachBundleHasItsShare)
   EXPECT_LT(meanNearest(fibres), 3.0 * 0.12 * std::sqrt(0.6 / 0.9)) << "hardly farther apart than if they touched";
 }
 
+TEST(UnmyelinatedAxons, OfPeaksNoneEndsInTheDomain)
+{
+  BundleInitializerOptions options = withBare(0.3);
+  options.dispersionModel = DispersionModel::Peaks;
+  options.peaks = { { 1.0, 0.0, 0.3 }, { 0.2, 0.4, 0.3 } };
+  options.meanDispersion = 20.0;
+  options.unmyelinated.cluster = 200;
+  for (const double margin : { 0.0, -1.0 })
+  {
+    options.margin = margin;
+    const Fibres fibres = initialiseBundles(options);
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+    {
+      EXPECT_LE(fibres.domain.depth(fibres.points[fibres.offsets[f]]), 1e-9);
+      EXPECT_LE(fibres.domain.depth(fibres.points[fibres.offsets[f + 1] - 1]), 1e-9);
+    }
+  }
+}
+
 TEST(UnmyelinatedAxons, AreThereBetweenWallsToo)
 {
   BundleInitializerOptions options = withBare(0.1);

@@ -29,10 +29,17 @@ namespace
 using cactus_testing::contentOf;
 
 /// Two straight fibres with axons in a cube of this side, and what is written of them.
-class McdcFiles : public cactus_testing::ScratchFolder
+class McdcFiles : public ::testing::Test
 {
 protected:
-  McdcFiles() { this->makeFibres(20.0); }
+  void SetUp() override
+  {
+    this->Scratch = fs::path(::testing::TempDir()) / ("mcdc-files-test-" + std::to_string(::getpid()));
+    fs::remove_all(this->Scratch);
+    fs::create_directories(this->Scratch);
+    this->makeFibres(20.0);
+  }
+  void TearDown() override { fs::remove_all(this->Scratch); }
 
   void makeFibres(double side)
   {
@@ -94,6 +101,7 @@ protected:
     return points;
   }
 
+  fs::path Scratch;
   SubstrateFolderContents Contents;
 };
 

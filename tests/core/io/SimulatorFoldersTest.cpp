@@ -26,10 +26,17 @@ namespace
 using cactus_testing::contentOf;
 using example::surfacesOf;
 
-class SimulatorFolders : public cactus_testing::ScratchFolder
+class SimulatorFolders : public ::testing::Test
 {
 protected:
-  SimulatorFolders() { this->Contents.domain = cactus::Domain::cube(10.0); }
+  void SetUp() override
+  {
+    this->Scratch = fs::path(::testing::TempDir()) / ("simulator-folders-test-" + std::to_string(::getpid()));
+    fs::remove_all(this->Scratch);
+    fs::create_directories(this->Scratch);
+    this->Contents.domain = cactus::Domain::cube(10.0);
+  }
+  void TearDown() override { fs::remove_all(this->Scratch); }
 
   /// Two plates across the domain, this far (µm) from each other and from the faces below and above, with an axon in each.
   void takePlates(double gap, double fromFaces)
@@ -48,6 +55,7 @@ protected:
   }
   std::string readme() const { return contentOf(this->Scratch / "s/README.txt"); }
 
+  fs::path Scratch;
   cactus::SubstrateFolderContents Contents;
 };
 

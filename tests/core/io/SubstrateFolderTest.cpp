@@ -54,14 +54,22 @@ cactus::Fibres fibresAcross(const cactus::Domain& domain, const std::vector<int>
   return fibres;
 }
 
-class SubstrateFolder : public cactus_testing::ScratchFolder
+class SubstrateFolder : public ::testing::Test
 {
 protected:
-  SubstrateFolder()
+  void SetUp() override
   {
+    this->Scratch = fs::path(::testing::TempDir()) / ("substrate-folder-test-" + std::to_string(::getpid()));
+    fs::remove_all(this->Scratch);
+    fs::create_directories(this->Scratch);
     this->Contents.domain = cactus::Domain::cube(30.0);
     this->Contents.outer = surfacesOf({ 2, 70000 }, { tetrahedron(1.0), tetrahedron(2.0) });
     this->Contents.inner = surfacesOf({ 2 }, { tetrahedron(0.5) });
+  }
+  void TearDown() override
+  {
+    fs::permissions(this->Scratch, fs::perms::owner_all);
+    fs::remove_all(this->Scratch);
   }
 
   /// Replaces the substrate by fibre 2 alone, with both surfaces.
@@ -84,7 +92,19 @@ protected:
     }
     return "";
   }
+  /// Returns the entries of the scratch folder, sorted.
+  std::vector<std::string> entries() const
+  {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(this->Scratch))
+    {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
 
+  fs::path Scratch;
   cactus::SubstrateFolderContents Contents;
 };
 
@@ -615,6 +635,14 @@ TEST_F(SubstrateFolder, IsWrittenOfAnyBox)
       EXPECT_EQ(readme.find("fibres.strands  centre"), std::string::npos);
     }
   }
+}
+
+TEST_F(SubstrateFolder, StopsWithoutATrace)
+{
+  cactus::Context context;
+  context.cancelled = [] { return true; };
+  EXPECT_THROW(cactus::writeSubstrateFolder(this->Contents, (this->Scratch / "s").string(), context), cactus::Cancelled);
+  EXPECT_TRUE(this->entries().empty());
 }
 
 TEST_F(SubstrateFolder, SameBytesOnAnyNumberOfThreads)

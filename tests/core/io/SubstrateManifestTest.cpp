@@ -35,6 +35,8 @@ TEST(SubstrateManifest, SaysWhatWasWritten)
   const std::string text = exampleText();
   const auto manifest = cactus::readManifest(text);
   ASSERT_TRUE(manifest);
+  EXPECT_EQ(manifest->version, CACTUS_VERSION);
+  EXPECT_TRUE(manifest->hasChecksums);
   EXPECT_TRUE(manifest->asWritten);
   EXPECT_EQ(manifest->written.checksums.size(), 2u);
   EXPECT_EQ(manifest->written.checksums.at("README.txt"), cactus::sha256("read me"));
@@ -121,14 +123,17 @@ TEST(SubstrateManifest, ShowsEveryChangeToIt)
 
 TEST(SubstrateManifest, TellsOthersFromOurs)
 {
-  for (const char* text : { "", "{}", "[]", "null", "{\"format\": 3}", "{\"format\": \"another\"}",
-         "{\"name\": \"CACTUS substrate folder\"}", "{\"format\": \"CACTUS substrate folder\"",
-         "{\"format\": \"CACTUS substrate folder\", \"version\": \"0.1.0\", \"files\": []}", "\"CACTUS substrate folder\"",
-         "\xff\xfe" })
+  for (const char* text :
+    { "", "{}", "[]", "null", "{\"format\": 3}", "{\"format\": \"another\"}", "{\"name\": \"CACTUS substrate folder\"}",
+      "{\"format\": \"CACTUS substrate folder\"", "\"CACTUS substrate folder\"", "\xff\xfe" })
   {
     EXPECT_FALSE(cactus::readManifest(text)) << text;
   }
   EXPECT_FALSE(cactus::readManifest(std::string(1000000, '['))) << "deeply nested";
+  const auto early =
+    cactus::readManifest("{\"format\": \"CACTUS substrate folder\", \"version\": \"0.1.0\", \"files\": [{\"path\": \"x\"}]}");
+  ASSERT_TRUE(early);
+  EXPECT_FALSE(early->hasChecksums);
   const auto odd = cactus::readManifest("{\"format\": \"CACTUS substrate folder\", \"version\": 1, \"folders\": [1, [\"x\"]], "
                                         "\"sha256\": {\"a\": 1, \"b\": {}}, \"manifest_sha256\": \"\"}");
   ASSERT_TRUE(odd);
