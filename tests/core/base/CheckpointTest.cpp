@@ -183,7 +183,7 @@ TEST_P(CheckpointFiles, RefuseWhatIsCutExchangedOrSomethingElse)
   std::string other = this->whole;
   std::reverse(other.begin() + 20, other.begin() + 28);
   this->expectRefused(sealed(other), "another byte order");
-  this->expectRefused("CACTUS checkpoint 2\n" + this->whole.substr(20), "an older format");
+  this->expectRefused("CACTUS checkpoint 6\n" + this->whole.substr(20), "an older format");
   this->expectRefused("my thesis\n" + this->whole, "something else");
   this->expectRefused("my thesis\n", "something else");
   this->expectRefused("", "an empty file");
