@@ -91,9 +91,10 @@ private:
 class ByteReader
 {
 public:
-  /// `bytes` have to outlive the object.
-  explicit ByteReader(const std::string& bytes)
+  /// `bytes` have to outlive the object. `failure`: the error's message.
+  explicit ByteReader(const std::string& bytes, std::string failure = "what is known of the surfaces is damaged")
     : Bytes(bytes)
+    , Failure(std::move(failure))
   {
   }
 
@@ -177,11 +178,12 @@ private:
   {
     if (count > (this->Bytes.size() - this->At) / bytesOfEach)
     {
-      throw FileError("what is known of the surfaces is damaged");
+      throw FileError(this->Failure);
     }
   }
 
   const std::string& Bytes;
+  std::string Failure;
   std::size_t At = 0;
 };
 

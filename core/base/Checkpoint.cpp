@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/Checkpoint.h"
 
-#include "base/Error.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 namespace cactus
@@ -16,167 +15,168 @@ namespace
 
 /// Every format starts with this; its number and a line feed follow.
 const std::string title = "CACTUS checkpoint ";
-const std::string version = "6\n";
+const std::string version = "7\n";
 /// Reads as another number if the byte order differs.
 constexpr std::uint64_t byteOrder = 0x0102030405060708u;
-constexpr std::size_t headerBytes = 24;
-constexpr std::size_t checksumBytes = 8;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why)
+const std::string damage = "is damaged: remove it, or name another file";
+
+std::string refusal(const std::string& path, const std::string& why)
 {
-  throw FileError("CheckpointFile " + path + " " + why);
+  return "CheckpointFile " + path + " " + why;
 }
 
-/// Tells whether there is a file. Throws FileError if there is something that is no file, or if it cannot be accessed.
-bool isThere(const std::string& path)
+std::string frontOf(std::uint64_t fingerprint)
+{
+  return title + version + bytesOf(byteOrder, fingerprint);
+}
+
+/// Opens a file and reads its front; returns nothing if there is no file. Throws unless it is this front.
+std::optional<std::ifstream> openCheckpoint(const std::string& path, const std::string& front)
 {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
   {
-    return false;
+    return std::nullopt;
   }
   if (error)
   {
-    refuse(path, "cannot be read: " + error.message());
+    throw FileError(refusal(path, "cannot be read: " + error.message()));
   }
   if (!std::filesystem::is_regular_file(status))
   {
-    refuse(path, "is there already and not a file: name another one");
+    throw FileError(refusal(path, "is there already and not a file: name another one"));
   }
-  return true;
-}
-
-/// Reads title and header. Throws FileError.
-CheckpointHeader readHeader(std::ifstream& file, const std::string& path)
-{
-  std::string found(title.size() + version.size(), '\0');
-  std::uint64_t order = 0;
-  CheckpointHeader header;
-  file.read(&found[0], static_cast<std::streamsize>(found.size()));
-  if (!file || found.compare(0, title.size(), title) != 0)
-  {
-    refuse(path, "is not a checkpoint of this program, and is kept: name another file, or remove it");
-  }
-  file.read(reinterpret_cast<char*>(&order), sizeof(order));
-  if (found.substr(title.size()) != version || (file && order != byteOrder))
-  {
-    refuse(path,
-      "was written by another version of this program or on another kind of machine, and is kept: go on with that, name "
-      "another file, or remove it");
-  }
-  file.read(reinterpret_cast<char*>(&header.fingerprint), sizeof(header.fingerprint));
-  file.read(reinterpret_cast<char*>(&header.iteration), sizeof(header.iteration));
+  std::ifstream file(path, std::ios::binary);
   if (!file)
   {
-    refuse(path, "is damaged: remove it, or name another file");
+    throw FileError(refusal(path, "cannot be read: " + systemMessage(errno)));
   }
-  return header;
+  std::string found(front.size(), '\0');
+  file.read(&found[0], static_cast<std::streamsize>(found.size()));
+  if (found.compare(0, title.size(), title) != 0)
+  {
+    throw FileError(refusal(path, "is not a checkpoint of this program, and is kept: name another file, or remove it"));
+  }
+  const std::size_t format = front.size() - sizeof(std::uint64_t);
+  if (found.compare(0, format, front, 0, format) != 0)
+  {
+    throw FileError(refusal(path,
+      "was written by another version of this program or on another kind of machine, and is kept: go on with that, name "
+      "another file, or remove it"));
+  }
+  if (!file || found != front)
+  {
+    throw InvalidInput(refusal(path, "was written for other fibres or other parameters, and is kept: restore those and switch "
+                                     "Resume on, name another file, or remove it"));
+  }
+  return file;
 }
 
-void requireSame(const CheckpointHeader& header, std::uint64_t fingerprint, const std::string& path)
+/// Returns the values of a checkpoint, which has at least one; nothing if there is no file.
+std::string valuesOf(const std::string& path, const std::string& front)
 {
-  if (header.fingerprint != fingerprint)
+  std::optional<std::ifstream> file = openCheckpoint(path, front);
+  if (!file)
   {
-    throw InvalidInput("CheckpointFile " + path +
-                       " was written for other fibres or other parameters, and is kept: restore those and switch Resume on, name "
-                       "another file, or remove it");
+    return "";
   }
+  file->seekg(0, std::ios::end);
+  std::string content(static_cast<std::size_t>(file->tellg()), '\0');
+  file->seekg(0);
+  file->read(&content[0], static_cast<std::streamsize>(content.size()));
+  const std::size_t end = content.size() - std::min(content.size(), sizeof(std::uint64_t));
+  if (!*file || end <= front.size() || content.substr(end) != bytesOf(hash64(content.data(), end)))
+  {
+    throw FileError(refusal(path, damage));
+  }
+  content.resize(end);
+  return content.erase(0, front.size());
 }
 
 } // namespace
 
-std::optional<CheckpointHeader> findCheckpoint(const std::string& path, std::uint64_t fingerprint)
-{
-  if (!isThere(path))
-  {
-    return std::nullopt;
-  }
-  return CheckpointReader(path, fingerprint).header();
-}
-
-CheckpointWriter::CheckpointWriter(const std::string& path, const CheckpointHeader& header)
+CheckpointWriter::CheckpointWriter(const std::string& path, std::uint64_t fingerprint, const Sharing& sharing)
   : Path(path)
-  , Header(header)
-  , File(path)
+  , Front(frontOf(fingerprint))
+  , Processes(sharing)
 {
-  this->write(title.data(), title.size());
-  this->write(version.data(), version.size());
-  this->put(byteOrder);
-  this->put(header.fingerprint);
-  this->put(header.iteration);
+  try
+  {
+    if (sharing.isFirst())
+    {
+      this->File.emplace(path);
+    }
+  }
+  catch (...)
+  {
+    this->Failure = std::current_exception();
+  }
+  this->write(this->Front);
 }
 
-void CheckpointWriter::write(const void* data, std::size_t bytes)
+void CheckpointWriter::write(const std::string& bytes)
 {
-  this->Sum.add(data, bytes);
-  this->File.stream().write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+  if (this->File)
+  {
+    this->Sum.add(bytes.data(), bytes.size());
+    this->File->stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+}
+
+void CheckpointWriter::writeParts(std::string own)
+{
+  std::vector<std::string> toEach(static_cast<std::size_t>(this->Processes.size()));
+  toEach.front() = std::move(own);
+  for (const std::string& part : this->Processes.deal(std::move(toEach)))
+  {
+    this->write(part);
+  }
 }
 
 void CheckpointWriter::commit()
 {
-  this->put(this->Sum.value());
-  if (isThere(this->Path))
+  if (this->Failure)
   {
-    std::ifstream there(this->Path, std::ios::binary);
-    requireSame(readHeader(there, this->Path), this->Header.fingerprint, this->Path);
+    std::rethrow_exception(this->Failure);
   }
-  this->File.commit();
+  if (this->File)
+  {
+    this->write(bytesOf(this->Sum.value()));
+    openCheckpoint(this->Path, this->Front);
+    this->File->commit();
+  }
 }
 
-CheckpointReader::CheckpointReader(const std::string& path, std::uint64_t fingerprint)
+CheckpointReader::CheckpointReader(const std::string& path, std::uint64_t fingerprint, const Sharing& sharing)
   : Path(path)
+  , Processes(sharing)
+  , Content(sharing.isFirst() ? valuesOf(path, frontOf(fingerprint)) : "")
+  , Get(this->Content, refusal(path, damage))
+  , Found(!sharing.fromFirst(this->Content.substr(0, 1)).empty())
 {
-  if (!isThere(path))
-  {
-    refuse(path, "is not there");
-  }
-  this->File.open(path, std::ios::binary);
-  if (!this->File)
-  {
-    refuse(path, "cannot be read: " + systemMessage(errno));
-  }
-  this->Header = readHeader(this->File, path);
-  this->verify();
-  requireSame(this->Header, fingerprint, path);
 }
 
-/// Compares the checksum and returns to the first value.
-void CheckpointReader::verify()
+/// Returns this process's bytes of an array; `size`: how many these are.
+std::string CheckpointReader::ownPart(std::uint64_t size)
 {
-  this->File.seekg(0, std::ios::end);
-  const auto bytes = static_cast<std::uint64_t>(this->File.tellg());
-  const std::uint64_t before = title.size() + version.size() + headerBytes;
-  this->require(this->File && bytes >= before + checksumBytes);
-  this->File.seekg(0);
-  Hash64 sum;
-  std::vector<char> part(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, 1 << 20)));
-  for (std::uint64_t left = bytes - checksumBytes; left > 0;)
+  const std::vector<std::string> sizes = this->Processes.exchange(bytesOf(size));
+  std::vector<std::string> toEach(sizes.size());
+  for (std::size_t process = 0; this->Processes.isFirst() && process < sizes.size(); ++process)
   {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size()));
-    this->File.read(part.data(), static_cast<std::streamsize>(count));
-    this->require(this->File.good());
-    sum.add(part.data(), count);
-    left -= count;
+    toEach[process].resize(ByteReader(sizes[process]).get<std::uint64_t>());
+    this->Get.getAll(&toEach[process][0], toEach[process].size());
   }
-  std::uint64_t expected = 0;
-  this->File.read(reinterpret_cast<char*>(&expected), sizeof(expected));
-  this->require(this->File.good() && sum.value() == expected);
-  this->Left = bytes - before - checksumBytes;
-  this->File.seekg(static_cast<std::streamoff>(before));
+  return std::move(this->Processes.deal(std::move(toEach)).front());
 }
 
-void CheckpointReader::read(void* data, std::size_t bytes)
+void CheckpointReader::require(bool good) const
 {
-  this->require(bytes <= this->Left);
-  this->Left -= bytes;
-  this->File.read(static_cast<char*>(data), static_cast<std::streamsize>(bytes));
-  this->require(this->File.good());
-}
-
-void CheckpointReader::damaged() const
-{
-  refuse(this->Path, "is damaged: remove it, or name another file");
+  if (!good)
+  {
+    throw FileError(refusal(this->Path, damage));
+  }
 }
 
 } // namespace cactus

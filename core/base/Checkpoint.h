@@ -1,65 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The state of a work in a file. Processes that share the work write one file, the same as one process would, and any number of
+// them can go on from it. The first one has the file and throws its errors: FileError, and InvalidInput for the checkpoint of
+// another work. It holds one array of all processes while it writes, and the whole file while it reads. All calls are collective.
+//
+// Layout, in the byte order of this machine: a title with the number of the format, a mark for the byte order, the fingerprint of
+// the work and its options, the values, and the Hash64 of all of these.
 #pragma once
 
 #include "base/AtomicFile.h"
+#include "base/Bytes.h"
+#include "base/Error.h"
 #include "base/Hash64.h"
+#include "base/Sharing.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <fstream>
+#include <exception>
 #include <optional>
 #include <string>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace cactus
 {
 
-/// The front of a checkpoint.
-struct CheckpointHeader
-{
-  std::uint64_t fingerprint = 0; ///< identifies the work and its options
-  std::int64_t iteration = 0;    ///< the next one
-};
-
-/// Returns the header of the checkpoint at `path`, with the whole file checked; nothing if there is no file. Throws InvalidInput
-/// if the fingerprint differs, and FileError if the file is something else, of another version, damaged or unreadable: such a
-/// file does not belong to this run and must not be replaced.
-std::optional<CheckpointHeader> findCheckpoint(const std::string& path, std::uint64_t fingerprint);
-
-/// Writes a checkpoint: binary, in the byte order of this machine, whole or not at all (see AtomicFile).
-///
-/// Layout: title with the format number, a mark for the byte order, header, values, and the Hash64 of all of these. Throws
-/// FileError.
+/// Writes a checkpoint, whole or not at all (see AtomicFile).
 class CheckpointWriter
 {
 public:
-  CheckpointWriter(const std::string& path, const CheckpointHeader& header);
+  CheckpointWriter(const std::string& path, std::uint64_t fingerprint, const Sharing& sharing);
 
-  template <typename Value>
-  void put(const Value& value)
+  /// Writes values that are the same in all processes.
+  template <typename... Values>
+  void operator()(const Values&... values)
   {
-    static_assert(std::is_arithmetic<Value>::value && !std::is_same<Value, bool>::value, "numbers only");
-    this->write(&value, sizeof(value));
+    this->write(bytesOf(values...));
   }
-  /// Writes numbers, or elements that consist of numbers only, without padding.
+  /// Writes the values of all processes as one array, in the order of their ranks. They consist of numbers only, without padding.
   template <typename Value>
-  void putAll(const std::vector<Value>& values)
+  void parts(const std::vector<Value>& own)
   {
-    this->put(static_cast<std::uint64_t>(values.size()));
-    this->write(values.data(), values.size() * sizeof(Value));
+    ByteWriter put;
+    put.addAll(own.data(), own.size());
+    this->writeParts(std::move(put.bytes()));
   }
-  /// Writes bytes of an array whose count has been written.
-  void putPart(const void* data, std::size_t bytes) { this->write(data, bytes); }
-  /// Also throws InvalidInput or FileError if meanwhile another run's checkpoint, or something else, is at `path`.
+  /// Throws if something could not be written, or if meanwhile another work's checkpoint, or something else, is at the path.
   void commit();
 
 private:
-  void write(const void* data, std::size_t bytes);
+  void write(const std::string& bytes);
+  void writeParts(std::string own);
 
   std::string Path;
-  CheckpointHeader Header;
-  AtomicFile File;
+  std::string Front;
+  const Sharing& Processes;
+  std::optional<AtomicFile> File; ///< in the first process
+  std::exception_ptr Failure;     ///< why there is none; thrown by commit(), since the others still make their exchanges
   Hash64 Sum;
 };
 
@@ -67,57 +62,44 @@ private:
 class CheckpointReader
 {
 public:
-  /// Reads and checks the whole file first. Throws FileError if it cannot be read, is no checkpoint, is of another version or
-  /// damaged, and InvalidInput if its fingerprint differs.
-  CheckpointReader(const std::string& path, std::uint64_t fingerprint);
+  /// Reads and checks the whole file. Throws if it cannot be read, is no checkpoint, of another format or another work, or
+  /// damaged: such a file does not belong to this work and must not be replaced.
+  CheckpointReader(const std::string& path, std::uint64_t fingerprint, const Sharing& sharing);
+  CheckpointReader(const CheckpointReader&) = delete;
+  CheckpointReader& operator=(const CheckpointReader&) = delete;
 
-  const CheckpointHeader& header() const { return this->Header; }
+  /// Tells whether there is a file.
+  bool found() const { return this->Found; }
 
-  template <typename Value>
-  void get(Value& value)
+  template <typename... Values>
+  void operator()(Values&... values)
   {
-    static_assert(std::is_arithmetic<Value>::value && !std::is_same<Value, bool>::value, "numbers only");
-    this->read(&value, sizeof(value));
+    if (this->Processes.isFirst())
+    {
+      (this->Get(values), ...);
+    }
+    getAll(this->Processes.fromFirst(bytesOf(values...)), values...);
   }
-  /// Reads a count of elements of `bytes` each; throws if the file is too short for them, so that no more is allocated.
-  std::size_t getCount(std::size_t bytes)
-  {
-    std::uint64_t count = 0;
-    this->get(count);
-    this->require(count <= this->Left / bytes);
-    return static_cast<std::size_t>(count);
-  }
-  /// Reads bytes of an array whose count has been read.
-  void getPart(void* data, std::size_t bytes) { this->read(data, bytes); }
-  /// Reads an array. `expected`: its length; −1 for any length.
+  /// Fills this process's part of an array.
   template <typename Value>
-  void getAll(std::vector<Value>& values, std::int64_t expected = -1)
+  void parts(std::vector<Value>& own)
   {
-    const std::size_t count = this->getCount(sizeof(Value));
-    this->require(expected < 0 || count == static_cast<std::uint64_t>(expected));
-    values.resize(count);
-    this->read(values.data(), count * sizeof(Value));
+    const std::string bytes = this->ownPart(own.size() * sizeof(Value));
+    ByteReader(bytes).getAll(own.data(), own.size());
   }
   /// Throws FileError unless `good`: such values cannot have been written.
-  void require(bool good) const
-  {
-    if (!good)
-    {
-      this->damaged();
-    }
-  }
+  void require(bool good) const;
   /// Throws FileError unless everything has been read.
-  void finish() const { this->require(this->Left == 0); }
+  void finish() const { this->require(this->Get.isAtEnd()); }
 
 private:
-  void verify();
-  void read(void* data, std::size_t bytes);
-  [[noreturn]] void damaged() const;
+  std::string ownPart(std::uint64_t size);
 
   std::string Path;
-  std::ifstream File;
-  std::uint64_t Left = 0; ///< bytes of values
-  CheckpointHeader Header;
+  const Sharing& Processes;
+  std::string Content; ///< what follows the front, in the first process
+  ByteReader Get;
+  bool Found;
 };
 
 } // namespace cactus

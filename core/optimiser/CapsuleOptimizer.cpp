@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -123,16 +122,12 @@ Moment momentOf(const Surroundings& around)
   {
     return moment;
   }
-  ByteWriter mine;
-  mine(moment.seconds);
-  mine(static_cast<std::uint8_t>(moment.wantsStop));
-  const std::vector<std::string> told = around.all->exchange(mine.bytes());
+  const std::vector<std::string> told = around.all->exchange(bytesOf(moment));
   for (std::size_t process = 0; process < told.size(); ++process)
   {
-    ByteReader get(told[process]);
-    const double seconds = get.get<double>();
-    moment.seconds = process == 0 ? seconds : moment.seconds;
-    moment.wantsStop = get.get<std::uint8_t>() != 0 || moment.wantsStop;
+    Moment theirs;
+    getAll(told[process], theirs);
+    moment = process == 0 ? theirs : Moment{ moment.seconds, moment.wantsStop || theirs.wantsStop };
   }
   return moment;
 }
@@ -304,16 +299,6 @@ void requireRoom(const Fibres& fibres, int processes)
     "use fewer fibres, or a larger spacing of their control points");
 }
 
-/// Tells whether `own` is true in any process.
-bool hasAny(bool own, const Sharing& sharing)
-{
-  for (const std::string& told : sharing.exchange(own ? "1" : "0"))
-  {
-    own = own || told == "1";
-  }
-  return own;
-}
-
 OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOptions& options, const Context& context,
   const std::function<void(const ConvergenceRow&, const Fibres&)>& observe, const Sharing& team)
 {
@@ -356,7 +341,7 @@ OptimisationResult optimiseTogether(Fibres& fibres, const CapsuleOptimizerOption
     bringTogether(radii, shares, order, fibres.radii);
   };
   Surroundings around{ options, context, start, checkpoints, &sharing == &alone ? &team : nullptr, {} };
-  if (hasAny(static_cast<bool>(observe), sharing))
+  if (!sharing.isEverywhere(!observe))
   {
     around.observe = [&](const ConvergenceRow& row, const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii)
     {

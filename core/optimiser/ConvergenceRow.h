@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <tuple>
 
 namespace cactus
 {
@@ -19,5 +20,11 @@ struct ConvergenceRow
   double compactnessCost = 0.0;
   double seconds = 0.0;
 };
+
+inline auto membersOf(ConvergenceRow& row)
+{
+  return std::tie(row.iteration, row.overlapCost, row.maximumPenetration, row.overlappingPairs, row.curvatureCost, row.lengthCost,
+    row.radiusCost, row.compactnessCost, row.seconds);
+}
 
 } // namespace cactus

@@ -89,24 +89,8 @@ ConvergenceRow Descent::evaluate(const std::function<Moment()>& now, Moment& mom
       this->gatherOverlap(f);
       perFibre[f] = this->Costs.add(fibres, f, this->State.relaxation, gradients);
     });
-  return this->sumUp(this->Shares.sharing().exchange(this->tell(overlap, perFibre, now())), moment);
-}
-
-/// Returns the message to the other processes with this one's part.
-std::string Descent::tell(const OverlapParts& overlap, const std::vector<FibreCostTotals>& perFibre, const Moment& moment) const
-{
-  ByteWriter put;
-  put(moment.seconds);
-  put(static_cast<std::uint8_t>(moment.wantsStop));
-  put(static_cast<std::uint64_t>(this->State.neighbours.indices.size()));
-  put(overlap.before);
-  put(overlap.blocks);
-  put(overlap.after);
-  put(overlap.penetration);
-  put(static_cast<std::uint64_t>(overlap.overlapping));
-  put(static_cast<std::uint64_t>(perFibre.size()));
-  put.addAll(perFibre.data(), perFibre.size());
-  return std::move(put.bytes());
+  const auto pairs = static_cast<std::uint64_t>(this->State.neighbours.indices.size());
+  return this->sumUp(this->Shares.sharing().exchange(bytesOf(now(), pairs, overlap, perFibre)), moment);
 }
 
 /// Returns the sums over all processes, in the order of a single process.
@@ -114,24 +98,16 @@ ConvergenceRow Descent::sumUp(const std::vector<std::string>& told, Moment& mome
 {
   ConvergenceRow row;
   OverlapSum sum;
-  std::uint64_t pairs = 0;
-  std::vector<FibreCostTotals> perFibre;
   for (std::size_t process = 0; process < told.size(); ++process)
   {
-    ByteReader get(told[process]);
-    const double seconds = get.get<double>();
-    const bool wantsStop = get.get<std::uint8_t>() != 0;
-    moment = process == 0 ? Moment{ seconds, wantsStop } : Moment{ moment.seconds, moment.wantsStop || wantsStop };
-    pairs += get.get<std::uint64_t>();
+    Moment theirs;
+    std::uint64_t pairs = 0;
     OverlapParts overlap;
-    get(overlap.before);
-    get(overlap.blocks);
-    get(overlap.after);
-    get(overlap.penetration);
-    overlap.overlapping = get.get<std::uint64_t>();
+    std::vector<FibreCostTotals> perFibre;
+    getAll(told[process], theirs, pairs, overlap, perFibre);
+    moment = process == 0 ? theirs : Moment{ moment.seconds, moment.wantsStop || theirs.wantsStop };
+    this->State.effort.pairEvaluations += static_cast<double>(pairs);
     sum.add(overlap);
-    perFibre.resize(get.get<std::uint64_t>());
-    get.getAll(perFibre.data(), perFibre.size());
     for (const FibreCostTotals& totals : perFibre)
     {
       row.curvatureCost += totals.curvature;
@@ -140,7 +116,6 @@ ConvergenceRow Descent::sumUp(const std::vector<std::string>& told, Moment& mome
       row.compactnessCost += totals.compactness;
     }
   }
-  this->State.effort.pairEvaluations += static_cast<double>(pairs);
   const OverlapTotals overlap = sum.totals();
   row.overlapCost = this->Options.overlapWeight * overlap.cost;
   row.maximumPenetration = std::max(0.0, overlap.penetration);
@@ -502,7 +477,7 @@ void Descent::takeOver(const DescentState& coarse, std::vector<Eigen::Vector3d> 
   this->Bodies.takeAll(this->State.fibres);
 }
 
-void Descent::load(SharedCheckpointReader& file)
+void Descent::load(CheckpointReader& file)
 {
   this->State.load(file);
   file.require(this->isSound());

@@ -46,9 +46,9 @@ public:
   /// Continues from a descent of fewer control points, given the points and velocities of all.
   void takeOver(const DescentState& coarse, std::vector<Eigen::Vector3d> points, std::vector<Eigen::Vector3d> velocity);
 
-  void save(SharedCheckpointWriter& file) const { this->State.save(file); }
+  void save(CheckpointWriter& file) const { this->State.save(file); }
   /// Continues from a saved state. Throws FileError if no descent from the given fibres can be there.
-  void load(SharedCheckpointReader& file);
+  void load(CheckpointReader& file);
 
   /// Tells whether a descent from the given fibres can have reached these positions and radii.
   bool couldReach(const std::vector<Eigen::Vector3d>& points, const std::vector<double>& radii) const;
@@ -57,7 +57,6 @@ private:
   void requireFinite() const;
   void refreshNeighbours();
   void setAllowances();
-  std::string tell(const OverlapParts& overlap, const std::vector<FibreCostTotals>& perFibre, const Moment& moment) const;
   ConvergenceRow sumUp(const std::vector<std::string>& told, Moment& moment);
   void gatherOverlap(std::size_t f);
   bool move(std::size_t i, const Eigen::Vector3d& by, double growth);

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/DescentState.h"
 
-#include "base/Bytes.h"
-
-#include <cstddef>
-#include <string>
-
 namespace cactus
 {
+
+namespace
+{
+
+/// Visits what a checkpoint keeps.
+template <typename State, typename File>
+void visitKeptState(State& state, File& file)
+{
+  file(state.relaxation, state.effort);
+  file.parts(state.fibres.points);
+  file.parts(state.fibres.radii);
+  file.parts(state.velocity);
+  file.parts(state.radiusVelocity);
+}
+
+} // namespace
 
 DescentState::DescentState(Fibres& given, bool withRadii)
   : fibres(given)
@@ -20,43 +31,14 @@ DescentState::DescentState(Fibres& given, bool withRadii)
 {
 }
 
-void DescentState::save(SharedCheckpointWriter& file) const
+void DescentState::save(CheckpointWriter& file) const
 {
-  file.putAll(this->fibres.points);
-  file.putAll(this->fibres.radii);
-  file.putAll(this->velocity);
-  file.putAll(this->radiusVelocity);
-  file.put(this->relaxation);
-  file.put(this->effort.pairEvaluations);
-  file.put(this->effort.neighbourSearches);
-  file.put(this->effort.evaluationSeconds);
-  file.put(this->effort.searchSeconds);
+  visitKeptState(*this, file);
 }
 
-void DescentState::load(SharedCheckpointReader& file)
+void DescentState::load(CheckpointReader& file)
 {
-  const std::size_t count = this->fibres.points.size();
-  file.getAll(this->fibres.points, count);
-  file.getAll(this->fibres.radii, count);
-  file.getAll(this->velocity, count);
-  file.getAll(this->radiusVelocity, this->radiusVelocity.size());
-  const auto visit = [this](auto& visitor)
-  {
-    visitor(this->relaxation);
-    visitor(this->effort.pairEvaluations);
-    visitor(this->effort.neighbourSearches);
-    visitor(this->effort.evaluationSeconds);
-    visitor(this->effort.searchSeconds);
-  };
-  const std::string numbers = file.fromFile(
-    [&](CheckpointReader& from, ByteWriter& put)
-    {
-      const auto read = [&](auto& value) { from.get(value); };
-      visit(read);
-      visit(put);
-    });
-  ByteReader get(numbers);
-  visit(get);
+  visitKeptState(*this, file);
 }
 
 } // namespace cactus

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "base/SharedCheckpoint.h"
+#include "base/Checkpoint.h"
 #include "fibres/Fibres.h"
 #include "optimiser/NeighbourSearch.h"
 
 #include <Eigen/Core>
 
+#include <tuple>
 #include <vector>
 
 namespace cactus
@@ -20,6 +21,11 @@ struct DescentEffort
   double evaluationSeconds = 0.0;
   double searchSeconds = 0.0;
 };
+
+inline auto membersOf(DescentEffort& effort)
+{
+  return std::tie(effort.pairEvaluations, effort.neighbourSearches, effort.evaluationSeconds, effort.searchSeconds);
+}
 
 /// The complete state of a descent, and the list of capsules that may touch. Vectors are indexed by control point. Processes that
 /// share a descent each have the control points of their own fibres; scalars are the same in all.
@@ -49,9 +55,9 @@ struct DescentState
 
   /// Writes the state, each process's part beside the others'. Neighbours are left out: no result depends on when they were
   /// searched.
-  void save(SharedCheckpointWriter& file) const;
+  void save(CheckpointWriter& file) const;
   /// Reads the output of save(). The caller checks whether a descent can be in that state.
-  void load(SharedCheckpointReader& file);
+  void load(CheckpointReader& file);
 };
 
 } // namespace cactus

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace cactus
@@ -29,6 +30,11 @@ struct FibreCostTotals
   double radius = 0.0;
   double compactness = 0.0;
 };
+
+inline auto membersOf(FibreCostTotals& totals)
+{
+  return std::tie(totals.curvature, totals.length, totals.radius, totals.compactness);
+}
 
 /// The arrays to which the terms add their derivatives, indexed by control point.
 struct FibreGradients

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "optimiser/OptimisationCheckpoints.h"
 
+#include "base/AtomicFile.h"
 #include "base/Bytes.h"
-#include "base/Checkpoint.h"
 #include "base/Error.h"
 #include "base/Hash64.h"
 
-#include <array>
 #include <string>
 
 namespace cactus
@@ -23,27 +22,13 @@ constexpr int methodNumber = 1;
 /// that only say when to stop.
 std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
 {
-  const std::string program = CACTUS_VERSION;
-  const std::array<double, 15> values{ double(methodNumber), options.overlapTolerance, options.overlapWeight,
+  const Domain domain = fibres.domain.isPeriodic() ? fibres.domain : Domain();
+  const std::string all = bytesOf(std::string(CACTUS_VERSION), methodNumber, options.overlapTolerance, options.overlapWeight,
     options.weights.curvature, options.weights.length, options.weights.radius, options.weights.compactness, options.stepSize,
     options.momentum, options.smoothing, options.relaxation, options.packingLimit, options.safetyMargin, options.radiusTolerance,
-    double(options.method) };
-  Hash64 print;
-  print.add(program.data(), program.size());
-  print.add(values.data(), sizeof(values));
-  const auto add = [&print](const auto& column) { print.add(column.data(), column.size() * sizeof(column[0])); };
-  add(fibres.fibreIds);
-  add(fibres.bundleIds);
-  add(fibres.offsets);
-  add(fibres.points);
-  add(fibres.radii);
-  if (fibres.domain.isPeriodic())
-  {
-    add(fibres.domain.periodic);
-    print.add(fibres.domain.lower.data(), 3 * sizeof(double));
-    print.add(fibres.domain.upper.data(), 3 * sizeof(double));
-  }
-  return print.value();
+    options.method, fibres.fibreIds, fibres.bundleIds, fibres.offsets, fibres.points, fibres.radii, domain.periodic, domain.lower,
+    domain.upper);
+  return hash64(all.data(), all.size());
 }
 
 } // namespace
@@ -58,52 +43,40 @@ OptimisationCheckpoints::OptimisationCheckpoints(
   if (!this->Path.empty() || sharing.size() > 1)
   {
     this->Print = fingerprintOf(fibres, options);
-    this->requireAlike(options);
   }
-  if (!this->Path.empty() && sharing.isFirst())
+  if (!sharing.areAlike(bytesOf(
+        this->Print, this->Path, options.resume, options.maximumIterations, options.timeBudget, options.checkpointInterval)))
   {
-    const auto found = findCheckpoint(this->Path, this->Print);
-    this->Reached = found ? found->iteration : -1;
-    if (found && options.resume)
-    {
-      this->Level = OptimisationRun::levelOf(this->Path, this->Print);
-    }
-    // Removed again unless it is committed.
-    const CheckpointWriter attempt(this->Path, { this->Print, 0 });
+    throw InvalidInput("the ranks of this run were given different fibres or parameters, but work on one optimisation together: "
+                       "give all the same, or let each work alone, as examples/sweep.py does");
   }
-  ByteWriter reached;
-  reached(this->Reached);
-  reached(static_cast<std::uint8_t>(this->Level));
-  const std::string told = sharing.fromFirst(reached.bytes());
-  ByteReader get(told);
-  get(this->Reached);
-  this->Level = get.get<std::uint8_t>() == OptimisationRun::Coarse ? OptimisationRun::Coarse : OptimisationRun::Fine;
-}
-
-/// Throws unless all processes were given the same run.
-void OptimisationCheckpoints::requireAlike(const CapsuleOptimizerOptions& options) const
-{
-  ByteWriter mine;
-  mine(this->Print);
-  mine(options.checkpointFile);
-  mine(static_cast<std::uint8_t>(options.resume));
-  mine(options.maximumIterations);
-  mine(options.timeBudget);
-  mine(options.checkpointInterval);
-  for (const std::string& other : this->Processes.exchange(mine.bytes()))
+  if (this->Path.empty())
   {
-    if (other != mine.bytes())
-    {
-      throw InvalidInput(
-        "the ranks of this run were given different fibres or parameters, but work on one optimisation together: "
-        "give all the same, or let each work alone, as examples/sweep.py does");
-    }
+    return;
+  }
+  this->File.emplace(this->Path, this->Print, sharing);
+  if (this->File->found())
+  {
+    (*this->File)(this->Reached, this->Level);
+    this->File->require(this->found());
+  }
+  if (!this->found() || !options.resume)
+  {
+    this->File.reset();
+  }
+  if (sharing.isFirst())
+  {
+    const AtomicFile attempt(this->Path); // removed again
   }
 }
 
-void OptimisationCheckpoints::load(OptimisationRun& run) const
+void OptimisationCheckpoints::load(OptimisationRun& run)
 {
-  run.load(this->Path, this->Print);
+  this->File->require(this->Level == run.level);
+  run.iteration = this->Reached;
+  run.load(*this->File);
+  this->File->finish();
+  this->File.reset();
 }
 
 bool OptimisationCheckpoints::due() const
@@ -125,7 +98,10 @@ void OptimisationCheckpoints::write(const OptimisationRun& run)
   }
   try
   {
-    run.save(this->Path, this->Print);
+    CheckpointWriter file(this->Path, this->Print, this->Processes);
+    file(run.iteration, run.level);
+    run.save(file);
+    file.commit();
     this->Failure.clear();
   }
   catch (const Error& error)

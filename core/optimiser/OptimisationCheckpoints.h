@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/Checkpoint.h"
 #include "optimiser/CapsuleOptimizerOptions.h"
 #include "optimiser/OptimisationRun.h"
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace cactus
@@ -25,8 +27,8 @@ public:
   /// Returns the level of the run in the checkpoint.
   OptimisationRun::Level level() const { return this->Level; }
 
-  /// Loads the checkpoint. Precondition: the run is on its level.
-  void load(OptimisationRun& run) const;
+  /// Loads the checkpoint that was found. Precondition: the run is to go on from it. Throws FileError if it is on another level.
+  void load(OptimisationRun& run);
 
   bool due() const; ///< by the clock of the first process
 
@@ -38,8 +40,6 @@ public:
   const std::string& failure() const { return this->Failure; }
 
 private:
-  void requireAlike(const CapsuleOptimizerOptions& options) const;
-
   using Clock = std::chrono::steady_clock;
 
   const Sharing& Processes;
@@ -47,7 +47,8 @@ private:
   double Interval;
   Clock::time_point Latest;
   std::uint64_t Print = 0;
-  std::int64_t Reached = -1; ///< iteration of the checkpoint that was found; −1 for none
+  std::optional<CheckpointReader> File; ///< what was found, until a run is loaded from it
+  int Reached = -1;                     ///< iteration of the checkpoint that was found; −1 for none
   OptimisationRun::Level Level = OptimisationRun::Fine;
   bool Written = false;
   std::string Failure;

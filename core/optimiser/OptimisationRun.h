@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace cactus
@@ -38,15 +37,12 @@ struct OptimisationRun
   /// Records the state that was just measured.
   void note(const ConvergenceRow& row, double tolerance);
 
-  /// Returns the level of the run in a file.
-  static Level levelOf(const std::string& path, std::uint64_t fingerprint);
-
-  /// Throws FileError, and InvalidInput if another run's checkpoint is at `path`; in the first process, which has the file.
-  void save(const std::string& path, std::uint64_t fingerprint) const;
-  void load(const std::string& path, std::uint64_t fingerprint);
+  /// Writes all but the level and the iteration.
+  void save(CheckpointWriter& file) const;
+  /// Reads the output of save() at the present iteration. Throws FileError if no run can be there.
+  void load(CheckpointReader& file);
 
   const Level level;
-  const Sharing& sharing;
   Fibres& state;
   Descent descent;
   int iteration = 0;    ///< the next one
@@ -56,9 +52,6 @@ struct OptimisationRun
   std::vector<double> bestRadii;
   double bestCost = std::numeric_limits<double>::infinity();
   DescentProgress progress;
-
-private:
-  static void loadNumbers(CheckpointReader& file, ByteWriter& put, Level level);
 };
 
 } // namespace cactus

@@ -7,6 +7,7 @@
 #include "optimiser/OverlapKernels.h"
 
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace cactus
@@ -39,6 +40,11 @@ struct OverlapParts
   double penetration = 0.0;
   std::size_t overlapping = 0; ///< pairs, counted from this side
 };
+
+inline auto membersOf(OverlapParts& parts)
+{
+  return std::tie(parts.before, parts.blocks, parts.after, parts.penetration, parts.overlapping);
+}
 
 bool isAnyTapered(const Capsules& capsules, const CapsuleRange& of);
 

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <optional>
+#include <tuple>
 
 namespace cactus
 {
@@ -30,12 +31,22 @@ struct DescentProgress
   void note(const ConvergenceRow& row);
 };
 
+inline auto membersOf(DescentProgress& progress)
+{
+  return std::tie(progress.lowestCost, progress.lowestPenetration, progress.lastIteration);
+}
+
 /// A process's report during its run.
 struct Moment
 {
   double seconds = 0.0; ///< on the clock of its run
   bool wantsStop = false;
 };
+
+inline auto membersOf(Moment& moment)
+{
+  return std::tie(moment.seconds, moment.wantsStop);
+}
 
 /// Returns why the state that was just measured is the last one; nothing if the descent continues.
 std::optional<StopReason> reasonToStop(
