@@ -15,7 +15,7 @@ namespace
 
 /// Every format starts with this; its number and a line feed follow.
 const std::string title = "CACTUS checkpoint ";
-const std::string version = "7\n";
+const std::string version = "7\n"; // the next number whenever other values are kept
 /// Reads as another number if the byte order differs.
 constexpr std::uint64_t byteOrder = 0x0102030405060708u;
 
@@ -66,7 +66,11 @@ std::optional<std::ifstream> openCheckpoint(const std::string& path, const std::
       "was written by another version of this program or on another kind of machine, and is kept: go on with that, name "
       "another file, or remove it"));
   }
-  if (!file || found != front)
+  if (!file)
+  {
+    throw FileError(refusal(path, damage));
+  }
+  if (found != front)
   {
     throw InvalidInput(refusal(path, "was written for other fibres or other parameters, and is kept: restore those and switch "
                                      "Resume on, name another file, or remove it"));
@@ -83,7 +87,8 @@ std::string valuesOf(const std::string& path, const std::string& front)
     return "";
   }
   file->seekg(0, std::ios::end);
-  std::string content(static_cast<std::size_t>(file->tellg()), '\0');
+  const std::streamoff size = file->tellg();
+  std::string content(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)), '\0');
   file->seekg(0);
   file->read(&content[0], static_cast<std::streamsize>(content.size()));
   const std::size_t end = content.size() - std::min(content.size(), sizeof(std::uint64_t));
@@ -92,7 +97,8 @@ std::string valuesOf(const std::string& path, const std::string& front)
     throw FileError(refusal(path, damage));
   }
   content.resize(end);
-  return content.erase(0, front.size());
+  content.erase(0, front.size());
+  return content;
 }
 
 } // namespace

@@ -14,7 +14,8 @@ namespace cactus
 class Sha256
 {
 public:
-  /// Throws std::runtime_error where OpenSSL is out of memory, or set up without it.
+  // Each throws std::runtime_error where OpenSSL is out of memory, or set up without this checksum.
+
   Sha256();
   void add(const void* data, std::size_t size);
   /// Returns 64 hexadecimal digits for all bytes added. Call it once, last.

@@ -23,12 +23,15 @@ constexpr int methodNumber = 1;
 std::uint64_t fingerprintOf(const Fibres& fibres, const CapsuleOptimizerOptions& options)
 {
   const Domain domain = fibres.domain.isPeriodic() ? fibres.domain : Domain();
-  const std::string all = bytesOf(std::string(CACTUS_VERSION), methodNumber, options.overlapTolerance, options.overlapWeight,
+  const std::string values = bytesOf(std::string(CACTUS_VERSION), methodNumber, options.overlapTolerance, options.overlapWeight,
     options.weights.curvature, options.weights.length, options.weights.radius, options.weights.compactness, options.stepSize,
     options.momentum, options.smoothing, options.relaxation, options.packingLimit, options.safetyMargin, options.radiusTolerance,
-    options.method, fibres.fibreIds, fibres.bundleIds, fibres.offsets, fibres.points, fibres.radii, domain.periodic, domain.lower,
-    domain.upper);
-  return hash64(all.data(), all.size());
+    options.method, fibres.fibreIds, fibres.bundleIds, fibres.offsets, domain.periodic, domain.lower, domain.upper);
+  Hash64 print;
+  print.add(values.data(), values.size());
+  print.add(fibres.points.data(), fibres.points.size() * sizeof(fibres.points[0]));
+  print.add(fibres.radii.data(), fibres.radii.size() * sizeof(fibres.radii[0]));
+  return print.value();
 }
 
 } // namespace
