@@ -62,6 +62,9 @@
   CACTUS_NUMBER_PROPERTY(GRatioDeviation)                                                                                        \
   CACTUS_NUMBER_PROPERTY(TargetAxonVolumeFraction)                                                                               \
   CACTUS_SWITCH_PROPERTY(MyelinFollowsAxon)                                                                                      \
+  CACTUS_NUMBER_PROPERTY(SwellingAmplitude)                                                                                      \
+  CACTUS_NUMBER_PROPERTY(SwellingSpacing)                                                                                        \
+  CACTUS_NUMBER_PROPERTY(SwellingLength)                                                                                         \
   CACTUS_NUMBER_PROPERTY(NodeLength)                                                                                             \
   CACTUS_NUMBER_PROPERTY(InternodeFactor)                                                                                        \
   CACTUS_NUMBER_PROPERTY(ParanodeLength)                                                                                         \

@@ -76,7 +76,7 @@ void releaseImage(vtkAlgorithm* consumer)
 
 /// The properties that outer surfaces without nodes of Ranvier do not depend on.
 const std::set<std::string> ofInner = { "GRatioModel", "GRatio", "GRatioDeviation", "TargetAxonVolumeFraction",
-  "MyelinFollowsAxon", "Seed" };
+  "MyelinFollowsAxon", "SwellingAmplitude", "SwellingSpacing", "SwellingLength", "Seed" };
 
 /// A source of fibres' surfaces from an output.
 class OutputSurfaces : public cactus::SurfaceSource
@@ -361,7 +361,8 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
     cactus::markFaults(fibres, domain, facts.minimumGap, context);
   }
   const cactus::Provenance provenance = cactus::recordOf(this, "MyelinSurface", stage, { "Input" }); // before it is released
-  const std::string remarks = cactus::notAsAsked(fibres, labels.view.grid.spacing, facts, byVtk);
+  const std::vector<std::string> remarks = { cactus::notAsAsked(fibres, labels.view.grid.spacing, facts, byVtk),
+    cactus::remarkOnSwellings(fibres, facts, options) };
   if (stage.releaseInput)
   {
     releaseImage(this);
@@ -380,9 +381,12 @@ void vtkMyelinSurface::make(vtkDataObject* input, const cactus::Sharing& sharing
   }
   made->parameterTime = this->GetMTime(); // only now: being stopped modifies the filter
   this->Made = std::move(made);
-  if (!remarks.empty() && sharing.isFirst())
+  for (const std::string& remark : remarks)
   {
-    vtkWarningMacro(<< remarks);
+    if (!remark.empty() && sharing.isFirst())
+    {
+      vtkWarningMacro(<< remark);
+    }
   }
 }
 

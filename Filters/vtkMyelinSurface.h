@@ -19,7 +19,8 @@
  * and `MinimumGap` of both (µm) let a certificate detect missing surfaces.
  *
  * Without nodes of Ranvier, outer surfaces do not depend on g-ratios. They are kept, and not made again if only GRatioModel,
- * GRatio, GRatioDeviation, TargetAxonVolumeFraction, MyelinFollowsAxon or Seed changes.
+ * GRatio, GRatioDeviation, TargetAxonVolumeFraction, MyelinFollowsAxon, SwellingAmplitude, SwellingSpacing, SwellingLength or
+ * Seed changes.
  *
  * On several ranks each makes the surfaces of its fibres from the whole image, which all need. They then have all surfaces, the
  * same as on one rank. If each is asked for its piece, it gives consecutive fibres with about the same number of triangles, and

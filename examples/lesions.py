@@ -24,12 +24,12 @@ def row_of(proxy):
     return {table.GetColumnName(i): table.GetColumn(i).GetTuple1(0) for i in range(table.GetNumberOfColumns())}
 
 
-def bundle(side, **properties):
-    return simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=side, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.8, **properties)), 0)
+def bundle(side):
+    return simple.OutputPort(simple.CapsuleOptimizer(Input=simple.BundleInitializer(Side=side, FibreVolumeFraction=0.5, GrownFibreVolumeFraction=0.8)), 0)
 
 
 def state(fibres, fraction=-1, myelin=None, **loss):
-    """(fibres, outer and inner surfaces) grown to a fraction, with a lesion of internodes (properties of MyelinSurface) or of fibres."""
+    """(fibres, outer and inner surfaces) grown to a fraction, with a lesion of internodes or axons (properties of MyelinSurface) or of fibres."""
     surfaces = simple.MyelinSurface(Input=simple.FibreRadialGrowth(Input=fibres, TargetFibreVolumeFraction=fraction), NodeLength=1, **(myelin or {}))
     if not loss:
         return fibres, simple.OutputPort(surfaces, 0), simple.OutputPort(surfaces, 1)
@@ -59,7 +59,7 @@ def main():
         "internodes lost": state(healthy, myelin={"InternodeLoss": 0.5}),
         "remyelinated": state(healthy, myelin={"InternodeLoss": 0.5, "RemyelinatedFraction": 1}),
         "with axonal loss": state(healthy, AxonLoss=0.25, MyelinLoss=0.5),
-        "swollen": state(bundle(asked.side, CalibreVariation=0.45)),
+        "swollen": state(healthy, myelin={"SwellingAmplitude": 0.3}),
     }
     strip, places = pyplot.subplots(1, len(states), figsize=(3 * len(states), 3.3))
     print("| state | certified | " + " | ".join(COLUMNS) + " |")

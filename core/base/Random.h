@@ -26,7 +26,8 @@ enum class RandomStage : std::uint32_t
   Nodes = 12,
   Sections = 13,
   Internodes = 14,
-  SeedPoints = 15
+  SeedPoints = 15,
+  Swellings = 16
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere. The distributions of

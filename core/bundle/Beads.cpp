@@ -2,6 +2,7 @@
 #include "bundle/Beads.h"
 
 #include "base/Constants.h"
+#include "base/Error.h"
 #include "base/Limits.h"
 #include "base/RandomVariates.h"
 
@@ -21,10 +22,10 @@ double widthOf(const BeadShape& shape)
   return shape.length / (2.0 * std::sqrt(2.0 * std::log(2.0)));
 }
 
-RandomEngine streamOfBead(std::uint64_t seed, int fibreId, std::int64_t bead)
+/// Returns the number of a bead's random stream.
+std::uint64_t itemOfBead(int fibreId, std::int64_t bead)
 {
-  return randomStream(
-    seed, RandomStage::Calibre, (std::uint64_t(std::uint32_t(fibreId)) << 32) | std::uint32_t(static_cast<std::int32_t>(bead)));
+  return (std::uint64_t(std::uint32_t(fibreId)) << 32) | std::uint32_t(static_cast<std::int32_t>(bead));
 }
 
 /// Returns the distance (µm) from a bead to the next one, away from the fibre's middle, or of the two about it. A place is in a
@@ -79,11 +80,24 @@ double BeadShape::meanSquare() const
   return sum / double(steps);
 }
 
-Beads::Beads(const BeadShape& shape, std::uint64_t seed, int fibreId, double half, bool repeats)
+void BeadShape::requireRoom(double amplitude, const std::string& name) const
+{
+  constexpr double mostCovered = 0.9;
+  const double covered = this->mean() * (1.0 + amplitude);
+  if (covered > mostCovered)
+  {
+    throw InvalidInput(text(name, "Spacing is ", this->spacing, " µm: with ", name, "Amplitude ", amplitude, " and ", name,
+      "Length ", this->length, " µm they run into each other; give ", this->spacing * covered / mostCovered,
+      " µm or more, or a smaller ", name, "Length or ", name, "Amplitude"));
+  }
+}
+
+Beads::Beads(const BeadShape& shape, std::uint64_t seed, int fibreId, double half, bool repeats, RandomStage stage)
   : Reach(reachInWidths * widthOf(shape))
   , Width(widthOf(shape))
 {
-  RandomEngine middle = streamOfBead(seed, fibreId, 0);
+  const auto streamOf = [&](std::int64_t bead) { return randomStream(seed, stage, itemOfBead(fibreId, bead)); };
+  RandomEngine middle = streamOf(0);
   const double before = uniformFromZero(middle); // the part of the gap about the middle that lies before it
   const double gap = gapAfter(shape, middle, true);
   if (repeats)
@@ -92,7 +106,7 @@ Beads::Beads(const BeadShape& shape, std::uint64_t seed, int fibreId, double hal
     std::vector<double> ends{ 0.0 };
     for (std::int64_t bead = 0; bead < count; ++bead)
     {
-      RandomEngine engine = streamOfBead(seed, fibreId, bead + 1);
+      RandomEngine engine = streamOf(bead + 1);
       ends.push_back(ends.back() + gapAfter(shape, engine));
     }
     const double scale = 2.0 * half / ends.back();
@@ -110,14 +124,14 @@ Beads::Beads(const BeadShape& shape, std::uint64_t seed, int fibreId, double hal
     for (std::int64_t bead = -1; place > -half - this->Reach; --bead)
     {
       this->Places.push_back(place);
-      RandomEngine engine = streamOfBead(seed, fibreId, bead);
+      RandomEngine engine = streamOf(bead);
       place -= gapAfter(shape, engine);
     }
     place = (1.0 - before) * gap;
     for (std::int64_t bead = 1; place < half + this->Reach; ++bead)
     {
       this->Places.push_back(place);
-      RandomEngine engine = streamOfBead(seed, fibreId, bead);
+      RandomEngine engine = streamOf(bead);
       place += gapAfter(shape, engine);
     }
   }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "base/Properties.h"
+#include "base/Random.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace cactus
@@ -22,8 +24,11 @@ struct BeadShape
   double mean() const;
   /// Returns the mean of b², from a long fibre.
   double meanSquare() const;
+  /// Throws InvalidInput if beads whose radius is larger by `amplitude` than the mean, as a fraction, would run into each other.
+  /// `name` begins the names of the properties: <name>Amplitude, <name>Spacing, <name>Length.
+  void requireRoom(double amplitude, const std::string& name) const;
   /// Returns the a for which a bead far from others is thicker than the mean radius by this fraction of it. Precondition:
-  /// (1 + amplitude) · mean() < 1.
+  /// requireRoom().
   double heightOf(double amplitude) const { return amplitude / (1.0 - this->mean() * (1.0 + amplitude)); }
 };
 
@@ -33,7 +38,8 @@ class Beads
 {
 public:
   /// Draws the beads of a fibre that reaches `half` (µm) to either side of its middle and, if asked, repeats after that.
-  Beads(const BeadShape& shape, std::uint64_t seed, int fibreId, double half, bool repeats);
+  Beads(
+    const BeadShape& shape, std::uint64_t seed, int fibreId, double half, bool repeats, RandomStage stage = RandomStage::Calibre);
 
   /// Returns b at a length (µm) from the fibre's middle, within its reach.
   double at(double length) const;

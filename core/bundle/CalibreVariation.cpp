@@ -55,13 +55,9 @@ const PropertyList<CalibreVariation>& CalibreVariation::properties()
 
 void CalibreVariation::validate() const
 {
-  constexpr double mostCovered = 0.9;
-  const double covered = this->beads.mean() * (1.0 + this->beadAmplitude);
-  if (this->model == CalibreModel::Beads && covered > mostCovered)
+  if (this->model == CalibreModel::Beads)
   {
-    throw InvalidInput(text("BeadSpacing is ", this->beads.spacing, " µm: with BeadAmplitude ", this->beadAmplitude,
-      " and BeadLength ", this->beads.length, " µm beads run into each other; give ", this->beads.spacing * covered / mostCovered,
-      " µm or more, or a smaller BeadLength or BeadAmplitude"));
+    this->beads.requireRoom(this->beadAmplitude, "Bead");
   }
 }
 

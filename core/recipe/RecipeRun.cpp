@@ -319,6 +319,7 @@ private:
     maker.makeOuter(made->outer, made->inner);
     maker.makeInner(made->outer, made->inner);
     this->say(notAsAsked(maker.fibres(), view.grid.spacing, grown.facts));
+    this->say(remarkOnSwellings(maker.fibres(), grown.facts, stage.options));
     made->fibres = maker.fibres();
     made->facts = std::move(grown.facts);
     made->grownFrom = std::move(grown.fibres);

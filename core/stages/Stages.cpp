@@ -198,14 +198,14 @@ const PropertyList<MyelinSurfaceStage>& MyelinSurfaceStage::properties()
       .where("Meshing", { 0 })
       .at("NodeLength")
       .where("Meshing", { 0 })
+      .at("SwellingAmplitude")
+      .where("Meshing", { 0 })
       .at("SmoothingIterations")
       .where("Meshing", { 0 })
       .at("DecimationError")
       .where("Meshing", { 0 })
       .at("MinimumAngle")
       .where("Meshing", { 0 })
-      .at("Seed")
-      .where("GRatioModel", { 2 })
       .add("Meshing", &Stage::meshing, { "CACTUS", "VTK filters" },
         "Method that makes the surfaces. CACTUS: its own contouring, coarsening and spacing, which keep surfaces closed, apart "
         "and free of self-intersections. VTK filters: Flying Edges on each fibre's field, Windowed Sinc smoothing and Quadric "
@@ -369,8 +369,7 @@ const PropertyList<SubstrateProductionStage>& SubstrateProductionStage::properti
       .at("Seed")
       .means("Seed of the directions in which sections of fibres are elongated (SectionAxisRatio of bundles), of the random "
              "calibre that SurfaceRoughness gives the fibres, of the points of SeedDensity, of the g-ratios if GRatioModel is "
-             "Distributed, and of the sample "
-             "if SampledFraction is below 1.")
+             "Distributed, of the places of swellings, and of the sample if SampledFraction is below 1.")
       .add("FolderName", &Stage::folderName, folderMeaning)
       .use(PropertyUse::Run)
       .add("Format", &Stage::format, formats, formatMeaning)

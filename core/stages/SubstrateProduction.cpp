@@ -212,8 +212,8 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   maker.makeOuter(spool.outer(), spool.inner());
   maker.makeInner(spool.outer(), spool.inner());
   result.fibres = maker.fibres();
-  for (const std::string& remark :
-    { remarkOnGrowth(fibres, order.growth, solved.growth), notAsAsked(maker.fibres(), spacing, facts) })
+  for (const std::string& remark : { remarkOnGrowth(fibres, order.growth, solved.growth),
+         notAsAsked(maker.fibres(), spacing, facts), remarkOnSwellings(maker.fibres(), facts, order.surfaces) })
   {
     result.remarks += result.remarks.empty() || remark.empty() ? remark : ". " + remark;
   }

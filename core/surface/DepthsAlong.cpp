@@ -22,6 +22,8 @@ constexpr std::size_t farthestMirrored = 3;
 constexpr double farthestOutside = 4.0;
 /// Error (µm) to which a slice's depth is found.
 constexpr double depthTolerance = 1e-5;
+/// Relative error to which a volume is kept.
+constexpr double redistributionTolerance = 1e-6;
 
 constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 
@@ -217,34 +219,53 @@ double DepthsAlong::depthFor(const Slice& slice, double area, double from) const
   return 0.5 * (lower + upper);
 }
 
-/// Returns the depths of all slices, smoothed, with straight lines between them.
-AlongLine DepthsAlong::smooth(const std::function<double(const Slice&, double along)>& depth) const
+/// Returns the whole slice that is nearest to each; none, if there is no sample.
+std::vector<std::size_t> DepthsAlong::nearestWhole() const
 {
-  const std::size_t count = this->Slices.size();
-  const bool isRing = this->Line.period() > 0.0;
-  std::vector<double> depths(count, 0.0);
   std::vector<std::size_t> whole;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < this->Slices.size(); ++i)
   {
     if (this->Slices[i].isWhole)
     {
-      depths[i] = depth(this->Slices[i], this->placeOf(i));
       whole.push_back(i);
     }
   }
-  for (std::size_t i = 0; i < count && !whole.empty(); ++i)
+  std::vector<std::size_t> nearest;
+  for (std::size_t i = 0; i < this->Slices.size() && !whole.empty(); ++i)
   {
     const auto behind = std::lower_bound(whole.begin(), whole.end(), i);
     const auto before = behind == whole.begin() ? behind : behind - 1;
     const bool isBehindNearer = behind != whole.end() && (*before > i || *behind - i < i - *before);
-    const std::size_t nearest = isBehindNearer ? *behind : *before;
-    if (nearest != i)
+    nearest.push_back(isBehindNearer ? *behind : *before);
+  }
+  return nearest;
+}
+
+/// Returns the depths of all slices, smoothed, with straight lines between them. Where a slice is not whole, the depths of whole
+/// ones go on; or it has the depth that the nearest whole one would have at its place (`isLocal`).
+AlongLine DepthsAlong::smooth(const std::function<double(const Slice&, double along)>& depth, bool isLocal) const
+{
+  const std::size_t count = this->Slices.size();
+  const bool isRing = this->Line.period() > 0.0;
+  std::vector<double> depths(count, 0.0);
+  const std::vector<std::size_t> nearest = this->nearestWhole();
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+  {
+    if (isLocal || this->Slices[i].isWhole)
+    {
+      depths[i] = depth(this->Slices[nearest[i]], this->placeOf(i));
+    }
+  }
+  for (std::size_t i = 0; i < nearest.size() && !isLocal; ++i)
+  {
+    if (nearest[i] != i)
     {
       // The depths go on as they end, for a few slices: otherwise smoothing would bend them at the last whole one.
-      const auto steps = std::min(farthestMirrored, isBehindNearer ? nearest - i : i - nearest);
-      const std::size_t mirrored = isBehindNearer ? nearest + steps : nearest - steps;
+      const bool isBehind = nearest[i] > i;
+      const auto steps = std::min(farthestMirrored, isBehind ? nearest[i] - i : i - nearest[i]);
+      const std::size_t mirrored = isBehind ? nearest[i] + steps : nearest[i] - steps;
       const bool isKnown = mirrored < count && this->Slices[mirrored].isWhole;
-      const double end = depths[nearest];
+      const double end = depths[nearest[i]];
       depths[i] = isKnown ? std::clamp(2.0 * end - depths[mirrored], 0.5 * end, 1.5 * end) : end;
     }
   }
@@ -273,10 +294,67 @@ AlongLine DepthsAlong::depthOfPart(double part, double outer) const
     [&](const Slice& slice, double) { return this->depthFor(slice, part * this->areaBelow(slice, outer), outer); });
 }
 
+double DepthsAlong::levelOfPart(double part, double outer) const
+{
+  Slice all;
+  for (const Slice& slice : this->Slices)
+  {
+    if (slice.isWhole)
+    {
+      all.shares.insert(all.shares.end(), slice.shares.begin(), slice.shares.end());
+    }
+  }
+  return this->depthFor(all, part * this->areaBelow(all, outer), outer);
+}
+
 AlongLine DepthsAlong::depthOfPartBelow(double part, const AlongLine& depth) const
 {
   return this->smooth([&](const Slice& slice, double along)
     { return this->depthFor(slice, part * this->areaBelow(slice, depth(along)), depth(along)); });
+}
+
+AlongLine DepthsAlong::redistributed(const AlongLine& depth, const AlongLine& weight, double shallowest) const
+{
+  double volume = 0.0; // in samples
+  double room = 0.0;
+  std::vector<double> wanted; // areas for a factor of 1
+  std::vector<double> most;
+  for (std::size_t i = 0; i < this->Slices.size(); ++i)
+  {
+    const double area = this->areaBelow(this->Slices[i], depth(this->placeOf(i)));
+    volume += area;
+    wanted.push_back(area * weight(this->placeOf(i)));
+    most.push_back(std::max(area, this->areaBelow(this->Slices[i], shallowest)));
+    room += most.back();
+  }
+  const auto held = [&](double factor)
+  {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+    {
+      sum += std::min(factor * wanted[i], most[i]);
+    }
+    return sum;
+  };
+  double lower = 0.0;
+  double upper = 1.0;
+  while (held(upper) < std::min(volume, (1.0 - redistributionTolerance) * room))
+  {
+    upper *= 2.0;
+  }
+  while (upper - lower > redistributionTolerance * upper)
+  {
+    const double middle = 0.5 * (lower + upper);
+    (held(middle) < volume ? lower : upper) = middle;
+  }
+  return this->smooth(
+    [&](const Slice& slice, double along)
+    {
+      const double own = depth(along);
+      const double area = upper * weight(along) * this->areaBelow(slice, own);
+      return this->depthFor(slice, area, std::min(own, shallowest));
+    },
+    true);
 }
 
 double DepthsAlong::mean(const AlongLine& of) const
@@ -292,6 +370,16 @@ double DepthsAlong::mean(const AlongLine& of) const
     }
   }
   return weight > 0.0 ? sum / weight : of(0.0);
+}
+
+double DepthsAlong::least(const AlongLine& of) const
+{
+  double result = of(this->placeOf(0));
+  for (std::size_t i = 0; i < this->Slices.size(); ++i)
+  {
+    result = this->Slices[i].shares.empty() ? result : std::min(result, of(this->placeOf(i)));
+  }
+  return result;
 }
 
 SmoothedField DepthsAlong::lowered(const AlongLine& by) const

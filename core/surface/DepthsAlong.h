@@ -30,10 +30,17 @@ public:
   /// Depths are found for slices two voxels thick and smoothed over a few of these. Slices that a face of the box cuts have the
   /// depth of the nearest whole one.
   AlongLine depthOfPart(double part, double outer) const;
+  /// Returns the one depth below which lies this part of the fibre's volume above `outer` (µm), without slices that a face cuts.
+  double levelOfPart(double part, double outer) const;
   /// Returns the depth that leaves this part of what lies below `depth`.
   AlongLine depthOfPartBelow(double part, const AlongLine& depth) const;
+  /// Returns the depth below which lies the same volume as below `depth`, with each cross-section's area multiplied by a number
+  /// in proportion to `weight`. Depths are at least `shallowest` (µm); what does not fit there goes to the other cross-sections.
+  AlongLine redistributed(const AlongLine& depth, const AlongLine& weight, double shallowest) const;
   /// Returns the mean over the fibre's length.
   double mean(const AlongLine& of) const;
+  /// Returns the least value at the middles of all slices with samples.
+  double least(const AlongLine& of) const;
 
   /// Returns the field minus a number for each node, by its place along the line.
   SmoothedField lowered(const AlongLine& by) const;
@@ -57,7 +64,8 @@ private:
   double depthFor(const Slice& slice, double area, double from) const;
   double placeOf(std::size_t slice) const { return this->Start + (double(slice) + 0.5) * this->Thickness; }
   double sliceAt(double along) const;
-  AlongLine smooth(const std::function<double(const Slice&, double along)>& depth) const;
+  std::vector<std::size_t> nearestWhole() const;
+  AlongLine smooth(const std::function<double(const Slice&, double along)>& depth, bool isLocal = false) const;
 
   const SmoothedField& Field;
   const FibreLine& Line;

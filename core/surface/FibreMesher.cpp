@@ -36,8 +36,6 @@ constexpr double negligibleChange = 2e-4;
 
 /// Largest voxel, in parts of a node's or a paranode's length.
 constexpr double voxelInNode = 0.5;
-/// Room (in SurfaceTolerances) in nodes, beside the promised thickness of the myelin, for surfaces that move.
-constexpr double roomInNodes = 4.0;
 
 /// Returns the least distance of the field from its level at a sample, µm.
 double nudgeFor(double spacing, double tolerance)
@@ -87,6 +85,7 @@ FibreMesher::FibreMesher(const std::shared_ptr<const LabelSource>& image, const 
   , Finishing(options.decimationError, options.minimumAngle, Spacing, insetFor(facts.minimumGap, Spacing), Field.box(), filters)
   , Withdrawal(0.5 * std::max(0.0, leastRoom - image->gap()))
   , ThinnestMyelin(std::max({ facts.minimumGap, 4.0 * facts.surfaceTolerance, 1e-3 * Spacing, leastSeparation }))
+  , Wall(wallOfMyelin(facts) + lostInFiles)
   , PromisedMyelin(std::max(facts.minimumGap, leastSeparation) + lostInFiles)
 {
   if (this->Field.heldFaces() != 0 && (filters != nullptr || options.minimumAngle > 0.0))
@@ -114,9 +113,10 @@ void FibreMesher::findLines()
 {
   require(this->Filters == nullptr,
     "Meshing VTK filters makes myelin of the same thickness along a fibre: leave MyelinFollowsAxon "
-    "off and NodeLength at 0, and give the fibres no MyelinFraction, or choose Meshing CACTUS");
-  require(this->Facts.centreLines != nullptr, "the centre lines of the fibres are not at hand, and MyelinFollowsAxon and "
-                                              "NodeLength need them: give the label image directly from FibreRadialGrowth");
+    "off, NodeLength and SwellingAmplitude at 0, and give the fibres no MyelinFraction, or choose Meshing CACTUS");
+  require(this->Facts.centreLines != nullptr,
+    "the centre lines of the fibres are not at hand, and MyelinFollowsAxon, "
+    "NodeLength and SwellingAmplitude need them: give the label image directly from FibreRadialGrowth");
   requireKnownGRatio(*this->Facts.centreLines, this->Options);
   const double shortest = std::min(this->Options.nodeLength, this->Options.paranodeLength);
   if (this->Options.hasNodes() && this->Spacing > voxelInNode * shortest)
@@ -167,7 +167,7 @@ std::unique_ptr<MyelinProfile> FibreMesher::profileOf(const SmoothedField& field
   }
   auto profile = std::make_unique<MyelinProfile>(
     field, *this->Facts.centreLines, line->second, this->Options, this->InternodeLosses[line->second]);
-  return this->Options.myelinFollowsAxon || profile->lacksMyelin() ? std::move(profile) : nullptr;
+  return this->Options.shapesAxons() || profile->lacksMyelin() ? std::move(profile) : nullptr;
 }
 
 void FibreMesher::takeMyelin(const SmoothedField& field, MyelinProfile& profile, FibreSurfacePair& pair,
@@ -176,12 +176,13 @@ void FibreMesher::takeMyelin(const SmoothedField& field, MyelinProfile& profile,
   const OuterContour outer = this->contourOuter(field, 0.0);
   pair.targetGRatio = gRatio(outer.volume);
   const double part = pair.targetGRatio * pair.targetGRatio;
-  const SmoothedField even = this->Options.myelinFollowsAxon ? profile.evened(part, outer.right, this->ThinnestMyelin) : field;
+  const SmoothedField even =
+    this->Options.shapesAxons() ? profile.shaped(part, outer.right, this->ThinnestMyelin, this->Wall) : field;
   AxonContour axon;
   MyelinState state = MyelinState::NoAxon;
   if (outer.volume > 0.0)
   {
-    const AxonLevels levels = this->axonLevels(even, part * outer.volume);
+    const AxonLevels levels = this->axonLevels(even, part * outer.volume, profile.raised());
     const AxonSearch search(this->Contours, even, part * outer.volume, levels, this->Spacing, this->movesContours());
     state = levels.highest > levels.lowest ? search.find(nullptr, axon) : MyelinState::NoAxon;
   }
@@ -190,7 +191,7 @@ void FibreMesher::takeMyelin(const SmoothedField& field, MyelinProfile& profile,
     profile.forgetLack();
     return;
   }
-  profile.takeMyelin(axon.level, this->PromisedMyelin + roomInNodes * this->Facts.surfaceTolerance, pair.targetGRatio);
+  profile.takeMyelin(axon.level, this->Wall, pair.targetGRatio);
   pair.nodes = profile.nodeCount();
   pair.internodeLength = profile.internodeLength();
   pair.wholeMyelin = outer.volume - axon.volume;
@@ -297,10 +298,10 @@ double FibreMesher::equivalentDiameter(const SmoothedField& field, double outerV
 
 /// Returns the levels from the thinnest myelin to the middle of the fibre; the latter is no more than the former if there is no
 /// room for an axon.
-AxonLevels FibreMesher::axonLevels(const SmoothedField& field, double volume) const
+AxonLevels FibreMesher::axonLevels(const SmoothedField& field, double volume, double raised) const
 {
   AxonLevels levels;
-  levels.lowest = this->ThinnestMyelin;
+  levels.lowest = this->ThinnestMyelin + raised;
   const SampledVolume sampled = this->Contours.innerVolumes(field, levels.lowest);
   levels.highest = sampled.deepest();
   levels.guess = sampled.levelOf(volume, levels.lowest, levels.highest);
@@ -372,12 +373,12 @@ void FibreMesher::makeInnerWithin(
     return; // an outer surface, made elsewhere, that encloses no volume
   }
   std::optional<SmoothedField> even;
-  if (profile != nullptr && this->Options.myelinFollowsAxon)
+  if (profile != nullptr && this->Options.shapesAxons())
   {
-    even.emplace(profile->evened(part, pair.outerLevel, this->ThinnestMyelin));
+    even.emplace(profile->shaped(part, pair.outerLevel, this->ThinnestMyelin, this->Wall));
   }
   const SmoothedField& own = even ? *even : field;
-  const AxonLevels levels = this->axonLevels(own, wanted);
+  const AxonLevels levels = this->axonLevels(own, wanted, profile != nullptr ? profile->raised() : 0.0);
   if (levels.highest <= levels.lowest)
   {
     return;

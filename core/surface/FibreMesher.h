@@ -100,7 +100,7 @@ private:
   void makeInnerWithin(double outerVolume, const SmoothedField& field, FibreSurfacePair& pair, MyelinProfile* profile) const;
   void makeInnerOfProfile(const MyelinProfile& profile, FibreSurfacePair& pair) const;
   void finish(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
-  AxonLevels axonLevels(const SmoothedField& field, double volume) const;
+  AxonLevels axonLevels(const SmoothedField& field, double volume, double raised) const;
   void finishInside(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   void finishByFilters(const AxonSearch& search, MyelinState state, AxonContour& axon, FibreSurfacePair& pair) const;
   SurfaceGap gapTo(const TriangleTree& wall, const TriangleMesh& inner) const;
@@ -119,6 +119,7 @@ private:
   SurfaceFinishing Finishing;
   double Withdrawal;     ///< µm; depth of outer surfaces where growth has left almost no room between fibres
   double ThinnestMyelin; ///< µm; keeps inner and outer surfaces apart even if both move
+  double Wall;           ///< µm, least thickness of the myelin in nodes, where it is lost, and over swellings
   double PromisedMyelin; ///< µm, least distance of inner surfaces from the walls of outer ones
 };
 

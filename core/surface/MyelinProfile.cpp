@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/MyelinProfile.h"
 
+#include "bundle/Beads.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -11,12 +13,13 @@ MyelinProfile::MyelinProfile(
   const SmoothedField& field, const Fibres& fibres, std::size_t fibre, const MyelinSurfaceOptions& options, double internodeLoss)
   : Field(field)
   , Options(options)
+  , FibreId(fibres.fibreIds[fibre])
   , Line(fibres, fibre)
   , Depths(field, this->Line)
 {
   if (options.hasNodes())
   {
-    this->Nodes.emplace(options, fibres.fibreIds[fibre], 2.0 * fibres.targetRadii[fibre], internodeLoss, this->Line.period());
+    this->Nodes.emplace(options, this->FibreId, 2.0 * fibres.targetRadii[fibre], internodeLoss, this->Line.period());
     if (!this->Nodes->reachInto(this->Depths.first(), this->Depths.last()))
     {
       this->Nodes.reset();
@@ -25,13 +28,39 @@ MyelinProfile::MyelinProfile(
   this->Lacks = this->Nodes.has_value() || this->Line.lacksMyelin(this->Depths.first(), this->Depths.last());
 }
 
-SmoothedField MyelinProfile::evened(double part, double outer, double thinnest)
+SmoothedField MyelinProfile::shaped(double part, double outer, double thinnest, double wall)
 {
-  const AlongLine depth = this->Depths.depthOfPart(part, outer);
+  AlongLine depth;
+  if (this->Options.myelinFollowsAxon)
+  {
+    depth = this->Depths.depthOfPart(part, outer);
+  }
+  else
+  {
+    depth = [level = this->Depths.levelOfPart(part, outer)](double) { return level; };
+  }
+  depth = this->Options.swellingAmplitude > 0.0 ? this->swollen(depth, wall) : depth;
   const auto atLeast = [depth, thinnest](double along) { return std::max(depth(along), thinnest); };
   const double mean = this->Depths.mean(atLeast);
+  this->Raised = this->Options.swellingAmplitude > 0.0 ? mean - this->Depths.least(atLeast) : 0.0;
   this->Deeper = [atLeast, mean](double along) { return atLeast(along) - mean; };
   return this->Depths.lowered(this->Deeper);
+}
+
+/// Returns the depth of the axon with swellings, of the same volume as the one at `depth`.
+AlongLine MyelinProfile::swollen(const AlongLine& depth, double shallowest) const
+{
+  const BeadShape shape = this->Options.swellings();
+  const double height = shape.heightOf(this->Options.swellingAmplitude);
+  const double period = this->Line.period();
+  const double half = 0.5 * (period > 0.0 ? period : this->Line.length());
+  const Beads beads(shape, this->Options.seed, this->FibreId, half, period > 0.0, RandomStage::Swellings);
+  const auto relativeArea = [&](double along)
+  {
+    const double radius = 1.0 + height * beads.at(along - half);
+    return radius * radius;
+  };
+  return this->Depths.redistributed(depth, relativeArea, shallowest);
 }
 
 int MyelinProfile::nodeCount() const

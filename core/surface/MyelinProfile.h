@@ -31,9 +31,13 @@ public:
   MyelinProfile(const MyelinProfile&) = delete;
   MyelinProfile& operator=(const MyelinProfile&) = delete;
 
-  /// Returns the field whose contour at one level leaves an axon of this part of each cross-section's area above `outer` (µm),
-  /// if the fibre had no nodes: about at the level of that contour in the field given. No myelin is thinner than `thinnest` (µm).
-  SmoothedField evened(double part, double outer, double thinnest);
+  /// Returns the field whose contour at one level is the axon with this part of the volume above `outer` (µm), if the fibre had
+  /// no nodes: about at the level of that contour in the field given. Each cross-section has the same part of its area, if the
+  /// options ask for that, and more of it in swellings, less between them. No myelin is thinner than `thinnest`, and none over
+  /// swellings than `wall` (µm).
+  SmoothedField shaped(double part, double outer, double thinnest, double wall);
+  /// Returns by how much (µm) swellings are at most nearer to the fibre's surface than the axon's level after shaped().
+  double raised() const { return this->Raised; }
 
   /// Tells whether the fibre lacks myelin somewhere: at a node, or by a lesion.
   bool lacksMyelin() const { return this->Lacks; }
@@ -42,7 +46,7 @@ public:
   /// Returns the number of nodes whose middle lies in the box, and the length (µm) of an internode; 0 without nodes.
   int nodeCount() const;
   double internodeLength() const;
-  /// Puts the axon at this level of the field (evened(), if that was called), and the myelin's thickness where it lacks at `wall`
+  /// Puts the axon at this level of the field (shaped(), if that was called), and the myelin's thickness where it lacks at `wall`
   /// (µm). `gRatio` is that of whole internodes.
   void takeMyelin(double level, double wall, double gRatio);
   /// Returns the fields after takeMyelin(): for the outer surface at the levels as with all myelin, and for the axon at `level`.
@@ -51,12 +55,16 @@ public:
   double level() const { return this->Level; }
 
 private:
+  AlongLine swollen(const AlongLine& depth, double shallowest) const;
+
   const SmoothedField& Field;
   const MyelinSurfaceOptions& Options;
+  int FibreId;
   FibreLine Line;
   DepthsAlong Depths;
   AlongLine Deeper;                    ///< µm by which the axon lies deeper than its level, without nodes; empty: nowhere
   std::optional<NodesOfRanvier> Nodes; ///< those that reach into the fibre
+  double Raised = 0.0;
   bool Lacks = false;
   std::optional<SmoothedField> Outer;
   std::optional<SmoothedField> Inner;

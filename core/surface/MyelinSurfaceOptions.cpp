@@ -6,6 +6,8 @@
 #include "fibres/Fibres.h"
 #include "growth/FibreRadialGrowthOptions.h"
 
+#include <algorithm>
+
 namespace cactus
 {
 
@@ -14,6 +16,8 @@ namespace
 
 /// Angles of triangles; 0 means any. Equilateral ones have 60°, and some have little above 25° wherever edge lengths change.
 constexpr Range smallestAngles{ 5.0, 25.0, "°", 0.0 };
+constexpr Range swellingAmplitudes{ 0.01, 1.0, "", 0.0 };
+constexpr Range swellingLengths{ 1.0, 10.0, " µm" };
 constexpr Range nodeLengths{ 0.3, 5.0, " µm", 0.0 };
 constexpr Range internodeFactors{ 1.0, 500.0 };
 constexpr Range paranodeLengths{ 0.5, 6.0, " µm" };
@@ -49,6 +53,19 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "myelin "
         "of a fibre is equally thick along it. It needs the fibres' centre lines: connect MyelinSurface directly to "
         "FibreRadialGrowth.")
+      .add("SwellingAmplitude", &Options::swellingAmplitude, swellingAmplitudes,
+        "How much larger than its mean an axon's radius is in a swelling of a lesion, as a fraction of that mean; 0: no "
+        "swellings. Axons keep their volume, so they are thinner between swellings, and outer surfaces keep their place, so an "
+        "axon with a g-ratio g can swell by 1/g - 1 at most (0.43 for 0.7), less a wall of MinimumGap and four times the "
+        "SurfaceTolerance. Axons without myelin do not swell. A larger "
+        "amplitude has the same swellings. It needs the fibres' centre lines, as MyelinFollowsAxon does.")
+      .add("SwellingSpacing", &Options::swellingSpacing, limits::beadSpacing,
+        "Mean distance in µm of neighbouring swellings along an axon. Distances are gamma distributed, with a deviation of 0.45 "
+        "of their mean.")
+      .whereGiven("SwellingAmplitude")
+      .add("SwellingLength", &Options::swellingLength, swellingLengths,
+        "Length in µm over which a swelling is thicker than half of its height.")
+      .whereGiven("SwellingAmplitude")
       .add("NodeLength", &Options::nodeLength, nodeLengths,
         "Length in µm of nodes of Ranvier; 1 is usual, 0 makes none. In a node the fibre's outer surface comes down to the axon, "
         "up to a wall of MinimumGap and four times the SurfaceTolerance, and the space around it is left to the extra-axonal "
@@ -104,8 +121,15 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "Cut fibres off at the faces of the domain, and close them. If off, they reach to the end of the image, which is larger "
         "than the domain if growth was given a Margin.")
       .add("Seed", &Options::seed, limits::seed,
-        "Seed of the fibres' g-ratios if GRatioModel is Distributed. The same seed gives the same g-ratios.");
+        "Seed of the fibres' g-ratios if GRatioModel is Distributed, and of the places of swellings. The same seed gives the "
+        "same ones.");
   return list;
+}
+
+BeadShape MyelinSurfaceOptions::swellings() const
+{
+  const BeadShape healthy;
+  return { this->swellingSpacing, healthy.spacingDeviation / healthy.spacing * this->swellingSpacing, this->swellingLength };
 }
 
 void validate(const MyelinSurfaceOptions& options)
@@ -118,6 +142,10 @@ void validate(const MyelinSurfaceOptions& options)
   if (options.minimumAngle > 0.0 && options.decimationError == 0.0)
   {
     throw InvalidInput("MinimumAngle moves surfaces by up to DecimationError, which is 0: give it 0.005 µm, say");
+  }
+  if (options.swellingAmplitude > 0.0)
+  {
+    options.swellings().requireRoom(options.swellingAmplitude, "Swelling");
   }
   require(!options.hasNodes() || options.model != GRatioModel::TargetAxonVolumeFraction,
     "nodes of Ranvier are as deep as the g-ratio makes myelin, and the one for TargetAxonVolumeFraction depends on the outer "
@@ -134,6 +162,12 @@ void requireKnownGRatio(const Fibres& fibres, const MyelinSurfaceOptions& option
   require(fibres.myelinFractions.empty() || options.model != GRatioModel::TargetAxonVolumeFraction,
     "where the fibres' MyelinFraction has taken myelin, the rest is as thick as the g-ratio makes it, and the one for "
     "TargetAxonVolumeFraction depends on the outer surfaces: choose another GRatioModel, or give the fibres no MyelinFraction");
+}
+
+double wallOfMyelin(const LabelImageFacts& facts)
+{
+  constexpr double room = 4.0; // in tolerances
+  return std::max(facts.minimumGap, leastSeparation) + room * facts.surfaceTolerance;
 }
 
 LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOptions& growth)

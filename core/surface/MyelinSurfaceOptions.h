@@ -3,6 +3,7 @@
 
 #include "base/Domain.h"
 #include "base/Properties.h"
+#include "bundle/Beads.h"
 #include "fibres/Fibres.h"
 #include "surface/GRatio.h"
 
@@ -39,6 +40,10 @@ struct MyelinSurfaceOptions
   /// Make myelin as thick for the fibre's calibre everywhere along it, so that each cross-section has the g-ratio; otherwise it
   /// is equally thick everywhere.
   bool myelinFollowsAxon = false;
+  /// How much larger than its mean an axon's radius is in a swelling, as a fraction of that mean, 0.01 to 1; 0: no swellings.
+  double swellingAmplitude = 0.0;
+  double swellingSpacing = 5.1; ///< mean distance of neighbouring swellings
+  double swellingLength = 2.0;  ///< length over which a swelling is higher than half of its height
   /// Length of nodes of Ranvier along the fibre; 0: none.
   double nodeLength = 0.0;
   /// Length of an internode over the fibre's outer diameter.
@@ -69,8 +74,12 @@ struct MyelinSurfaceOptions
   static const PropertyList<MyelinSurfaceOptions>& properties();
 
   bool hasNodes() const { return nodeLength > 0.0; }
+  /// Tells whether the depth of the axon in its fibre depends on the place along it, nodes aside.
+  bool shapesAxons() const { return myelinFollowsAxon || swellingAmplitude > 0.0; }
+  /// Returns the shape of axons with swellings, whose distances vary as those of beads do in healthy axons.
+  BeadShape swellings() const;
   /// Tells whether surfaces depend on where along the fibre they are, so that centre lines have to be known.
-  bool followsLines() const { return myelinFollowsAxon || hasNodes(); }
+  bool followsLines() const { return shapesAxons() || hasNodes(); }
 };
 
 /// Throws InvalidInput if fibres say how much of their myelin there is, and the g-ratio depends on what is left.
@@ -100,6 +109,10 @@ struct LabelImageFacts
   /// Tells whether the fibres say themselves how much of their myelin there is.
   bool hasMyelinFractions() const { return centreLines != nullptr && !centreLines->myelinFractions.empty(); }
 };
+
+/// Returns the thickness (µm) of the wall of myelin that stays in nodes, where a lesion has taken it, and over swellings: the
+/// promised one, and room for surfaces that move.
+double wallOfMyelin(const LabelImageFacts& facts);
 
 /// Returns the facts of the image that these options grow from the fibres. Lengths are left empty.
 LabelImageFacts labelImageFacts(const Fibres& fibres, const FibreRadialGrowthOptions& growth);

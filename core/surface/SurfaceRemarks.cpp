@@ -4,6 +4,7 @@
 #include "base/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -71,6 +72,34 @@ std::string notAsAsked(const std::vector<FibreSurfacePair>& pairs, double voxelS
     "with a surface that meets itself or is nearer than MinimumGap to another fibre (Flawed)");
   return text(bad, " of ", all, " fibres are not as asked, see Fibre statistics: ", ways, "; ",
     byFilters ? adviceOnFilters : adviceFor(pairs, voxelSize, facts));
+}
+
+std::string remarkOnSwellings(
+  const std::vector<FibreSurfacePair>& pairs, const LabelImageFacts& facts, const MyelinSurfaceOptions& options)
+{
+  if (options.swellingAmplitude == 0.0)
+  {
+    return {};
+  }
+  const double wall = wallOfMyelin(facts);
+  std::ptrdiff_t axons = 0;
+  std::ptrdiff_t limited = 0;
+  double least = options.swellingAmplitude;
+  for (const FibreSurfacePair& pair : pairs)
+  {
+    if (pair.gRatio > 0.0 && !pair.isBare())
+    {
+      const double most = (1.0 - (pair.targetRadius > 0.0 ? wall / pair.targetRadius : 0.0)) / pair.gRatio - 1.0;
+      ++axons;
+      limited += most < options.swellingAmplitude ? 1 : 0;
+      least = std::min(least, std::max(most, 0.0));
+    }
+  }
+  return limited == 0
+           ? std::string()
+           : text(limited, " of ", axons, " axons with myelin swell by less than SwellingAmplitude ", options.swellingAmplitude,
+               ", since they stay inside their fibres, below a wall of ", wall, " µm: the most limited one by about ",
+               0.01 * std::round(100.0 * least), "; SubstrateStatistics measures what is reached (BeadAmplitude)");
 }
 
 } // namespace cactus

@@ -16,4 +16,9 @@ namespace cactus
 std::string notAsAsked(
   const std::vector<FibreSurfacePair>& pairs, double voxelSize, const LabelImageFacts& facts, bool byFilters = false);
 
+/// Returns one sentence on how many axons swell less than asked, since their fibres have no room for it; empty if
+/// none does.
+std::string remarkOnSwellings(
+  const std::vector<FibreSurfacePair>& pairs, const LabelImageFacts& facts, const MyelinSurfaceOptions& options);
+
 } // namespace cactus

@@ -410,6 +410,8 @@ class MyelinSurfaceTest(CactusTestCase):
             {"GRatioModel": "Distributed", "Seed": 7},
             {"GRatioDeviation": 0.1},
             {"MyelinFollowsAxon": 1},
+            {"SwellingAmplitude": 0.2},
+            {"SwellingSpacing": 4, "SwellingLength": 1},
             {"GRatioModel": "TargetAxonVolumeFraction", "TargetAxonVolumeFraction": 0.3},
         ):
             told.update(change)
@@ -434,6 +436,27 @@ class MyelinSurfaceTest(CactusTestCase):
         told["GRatio"] = 0.65
         self.assertLessEqual({"making surfaces", spaces}, after(GRatio=0.65))
         self.assertEqual(self.digest(kept), self.digest(MyelinSurface(Input=growth, **told)))
+
+    def test_axons_swell_inside_the_same_fibres(self):
+        """A twin: outer surfaces have the same bits, axons the same volumes; what has no room is said."""
+        growth = self.growth(hexagonal(6.0), GrowthIterations=1, VoxelSize=0.1)
+        healthy, swollen = (MyelinSurface(Input=growth, **properties) for properties in ({}, {"SwellingAmplitude": 0.2, "SwellingSpacing": 3, "SwellingLength": 1}))
+        outer, inner, ratios = [], [], []
+        for one in (healthy, swollen):
+            outer.append(vtk_to_numpy(fetch(one, 0).GetPoints().GetData()))
+            inner.append(vtk_to_numpy(fetch(one, 2).GetColumnByName("InnerVolume_um3")))
+            given = {"Outer": OutputPort(one, 0), "Inner": OutputPort(one, 1), "Fibres": growth.Input}
+            self.assertTrue(fetch(SubstrateCertificate(**given), 0).GetColumnByName("Certified").GetValue(0))
+            measured = fetch(SubstrateStatistics(CutSpacing=0.25, **given), 0)
+            ratios.append(measured.GetColumnByName("MeanAxonDiffusivityRatio").GetValue(0))
+        numpy.testing.assert_array_equal(*outer)
+        numpy.testing.assert_allclose(*inner, rtol=0.003)
+        self.assertGreater(ratios[0], 0.99)
+        self.assertLess(ratios[1], 0.98)
+        with self.assertError("axons with myelin swell by less than SwellingAmplitude 0.35"):
+            swollen.SwellingAmplitude = 0.35
+            swollen.SwellingSpacing = 5
+            swollen.UpdatePipeline()
 
     def test_fibres_say_how_much_myelin_there_is(self):
         """By point data, which pass the optimiser. Another fraction or g-ratio makes outer surfaces again."""

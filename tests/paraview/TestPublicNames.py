@@ -62,7 +62,7 @@ NAMES = {
         "Seed": 1,
         "NumberOfThreads": 0,
     },
-    "MyelinSurface": {"MyelinFollowsAxon": 0, "NodeLength": 0, "InternodeFactor": 100, "ParanodeLength": 2, "NodeConstriction": 0.7,
+    "MyelinSurface": {"MyelinFollowsAxon": 0, "SwellingAmplitude": 0, "SwellingSpacing": 5.1, "SwellingLength": 2, "NodeLength": 0, "InternodeFactor": 100, "ParanodeLength": 2, "NodeConstriction": 0.7,
                       "InternodeLoss": 0, "InternodeOrder": "Random", "RemyelinatedFraction": 0, "RemyelinatedGRatio": 0.85},
     "SubstrateCertificate": {"MinimumGap": -1, "CutSpacing": 1.0},
     "SubstrateStatistics": {},

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Guarantees: places along a centre line change evenly and follow its images; nodes of Ranvier lie at equal distances, and fit a
 // periodic domain; with MyelinFollowsAxon each cross-section has the g-ratio; in a node the fibre is as thick as the constricted
-// axon and a wall, elsewhere as without nodes; surfaces with nodes keep all guarantees, in periodic domains and on any number of
+// axon and a wall, elsewhere as without nodes; axons swell by as much as asked or possible, with the same volumes and in the same
+// outer surfaces; surfaces with nodes or swellings keep all guarantees, in periodic domains and on any number of
 // threads.
 #include "surface/MyelinProfile.h"
 
 #include "BundleBetweenWalls.h"
 #include "base/Constants.h"
 #include "base/Error.h"
+#include "bundle/Beads.h"
 #include "bundle/BundleInitializer.h"
 #include "fibres/TrimToDomain.h"
 #include "growth/FibreRadialGrowth.h"
@@ -21,6 +23,7 @@
 #include "surface/FibreLine.h"
 #include "surface/MyelinSurface.h"
 #include "surface/NodesOfRanvier.h"
+#include "surface/SurfaceRemarks.h"
 
 #include <gtest/gtest.h>
 
@@ -468,6 +471,16 @@ GrownFibres bundleWithNodes()
   return grown;
 }
 
+void expectSameSurfaces(const std::vector<FibreSurfacePair>& pairs, const std::vector<FibreSurfacePair>& again)
+{
+  ASSERT_EQ(pairs.size(), again.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    EXPECT_TRUE(pairs[i].outer.points == again[i].outer.points && pairs[i].outer.triangles == again[i].outer.triangles);
+    EXPECT_TRUE(pairs[i].inner.points == again[i].inner.points && pairs[i].inner.triangles == again[i].inner.triangles);
+  }
+}
+
 TEST(MyelinProfile, ABundleWithNodesIsSound)
 {
   const GrownFibres grown = bundleWithNodes();
@@ -481,12 +494,95 @@ TEST(MyelinProfile, ABundleWithNodesIsSound)
     nodes += pair.nodes;
   }
   EXPECT_GT(nodes, int(pairs.size()) / 2);
-  const auto again = grown.surfaces(options, 1);
-  for (std::size_t i = 0; i < pairs.size(); ++i)
+  expectSameSurfaces(pairs, grown.surfaces(options, 1));
+}
+
+/// Checks that axons with swellings lie in the same outer surfaces, and have the same volumes.
+void expectTwins(const std::vector<FibreSurfacePair>& healthy, const std::vector<FibreSurfacePair>& swollen)
+{
+  ASSERT_EQ(healthy.size(), swollen.size());
+  for (std::size_t i = 0; i < healthy.size(); ++i)
   {
-    EXPECT_TRUE(pairs[i].outer.points == again[i].outer.points && pairs[i].outer.triangles == again[i].outer.triangles);
-    EXPECT_TRUE(pairs[i].inner.points == again[i].inner.points && pairs[i].inner.triangles == again[i].inner.triangles);
+    EXPECT_TRUE(healthy[i].outer.points == swollen[i].outer.points && healthy[i].outer.triangles == swollen[i].outer.triangles);
+    EXPECT_FALSE(healthy[i].inner.points == swollen[i].inner.points);
+    EXPECT_NEAR(swollen[i].innerReport.volume, healthy[i].innerReport.volume, 0.003 * healthy[i].innerReport.volume);
   }
+}
+
+// Against the radii that the options state, whether myelin is equally thick or not.
+TEST(MyelinProfile, AxonsSwellInsideTheSameFibres)
+{
+  const double side = 14.0;
+  const auto radiusAt = [](double z) { return 0.6 + 0.06 * std::sin(2.0 * pi * z / 9.0); };
+  const GrownFibres grown = singleFibre(side, 0.6, radiusAt);
+  MyelinSurfaceOptions options;
+  const double half = 0.5 * side + 1.0; // of the line, which begins 1 µm outside
+  for (const bool follows : { false, true })
+  {
+    options.myelinFollowsAxon = follows;
+    options.swellingAmplitude = 0.0;
+    const auto healthy = grown.surfaces(options);
+    const std::vector<double> before = radiiOf(*grown.fibres, healthy[0].inner, 0.25);
+    for (const double amplitude : { 0.15, 0.3 })
+    {
+      options.swellingAmplitude = amplitude;
+      const auto swollen = grown.surfaces(options);
+      expectSound(swollen, grown.fibres->domain, grown.growth.minimumGap);
+      expectTwins(healthy, swollen);
+      EXPECT_EQ(remarkOnSwellings(swollen, labelImageFacts(*grown.fibres, grown.growth), options), "");
+      const BeadShape shape = options.swellings();
+      const Beads beads(shape, options.seed, 1, half, false, RandomStage::Swellings);
+      const auto shapeAt = [&](std::size_t i)
+      { return 1.0 + shape.heightOf(amplitude) * beads.at((double(i) + 0.5) * 0.25 - half); };
+      const std::vector<double> radii = radiiOf(*grown.fibres, swollen[0].inner, 0.25);
+      ASSERT_EQ(radii.size(), before.size());
+      double mean = 0.0;
+      double count = 0.0;
+      for (std::size_t i = 0; i < radii.size(); ++i)
+      {
+        const bool isWhole = radii[i] > 0.0 && before[i] > 0.0;
+        mean += isWhole ? std::pow(shapeAt(i), 2) : 0.0;
+        count += isWhole ? 1.0 : 0.0;
+      }
+      ASSERT_GT(count, 40.0);
+      for (std::size_t i = 0; i < radii.size(); ++i)
+      {
+        const double asked = before[i] * shapeAt(i) / std::sqrt(mean / count);
+        EXPECT_TRUE(radii[i] == 0.0 || before[i] == 0.0 || std::abs(radii[i] - asked) < 0.02) << radii[i] << ' ' << asked;
+      }
+    }
+  }
+}
+
+TEST(MyelinProfile, SwellingsEndAtTheMyelinsLeastThickness)
+{
+  const GrownFibres grown = singleFibre(14.0, 0.6, [](double) { return 0.6; });
+  const auto healthy = grown.surfaces({});
+  MyelinSurfaceOptions options;
+  options.swellingAmplitude = 0.8;
+  const auto swollen = grown.surfaces(options);
+  expectSound(swollen, grown.fibres->domain, grown.growth.minimumGap);
+  expectTwins(healthy, swollen);
+  const std::vector<double> radii = radiiOf(*grown.fibres, swollen[0].inner, 0.25);
+  const double most = *std::max_element(radii.begin(), radii.end());
+  EXPECT_GT(most, 0.54);
+  EXPECT_LT(most, 0.6 - grown.growth.minimumGap);
+  EXPECT_EQ(remarkOnSwellings(swollen, labelImageFacts(*grown.fibres, grown.growth), options)
+              .find("1 of 1 axons with myelin swell by less than SwellingAmplitude 0.8"),
+    0u);
+}
+
+TEST(MyelinProfile, ABundleWithSwellingsIsSoundAndATwin)
+{
+  const GrownFibres grown = bundleWithNodes();
+  MyelinSurfaceOptions options;
+  options.swellingAmplitude = 0.4;
+  options.swellingSpacing = 3.0;
+  options.swellingLength = 1.0;
+  const auto swollen = grown.surfaces(options, 2);
+  expectSound(swollen, grown.fibres->domain, grown.growth.minimumGap);
+  expectTwins(grown.surfaces({}), swollen);
+  expectSameSurfaces(swollen, grown.surfaces(options, 1));
 }
 
 TEST(MyelinProfile, WhatCannotBeMadeIsRefused)
@@ -508,6 +604,10 @@ TEST(MyelinProfile, WhatCannotBeMadeIsRefused)
   EXPECT_THROW(
     myelinSurfaces({ image.grid, image.fibreId.data(), image.depth.data(), grown.growth.gap() }, facts, options), InvalidInput)
     << "no centre lines";
+  options = MyelinSurfaceOptions();
+  options.swellingAmplitude = 0.5;
+  options.swellingSpacing = 2.0;
+  EXPECT_THROW(grown.surfaces(options), InvalidInput) << "swellings that run into each other";
 }
 
 } // namespace

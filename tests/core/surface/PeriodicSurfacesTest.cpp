@@ -149,6 +149,9 @@ TEST(PeriodicSurfaces, RimsOfOppositeFacesHaveTheSamePoints)
     fine.decimationError = 0.0;
     MyelinSurfaceOptions nodes;
     nodes.myelinFollowsAxon = true;
+    nodes.swellingAmplitude = 0.2;
+    nodes.swellingSpacing = 3.0;
+    nodes.swellingLength = 1.0;
     nodes.nodeLength = 0.8;
     nodes.paranodeLength = 0.8;
     nodes.internodeFactor = 2.0;
