@@ -6,10 +6,7 @@
 #include "base/Error.h"
 #include "optimiser/CapsuleOptimizer.h"
 
-#include <cstdlib>
-#include <filesystem>
 #include <iterator>
-#include <unistd.h>
 
 namespace
 {
@@ -42,24 +39,9 @@ struct Method
   std::string whole;
 };
 
-/// Returns a separate folder: writing a file lists its folder, and others may hold thousands of files.
-std::string folder()
-{
-  static const std::string name = []
-  {
-    std::error_code error;
-    std::filesystem::path made =
-      std::filesystem::is_directory("/dev/shm", error) ? "/dev/shm" : std::filesystem::temp_directory_path();
-    made /= "cactus-fuzz-" + std::to_string(::getpid());
-    std::filesystem::create_directory(made);
-    return made.string();
-  }();
-  return name;
-}
-
 std::string path()
 {
-  return folder() + "/checkpoint";
+  return scratchFolder() + "/checkpoint";
 }
 
 Method methods[2];
@@ -75,8 +57,6 @@ void run(const CapsuleOptimizerOptions& options, Fibres& fibres)
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv)
 {
-  folder(); // made before, so that it still exists at the exit
-  std::atexit([] { std::filesystem::remove_all(folder()); });
   std::vector<std::string> seeds;
   for (int m = 0; m < 2; ++m)
   {

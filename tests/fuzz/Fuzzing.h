@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
+#include <unistd.h>
 #include <vector>
 
 /// The functions that libFuzzer calls: once at the start, and for each input.
@@ -38,4 +41,22 @@ inline void writeSeeds(int argc, char** argv, const std::vector<std::string>& se
       return;
     }
   }
+}
+
+/// Returns a folder of this process alone, which is gone when the program ends: writing a file lists its folder, and others may
+/// hold thousands of files.
+inline const std::string& scratchFolder()
+{
+  static const std::string name = []
+  {
+    std::error_code error;
+    std::filesystem::path made =
+      std::filesystem::is_directory("/dev/shm", error) ? "/dev/shm" : std::filesystem::temp_directory_path();
+    made /= "cactus-fuzz-" + std::to_string(::getpid());
+    std::filesystem::create_directory(made);
+    return made.string();
+  }();
+  static const int willBeRemoved = std::atexit([] { std::filesystem::remove_all(scratchFolder()); });
+  static_cast<void>(willBeRemoved);
+  return name;
 }
