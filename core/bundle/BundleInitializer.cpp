@@ -176,12 +176,11 @@ BundleInitializerOptions withOwnSeed(BundleInitializerOptions options)
 /// Returns the fraction that they fill.
 double leaveOutBare(double wanted, Fibres& fibres)
 {
-  const auto isBare = [&](std::size_t f) { return fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio; };
   double filled = 0.0;
   std::vector<std::size_t> kept;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    const double own = isBare(f) ? capsuleVolumeInDomain(fibres, f) / fibres.domain.volume() : 0.0;
+    const double own = isBare(fibres, f) ? capsuleVolumeInDomain(fibres, f) / fibres.domain.volume() : 0.0;
     if (filled + 0.5 * own <= wanted)
     {
       kept.push_back(f);

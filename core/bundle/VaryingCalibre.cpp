@@ -285,7 +285,7 @@ void varyCalibre(const BundleInitializerOptions& options, Fibres& fibres)
 {
   for (std::size_t f = 0; f < fibres.size() && options.calibre.gRatio > 0.0; ++f)
   {
-    if (fibres.columns.value(targetGRatioColumn.name, f) != bareGRatio)
+    if (!isBare(fibres, f))
     {
       fibres.columns.set(targetGRatioColumn.name, f, options.calibre.gRatio);
     }

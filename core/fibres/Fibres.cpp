@@ -227,6 +227,11 @@ bool lacksMyelin(const Fibres& fibres, std::size_t fibre)
            begin + static_cast<std::ptrdiff_t>(fibres.offsets[fibre + 1]), [](double fraction) { return fraction < 1.0; });
 }
 
+bool isBare(const Fibres& fibres, std::size_t fibre)
+{
+  return fibres.columns.value(targetGRatioColumn.name, fibre) == bareGRatio;
+}
+
 double rootMeanSquareRadius(const Fibres& fibres, std::size_t fibre)
 {
   const auto first = fibres.radii.begin() + static_cast<std::ptrdiff_t>(fibres.offsets[fibre]);

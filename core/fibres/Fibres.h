@@ -71,6 +71,9 @@ void validate(const Fibres& fibres);
 /// Tells whether the myelin fraction of one of a fibre's control points is less than 1.
 bool lacksMyelin(const Fibres& fibres, std::size_t fibre);
 
+/// Tells whether the fibre is an axon without myelin.
+bool isBare(const Fibres& fibres, std::size_t fibre);
+
 /// Returns the root mean square of the radii at a fibre's control points (µm), the fibre's target radius where nothing else says
 /// it: the volume of a fibre goes with it. NaN for a fibre without a control point.
 double rootMeanSquareRadius(const Fibres& fibres, std::size_t fibre);

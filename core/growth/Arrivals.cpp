@@ -2,6 +2,7 @@
 #include "growth/Arrivals.h"
 
 #include "growth/CapsuleField.h"
+#include "growth/RankedGrowth.h"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,8 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
   const CapsuleField field(
     fibres, seedOptions(fibres, options), grid.box(), reach + options.gap() + grid.spacing, context.threadCount());
   const auto gap = static_cast<float>(options.gap());
+  const RankedGrowth growth(fibres, options, field, reach);
+  const bool isUneven = growth.isUneven();
   field.sweep(partOf(grid, sharing), relevance, sweeping, 0.3, 0.5, "finding the growth that reaches the target",
     [&](const FieldCell& cell, int thread)
     {
@@ -61,7 +64,8 @@ Arrivals countArrivals(const Fibres& fibres, const FibreRadialGrowthOptions& opt
       std::array<int, FieldCell::size> classOf;
       for (std::size_t n = 0; n < classOf.size(); ++n)
       {
-        const double arrival = -static_cast<double>(cell.best[n]);
+        const double own = -static_cast<double>(cell.best[n]);
+        const double arrival = isUneven ? growth.commonFor(cell.rank[n], own) : own;
         const int reached = static_cast<int>((std::min(arrival, reach) - first) / growthClass);
         classOf[n] = (int(arrival < reach) & int(cell.best[n] - cell.second[n] > gap)) != 0 ? reached : never;
       }

@@ -26,8 +26,9 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
 ///
 ///     f_i = min( s_i + g, (s_i - max_{j ≠ i} s_j)/2 - gap/2 )
 ///
-/// and the fibre is where f_i > 0. The first term is the free front after growth g; the second is a 1-Lipschitz lower bound of
-/// the distance to the surface on which i meets its nearest competitor, less half of the gap. Hence
+/// and the fibre is where f_i > 0. Axons without myelin can have a smaller g, see RankedGrowth. The first term is the free front
+/// after growth g; the second is a 1-Lipschitz lower bound of the distance to the surface on which i meets its nearest
+/// competitor, less half of the gap. Hence
 /// - f_i is 1-Lipschitz, so f_i is never more than the distance to the fibre's surface;
 /// - f_i + f_j <= -gap everywhere, so two grown fibres are at least gap apart, also where the capsules overlapped;
 /// - f_i does not fall along the way from any point to the centre of the ball that seeded it, so growth adds no islands.

@@ -36,10 +36,10 @@ GrownField::GrownField(
   const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part, int threads)
   : Part(part)
   , HalfGap(0.5 * options.gap())
-  , Growth(growth)
   , Band(std::max(bandInVoxels * Part.spacing, HalfGap))
   , Relevance(relevanceOf(growth, Band, HalfGap))
   , Seeds(fibres, seedOptions(fibres, options), Part.box(), reachOf(fibres, Relevance, Part.spacing), threads)
+  , Growth(fibres, options, Seeds, growth)
 {
   for (std::size_t rank = 0; rank < this->Seeds.size(); ++rank)
   {
@@ -73,12 +73,12 @@ int GrownField::rankOf(std::int32_t fibreId) const
 std::vector<std::array<int, 3>> GrownField::blocksOf(int rank) const
 {
   // A sample is in a fibre only if its seed's field is above -growth, see enter().
-  return this->Seeds.blocksNear(rank, this->Part, this->Growth);
+  return this->Seeds.blocksNear(rank, this->Part, this->Growth(rank));
 }
 
 void GrownField::enter(const FieldCell& cell, const VoxelGrid& held, std::int32_t* fibreId, float* depth) const
 {
-  const auto g = static_cast<float>(this->Growth);
+  const auto g = static_cast<float>(this->Growth.common());
   const auto w = static_cast<float>(this->HalfGap);
   const auto lowest = static_cast<float>(-this->Band);
   std::array<float, FieldCell::size> fields;
@@ -87,6 +87,14 @@ void GrownField::enter(const FieldCell& cell, const VoxelGrid& held, std::int32_
     const float alone = cell.best[n] + g;
     const float beside = 0.5f * (cell.best[n] - cell.second[n]) - w;
     fields[std::size_t(n)] = alone < beside ? alone : beside;
+  }
+  for (int n = 0; n < FieldCell::size && this->Growth.isUneven(); ++n)
+  {
+    // Outside a fibre that has grown less, the field of its neighbour can be the largest.
+    float& field = fields[std::size_t(n)];
+    const float own = cell.best[n] + static_cast<float>(this->Growth(cell.rank[n]));
+    const float neighbour = std::min(cell.second[n] + g, 0.5f * (cell.second[n] - cell.best[n]) - w);
+    field = std::max(std::min(field, own), neighbour);
   }
   for (int k = cell.begin[2]; k < cell.end[2]; ++k)
   {

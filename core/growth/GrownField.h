@@ -8,6 +8,7 @@
 #include "growth/FieldRelevance.h"
 #include "growth/LabelImage.h"
 #include "growth/LabelSource.h"
+#include "growth/RankedGrowth.h"
 
 #include <array>
 #include <cstdint>
@@ -41,10 +42,10 @@ public:
 private:
   VoxelGrid Part;
   double HalfGap;
-  double Growth;
   double Band; ///< µm outside a fibre, beyond which depths are only bounded
   FieldRelevance Relevance;
   CapsuleField Seeds;
+  RankedGrowth Growth;                ///< µm
   std::vector<std::int32_t> IdOfRank; ///< increasing
   std::vector<double> RadiusOfRank;   ///< target, µm
 };

@@ -6,6 +6,7 @@
 #include "growth/Arrivals.h"
 #include "growth/CapsuleField.h"
 #include "growth/Crowding.h"
+#include "growth/RankedGrowth.h"
 #include "growth/SectionShape.h"
 #include "growth/VolumeInDomain.h"
 
@@ -81,7 +82,7 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
   std::vector<std::vector<std::uint64_t>> perThread(
     static_cast<std::size_t>(sweeping.threads), std::vector<std::uint64_t>(fibres.size(), 0));
   const auto gap = static_cast<float>(options.gap());
-  const auto lowest = static_cast<float>(-growth);
+  const RankedGrowth growthOf(fibres, options, field, growth);
 
   const int slabs = (layersOf(fibres.domain, spacing) + slabLayers - 1) / slabLayers;
   for (int slab = sharing.place(); slab < slabs; slab += sharing.size())
@@ -95,7 +96,8 @@ std::vector<double> countPerFibre(const Fibres& fibres, const FibreRadialGrowthO
         cell.forEachSample(
           [&](int sample)
           {
-            if (cell.best[sample] > lowest && cell.best[sample] - cell.second[sample] > gap)
+            if (cell.best[sample] > static_cast<float>(-growthOf(cell.rank[sample])) &&
+                cell.best[sample] - cell.second[sample] > gap)
             {
               ++counts[static_cast<std::size_t>(cell.rank[sample])];
             }
@@ -141,8 +143,9 @@ Aim aimAtOwnRadii(const Fibres& fibres)
 }
 
 /// Changes the aim so that all capsules together, without overlaps, gaps and roughness, fill the volume `target`: little growth
-/// remains. Axons without myelin, which are thin, keep their share of the volume.
-void fillTarget(const Fibres& fibres, double target, Aim& aim)
+/// remains. Axons without myelin, which are thin, keep their volume if they slow down (`bareIsSlow`), and otherwise their
+/// share of it.
+void fillTarget(const Fibres& fibres, double target, bool bareIsSlow, Aim& aim)
 {
   const double volume = aim.volume();
   const double scale = std::sqrt(target / volume);
@@ -154,22 +157,22 @@ void fillTarget(const Fibres& fibres, double target, Aim& aim)
     }
     return;
   }
+  const double ofBare = bareIsSlow ? 1.0 : scale;
   // All other radii grow by δ, so that the volumes w (1 + δ / r)² add up to the target.
-  const auto isBare = [&](std::size_t f) { return fibres.columns.value(targetGRatioColumn.name, f) == bareGRatio; };
   double more = target - volume;
   double linear = 0.0;
   double quadratic = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    more -= isBare(f) ? aim.volumes[f] * (target / volume - 1.0) : 0.0;
-    linear += isBare(f) ? 0.0 : aim.volumes[f] / fibres.targetRadii[f];
-    quadratic += isBare(f) ? 0.0 : aim.volumes[f] / (fibres.targetRadii[f] * fibres.targetRadii[f]);
+    more -= isBare(fibres, f) ? aim.volumes[f] * (ofBare * ofBare - 1.0) : 0.0;
+    linear += isBare(fibres, f) ? 0.0 : aim.volumes[f] / fibres.targetRadii[f];
+    quadratic += isBare(fibres, f) ? 0.0 : aim.volumes[f] / (fibres.targetRadii[f] * fibres.targetRadii[f]);
   }
   const double thicker =
     linear > 0.0 ? std::min(more / (linear + std::sqrt(linear * linear + quadratic * more)), largestGrowth) : 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    const double ratio = isBare(f) ? scale : 1.0 + thicker / fibres.targetRadii[f];
+    const double ratio = isBare(fibres, f) ? ofBare : 1.0 + thicker / fibres.targetRadii[f];
     aim.factors[f] *= ratio;
     aim.volumes[f] *= ratio * ratio;
   }
@@ -194,13 +197,15 @@ double boundedFactor(
   return std::min(factor, std::max(largestFactor(crowding, f, factors), std::min(1.0, wished) / reach));
 }
 
-/// Thickens fibres that hold fewer samples than their share, and thins those that hold more.
-void correctFactors(const std::vector<double>& counted, const std::vector<double>& wished, Aim& aim)
+/// Thickens fibres that hold fewer samples than their share, and thins those that hold more. Axons without myelin that slow
+/// down are to hold `density` samples per µm³, since growth changes them no more.
+void correctFactors(const Fibres& fibres, const std::vector<double>& counted, const std::vector<double>& wished, bool bareIsSlow,
+  double density, Aim& aim)
 {
   const double perVolume = std::accumulate(counted.begin(), counted.end(), 0.0) / aim.volume();
   for (std::size_t f = 0; f < counted.size(); ++f)
   {
-    const double expected = perVolume * aim.volumes[f];
+    const double expected = (bareIsSlow && isBare(fibres, f) ? density : perVolume) * aim.volumes[f];
     if (expected > 0.0)
     {
       // The relative shortage of radius is half that of volume; that of a fibre of few samples is inaccurate.
@@ -252,7 +257,8 @@ std::vector<double> factorsForTargetRadii(
     return {};
   }
   Fibres aimed = fibres;
-  fillTarget(fibres, target * fibres.domain.volume(), aim);
+  const bool bareIsSlow = slowsBare(fibres, options);
+  fillTarget(fibres, target * fibres.domain.volume(), bareIsSlow, aim);
   const std::vector<double> wished = aim.factors;
   const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
   const std::vector<SectionShape> shapes = sectionShapes(fibres, seedOptions(fibres, options));
@@ -272,13 +278,13 @@ std::vector<double> factorsForTargetRadii(
       break;
     }
     scaleRadii(aim.factors, fibres, aimed);
-    if (round == 0)
+    if (round == 0 || bareIsSlow)
     {
       growth = std::min(roughGrowth(aimed, options, context, sharing), 1.0);
     }
     const std::vector<double> counted =
       countPerFibre(aimed, options, growth, spacing, round, context, 0.3 * round / rounds, 0.3 * (round + 1) / rounds, sharing);
-    correctFactors(counted, wished, aim);
+    correctFactors(fibres, counted, wished, bareIsSlow, 1.0 / (spacing * spacing * spacing), aim);
   }
   return aim.factors;
 }

@@ -14,8 +14,8 @@ namespace cactus
 
 /// Returns the fibres with capsule radii from which common growth to the target fraction brings every fibre to its target radius:
 /// each fills as much of the domain as capsules of that radius would. If all of them together would fill less than the fraction,
-/// all final radii are larger by the same amount, but for axons without myelin, which keep their share of the volume; if more,
-/// smaller by the same factor. Without a target, returns the fibres unchanged.
+/// all final radii are larger by the same amount, but for axons without myelin, which keep their volume, or their share of it
+/// where they are the most; if more, smaller by the same factor. Without a target, returns the fibres unchanged.
 ///
 /// It takes a few rounds: grow on a coarse grid, count each fibre's samples, and change all radii of a fibre by a common factor
 /// that follows its shortage or excess. Counts are integers, so the result is the same on any number of threads.

@@ -58,15 +58,13 @@ Preset callosum(const std::string& state, const std::string& meaning, const std:
     std::move(values) };
 }
 
-/// Living tissue between association cortices, of whose axons about a quarter has no myelin. Values other than the defaults
-/// make axons without myelin end as thin as drawn (docs/filters/BundleInitializer.md).
+/// Living tissue between association cortices, of whose axons about a quarter has no myelin.
 Preset callosumWithBareAxons()
 {
   return callosum("with unmyelinated axons", "which fills 80 %, about a quarter of its axons without myelin, in clusters",
     "axons without myelin: 6 to 30 % by region in the macaque, LaMantia and Rakic 1990 (J Comp Neurol 291:520), mostly below "
     "0.25 µm across, Swadlow et al. 1980 (Arch Neurol 37:114)",
-    { { bundle, "FibreVolumeFraction", 0.7 }, { bundle, "GrownFibreVolumeFraction", 0.8 }, { bundle, "CalibreVariation", 0.0 },
-      { bundle, "UnmyelinatedFraction", 0.008 } });
+    { { bundle, "GrownFibreVolumeFraction", 0.8 }, { bundle, "UnmyelinatedFraction", 0.008 } });
 }
 
 Preset crossing(double angle, const std::string& reached)

@@ -277,17 +277,15 @@ std::string remarksOnBundle(const BundleInitializerOptions& options, const Bundl
       " layers, which is too few to be interwoven: a fibre as thick as these takes much of so low a domain. Enlarge Side, lower "
       "MaximumRadius, or use Mixing Interpenetrating");
   }
-  constexpr double littleGrowth = 0.85; // of what growth fills
-  const bool growsMuch = options.fibreVolumeFraction < littleGrowth * options.grownFibreVolumeFraction;
-  if (options.unmyelinated.any() && (options.calibre.varies() || growsMuch))
+  constexpr double roomForThin = 0.8;
+  if (options.unmyelinated.any() && options.calibre.varies() && options.grownFibreVolumeFraction > roomForThin)
   {
-    told += text(told.empty() ? "" : "; ", "axons without myelin will end thicker than asked for, since thick fibres that ",
-      options.calibre.varies() ? "swell" : "grow much", " leave them no place and growth fills what is left: choose ",
-      options.calibre.varies() ? options.calibre.model == CalibreModel::Beads ? "BeadAmplitude 0" : "CalibreVariation 0" : "",
-      options.calibre.varies() && growsMuch ? " and " : "",
-      growsMuch ? text("FibreVolumeFraction ", littleGrowth * options.grownFibreVolumeFraction,
-                    " or more, or a smaller GrownFibreVolumeFraction")
-                : std::string());
+    told += text(told.empty() ? "" : "; ",
+      "axons without myelin will end thicker than asked for, since thick fibres that swell "
+      "leave them no place where all fill more than ",
+      roomForThin, ", and growth fills what is left: choose ",
+      options.calibre.model == CalibreModel::Beads ? "BeadAmplitude" : "CalibreVariation",
+      " 0, or a GrownFibreVolumeFraction of ", roomForThin, " or less");
   }
   return told;
 }

@@ -36,7 +36,7 @@ std::vector<double> internodeLosses(const Fibres& fibres, const MyelinSurfaceOpt
   double left = 0.0; // to lose
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    if (fibres.columns.value(targetGRatioColumn.name, f) != bareGRatio)
+    if (!isBare(fibres, f))
     {
       internodes[f] = lengthInDomain(fibres, f) / spacingOf(options, 2.0 * fibres.targetRadii[f]);
       left += options.internodeLoss * internodes[f];

@@ -29,11 +29,6 @@ BundleInitializerOptions withBare(double fraction)
   return options;
 }
 
-bool isBare(const Fibres& fibres, std::size_t f)
-{
-  return fibres.columns.value("TargetGRatio", f) == 1.0;
-}
-
 /// Fraction of the domain that the capsules fill of fibres without myelin.
 double bareFraction(const Fibres& fibres)
 {
