@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NiftiFile.h"
 
+#include "base/ByteOrder.h"
 #include "base/Error.h"
 #include "base/Memory.h"
 #include "base/Numbers.h"
+#include "io/GzipFile.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -19,6 +21,8 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -44,6 +48,7 @@ NiftiFile::NiftiFile(const std::string& path)
     object->AddObserver(vtkCommand::ErrorEvent, listener);
     object->AddObserver(vtkCommand::WarningEvent, listener);
   }
+  this->requireKnownType();
   this->Reader->SetFileName(path.c_str());
   this->Reader->TimeAsVectorOn();
   this->Reader->UpdateInformation();
@@ -148,6 +153,40 @@ vtkInformation* NiftiFile::stored() const
     this->Reader->GetOutputInformation(0), vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
 
+void NiftiFile::requireKnownType() const
+{
+  fs::path headerFile = this->Path;
+  std::error_code error;
+  if (headerFile.extension() == ".img" && fs::exists(fs::path(headerFile).replace_extension(".hdr"), error))
+  {
+    headerFile.replace_extension(".hdr");
+  }
+  std::array<std::int16_t, 37> words{};
+  const std::string bytes = beginningOfFile(headerFile.string(), sizeof words);
+  std::memcpy(words.data(), bytes.data(), bytes.size());
+  const auto begins = [&](std::int16_t size) { return words[0] == size || words[1] == size; }; // with the header's size
+  constexpr std::int16_t first = 348;
+  constexpr std::int16_t second = 540; // NIfTI-2
+  if (!begins(first) && !begins(second))
+  {
+    swapBytes(words.data(), words.size());
+  }
+  if (bytes.size() < sizeof words || (!begins(first) && !begins(second)))
+  {
+    return; // VTK's reader says what is wrong
+  }
+  constexpr std::array<std::array<int, 2>, 14> types{ { { 2, 8 }, { 4, 16 }, { 8, 32 }, { 16, 32 }, { 32, 64 }, { 64, 64 },
+    { 128, 24 }, { 256, 8 }, { 512, 16 }, { 768, 32 }, { 1024, 64 }, { 1280, 64 }, { 1792, 128 }, { 2304, 32 } } };
+  const std::size_t place = begins(second) ? 6 : 35;
+  const std::array<int, 2> type{ words[place], words[place + 1] };
+  if (std::find(types.begin(), types.end(), type) == types.end())
+  {
+    this->fail(text("its voxels have type ", type[0], " with ", type[1],
+      " bits: whole numbers of 8 to 64 bits, floating-point and complex numbers of single and double precision and colours can "
+      "be read"));
+  }
+}
+
 void NiftiFile::validate()
 {
   vtkNIFTIImageHeader& header = this->header();
@@ -162,21 +201,12 @@ void NiftiFile::validate()
     this->fail("its voxels are in another file: name header and voxels alike, NAME.hdr and NAME.img");
   }
   this->validateDimensions();
-  constexpr std::array<std::array<int, 2>, 14> types{ { { 2, 8 }, { 4, 16 }, { 8, 32 }, { 16, 32 }, { 32, 64 }, { 64, 64 },
-    { 128, 24 }, { 256, 8 }, { 512, 16 }, { 768, 32 }, { 1024, 64 }, { 1280, 64 }, { 1792, 128 }, { 2304, 32 } } };
-  const std::array<int, 2> type{ header.GetDataType(), header.GetBitPix() };
-  if (std::find(types.begin(), types.end(), type) == types.end())
-  {
-    this->fail(text("its voxels have type ", type[0], " with ", type[1],
-      " bits: whole numbers of 8 to 64 bits, floating-point and complex numbers of single and double precision and colours can "
-      "be read"));
-  }
   const vtkTypeInt64 least = hasOwnFile ? 0 : magic[2] == '2' ? 544 : 352; // behind the header and the mark of extensions
   if (header.GetVoxOffset() < least)
   {
     this->fail(text("its header places the voxels at byte ", header.GetVoxOffset(), " of the file"));
   }
-  this->readScale(type[0]);
+  this->readScale(header.GetDataType());
   this->readPlace();
 }
 

@@ -58,6 +58,8 @@ private:
   /// What VTK's reader says of the numbers before it reads them.
   vtkInformation* stored() const;
   vtkTypeInt64 dimension(int i) const { return this->header().GetDim(i); }
+  /// Refuses types of numbers that are none: VTK 9.3 reads memory that is not its own there.
+  void requireKnownType() const;
   /// Refuses what VTK's reader takes at its word.
   void validate();
   /// VTK's reader itself refuses more than seven, and negative ones.

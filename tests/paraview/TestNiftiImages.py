@@ -176,7 +176,7 @@ class NiftiImages(CactusTestCase):
             (changed(40, "<h", 9), "illegal ndim"),
             (changed(42, "<h", 0), "0 voxels along dimension 1"),
             (changed(40, "<h", 0), "0 dimensions"),
-            (changed(70, "<2h", 99, 16), "type:? 99"),
+            (changed(70, "<2h", 99, 16), "type 99 with 16 bits"),
             (changed(72, "<h", 64), "type 4 with 64 bits"),
             (changed(108, "<f", 1e9), "file is truncated"),
             (changed(108, "<f", nan), "the voxels at byte -"),
