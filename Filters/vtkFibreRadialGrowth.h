@@ -3,11 +3,12 @@
  * @class vtkFibreRadialGrowth
  * @brief Grows fibres outwards from seeds in their capsules until they meet, as a label image with sub-voxel depth.
  *
- * All fibres grow at the same speed until they have grown by `GrowthIterations` voxels, or fill `TargetFibreVolumeFraction` of
- * the domain, or meet a neighbour, from which they keep `MinimumGap` (paper, section "Fibre radial growth"; this computes the
- * limit of that method for small voxels, see core/growth/FibreRadialGrowth.h). No voxel belongs to two fibres, even if capsules
- * overlap. For a target fraction the capsules' radii are changed first, so that each fibre ends at its TargetRadius if these add
- * up to the fraction (core/growth/GrowthTarget.h).
+ * All fibres grow at the same speed (but for axons without myelin, see cactus::RankedGrowth) until they have grown by
+ * `GrowthIterations` voxels, or fill `TargetFibreVolumeFraction` of the domain, or meet a neighbour, from which they keep
+ * `MinimumGap` (paper, section "Fibre radial growth"; this computes the limit of that method for small voxels, see
+ * core/growth/FibreRadialGrowth.h). No voxel belongs to two fibres, even if capsules overlap. For a target fraction the capsules'
+ * radii are changed first, so that each fibre ends at its TargetRadius if these add up to the fraction
+ * (core/growth/GrowthTarget.h).
  *
  * Input: fibres (polylines with point data `Radius`). Output: an image of cubic voxels that fill the field data `Domain`, its
  * points the voxels' centres, with

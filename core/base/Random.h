@@ -27,7 +27,8 @@ enum class RandomStage : std::uint32_t
   Sections = 13,
   Internodes = 14,
   SeedPoints = 15,
-  Swellings = 16
+  Swellings = 16,
+  SwellingCount = 17
 };
 
 /// A counter-based C++11 random engine (Random123, Philox4x32-10). Its numbers are the same everywhere. The distributions of

@@ -80,15 +80,20 @@ double BeadShape::meanSquare() const
   return sum / double(steps);
 }
 
-void BeadShape::requireRoom(double amplitude, const std::string& name) const
+double BeadShape::leastSpacing(double amplitude) const
 {
   constexpr double mostCovered = 0.9;
-  const double covered = this->mean() * (1.0 + amplitude);
-  if (covered > mostCovered)
+  return this->spacing * (this->mean() * (1.0 + amplitude) / mostCovered);
+}
+
+void BeadShape::requireRoom(double amplitude, const std::string& name) const
+{
+  const double least = this->leastSpacing(amplitude);
+  if (this->spacing < least)
   {
     throw InvalidInput(text(name, "Spacing is ", this->spacing, " µm: with ", name, "Amplitude ", amplitude, " and ", name,
-      "Length ", this->length, " µm they run into each other; give ", this->spacing * covered / mostCovered,
-      " µm or more, or a smaller ", name, "Length or ", name, "Amplitude"));
+      "Length ", this->length, " µm they run into each other; give ", least, " µm or more, or a smaller ", name, "Length or ",
+      name, "Amplitude"));
   }
 }
 

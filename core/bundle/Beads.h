@@ -24,6 +24,8 @@ struct BeadShape
   double mean() const;
   /// Returns the mean of b², from a long fibre.
   double meanSquare() const;
+  /// Returns the mean distance (µm) from which on beads of this amplitude (see heightOf()) do not run into each other.
+  double leastSpacing(double amplitude) const;
   /// Throws InvalidInput if beads whose radius is larger by `amplitude` than the mean, as a fraction, would run into each other.
   /// `name` begins the names of the properties: <name>Amplitude, <name>Spacing, <name>Length.
   void requireRoom(double amplitude, const std::string& name) const;

@@ -34,9 +34,10 @@ VoxelGrid growthGrid(const Domain& domain, const FibreRadialGrowthOptions& optio
 /// - f_i does not fall along the way from any point to the centre of the ball that seeded it, so growth adds no islands.
 ///
 /// `part` is the part of `growthGrid()` to compute. In every voxel FibreId is i where f_i > 0 and 0 elsewhere; Depth is f_i
-/// inside fibre i, and outside every fibre the largest of all fields, but at least `-4 spacing`: beyond that, only this bound is
-/// known. The result equals that part of the whole bit for bit, on any number of threads. Throws InvalidInput (an empty part or
-/// one outside the grid, options, fibres), OutOfMemory, Cancelled.
+/// inside fibre i, and outside every fibre the largest of all fields (of an axon without myelin perhaps as if it had grown with
+/// the others), but at least `-4 spacing`: beyond that, only this bound is known. The result equals that part of the whole bit
+/// for bit, on any number of threads. Throws InvalidInput (an empty part or one outside the grid, options, fibres), OutOfMemory,
+/// Cancelled.
 void growFibres(const Fibres& fibres, const FibreRadialGrowthOptions& options, double growth, const VoxelGrid& part,
   std::int32_t* fibreId, float* depth, const Context& context = {});
 

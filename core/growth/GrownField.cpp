@@ -14,12 +14,14 @@ namespace
 
 constexpr double bandInVoxels = 4.0;
 
-FieldRelevance relevanceOf(double growth, double band, double halfGap)
+/// Where growth is uneven, the second largest field matters outside fibres, too, as far as depths are known.
+FieldRelevance relevanceOf(double growth, double band, double halfGap, bool isUneven)
 {
+  const double beside = isUneven ? band : halfGap;
   FieldRelevance relevance;
   relevance.bestReach = growth + band;
-  relevance.secondReach = growth + halfGap;
-  relevance.sumReach = 2.0 * (growth + halfGap);
+  relevance.secondReach = growth + beside;
+  relevance.sumReach = 2.0 * (growth + beside);
   return relevance;
 }
 
@@ -37,7 +39,7 @@ GrownField::GrownField(
   : Part(part)
   , HalfGap(0.5 * options.gap())
   , Band(std::max(bandInVoxels * Part.spacing, HalfGap))
-  , Relevance(relevanceOf(growth, Band, HalfGap))
+  , Relevance(relevanceOf(growth, Band, HalfGap, slowsBare(fibres, options)))
   , Seeds(fibres, seedOptions(fibres, options), Part.box(), reachOf(fibres, Relevance, Part.spacing), threads)
   , Growth(fibres, options, Seeds, growth)
 {

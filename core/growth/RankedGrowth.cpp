@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "growth/RankedGrowth.h"
 
-#include "growth/VolumeInDomain.h"
+#include "fibres/FibreShape.h"
 
 namespace cactus
 {
@@ -29,7 +29,7 @@ bool slowsBare(const Fibres& fibres, const FibreRadialGrowthOptions& options)
   double others = 0.0;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    (isBare(fibres, f) ? bare : others) += volumeInDomain(fibres, f, fibres.targetRadii[f] / rootMeanSquareRadius(fibres, f));
+    (isBare(fibres, f) ? bare : others) += fibres.targetRadii[f] * fibres.targetRadii[f] * lengthInDomain(fibres, f);
   }
   return bare < others;
 }

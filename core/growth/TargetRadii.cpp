@@ -151,9 +151,10 @@ void fillTarget(const Fibres& fibres, double target, bool bareIsSlow, Aim& aim)
   const double scale = std::sqrt(target / volume);
   if (volume >= target)
   {
-    for (double& factor : aim.factors)
+    for (std::size_t f = 0; f < fibres.size(); ++f)
     {
-      factor *= scale;
+      aim.factors[f] *= scale;
+      aim.volumes[f] *= bareIsSlow ? scale * scale : 1.0; // only ratios of volumes matter otherwise
     }
     return;
   }
@@ -280,7 +281,7 @@ std::vector<double> factorsForTargetRadii(
     scaleRadii(aim.factors, fibres, aimed);
     if (round == 0 || bareIsSlow)
     {
-      growth = std::min(roughGrowth(aimed, options, context, sharing), 1.0);
+      growth = std::min(roughGrowth(aimed, options, context, sharing), bareIsSlow ? largestGrowth : 1.0);
     }
     const std::vector<double> counted =
       countPerFibre(aimed, options, growth, spacing, round, context, 0.3 * round / rounds, 0.3 * (round + 1) / rounds, sharing);

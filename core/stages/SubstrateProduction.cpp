@@ -89,7 +89,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   {
     sum.add(fibres.domain.periodic.data(), sizeof(fibres.domain.periodic));
   }
-  const std::string values = "CACTUS " CACTUS_VERSION ", journal 13\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 14\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)
   {

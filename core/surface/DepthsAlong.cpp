@@ -315,8 +315,7 @@ AlongLine DepthsAlong::depthOfPartBelow(double part, const AlongLine& depth) con
 
 AlongLine DepthsAlong::redistributed(const AlongLine& depth, const AlongLine& weight, double shallowest) const
 {
-  double volume = 0.0; // in samples
-  double room = 0.0;
+  double volume = 0.0;        // in samples
   std::vector<double> wanted; // areas for a factor of 1
   std::vector<double> most;
   for (std::size_t i = 0; i < this->Slices.size(); ++i)
@@ -325,7 +324,6 @@ AlongLine DepthsAlong::redistributed(const AlongLine& depth, const AlongLine& we
     volume += area;
     wanted.push_back(area * weight(this->placeOf(i)));
     most.push_back(std::max(area, this->areaBelow(this->Slices[i], shallowest)));
-    room += most.back();
   }
   const auto held = [&](double factor)
   {
@@ -338,10 +336,6 @@ AlongLine DepthsAlong::redistributed(const AlongLine& depth, const AlongLine& we
   };
   double lower = 0.0;
   double upper = 1.0;
-  while (held(upper) < std::min(volume, (1.0 - redistributionTolerance) * room))
-  {
-    upper *= 2.0;
-  }
   while (upper - lower > redistributionTolerance * upper)
   {
     const double middle = 0.5 * (lower + upper);

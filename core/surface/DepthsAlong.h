@@ -35,7 +35,8 @@ public:
   /// Returns the depth that leaves this part of what lies below `depth`.
   AlongLine depthOfPartBelow(double part, const AlongLine& depth) const;
   /// Returns the depth below which lies the same volume as below `depth`, with each cross-section's area multiplied by a number
-  /// in proportion to `weight`. Depths are at least `shallowest` (µm); what does not fit there goes to the other cross-sections.
+  /// in proportion to `weight`, which is at least 1. Depths are at least `shallowest` (µm), or those given where these are less;
+  /// what does not fit there goes to the other cross-sections.
   AlongLine redistributed(const AlongLine& depth, const AlongLine& weight, double shallowest) const;
   /// Returns the mean over the fibre's length.
   double mean(const AlongLine& of) const;

@@ -36,6 +36,8 @@ constexpr double negligibleChange = 2e-4;
 
 /// Largest voxel, in parts of a node's or a paranode's length.
 constexpr double voxelInNode = 0.5;
+/// Largest voxel, in lengths of a swelling: depths along a fibre are smoothed over a few voxels.
+constexpr double voxelInSwelling = 0.125;
 
 /// Returns the least distance of the field from its level at a sample, µm.
 double nudgeFor(double spacing, double tolerance)
@@ -124,6 +126,12 @@ void FibreMesher::findLines()
     throw InvalidInput(text("voxels of ", this->Spacing, " µm cannot show nodes with a NodeLength of ", this->Options.nodeLength,
       " µm and a ParanodeLength of ", this->Options.paranodeLength, " µm: choose a VoxelSize of at most ", voxelInNode * shortest,
       " in FibreRadialGrowth, or longer ones"));
+  }
+  if (this->Options.swellingAmplitude > 0.0 && this->Spacing > voxelInSwelling * this->Options.swellingLength)
+  {
+    throw InvalidInput(text("voxels of ", this->Spacing, " µm cannot show swellings with a SwellingLength of ",
+      this->Options.swellingLength, " µm: choose a VoxelSize of at most ", voxelInSwelling * this->Options.swellingLength,
+      " in FibreRadialGrowth, or a longer one"));
   }
   this->InternodeLosses = internodeLosses(*this->Facts.centreLines, this->Options);
   const std::vector<int>& ids = this->Facts.centreLines->fibreIds;

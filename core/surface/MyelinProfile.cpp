@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/MyelinProfile.h"
 
+#include "base/RandomVariates.h"
 #include "bundle/Beads.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace cactus
@@ -50,9 +53,23 @@ SmoothedField MyelinProfile::shaped(double part, double outer, double thinnest, 
 /// Returns the depth of the axon with swellings, of the same volume as the one at `depth`.
 AlongLine MyelinProfile::swollen(const AlongLine& depth, double shallowest) const
 {
-  const BeadShape shape = this->Options.swellings();
-  const double height = shape.heightOf(this->Options.swellingAmplitude);
+  BeadShape shape = this->Options.swellings();
   const double period = this->Line.period();
+  if (period > 0.0)
+  {
+    // A whole number fits a period, on average as many as in other fibres.
+    RandomEngine engine =
+      randomStream(this->Options.seed, RandomStage::SwellingCount, std::uint64_t(std::uint32_t(this->FibreId)));
+    const double most = std::floor(period / shape.leastSpacing(this->Options.swellingAmplitude));
+    const double count = std::min(most, std::floor(period / shape.spacing + uniformFromZero(engine)));
+    if (count == 0.0)
+    {
+      return depth;
+    }
+    shape.spacingDeviation *= period / count / shape.spacing;
+    shape.spacing = period / count;
+  }
+  const double height = shape.heightOf(this->Options.swellingAmplitude);
   const double half = 0.5 * (period > 0.0 ? period : this->Line.length());
   const Beads beads(shape, this->Options.seed, this->FibreId, half, period > 0.0, RandomStage::Swellings);
   const auto relativeArea = [&](double along)

@@ -33,8 +33,8 @@ public:
 
   /// Returns the field whose contour at one level is the axon with this part of the volume above `outer` (µm), if the fibre had
   /// no nodes: about at the level of that contour in the field given. Each cross-section has the same part of its area, if the
-  /// options ask for that, and more of it in swellings, less between them. No myelin is thinner than `thinnest`, and none over
-  /// swellings than `wall` (µm).
+  /// options ask for that, and more of it in swellings, less between them. No myelin is thinner than `thinnest`, and
+  /// swellings leave about `wall` (µm) of it.
   SmoothedField shaped(double part, double outer, double thinnest, double wall);
   /// Returns by how much (µm) swellings are at most nearer to the fibre's surface than the axon's level after shaped().
   double raised() const { return this->Raised; }

@@ -17,6 +17,7 @@ namespace
 /// Angles of triangles; 0 means any. Equilateral ones have 60°, and some have little above 25° wherever edge lengths change.
 constexpr Range smallestAngles{ 5.0, 25.0, "°", 0.0 };
 constexpr Range swellingAmplitudes{ 0.01, 1.0, "", 0.0 };
+constexpr Range swellingSpacings{ 1.2, 50.0, " µm" };
 constexpr Range swellingLengths{ 1.0, 10.0, " µm" };
 constexpr Range nodeLengths{ 0.3, 5.0, " µm", 0.0 };
 constexpr Range internodeFactors{ 1.0, 500.0 };
@@ -55,16 +56,17 @@ const PropertyList<MyelinSurfaceOptions>& MyelinSurfaceOptions::properties()
         "FibreRadialGrowth.")
       .add("SwellingAmplitude", &Options::swellingAmplitude, swellingAmplitudes,
         "How much larger than its mean an axon's radius is in a swelling of a lesion, as a fraction of that mean; 0: no "
-        "swellings. Axons keep their volume, so they are thinner between swellings, and outer surfaces keep their place, so an "
+        "swellings. Axons keep their volume, so they are thinner between swellings, and outer surfaces keep their place where "
+        "myelin is whole, so an "
         "axon with a g-ratio g can swell by 1/g - 1 at most (0.43 for 0.7), less a wall of MinimumGap and four times the "
         "SurfaceTolerance. Axons without myelin do not swell. A larger "
         "amplitude has the same swellings. It needs the fibres' centre lines, as MyelinFollowsAxon does.")
-      .add("SwellingSpacing", &Options::swellingSpacing, limits::beadSpacing,
+      .add("SwellingSpacing", &Options::swellingSpacing, swellingSpacings,
         "Mean distance in µm of neighbouring swellings along an axon. Distances are gamma distributed, with a deviation of 0.45 "
-        "of their mean.")
+        "of their mean. In a domain that is periodic along z, a whole number fits, on average as many.")
       .whereGiven("SwellingAmplitude")
       .add("SwellingLength", &Options::swellingLength, swellingLengths,
-        "Length in µm over which a swelling is thicker than half of its height.")
+        "Length in µm over which a swelling is thicker than half of its height, at least eight voxels of FibreRadialGrowth.")
       .whereGiven("SwellingAmplitude")
       .add("NodeLength", &Options::nodeLength, nodeLengths,
         "Length in µm of nodes of Ranvier; 1 is usual, 0 makes none. In a node the fibre's outer surface comes down to the axon, "

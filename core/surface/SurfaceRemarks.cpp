@@ -87,9 +87,9 @@ std::string remarkOnSwellings(
   double least = options.swellingAmplitude;
   for (const FibreSurfacePair& pair : pairs)
   {
-    if (pair.gRatio > 0.0 && !pair.isBare())
+    if (pair.gRatio > 0.0 && pair.targetGRatio > 0.0 && !pair.isBare())
     {
-      const double most = (1.0 - (pair.targetRadius > 0.0 ? wall / pair.targetRadius : 0.0)) / pair.gRatio - 1.0;
+      const double most = (1.0 - (pair.targetRadius > 0.0 ? wall / pair.targetRadius : 0.0)) / pair.targetGRatio - 1.0;
       ++axons;
       limited += most < options.swellingAmplitude ? 1 : 0;
       least = std::min(least, std::max(most, 0.0));

@@ -22,7 +22,7 @@ GROWTH = {"VoxelSize": 0.2, "GrowthIterations": 1, "Seed": 3}
 NODES = {"NodeLength": 0.8, "InternodeFactor": 1, "ParanodeLength": 0.5, "NodeConstriction": 0.8, "NodeSeed": 5,
          "InternodeLoss": 0.6, "InternodeOrder": "Thinnest first", "RemyelinatedFraction": 0.5, "RemyelinatedGRatio": 0.9}
 SURFACES = {"GRatioModel": "Distributed", "GRatioDeviation": 0.05, "Seed": 9, "MyelinFollowsAxon": True, "SwellingAmplitude": 0.02,
-            "SwellingSpacing": 4, "SwellingLength": 1, **NODES}
+            "SwellingSpacing": 4, "SwellingLength": 1.6, **NODES}
 
 
 class CactusGrow(CactusTestCase):

@@ -572,6 +572,19 @@ TEST(MyelinProfile, SwellingsEndAtTheMyelinsLeastThickness)
     0u);
 }
 
+// Lost myelin lets the outer surface come down to the axon, which swells as far as in the whole fibre.
+TEST(MyelinProfile, LostMyelinDoesNotLimitSwellings)
+{
+  const GrownFibres grown = singleFibre(14.0, 0.6, [](double) { return 0.6; });
+  MyelinSurfaceOptions options = withNodes(6.0);
+  options.internodeLoss = 1.0;
+  options.swellingAmplitude = 0.2;
+  const auto swollen = grown.surfaces(options);
+  expectSound(swollen, grown.fibres->domain, grown.growth.minimumGap);
+  EXPECT_GT(swollen[0].gRatio, 0.8);
+  EXPECT_EQ(remarkOnSwellings(swollen, labelImageFacts(*grown.fibres, grown.growth), options), "");
+}
+
 TEST(MyelinProfile, ABundleWithSwellingsIsSoundAndATwin)
 {
   const GrownFibres grown = bundleWithNodes();
@@ -608,6 +621,9 @@ TEST(MyelinProfile, WhatCannotBeMadeIsRefused)
   options.swellingAmplitude = 0.5;
   options.swellingSpacing = 2.0;
   EXPECT_THROW(grown.surfaces(options), InvalidInput) << "swellings that run into each other";
+  options.swellingSpacing = 5.0;
+  grown.growth.voxelSize = 0.26;
+  EXPECT_THROW(grown.surfaces(options), InvalidInput) << "voxels too coarse for swellings";
 }
 
 } // namespace

@@ -155,7 +155,11 @@ TEST(PeriodicSurfaces, RimsOfOppositeFacesHaveTheSamePoints)
     nodes.nodeLength = 0.8;
     nodes.paranodeLength = 0.8;
     nodes.internodeFactor = 2.0;
-    for (const MyelinSurfaceOptions& options : { MyelinSurfaceOptions(), fine, nodes })
+    MyelinSurfaceOptions swollen = nodes;
+    swollen.myelinFollowsAxon = false;
+    swollen.nodeLength = 0.0;
+    swollen.swellingAmplitude = 0.1;
+    for (const MyelinSurfaceOptions& options : { MyelinSurfaceOptions(), fine, nodes, swollen })
     {
       const std::vector<FibreSurfacePair> pairs = tissue.surfaces(options);
       for (const auto kind : { &FibreSurfacePair::outer, &FibreSurfacePair::inner })
