@@ -36,15 +36,17 @@ Quadric quadricAround(const EditableSurface& surface, std::int32_t u, std::int32
   return sum;
 }
 
-/// Tells whether a triangle of the wall would lie in a face of the box if a point were merged into one on a face.
+/// Tells whether a triangle of the wall would lie in a face of the box if a point were merged into one on a face. Beside an edge
+/// of the box the point may lie on the other face there: the wall is a strip between two rims.
 bool flattensWall(const EditableSurface& surface, std::int32_t rim, std::int32_t point)
 {
   return surface.visitCornersAt(point, point,
     [&](std::int32_t c, std::int32_t)
     {
       const auto edge = surface.oppositeEdge(c);
-      return EditableSurface::outlivesCollapse(edge, rim, point) && surface.facesOf(point) == 0 &&
-             (surface.facesOf(edge[0]) & surface.facesOf(edge[1]) & surface.facesOf(rim)) != 0;
+      const int faces = surface.facesOf(edge[0]) & surface.facesOf(edge[1]);
+      return EditableSurface::outlivesCollapse(edge, rim, point) && (faces & surface.facesOf(point)) == 0 &&
+             (faces & surface.facesOf(rim)) != 0;
     });
 }
 

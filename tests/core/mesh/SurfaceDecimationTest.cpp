@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarantees: a coarsened surface stays closed, near the level of its field and in the faces of its box, and gets no needles.
+// Guarantees: a coarsened surface stays closed, near the level of its field and in the faces of its box, and gets no needles; the
+// points that are left of a rim in a held face are still on the rim.
 #include "mesh/SurfaceDecimation.h"
 #include "base/Constants.h"
 #include "mesh/EditableSurface.h"
 #include "mesh/ExampleContours.h"
+#include "mesh/HeldRims.h"
 #include "mesh/Quadric.h"
 #include "mesh/ShapeBounds.h"
 #include "mesh/SurfaceCheck.h"
@@ -13,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <set>
 
 namespace
 {
@@ -148,6 +152,59 @@ TEST(SurfaceDecimation, LongSurfacesCostAsManyTrianglesPerLengthAsShortOnes)
   }
   const double ofAPeriod = triangles[1] - triangles[0]; // without caps
   EXPECT_NEAR(triangles[2] - triangles[1], 6.0 * ofAPeriod, 0.03 * 6.0 * ofAPeriod);
+}
+
+using Place = std::array<double, 3>;
+
+/// The places of points in held faces: those of caps, or those of the wall, which are the rims.
+std::set<Place> placesInHeldFaces(const CappedSurface& surface, bool ofCaps)
+{
+  std::set<Place> places;
+  for (const auto& t : surface.mesh.triangles)
+  {
+    for (const std::int32_t p : t)
+    {
+      if (surface.isCap(t) == ofCaps && surface.isHeld(p))
+      {
+        const Eigen::Vector3d& place = surface.mesh.points[std::size_t(p)];
+        places.insert({ { place.x(), place.y(), place.z() } });
+      }
+    }
+  }
+  return places;
+}
+
+// Beside an edge of the box the wall is a narrow strip between rims in two faces. If a point of one is merged into the end that
+// both share, no triangle of the wall may come to lie in the other face.
+TEST(SurfaceDecimation, PointsOfHeldRimsStayOnThemOrGo)
+{
+  const NodeLattice lattice = cubeLattice(11, 0.1);
+  constexpr double radius = 10.0;
+  std::size_t gone = 0;
+  for (int n = 0; n < 200; ++n)
+  {
+    // A cube without what lies in a large ball, whose surface runs almost along an edge of the cube.
+    const Eigen::Vector3d outwards = Eigen::Vector3d(1.0, 1.05, 0.01 * (1 + n % 20)).normalized();
+    const Eigen::Vector3d centre = Eigen::Vector3d(0.5, 0.5, 0.01 * (n / 20) - 0.049) + radius * outwards;
+    const auto depth = [&](const Eigen::Vector3d& p) { return (p - centre).norm() - radius; };
+    CappedSurface surface = contour(lattice, allBlocks(lattice),
+      sampled([&](int i, int j, int k) { return depth(0.1 * Eigen::Vector3d(i - 5, j - 5, k - 5)); }));
+    surface.held = 0x3f;
+    SurfaceDecimationOptions options;
+    options.field = depth;
+    surface.stays = HeldRims(surface, 0.5 * options.maximumError, options.sampling).stays();
+    ASSERT_NE(surface.stays, nullptr);
+    const std::set<Place> before = placesInHeldFaces(surface, false);
+    decimate(surface, options);
+    const std::set<Place> after = placesInHeldFaces(surface, false);
+    const std::set<Place> ofCaps = placesInHeldFaces(surface, true);
+    for (const Place& place : before)
+    {
+      EXPECT_TRUE(after.count(place) != 0 || (ofCaps.count(place) == 0 && surface.stays->count(place) == 0)) << n;
+      gone += after.count(place) == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(gone, 1000u);
 }
 
 TEST(SurfaceDecimation, DependsOnTheInputAlone)

@@ -203,6 +203,7 @@ TEST(PeriodicSurfaces, CopiesFitTogether)
   const std::vector<FibreSurfacePair> pairs = tissue.surfaces({});
   const double half = 0.5 * tissue.fibres.domain.size().x();
   std::size_t inside = 0;
+  std::size_t ridges = 0; // which touch a face from within
   for (const FibreSurfacePair& pair : pairs)
   {
     using Place = std::array<double, 3>;
@@ -238,12 +239,14 @@ TEST(PeriodicSurfaces, CopiesFitTogether)
           isAtTheEnd || (edge.first[axis] == edge.second[axis] && (edge.first[axis] == -half || edge.first[axis] == 3.0 * half));
         isBetween = isBetween || (edge.first[axis] == half && edge.second[axis] == half);
       }
-      EXPECT_EQ(back == uses.end(), isAtTheEnd)
+      EXPECT_TRUE(back != uses.end() || isAtTheEnd)
         << pair.fibreId << ' ' << edge.first[0] << ' ' << edge.first[1] << ' ' << edge.first[2];
+      ridges += isAtTheEnd && back != uses.end() ? 1 : 0;
       inside += isBetween && back != uses.end() ? 1 : 0;
     }
   }
   EXPECT_GT(inside, 1000u);
+  EXPECT_LE(ridges, 16u); // each counts eight times
 }
 
 TEST(PeriodicSurfaces, WhatWouldBreakTheRimsIsRefused)
