@@ -9,8 +9,8 @@
 #include "optimiser/NeighbourSearch.h"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
+#include <cstddef>
+#include <cstdint>
 
 namespace cactus
 {
@@ -18,51 +18,18 @@ namespace cactus
 namespace
 {
 
-using FibrePair = std::pair<std::uint32_t, std::uint32_t>;
-
-FibrePair pairOf(const Crowding& crowding)
-{
-  return { crowding.thick, crowding.thin };
-}
-
-/// Returns, per capsule, by how much the fibre's seed may come to reach beyond it.
-std::vector<float> reachesOf(
-  const Capsules& capsules, const std::vector<SectionShape>& shapes, const std::vector<double>& wished, double thickening)
+/// Returns, per capsule, by how much the fibre's seed may come to reach beyond it, with its part of the gap (µm).
+std::vector<float> reachesOf(const Capsules& capsules, const std::vector<SectionShape>& shapes, const std::vector<double>& wished,
+  double thickening, double gap)
 {
   std::vector<float> reaches(capsules.size());
   for (std::size_t k = 0; k < capsules.size(); ++k)
   {
     const double radius = std::max(capsules.bodies[k].r0, capsules.bodies[k].r1);
     const double farthest = shapes[capsules.fibre[k]].reach() * (thickening * wished[capsules.fibre[k]]);
-    reaches[k] = static_cast<float>(std::max(0.0, farthest - 1.0) * radius);
+    reaches[k] = static_cast<float>(std::max(0.0, farthest - 1.0) * radius + 0.5 * gap);
   }
   return reaches;
-}
-
-/// Finds the capsules that could come so near to each other that one of the two is severed.
-NeighbourList findNear(const Capsules& capsules, const std::vector<float>& reaches, int threads)
-{
-  NeighbourList neighbours;
-  findNeighbours(capsules, reaches, threads, neighbours);
-  return neighbours;
-}
-
-/// Keeps the entries of each pair of fibres that may limit the factor of the thicker one, room / radius + core / radius · the
-/// factor of the thinner: those of which no other is tighter in both terms.
-void keepTightest(std::vector<Crowding>& all)
-{
-  const auto terms = [](const Crowding& c) { return std::pair(c.room / c.radius, c.core / c.radius); };
-  std::stable_sort(all.begin(), all.end(),
-    [&](const Crowding& a, const Crowding& b) { return std::pair(pairOf(a), terms(a)) < std::pair(pairOf(b), terms(b)); });
-  std::size_t kept = 0;
-  for (const Crowding& crowding : all)
-  {
-    if (kept == 0 || pairOf(all[kept - 1]) != pairOf(crowding) || terms(crowding).second < terms(all[kept - 1]).second)
-    {
-      all[kept++] = crowding;
-    }
-  }
-  all.resize(kept);
 }
 
 } // namespace
@@ -74,11 +41,15 @@ std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowth
   const std::size_t inPlace = capsules.size();
   const SeedOptions seeds = seedOptions(fibres, options);
   const std::vector<SectionShape> shapes = sectionShapes(fibres, seeds);
+  std::vector<CapsuleImage> images;
   if (fibres.domain.isPeriodic())
   {
-    addImages(imagesWithin(fibres.domain, capsules, reachesOf(capsules, shapes, wished, bounds.thickening)), capsules);
+    const std::vector<float> reaches = reachesOf(capsules, shapes, wished, bounds.thickening, options.gap());
+    images = imagesWithin(fibres.domain, capsules, reaches);
+    addImages(images, capsules);
   }
-  const NeighbourList neighbours = findNear(capsules, reachesOf(capsules, shapes, wished, bounds.thickening), threads);
+  NeighbourList neighbours;
+  findNeighbours(capsules, reachesOf(capsules, shapes, wished, bounds.thickening, options.gap()), threads, neighbours);
   const double smallestFraction = Calibre(seeds).smallestFraction();
   const auto end = [](const double* p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
   std::vector<Crowding> all;
@@ -87,7 +58,7 @@ std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowth
     const Capsule& thin = capsules.bodies[k];
     const double thinnest = std::min(thin.r0, thin.r1);
     const double core = shapes[capsules.fibre[k]].core() * (smallestFraction * thinnest);
-    const double kept = options.gap() + 0.25 * thinnest;
+    const double kept = options.gap() + 0.75 * thinnest;
     for (std::size_t n = neighbours.offsets[k]; n < neighbours.offsets[k + 1]; ++n)
     {
       const std::size_t other = neighbours.indices[n];
@@ -98,28 +69,33 @@ std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowth
       }
       const double distance = closestPoints(end(thin.p0), end(thin.p1), end(thick.p0), end(thick.p1)).distance;
       const double radius = shapes[capsules.fibre[other]].reach() * std::max(thick.r0, thick.r1);
-      const Crowding crowding = { capsules.fibre[other], capsules.fibre[k], radius, distance - kept, core };
-      const double farthest = bounds.thickening * wished[crowding.thick] * crowding.radius;
-      if (farthest > crowding.room + wished[crowding.thin] / bounds.thinning * core)
+      const double room = distance - kept;
+      const double farthest = bounds.thickening * wished[capsules.fibre[other]] * radius;
+      if (farthest > room + wished[capsules.fibre[k]] / bounds.thinning * core)
       {
-        all.push_back(crowding);
+        const std::size_t own = other < inPlace ? other : images[other - inPlace].capsule;
+        all.push_back(
+          { capsules.first[own], capsules.first[k], static_cast<float>(room / radius), static_cast<float>(core / radius) });
       }
     }
   }
-  keepTightest(all);
+  // The order of those of one point does not matter.
+  std::sort(all.begin(), all.end(), [](const Crowding& a, const Crowding& b) { return a.thickPoint < b.thickPoint; });
   return all;
 }
 
-double largestFactor(const std::vector<Crowding>& crowding, std::size_t thick, const std::vector<double>& factors)
+void limitFactors(
+  const std::vector<Crowding>& crowding, std::size_t first, std::size_t last, double least, std::vector<double>& factors)
 {
-  const auto first = std::lower_bound(
-    crowding.begin(), crowding.end(), thick, [](const Crowding& c, std::size_t fibre) { return c.thick < fibre; });
-  double largest = std::numeric_limits<double>::infinity();
-  for (auto c = first; c != crowding.end() && c->thick == thick; ++c)
+  auto c = std::lower_bound(
+    crowding.begin(), crowding.end(), first, [](const Crowding& entry, std::size_t point) { return entry.thickPoint < point; });
+  for (; c != crowding.end() && c->thickPoint < last; ++c)
   {
-    largest = std::min(largest, (c->room + c->core * factors[c->thin]) / c->radius);
+    const double ofThin = std::min(factors[c->thinPoint], factors[c->thinPoint + 1]);
+    const double largest = std::max(least, double(c->room) + double(c->core) * ofThin);
+    factors[c->thickPoint] = std::min(factors[c->thickPoint], largest);
+    factors[c->thickPoint + 1] = std::min(factors[c->thickPoint + 1], largest);
   }
-  return largest;
 }
 
 } // namespace cactus

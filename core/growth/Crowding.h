@@ -18,28 +18,28 @@ struct FactorBounds
   double thinning;   ///< at most smaller by this factor
 };
 
-/// A thick fibre beside a thin one. With any factors on their radii, the thin one is in one piece if thick factor · radius <=
-/// room + thin factor · core.
+/// A capsule of a thick fibre beside one of a thin fibre. With any factors on their radii, the thin one is in one piece there if
+/// thick factor <= room + thin factor · core.
 ///
 /// On the centre line of the thin fibre its own field is at least (1 - ρ) c times its radius there, and that of the thick one at
 /// most its radius, times its reach, minus the distance of the centre lines (c and reach: see SectionShape). The condition
-/// requires the first to exceed the second by the gap plus half the initial radius, so that a depth of a quarter of it remains.
+/// requires the first to exceed the second by the gap plus 0.75 of the initial radius, so that a depth of half of that remains.
 struct Crowding
 {
-  std::uint32_t thick;
-  std::uint32_t thin;
-  double radius;
-  double room;
-  double core;
+  std::uint32_t thickPoint; ///< the first of the capsule's two control points
+  std::uint32_t thinPoint;
+  float room; ///< this and core: in radii of the thick one
+  float core;
 };
 
-/// Finds all pairs of fibres of which one could sever the other for some factors within `bounds` of those `wished`; ordered by
-/// thick and thin fibre. Throws OutOfMemory.
+/// Finds all pairs of capsules of which one could sever the other's fibre for some factors within `bounds` of those `wished` (per
+/// fibre); in the order of thick points. Throws OutOfMemory.
 std::vector<Crowding> findCrowding(const Fibres& fibres, const FibreRadialGrowthOptions& options,
   const std::vector<double>& wished, const FactorBounds& bounds, int threads);
 
-/// Returns the largest factor of fibre `thick` for which all thin ones beside it, at their present factors, stay in one piece;
-/// infinite if there are none.
-double largestFactor(const std::vector<Crowding>& crowding, std::size_t thick, const std::vector<double>& factors);
+/// Lowers the factors (of all, per control point) of the capsules that begin at the control points [first, last), but not below
+/// `least`, where thin fibres beside them would not stay in one piece at their present factors.
+void limitFactors(
+  const std::vector<Crowding>& crowding, std::size_t first, std::size_t last, double least, std::vector<double>& factors);
 
 } // namespace cactus

@@ -142,23 +142,44 @@ Aim aimAtOwnRadii(const Fibres& fibres)
   return aim;
 }
 
-/// Changes the aim so that all capsules together, without overlaps, gaps and roughness, fill the volume `target`: little growth
-/// remains. Axons without myelin, which are thin, keep their volume if they slow down (`bareIsSlow`), and otherwise their
-/// share of it.
-void fillTarget(const Fibres& fibres, double target, bool bareIsSlow, Aim& aim)
+/// Scales the radii of all fibres by a common factor, so that they fill `volume`; with `keepsBare`, of all but axons without
+/// myelin.
+void scaleToVolume(const Fibres& fibres, double volume, bool keepsBare, Aim& aim)
 {
-  const double volume = aim.volume();
-  const double scale = std::sqrt(target / volume);
-  if (volume >= target)
+  double kept = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
   {
-    for (std::size_t f = 0; f < fibres.size(); ++f)
+    kept += keepsBare && isBare(fibres, f) ? aim.volumes[f] : 0.0;
+  }
+  const double ratio = (volume - kept) / (aim.volume() - kept);
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    if (!keepsBare || !isBare(fibres, f))
     {
-      aim.factors[f] *= scale;
-      aim.volumes[f] *= bareIsSlow ? scale * scale : 1.0; // only ratios of volumes matter otherwise
+      aim.factors[f] *= std::sqrt(ratio);
+      aim.volumes[f] *= ratio;
     }
+  }
+}
+
+/// Changes the aim so that all capsules together, without overlaps, gaps and roughness, fill the volume `target`: little growth
+/// remains. If they fill somewhat less than the volume `made` for which they were made, since the optimiser pushed some out of
+/// the domain, their radii are scaled to fill as much of it as the target allows. For the rest they grow by the same amount.
+/// Axons without myelin, which are thin, keep their volume if they slow down (`bareIsSlow`), and otherwise their share of it.
+void fillTarget(const Fibres& fibres, double target, double made, bool bareIsSlow, Aim& aim)
+{
+  const double filled = std::min({ made, target, (1.0 + usualDifference) * aim.volume() });
+  if (aim.volume() >= target)
+  {
+    scaleToVolume(fibres, target, false, aim);
     return;
   }
-  const double ofBare = bareIsSlow ? 1.0 : scale;
+  if (aim.volume() < filled)
+  {
+    scaleToVolume(fibres, filled, bareIsSlow, aim);
+  }
+  const double volume = aim.volume();
+  const double ofBare = bareIsSlow ? 1.0 : std::sqrt(target / volume);
   // All other radii grow by δ, so that the volumes w (1 + δ / r)² add up to the target.
   double more = target - volume;
   double linear = 0.0;
@@ -188,25 +209,34 @@ std::vector<std::size_t> fromThinToThick(const Fibres& fibres)
   return order;
 }
 
-/// Limits a fibre's factor to its bounds, and so that the thinner fibres beside it stay in one piece.
-/// reach: of its seed, see SectionShape.
-double boundedFactor(
-  std::size_t f, const std::vector<double>& factors, double wished, double reach, const std::vector<Crowding>& crowding)
+/// Gives fibres that repeat the same factors in every period: the least of them.
+void repeat(const Fibres& fibres, std::size_t f, std::vector<double>& factors)
 {
-  const double factor = std::min(std::max(factors[f], wished / factorBounds.thinning), wished * factorBounds.thickening);
-  // Capsules of the initial radii leave each other room, as do seeds within them.
-  return std::min(factor, std::max(largestFactor(crowding, f, factors), std::min(1.0, wished) / reach));
+  const std::size_t first = fibres.offsets[f];
+  const std::size_t last = fibres.offsets[f + 1];
+  const std::size_t period = periodOf(fibres, f).points;
+  for (std::size_t p = first; p < first + period; ++p)
+  {
+    double least = factors[p];
+    for (std::size_t other = p; other < last; other += period)
+    {
+      least = std::min(least, factors[other]);
+    }
+    for (std::size_t other = p; other < last; other += period)
+    {
+      factors[other] = least;
+    }
+  }
 }
 
-/// Thickens fibres that hold fewer samples than their share, and thins those that hold more. Axons without myelin that slow
-/// down are to hold `density` samples per µm³, since growth changes them no more.
-void correctFactors(const Fibres& fibres, const std::vector<double>& counted, const std::vector<double>& wished, bool bareIsSlow,
-  double density, Aim& aim)
+/// Thickens fibres that hold fewer than `density` samples per µm³ of the volume that they are to fill, and thins those that hold
+/// more. What fibres lack that cannot get thicker is left to growth: by their shares of all samples the others would get thinner,
+/// round after round.
+void correctFactors(const std::vector<double>& counted, const std::vector<double>& wished, double density, Aim& aim)
 {
-  const double perVolume = std::accumulate(counted.begin(), counted.end(), 0.0) / aim.volume();
   for (std::size_t f = 0; f < counted.size(); ++f)
   {
-    const double expected = (bareIsSlow && isBare(fibres, f) ? density : perVolume) * aim.volumes[f];
+    const double expected = density * aim.volumes[f];
     if (expected > 0.0)
     {
       // The relative shortage of radius is half that of volume; that of a fibre of few samples is inaccurate.
@@ -218,12 +248,9 @@ void correctFactors(const Fibres& fibres, const std::vector<double>& counted, co
 
 void scaleRadii(const std::vector<double>& factors, const Fibres& fibres, Fibres& scaled)
 {
-  for (std::size_t f = 0; f < factors.size(); ++f)
+  for (std::size_t p = 0; p < factors.size(); ++p)
   {
-    for (std::size_t p = fibres.offsets[f]; p < fibres.offsets[f + 1]; ++p)
-    {
-      scaled.radii[p] = std::clamp(factors[f] * fibres.radii[p], limits::radius.lowest, limits::radius.highest);
-    }
+    scaled.radii[p] = std::clamp(factors[p] * fibres.radii[p], limits::radius.lowest, limits::radius.highest);
   }
 }
 
@@ -237,6 +264,7 @@ Fibres aimAtTargetRadii(
 
 Fibres scaledBy(const std::vector<double>& factors, const Fibres& fibres)
 {
+  require(factors.empty() || factors.size() == fibres.radii.size(), "there must be one factor for each control point");
   Fibres scaled = fibres;
   scaleRadii(factors, fibres, scaled);
   return scaled;
@@ -259,7 +287,7 @@ std::vector<double> factorsForTargetRadii(
   }
   Fibres aimed = fibres;
   const bool bareIsSlow = slowsBare(fibres, options);
-  fillTarget(fibres, target * fibres.domain.volume(), bareIsSlow, aim);
+  fillTarget(fibres, target * fibres.domain.volume(), fibres.grownFraction * fibres.domain.volume(), bareIsSlow, aim);
   const std::vector<double> wished = aim.factors;
   const std::vector<Crowding> crowding = findCrowding(fibres, options, wished, factorBounds, context.threadCount());
   const std::vector<SectionShape> shapes = sectionShapes(fibres, seedOptions(fibres, options));
@@ -267,27 +295,43 @@ std::vector<double> factorsForTargetRadii(
   const std::vector<std::size_t> order = fromThinToThick(fibres);
   const double samples = std::max(fewestSamples, samplesPerFibre * static_cast<double>(fibres.size()));
   const double spacing = std::cbrt(fibres.domain.volume() / samples);
+  std::vector<double> factors(fibres.points.size());
+  const double density = layersOf(fibres.domain, spacing) / (spacing * spacing * fibres.domain.size()[2]);
   double growth = 0.0;
+  bool isReached = true;
   for (int round = 0; round <= rounds; ++round)
   {
     for (const std::size_t f : order)
     {
-      aim.factors[f] = boundedFactor(f, aim.factors, wished[f], shapes[f].reach(), crowding);
+      aim.factors[f] = std::clamp(aim.factors[f], wished[f] / factorBounds.thinning, wished[f] * factorBounds.thickening);
+      std::fill(factors.begin() + std::ptrdiff_t(fibres.offsets[f]), factors.begin() + std::ptrdiff_t(fibres.offsets[f + 1]),
+        aim.factors[f]);
+      // Capsules of the initial radii leave each other room, as do seeds within them.
+      const double least = std::min(1.0, wished[f]) / shapes[f].reach();
+      limitFactors(crowding, fibres.offsets[f], fibres.offsets[f + 1], least, factors);
+      if (fibres.domain.periodic[2])
+      {
+        repeat(fibres, f, factors);
+      }
     }
     if (round == rounds)
     {
       break;
     }
-    scaleRadii(aim.factors, fibres, aimed);
+    scaleRadii(factors, fibres, aimed);
     if (round == 0 || bareIsSlow)
     {
-      growth = std::min(roughGrowth(aimed, options, context, sharing), bareIsSlow ? largestGrowth : 1.0);
+      const double most = bareIsSlow ? largestGrowth : 1.0;
+      const double rough = roughGrowth(aimed, options, context, sharing);
+      isReached = rough <= most;
+      growth = std::min(rough, most);
     }
     const std::vector<double> counted =
       countPerFibre(aimed, options, growth, spacing, round, context, 0.3 * round / rounds, 0.3 * (round + 1) / rounds, sharing);
-    correctFactors(fibres, counted, wished, bareIsSlow, 1.0 / (spacing * spacing * spacing), aim);
+    const double all = std::accumulate(counted.begin(), counted.end(), 0.0);
+    correctFactors(counted, wished, isReached ? density : all / aim.volume(), aim);
   }
-  return aim.factors;
+  return factors;
 }
 
 std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions& options)

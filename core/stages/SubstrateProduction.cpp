@@ -89,7 +89,7 @@ std::string identityOf(const Fibres& fibres, const ProductionOrder& order)
   {
     sum.add(fibres.domain.periodic.data(), sizeof(fibres.domain.periodic));
   }
-  const std::string values = "CACTUS " CACTUS_VERSION ", journal 14\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
+  const std::string values = "CACTUS " CACTUS_VERSION ", journal 16\n" + valuesOf(order.growth) + valuesOf(order.surfaces);
   sum.add(values.data(), values.size());
   if (order.sampledFraction < 1.0)
   {
@@ -175,7 +175,7 @@ std::size_t keptTiles(const VoxelGrid& image, int processes, int threads)
 /// The quantities that are solved for before any surface is made.
 struct SolvedFibres
 {
-  std::vector<double> factors; ///< on each fibre's radii, see factorsForTargetRadii()
+  std::vector<double> factors; ///< on the radii of control points, see factorsForTargetRadii()
   SolvedGrowth growth;
 };
 
@@ -198,10 +198,11 @@ SubstrateFolderContents makeInto(SurfaceSpool& spool, const Fibres& fibres, cons
   ProducedSubstrate& result, const Context& context, const Sharing& sharing)
 {
   const Context solving = context.part(0.0, growthSolved);
-  const SolvedFibres solved =
+  SolvedFibres solved =
     spool.findings().part("growth").once(sharing, [&] { return solveGrowth(fibres, order.growth, solving, sharing); });
   auto tiles = std::make_shared<GrownTiles>(scaledBy(solved.factors, fibres), order.growth, solved.growth.growth,
     keptTiles(growthGrid(fibres.domain, order.growth), sharing.size(), context.threadCount()), context.threadCount());
+  solved.factors = {};
   const double spacing = tiles->grid().spacing;
   LabelImageFacts facts = grownImageFacts(made, order.growth);
   facts.isSample = made.size() < fibres.size();

@@ -121,7 +121,9 @@ def main():
                         line = np.full(places.max() - places.min() + 1, np.nan)
                         line[places - places.min()] = np.log(diameters[mine])
                         lines[name].append(line)
-                measured, targets, lengths, ratios = columns(table, "OuterRadius_um", "TargetRadius_um", "Length_um", "AxonDiffusivityRatio")
+                mean, deviation, targets = columns(table, "OuterRadius_um", "OuterRadiusDeviation_um", "TargetRadius_um")
+                measured = np.hypot(mean, np.nan_to_num(deviation))  # root mean square, as TargetRadius; without a cut it is the mean
+                lengths, ratios = columns(table, "Length_um", "AxonDiffusivityRatio")
                 whole = np.isfinite(measured) & (lengths > 0)
                 inside = np.isfinite(ratios) & (lengths > 0.5 * options.side)
                 made, myelin = columns(servermanager.Fetch(surfaces, idx=2), "FibreId", "Myelin")
@@ -141,7 +143,7 @@ def main():
                     f"{value('MeanBeadAmplitude'):.2f}, {value('MeanBeadSpacing_um'):.1f}",
                     f"{value('FVF'):.4f}",
                     f"{100 * necks(servermanager.Fetch(before), options.side, options.voxel):.2f} %, {100 * (inner[np.isfinite(inner)] < 2 * options.voxel).mean():.2f} %",
-                    f"{distance(measured[whole], targets[whole]):.3f}, {value('MeanOuterRadius_um') / value('MeanTargetRadius_um'):.3f}",
+                    f"{distance(measured[whole], targets[whole]):.3f}, {measured[whole].mean() / targets[whole].mean():.3f}",
                     f"{rows}, {pairs:g}",
                     f"{(myelin[np.isin(made, long)] > 0).sum()} of {len(long)}",
                     "yes" if certificate.GetColumnByName("Certified").GetTuple1(0) else "no",

@@ -146,11 +146,12 @@ def main():
                 surfaces = MyelinSurface(Input=FibreRadialGrowth(Input=fibres))
                 statistics = SubstrateStatistics(Fibres=fibres, Outer=OutputPort(surfaces, 0), Inner=OutputPort(surfaces, 1))
                 table = servermanager.Fetch(statistics, idx=1)
-                column = {name: vtk_to_numpy(table.GetColumnByName(name)) for name in ("BundleId", "OuterVolume_um3", "OuterRadius_um", "TargetRadius_um")}
+                column = {name: vtk_to_numpy(table.GetColumnByName(name)) for name in ("BundleId", "OuterVolume_um3", "OuterRadius_um", "OuterRadiusDeviation_um", "TargetRadius_um")}
                 shares = np.bincount(column["BundleId"], weights=column["OuterVolume_um3"])[1:] / options.side**3
                 measured = np.isfinite(column["OuterRadius_um"])
                 cells.append(", ".join(f"{share:.3f}" for share in shares))
-                cells.append(f"{distance(column['OuterRadius_um'][measured], column['TargetRadius_um'][measured]):.3f}")
+                radii = np.hypot(column["OuterRadius_um"], np.nan_to_num(column["OuterRadiusDeviation_um"]))  # root mean square, as TargetRadius
+                cells.append(f"{distance(radii[measured], column['TargetRadius_um'][measured]):.3f}")
             print("| " + " | ".join(cells) + " |", flush=True)
 
 

@@ -9,6 +9,7 @@
 #include "fibres/FibreShape.h"
 #include "fibres/TrimToDomain.h"
 #include "growth/TargetRadii.h"
+#include "growth/VolumeInDomain.h"
 #include "judge/SubstrateStatistics.h"
 #include "optimiser/CapsuleOptimizer.h"
 
@@ -163,6 +164,86 @@ TEST(GrowthTarget, RadiiOfAPackedBundleEndOnTarget)
   EXPECT_LE(aimed.kolmogorovSmirnov(aimed.meanDifference()), 0.05);
   // The same growth for all does not achieve that.
   EXPECT_GT(plain.kolmogorovSmirnov(plain.meanDifference()), 0.1);
+}
+
+// Their swellings have pushed fibres out of the domain: all end thicker, thin ones hardly more than others.
+TEST(GrowthTarget, RadiiOfFibresThatSwellEndOnTarget)
+{
+  Radii all;
+  double made = 0.0;
+  for (const int seed : { 1, 2, 3 })
+  {
+    BundleInitializerOptions bundle;
+    bundle.side = 14.0;
+    bundle.seed = seed;
+    bundle.fibreVolumeFraction = 0.6;
+    bundle.grownFibreVolumeFraction = 0.8;
+    Fibres fibres = initialiseBundles(bundle);
+    optimise(fibres, CapsuleOptimizerOptions(), Context());
+    fibres = trimToDomain(fibres);
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+    {
+      made += volumeInDomain(fibres, f, fibres.targetRadii[f] / rootMeanSquareRadius(fibres, f)) / (3.0 * fibres.domain.volume());
+    }
+    const FibreRadialGrowthOptions options;
+    const Radii radii = measure(fibres, grown(aimAtTargetRadii(fibres, options), options));
+    all.target.insert(all.target.end(), radii.target.begin(), radii.target.end());
+    all.grown.insert(all.grown.end(), radii.grown.begin(), radii.grown.end());
+  }
+  ASSERT_GT(all.target.size(), 50u);
+  const auto meanRatio = [&](double lowest, double highest)
+  {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i < all.target.size(); ++i)
+    {
+      const bool isMeant = all.target[i] >= lowest && all.target[i] < highest;
+      sum += isMeant ? all.grown[i] / all.target[i] : 0.0;
+      count += isMeant ? 1.0 : 0.0;
+    }
+    return sum / count;
+  };
+  EXPECT_LT(made, 0.78);
+  EXPECT_NEAR(meanRatio(0.0, 0.35), std::sqrt(0.8 / made), 0.04);
+  EXPECT_NEAR(meanRatio(0.35, 9.0), std::sqrt(0.8 / made), 0.04);
+}
+
+// A thin fibre crosses it: it is held back there, and nowhere else.
+TEST(GrowthTarget, AThickFibreIsHeldBackOnlyBesideAThinOne)
+{
+  const auto factors = [](double x)
+  {
+    Fibres fibres;
+    fibres.domain.lower = Eigen::Vector3d(-4.0, -4.0, -4.0);
+    fibres.domain.upper = Eigen::Vector3d(4.0, 4.0, 4.0);
+    fibres.domain.periodic = { true, true, false };
+    fibres.addFibre(1, 1, 1.5);
+    for (int p = 0; p <= 16; ++p)
+    {
+      fibres.addPoint(Eigen::Vector3d(x, 0.0, -4.0 + 0.5 * p), 1.0);
+    }
+    fibres.addFibre(2, 1, 0.24);
+    for (int p = 0; p <= 16; ++p)
+    {
+      fibres.addPoint(Eigen::Vector3d(x + 1.25, -4.0 + 0.5 * p, 0.0), 0.2);
+    }
+    FibreRadialGrowthOptions options;
+    options.targetFibreVolumeFraction = 0.113;
+    return factorsForTargetRadii(fibres, options);
+  };
+  const std::vector<double> middle = factors(0.0);
+  ASSERT_EQ(middle.size(), 34u);
+  EXPECT_LT(middle[8], middle[0] - 0.05);
+  EXPECT_EQ(middle[7], middle[8]);
+  EXPECT_EQ(middle[9], middle[8]);
+  EXPECT_EQ(middle[2], middle[0]);
+  EXPECT_EQ(middle[14], middle[0]);
+  // The same through a periodic face, but for samples that lie elsewhere.
+  const std::vector<double> through = factors(3.4);
+  for (std::size_t p = 0; p < 17; ++p)
+  {
+    EXPECT_NEAR(through[p], middle[p], 0.03) << p;
+  }
 }
 
 TEST(GrowthTarget, RadiiEndAsMuchLargerWhereTheFractionAsksForMore)

@@ -582,7 +582,7 @@ TEST_F(Production, AFibreMayGoBeforeAnyHasItsAxon)
   this->Order.surfaces.decimationError = 0.00374472;
   this->Order.surfaces.seed = this->Order.growth.seed;
   this->Order.surfaces.model = GRatioModel::TargetAxonVolumeFraction;
-  this->Order.surfaces.targetAxonVolumeFraction = 0.05;
+  this->Order.surfaces.targetAxonVolumeFraction = 0.04;
   this->Order.allowOpenSurfaces = true;
   const ProducedSubstrate produced = this->produce("gone");
   const auto isGone = [](const FibreSurfacePair& pair)

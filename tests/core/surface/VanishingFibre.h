@@ -37,7 +37,7 @@ inline cactus::FibreRadialGrowthOptions growthInWhichOneGoes()
   growth.surfaceTolerance = 0.00797561;
   growth.surfaceRoughness = 0.0246807;
   growth.margin = 0.0929287;
-  growth.seed = 10;
+  growth.seed = 16;
   return growth;
 }
 
