@@ -26,8 +26,9 @@ const PropertyList<CalibreVariation>& CalibreVariation::properties()
         "over the fibres; thick fibres vary less. Axons of the corpus callosum have 0.25 (human) to 0.3 (mouse). The myelin is "
         "as thick along the whole fibre, so that the outer radius varies 0.7 times as much for a g-ratio of 0.7. TargetRadius "
         "is the root mean square of a fibre's outer radius. Neighbours alone give fibres that fill 0.9 a variation of 0.15, and "
-        "less cannot be had there. Axons of up to 0.2 µm do not vary, since their necks could not be resolved. 0: fibres are as "
-        "thick everywhere before they grow.")
+        "less cannot be had there. Thin axons vary less, so that voxels resolve their necks: of 0.1 µm those of axons with "
+        "myelin, which do not vary up to 0.2 µm, and of 0.05 µm those of axons without. 0: fibres are as thick everywhere before "
+        "they grow.")
       .where("CalibreModel", { 0 })
       .add("CalibreCorrelationLength", &Options::correlationLength, limits::calibreCorrelationLength,
         "Length in µm along the fibre over which its calibre is similar: the correlation falls to one half at 0.97 times this "

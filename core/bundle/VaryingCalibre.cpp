@@ -41,10 +41,10 @@ double deviationBeforeGrowth(double asked, double fraction)
 }
 
 /// Returns the radius (µm) of an axon at its thinnest neck before its neighbours' growth to a volume fraction of fibres squeezes
-/// it, so that a voxel of 0.1 µm still resolves it.
-double thinnestAxon(double fraction)
+/// it, so that a voxel of 0.1 µm still resolves it, or one of 0.05 µm, which axons without myelin need anyway.
+double thinnestAxon(double fraction, bool isBare)
 {
-  return 0.12 + 0.1 * std::pow(fraction / 0.9, 4.0);
+  return (isBare ? 0.5 : 1.0) * (0.12 + 0.1 * std::pow(fraction / 0.9, 4.0));
 }
 
 /// Returns the g-ratio of a fibre, as far as its source knows it: it says how much thicker the same myelin makes the fibre.
@@ -251,7 +251,6 @@ void varyBy(const Calibre& calibre, const BundleInitializerOptions& options, Fib
     return;
   }
   const double thinning = options.thinning();
-  const double thinnest = thinnestAxon(options.grownFibreVolumeFraction) * thinning;
   for (std::size_t f = 0; f < fibres.size(); ++f)
   {
     const std::size_t first = fibres.offsets[f];
@@ -270,6 +269,7 @@ void varyBy(const Calibre& calibre, const BundleInitializerOptions& options, Fib
     const double radius = fibres.radii[first];
     const double given = fibres.columns.value(targetGRatioColumn.name, f); // NaN: none
     const double gRatio = given > 0.0 ? given : expectedGRatio(options.radius, radius / thinning);
+    const double thinnest = thinnestAxon(options.grownFibreVolumeFraction, isBare(fibres, f)) * thinning;
     const std::vector<double> varied =
       calibre.radii({ std::move(lengths), apart, half, repeats, radius, gRatio, thinnest, fibres.fibreIds[f] });
     for (std::size_t p = first; p <= last; ++p)

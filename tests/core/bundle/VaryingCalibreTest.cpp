@@ -184,6 +184,28 @@ TEST(VaryingCalibre, NecksOfThinAxonsCanBeResolved)
   }
 }
 
+TEST(VaryingCalibre, AxonsWithoutMyelinVaryWhereAFinerGridResolvesTheirNecks)
+{
+  for (const double radius : { 0.05, 0.12, 0.2 })
+  {
+    Fibres fibres = straightFibres(20, 100.0, radius);
+    for (std::size_t f = 0; f < fibres.size(); ++f)
+    {
+      fibres.columns.set(targetGRatioColumn.name, f, 1.0);
+    }
+    varyCalibre(equalRadii(radius, 0.5), fibres);
+    const auto [thinnest, thickest] = std::minmax_element(fibres.radii.begin(), fibres.radii.end());
+    EXPECT_GT(*thinnest, std::min(0.06, radius) * 0.8) << radius;
+    EXPECT_EQ(*thickest > 1.2 * radius, radius > 0.06) << radius;
+    double square = 0.0;
+    for (const double r : fibres.radii)
+    {
+      square += r * r / static_cast<double>(fibres.radii.size());
+    }
+    EXPECT_NEAR(std::sqrt(square), radius, 0.05 * radius);
+  }
+}
+
 TEST(VaryingCalibre, AllowsForWhatGrowthMakesOfIt)
 {
   BundleInitializerOptions options = equalRadii(0.8, 0.14);
