@@ -196,7 +196,13 @@ private:
     const double root = std::sqrt(std::max(0.0, linear * linear - 2.0 * bend * a));
     const double q = -0.5 * (linear + std::copysign(root, linear));
     const double t = linear == 0.0 && root == 0.0 ? 0.5 : a / q;
-    return t > 0.0 && t < 1.0 ? t : 2.0 * q / bend;
+    if (t > 0.0 && t < 1.0)
+    {
+      return t;
+    }
+    const double other = 2.0 * q / bend;
+    const bool isBetween = other > 0.0 && other < 1.0; // if not, the field is 0 at one of the ends
+    return isBetween ? other : std::abs(a) < std::abs(b) ? 0.0 : 1.0;
   }
 
   const NodeLattice& Lattice;

@@ -69,6 +69,22 @@ TEST(Isosurface, FieldThatIsPositiveEverywhereGivesTheBox)
   }
 }
 
+TEST(Isosurface, GoesThroughNodesWhereTheFieldIsZero)
+{
+  // An octahedron with its corners, and nodes along its edges and faces.
+  const NodeLattice lattice = cubeLattice(18, 0.25);
+  const CappedSurface surface = contour(lattice, allBlocks(lattice),
+    sampled([](int i, int j, int k) { return 4.0 - std::abs(i - 9) - std::abs(j - 9) - std::abs(k - 9); }));
+  const SurfaceReport report = checkSurface(surface.mesh);
+  EXPECT_TRUE(report.closedManifold());
+  EXPECT_NEAR(report.volume, 4.0 / 3.0, 1e-6);
+  const Eigen::Vector3d middle(lattice.planes[0][9], lattice.planes[1][9], lattice.planes[2][9]);
+  for (const Eigen::Vector3d& point : surface.mesh.points)
+  {
+    EXPECT_NEAR((point - middle).lpNorm<1>(), 1.0, 1e-6);
+  }
+}
+
 TEST(Isosurface, LiesOnASphereToThirdOrder)
 {
   double worst[2] = { 0.0, 0.0 };
