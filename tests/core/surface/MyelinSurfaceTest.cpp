@@ -730,8 +730,8 @@ TEST(MyelinSurfaces, AFibreThatGoesIsNoLongerTooNear)
     }
   };
   note(marked);
-  EXPECT_TRUE(std::any_of(
-    pairs.begin(), pairs.end(), [](const FibreSurfacePair& pair) { return pair.state == MyelinState::NoFibre; }));
+  EXPECT_TRUE(
+    std::any_of(pairs.begin(), pairs.end(), [](const FibreSurfacePair& pair) { return pair.state == MyelinState::NoFibre; }));
   markFaults(pairs, aimed.domain, growth.minimumGap, {});
   note(atFault);
   EXPECT_EQ(marked, atFault);
