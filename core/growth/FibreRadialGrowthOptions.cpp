@@ -29,8 +29,7 @@ const PropertyList<FibreRadialGrowthOptions>& FibreRadialGrowthOptions::properti
         "for (GrownFibreVolumeFraction of BundleInitializer); fibres without one, such as those of a file, keep their volume "
         "unless GrowthIterations is above 0. 0: no target; fibres grow by GrowthIterations voxels. Fibres packed for this "
         "fraction end at their TargetRadius, or all larger by the same factor if some left the domain. For more than that all "
-        "radii "
-        "end larger by the same amount (but those of axons without myelin), for less smaller by the same factor. "
+        "radii end larger by the same amount (but those of axons without myelin), for less smaller by the same factor. "
         "If the fibres were made for another fraction, a warning names the difference. If the gaps between fibres do not allow "
         "the fraction, they fill as much as they can, and a warning names both.")
       .advise(" (-1: what the fibres were made for; 0: no target)")
