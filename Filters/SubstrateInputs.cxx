@@ -124,6 +124,20 @@ Sharing sharingOf(const SubstrateData& data, const std::string& order, const Sha
   return all.areAlike(given) ? all : Sharing();
 }
 
+void requireInnerOf(const FibreSurfaces& outer, const FibreSurfaces& inner)
+{
+  for (std::size_t i = 0; i < outer.gRatios.size(); ++i)
+  {
+    if (outer.gRatios[i] > 0.0 && !inner.placeOf(outer.fibreIds[i]))
+    {
+      throw InvalidInput(text("Outer has fibre ", outer.fibreIds[i], " with an axon (its GRatio is ", outer.gRatios[i], "), and ",
+        inner.given() ? "Inner does not have its surface" : "its inner surface is not at hand",
+        ": connect as Inner the inner surfaces of the same fibres, which MyelinSurface and SubstrateReader give out beside "
+        "the outer ones"));
+    }
+  }
+}
+
 Substrate substrateFrom(const SubstrateData& data)
 {
   Substrate substrate;
@@ -136,6 +150,13 @@ Substrate substrateFrom(const SubstrateData& data)
   {
     substrate.fibres = fibresFrom(data.fibres);
   }
+  return substrate;
+}
+
+Substrate wholeSubstrateFrom(const SubstrateData& data)
+{
+  Substrate substrate = substrateFrom(data);
+  requireInnerOf(substrate.outer, substrate.inner);
   return substrate;
 }
 

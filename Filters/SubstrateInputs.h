@@ -53,7 +53,14 @@ struct Substrate
   const Fibres* fibresOrNull() const { return this->fibres ? &*this->fibres : nullptr; }
 };
 
+/// Throws InvalidInput if a fibre of `outer` has a g-ratio, and no surface in `inner`: files and measures of its outer surface
+/// alone would take all of it for myelin, without a word.
+void requireInnerOf(const FibreSurfaces& outer, const FibreSurfaces& inner);
+
 /// Converts the data. Throws InvalidInput for data that are no surfaces or fibres, or that have different domains.
 Substrate substrateFrom(const SubstrateData& data);
+
+/// Does the same, and throws InvalidInput for data that lack inner surfaces, see requireInnerOf().
+Substrate wholeSubstrateFrom(const SubstrateData& data);
 
 } // namespace cactus

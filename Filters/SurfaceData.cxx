@@ -60,6 +60,7 @@ struct Surface
 {
   std::size_t part = 0;
   int bundleId = 1;
+  double gRatio = 0.0;
   std::vector<Run> runs; ///< usually one
 };
 
@@ -122,6 +123,7 @@ void addSurfaces(vtkPolyData* input, std::size_t part, const std::string& port, 
   const Ids fibreId = idsOf(input, "FibreId");
   const Ids bundleId = idsOf(input, "BundleId");
   vtkDataArray* kind = cellScalars(input, "Surface");
+  vtkDataArray* gRatio = cellScalars(input, "GRatio");
   if (!fibreId.isGiven())
   {
     throw InvalidInput("has no cell data FibreId, which tells whose surface each triangle is (nor field data FibreId, as a block "
@@ -140,6 +142,7 @@ void addSurfaces(vtkPolyData* input, std::size_t part, const std::string& port, 
     {
       mine.part = part;
       mine.bundleId = bundleId.isGiven() ? bundleId.at(cell) : 1;
+      mine.gRatio = gRatio != nullptr ? gRatio->GetComponent(cell, 0) : 0.0;
     }
     if (mine.part != part)
     {
@@ -216,6 +219,7 @@ FibreSurfaces surfacesFrom(vtkDataObject* input, const std::string& port, int su
   {
     result.fibreIds.push_back(entry.first);
     result.bundleIds.push_back(entry.second.bundleId);
+    result.gRatios.push_back(entry.second.gRatio);
     surfaces->push_back(std::move(entry.second));
   }
   result.mesh = [surfaces, parts](std::size_t index) { return meshOf(parts[(*surfaces)[index].part], (*surfaces)[index]); };

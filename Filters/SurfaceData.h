@@ -20,8 +20,8 @@ class vtkPolyData;
 namespace cactus
 {
 
-/// Splits triangles with cell data `FibreId` and, optionally, `BundleId` and `Surface` (0 outer, 1 inner) into one surface per
-/// fibre.
+/// Splits triangles with cell data `FibreId` and, optionally, `BundleId`, `Surface` (0 outer, 1 inner) and `GRatio` into one
+/// surface per fibre.
 ///
 /// Each surface numbers its own points in the order of `input`, so that surfaces that share one array of points are separate;
 /// `input` must not change while the result is used. `port` names the input in messages, and `surface` is the required value of

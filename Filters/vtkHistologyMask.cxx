@@ -82,7 +82,7 @@ int vtkHistologyMask::RequestData(vtkInformation* request, vtkInformationVector*
       }
       cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, -1);
       data.fibres = nullptr; // centre lines are not part of a cut
-      const cactus::Substrate substrate = cactus::substrateFrom(data);
+      const cactus::Substrate substrate = cactus::wholeSubstrateFrom(data);
       const cactus::HistologyMask mask = cactus::cutMask(
         substrate.domain, substrate.outer, substrate.inner, stage.options, cactus::contextFor(this, stage.threads));
       if (mask.openSurfaces > 0)

@@ -142,7 +142,7 @@ int vtkLesion::RequestData(vtkInformation* request, vtkInformationVector**, vtkI
         return; // the first rank gives everything
       }
       const cactus::SubstrateData data = cactus::substrateDataOf(this, 0, 1, 2);
-      const cactus::Substrate substrate = cactus::substrateFrom(data);
+      const cactus::Substrate substrate = cactus::wholeSubstrateFrom(data);
       if (substrate.inner.size() == 0)
       {
         throw cactus::InvalidInput(

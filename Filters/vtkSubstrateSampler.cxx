@@ -149,7 +149,7 @@ int vtkSubstrateSampler::RequestData(vtkInformation* request, vtkInformationVect
         vtkImageData::GetData(outputs)->Initialize();
         return; // one rank samples; otherwise the voxels of all ranks would be joined into an image that repeats
       }
-      const cactus::Substrate substrate = cactus::substrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
+      const cactus::Substrate substrate = cactus::wholeSubstrateFrom(cactus::substrateDataOf(this, 0, 1, 2));
       const cactus::SampledSubstrate sampled = cactus::sampleSubstrate(substrate.domain, substrate.outer, substrate.inner,
         substrate.fibresOrNull(), stage.options, cactus::contextFor(this, stage.threads));
       if (sampled.openSurfaces > 0)

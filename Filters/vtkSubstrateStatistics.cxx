@@ -258,6 +258,7 @@ int vtkSubstrateStatistics::RequestData(vtkInformation* request, vtkInformationV
       cactus::requireSameDomain(fibres.domain, data.inner, "Inner");
       const cactus::FibreSurfaces outer = cactus::surfacesFrom(data.outer, "Outer", 0);
       const cactus::FibreSurfaces inner = cactus::surfacesFrom(data.inner, "Inner", 1);
+      cactus::requireInnerOf(outer, inner);
       const auto statistics =
         cactus::measureSubstrate(fibres, outer, inner, stage.options, cactus::contextFor(this, stage.threads));
       if (statistics.outerOpen + statistics.innerOpen > 0)

@@ -113,7 +113,7 @@ void vtkSubstrateWriter::WriteFolder(const cactus::Sharing& all)
   {
     return;
   }
-  cactus::Substrate substrate = cactus::substrateFrom(data);
+  cactus::Substrate substrate = cactus::wholeSubstrateFrom(data);
   cactus::SubstrateFolderContents contents;
   contents.placement = cactus::placementOf(data.outer);
   contents.outer = std::move(substrate.outer);

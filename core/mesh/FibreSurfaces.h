@@ -17,6 +17,9 @@ struct FibreSurfaces
 {
   std::vector<int> fibreIds;  ///< increasing, unique
   std::vector<int> bundleIds; ///< one per surface
+  /// One per outer surface: the g-ratio that its maker has recorded, which is above 0 if the fibre has an inner one; empty if
+  /// unknown.
+  std::vector<double> gRatios;
   /// Returns the surface (µm) of fibreIds[index]. Thread-safe.
   std::function<TriangleMesh(std::size_t index)> mesh;
   /// Whether this set of surfaces exists at all, possibly empty; a set with a surface exists in any case.

@@ -68,9 +68,10 @@ class ManifestSchema(CactusTestCase):
         self.assertIn("blocks", json.dumps(manifest["provenance"]))
         self.assertTrue(any("files" in stage for stage in manifest["provenance"]))
         self.assertTrue(any("reached" in stage for stage in manifest["provenance"]))
-        turned = Transform(Input=OutputPort(made, 0))
-        turned.Transform.Rotate = [0, 0, 180]
-        manifest = self.write(Outer=turned)
+        turned = [Transform(Input=OutputPort(made, port)) for port in (0, 1)]
+        for half in turned:
+            half.Transform.Rotate = [0, 0, 180]
+        manifest = self.write(Outer=turned[0], Inner=turned[1])
         self.assertValid(manifest)
         self.assertIn("vtkTransformFilter", json.dumps(manifest["provenance"][-1]["inputs"]))
 

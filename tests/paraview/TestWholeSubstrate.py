@@ -92,11 +92,27 @@ class WholeSubstrate(CactusTestCase):
         judged = [certificate.GetValueByName(0, name).ToInt() for name in ("Certified", "OuterJudged", "InnerJudged")]
         self.assertEqual(judged, [1, 1, 0])
         folder = os.path.join(self.folder, "outer")
-        simple.SubstrateWriter(Outer=through, FolderName=folder).UpdatePipeline()
+        without = simple.PassArrays(Input=through, CellDataArrays=["FibreId", "BundleId", "Surface"], FieldDataArrays=["Domain"])
+        simple.SubstrateWriter(Outer=without, FolderName=folder).UpdatePipeline()
         with open(os.path.join(folder, "README.txt")) as file:
             self.assertIn("without inner surfaces", file.readline())
         with open(os.path.join(folder, "manifest.json")) as file:
             self.assertEqual(json.load(file)["judged"], ["outer"])
+
+    def test_axons_without_their_surfaces_are_refused(self):
+        """Surfaces that come through another filter or a file record that their fibres have axons."""
+        through, inner = simple.Transform(Input=self.outer), simple.Transform(Input=self.inner)
+        folder = os.path.join(self.folder, "whole")
+        for refused in (simple.SubstrateWriter(Outer=through, FolderName=folder), simple.SubstrateStatistics(Outer=through, Fibres=self.fibres),
+                        simple.SubstrateSampler(Outer=through), simple.Lesion(Outer=through, MyelinLoss=0.3), simple.HistologyMask(Outer=through)):
+            with self.assertError(r"Outer has fibre \d+ with an axon.*connect as Inner"):
+                refused.UpdatePipeline()
+        self.assertFalse(os.path.exists(folder))
+        part = simple.Threshold(Input=inner, Scalars=["CELLS", "FibreId"], LowerThreshold=2, UpperThreshold=1e9)
+        with self.assertError(r"Outer has fibre 1 with an axon.*Inner does not have its surface"):
+            simple.SubstrateWriter(Outer=through, Inner=simple.ExtractSurface(Input=part), FolderName=folder).UpdatePipeline()
+        simple.SubstrateWriter(Outer=through, Inner=inner, FolderName=folder).UpdatePipeline()
+        self.assertTrue(any(name.startswith("inner") for name in files(folder)))
 
 
 if __name__ == "__main__":
