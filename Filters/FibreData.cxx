@@ -37,6 +37,7 @@ namespace
 {
 
 constexpr const char* grownName = "GrownFibreVolumeFraction";
+constexpr const char* grownVolumeName = "GrownTargetVolume";
 constexpr const char* harmonicsName = "OrientationHarmonics";
 constexpr const char* convergedName = "Converged";
 
@@ -68,16 +69,32 @@ vtkDataArray* scalarsNotAmong(
   return array;
 }
 
-/// Returns the fraction that the fibres of a block were made for; 0 if unknown.
-double grownFractionOf(vtkPolyData* input)
+/// Returns a number of a block's field data that is not negative; 0 if unknown.
+double numberFrom(vtkPolyData* input, const char* name)
 {
-  vtkDataArray* array = input->GetFieldData()->GetArray(grownName);
+  vtkDataArray* array = input->GetFieldData()->GetArray(name);
   if (array == nullptr || array->GetNumberOfValues() != 1)
   {
     return 0.0;
   }
-  const double fraction = array->GetComponent(0, 0);
-  return std::isfinite(fraction) ? std::max(fraction, 0.0) : 0.0;
+  const double number = array->GetComponent(0, 0);
+  return std::isfinite(number) ? std::max(number, 0.0) : 0.0;
+}
+
+/// Takes the fraction that fibres were made for in proportion if some of those that it was given for were picked, or others put
+/// to them. `volume` (µm³) is that for which it was given, 0 if unknown.
+void correctGrownFraction(double volume, Fibres& fibres)
+{
+  constexpr double unlike = 0.01; // more than resampling and rounding change
+  if (fibres.grownFraction <= 0.0 || volume <= 0.0)
+  {
+    return;
+  }
+  const double ratio = targetVolumeInDomain(fibres) / volume;
+  if (ratio > 0.0 && std::abs(ratio - 1.0) > unlike)
+  {
+    fibres.grownFraction *= ratio;
+  }
 }
 
 /// Adds the fibres of one block. Their radii are NaN where the block has none and they are not needed.
@@ -113,7 +130,7 @@ void addFibres(vtkPolyData* input, bool areRadiiNeeded, Fibres& fibres)
     }
   }
 
-  fibres.grownFraction = grownFractionOf(input);
+  fibres.grownFraction = numberFrom(input, grownName);
   fibres.orientationHarmonics = orientationHarmonicsOf(input->GetFieldData());
   auto cells = vtk::TakeSmartPointer(input->GetLines()->NewIterator());
   vtkIdType cell = 0;
@@ -220,6 +237,7 @@ Fibres readFibres(vtkDataObject* input, const std::optional<Placement>& unlessPl
   const auto blocks = polyDataBlocks(
     input, "fibres are polylines (vtkPolyData) with point data Radius; AppendGeometry, not AppendDatasets, joins them as such");
   Fibres fibres;
+  double grownVolume = 0.0;
   for (const InputBlock& block : blocks)
   {
     Fibres part;
@@ -236,13 +254,15 @@ Fibres readFibres(vtkDataObject* input, const std::optional<Placement>& unlessPl
     {
       throw InvalidInput((block.name.empty() ? "" : block.name + ": ") + error.what());
     }
+    const double volume = numberFrom(block.data, grownVolumeName);
     if (fibres.size() == 0)
     {
       fibres = std::move(part);
+      grownVolume = volume;
     }
-    else
+    else if (!appendFibres(part, fibres))
     {
-      appendFibres(part, fibres);
+      grownVolume = grownVolume > 0.0 && volume > 0.0 ? grownVolume + volume : 0.0;
     }
   }
   if (fibres.size() == 0)
@@ -250,6 +270,7 @@ Fibres readFibres(vtkDataObject* input, const std::optional<Placement>& unlessPl
     throw InvalidInput("the input holds no fibres: connect a BundleInitializer, a reader or polylines with a Radius array");
   }
   fibres.domain = hasDomain(input) ? domainFrom(input) : boundingBox(fibres);
+  correctGrownFraction(grownVolume, fibres);
   return fibres;
 }
 
@@ -342,13 +363,14 @@ void toPolyData(const Fibres& fibres, vtkPolyData* output)
   fresh->SetFieldData(kept);
   output->ShallowCopy(fresh);
   setDomain(output, fibres.domain);
-  for (const char* name : { grownName, harmonicsName, convergedName }) // those of the first of several inputs
+  for (const char* name : { grownName, grownVolumeName, harmonicsName, convergedName }) // those of the first of several inputs
   {
     output->GetFieldData()->RemoveArray(name);
   }
   if (fibres.grownFraction > 0.0)
   {
     addNumber(output->GetFieldData(), grownName, fibres.grownFraction);
+    addNumber(output->GetFieldData(), grownVolumeName, targetVolumeInDomain(fibres));
   }
   if (!fibres.orientationHarmonics.empty())
   {

@@ -31,7 +31,8 @@ namespace cactus
 /// Point data `MyelinFraction`, if there, is the part of the myelin's thickness, from 0 (none) to 1 (all of it).
 ///
 /// Field data `GrownFibreVolumeFraction` is the fraction that they were made for; those of several blocks are added, if all
-/// blocks have it.
+/// blocks have it. It is for fibres that fill `GrownTargetVolume` (µm³) of the domain with their TargetRadius: where some of them
+/// were picked, or others put to them, the fraction changes in proportion.
 ///
 /// Defaults for missing cell arrays: ids from 1 in cell order, bundle 1, and the mean of the radii as target radius; without
 /// field data `Domain` the domain is the bounding box of the points. Throws InvalidInput for anything else, for ids that are not
@@ -60,7 +61,7 @@ Fibres joinedFibres(const std::vector<vtkDataObject*>& inputs);
 int idFrom(vtkDataArray* array, vtkIdType cell);
 
 /// Converts core fibres to polylines; replaces everything in `output` but its field data, in which it sets `Domain` and, if
-/// known, `GrownFibreVolumeFraction`.
+/// known, `GrownFibreVolumeFraction` and `GrownTargetVolume`.
 void toPolyData(const Fibres& fibres, vtkPolyData* output);
 
 /// Adds the columns that the fibres have (see fibreColumns()), their names after this prefix.

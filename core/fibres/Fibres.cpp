@@ -291,6 +291,17 @@ double capsuleVolumeInDomain(const Fibres& fibres, std::size_t fibre)
   return volumeBetween(fibres, fibres.offsets[fibre], fibres.offsets[fibre + 1], fibres.domain.unrolled(), 0.0);
 }
 
+double targetVolumeInDomain(const Fibres& fibres)
+{
+  double volume = 0.0;
+  for (std::size_t f = 0; f < fibres.size(); ++f)
+  {
+    const double factor = fibres.targetRadii[f] / rootMeanSquareRadius(fibres, f);
+    volume += factor * factor * capsuleVolumeInDomain(fibres, f);
+  }
+  return volume;
+}
+
 std::map<int, Eigen::Vector3d> bundleAxes(const Fibres& fibres)
 {
   std::map<int, Eigen::Vector3d> axes;

@@ -88,6 +88,9 @@ double capsuleVolumeInDomain(const Fibres& fibres);
 /// Returns the part of it that one fibre has.
 double capsuleVolumeInDomain(const Fibres& fibres, std::size_t fibre);
 
+/// Returns the volume (µm³) that the fibres have in the domain if each has its target radius, measured in the same way.
+double targetVolumeInDomain(const Fibres& fibres);
+
 /// Returns the angle (degrees, at most 90) between two lines of these directions, which need not be unit vectors.
 double angleBetweenLines(const Eigen::Vector3d& direction, const Eigen::Vector3d& axis);
 

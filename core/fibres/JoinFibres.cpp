@@ -52,7 +52,7 @@ std::vector<double> sumOf(const std::vector<double>& a, const std::vector<double
 
 } // namespace
 
-void appendFibres(const Fibres& added, Fibres& all)
+bool appendFibres(const Fibres& added, Fibres& all)
 {
   const std::vector<int> fibreIds = freeIds(all.fibreIds, added.fibreIds);
   const std::vector<int> bundleIds = freeIds(all.bundleIds, added.bundleIds);
@@ -72,11 +72,12 @@ void appendFibres(const Fibres& added, Fibres& all)
     {
       all.orientationHarmonics.clear();
     }
-    return;
+    return true;
   }
   const bool isKnown = all.grownFraction > 0.0 && added.grownFraction > 0.0;
   all.grownFraction = isKnown ? all.grownFraction + added.grownFraction : 0.0;
   all.orientationHarmonics = sumOf(all.orientationHarmonics, added.orientationHarmonics);
+  return false;
 }
 
 Fibres joinFibres(std::vector<Fibres> inputs)

@@ -10,9 +10,9 @@ namespace cactus
 
 /// Adds fibres to others of one substrate. If one of their fibre ids is in use, all of these are moved above the largest one in
 /// use; and so are bundle ids. The domain of `added` does not count. What the fibres are to fill when grown is the sum of both,
-/// or, where no fibre id is in use and both say the same, what each says: these are pieces of one substrate. Throws InvalidInput
-/// if there is no id free.
-void appendFibres(const Fibres& added, Fibres& all);
+/// or, where no fibre id is in use and both say the same, what each says: these are pieces of one substrate, and it returns true.
+/// Throws InvalidInput if there is no id free.
+bool appendFibres(const Fibres& added, Fibres& all);
 
 /// Joins fibres into one substrate, in their order. Throws InvalidInput if the domains differ, or as appendFibres() does.
 Fibres joinFibres(std::vector<Fibres> inputs);

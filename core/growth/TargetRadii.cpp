@@ -365,8 +365,7 @@ std::string remarkOnTarget(const Fibres& fibres, const FibreRadialGrowthOptions&
   }
   return text("these fibres were made to fill ", made, " (GrownFibreVolumeFraction), and would fill ", full,
     " with their TargetRadius: they end ", full > made ? "thinner" : "thicker", ", ", by(std::sqrt(made / full)),
-    " on average. Connect bundles to CapsuleOptimizer itself, which adds their fractions up, or give "
-    "TargetFibreVolumeFraction");
+    " on average. For their TargetRadius give TargetFibreVolumeFraction ", std::round(1000.0 * full) / 1000.0);
 }
 
 } // namespace cactus

@@ -9,8 +9,8 @@ import random
 
 import numpy as np
 from cactus_testing import CactusTestCase, fetch, main, produce
-from paraview.simple import (BundleInitializer, Calculator, CapsuleOptimizer, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort, StrandReader,
-                             SubstrateCertificate, SubstrateStatistics)
+from paraview.simple import (AppendGeometry, BundleInitializer, Calculator, CapsuleOptimizer, ExtractSurface, FibreRadialGrowth, GroupDatasets, MyelinSurface, OutputPort, StrandReader,
+                             SubstrateCertificate, SubstrateStatistics, Threshold)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_FLOAT, VTK_INT
 
@@ -53,11 +53,34 @@ class FibreRadialGrowthTest(CactusTestCase):
             self.assertAlmostEqual(np.mean(vtk_to_numpy(image.GetPointData().GetArray("FibreId")) > 0), fraction, delta=0.005)
         with self.assertError(r"TargetFibreVolumeFraction is 0\.5.*made to fill 0\.7.*thinner.*about 15 %"):
             fetch(FibreRadialGrowth(Input=OutputPort(both, 0), VoxelSize=0.2, TargetFibreVolumeFraction=0.5))
-        # As of another filter, which keeps what the first of its inputs says.
-        joined = fetch(both)
-        joined.GetFieldData().GetArray("GrownFibreVolumeFraction").SetValue(0, 0.35)
-        with self.assertError(r"made to fill 0\.35.*would fill 0\.\d+ with their TargetRadius"):
-            fetch(FibreRadialGrowth(Input=produce(joined), VoxelSize=0.2))
+        other = fetch(both)
+        other.GetFieldData().GetArray("GrownFibreVolumeFraction").SetValue(0, 0.35)
+        with self.assertError(r"made to fill 0\.35.*would fill 0\.\d+ with their TargetRadius.*give TargetFibreVolumeFraction 0\.\d+"):
+            fetch(FibreRadialGrowth(Input=produce(other), VoxelSize=0.2))
+
+    def test_fibres_that_were_picked_or_joined_keep_their_radii(self):
+        """By ParaView's own filters, which pass on what the first of their inputs says of the whole."""
+        one, two = (BundleInitializer(Border="Walls", Side=6, FibreVolumeFraction=0.3, GrownFibreVolumeFraction=0.35, Seed=seed) for seed in (1, 2))
+        whole = fetch(CapsuleOptimizer(Input=[one, two]))
+        ids = vtk_to_numpy(whole.GetCellData().GetArray("FibreId"))
+        parted = produce(whole)
+
+        def part(least, most):
+            picked = Threshold(Input=parted, Scalars=["CELLS", "FibreId"], LowerThreshold=least, UpperThreshold=most)
+            return ExtractSurface(Input=picked)
+
+        middle = int(np.median(ids))
+        halves = part(1, middle), part(middle + 1, ids.max())
+
+        def made(fibres):
+            image = fetch(FibreRadialGrowth(Input=fibres, VoxelSize=0.1))
+            return image.GetFieldData().GetArray("FibreVolumeFraction").GetValue(0)
+
+        fractions = [made(half) for half in halves]
+        self.assertTrue(all(0.2 < fraction < 0.5 for fraction in fractions), fractions)
+        self.assertAlmostEqual(sum(fractions), 0.7, delta=1e-6)
+        for join in (AppendGeometry, GroupDatasets):
+            self.assertAlmostEqual(made(join(Input=list(halves))), 0.7, delta=1e-6)
 
     def test_gives_the_data_model(self):
         image = fetch(FibreRadialGrowth(Input=self.fibres(), VoxelSize=0.1, GrowthIterations=2))
