@@ -193,6 +193,22 @@ StationaryFlow::Planes StationaryFlow::planesAt(double z) const
   return { this->Direction.field.plane(z), this->Undulation.field.plane(z) };
 }
 
+/// Returns the planes for so many points.
+StationaryFlow::Planes StationaryFlow::planesAt(double z, std::size_t points, const Context& context) const
+{
+  Planes planes = this->planesAt(z);
+  const auto prepare = [&](const Part& part, WaveField::Plane& plane)
+  {
+    if (part.scale > 0.0 && part.field.needsTable(points))
+    {
+      part.field.tabulate(plane, context);
+    }
+  };
+  prepare(this->Direction, planes.direction);
+  prepare(this->Undulation, planes.undulation);
+  return planes;
+}
+
 Eigen::Vector2d StationaryFlow::slope(const Eigen::Vector2d& point, const Planes& planes, WaveField::Work& work) const
 {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -360,11 +376,11 @@ FlowPaths StationaryFlow::carry(const std::vector<Eigen::Vector2d>& middle, doub
   for (const int sense : { 1, -1 })
   {
     const double step = sense * 0.5 * height / steps;
-    Planes begin = this->planesAt(0.0);
+    Planes begin = this->planesAt(0.0, middle.size(), context);
     for (int i = 0; i < steps; ++i)
     {
-      const Planes half = this->planesAt((i + 0.5) * step);
-      Planes end = this->planesAt((i + 1.0) * step);
+      const Planes half = this->planesAt((i + 0.5) * step, middle.size(), context);
+      Planes end = this->planesAt((i + 1.0) * step, middle.size(), context);
       const std::vector<Eigen::Vector2d>& from = paths.places[static_cast<std::size_t>(steps + sense * i)];
       std::vector<Eigen::Vector2d>& to = paths.places[static_cast<std::size_t>(steps + sense * (i + 1))];
       to.resize(from.size());

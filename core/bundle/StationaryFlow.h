@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace cactus
@@ -63,6 +64,7 @@ private:
 
   StationaryFlow(const BundleInitializerOptions& options, int attempt);
   Planes planesAt(double z) const;
+  Planes planesAt(double z, std::size_t points, const Context& context) const;
   Eigen::Vector2d slope(const Eigen::Vector2d& point, const Planes& planes, WaveField::Work& work) const;
   void scaleToAngle(const BundleInitializerOptions& options);
   Sample followFibres(const BundleInitializerOptions& options, double height, const Context& context) const;

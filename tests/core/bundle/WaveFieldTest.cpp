@@ -75,6 +75,41 @@ TEST(WaveField, TheCurlIsThatOfTheStreamFunction)
   }
 }
 
+TEST(WaveField, ATableGivesTheSame)
+{
+  constexpr double wide = 220.0;
+  const WaveField field = drawn(wide, 6.0);
+  ASSERT_TRUE(field.needsTable(2000));
+  EXPECT_FALSE(field.needsTable(50));
+  EXPECT_FALSE(drawn(period, 6.0).needsTable(1000000));
+  WaveField::Plane plane = field.plane(4.0);
+  const WaveField::Plane whole = plane;
+  field.tabulate(plane, {});
+  WaveField::Work work;
+  RandomEngine engine = randomStream(3, RandomStage::Directions);
+  double factor = 0.0; // the stream function is given over its deviation
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Eigen::Vector2d point(wide * (4.0 * uniform(engine) - 2.0), wide * (4.0 * uniform(engine) - 2.0));
+    const WaveField::Value value = field.at(point, plane, work);
+    const WaveField::Value expected = field.at(point, whole, work);
+    ASSERT_NEAR(value.stream, expected.stream, 1e-4) << point;
+    ASSERT_LT((value.curl - expected.curl).norm(), 1e-3) << point;
+    // The table's own curl is that of its stream, so that the flow preserves areas, except across a place of the table.
+    constexpr double step = 1e-4;
+    const auto stream = [&](double x, double y) { return field.at(point + Eigen::Vector2d(x, y), plane, work).stream; };
+    const Eigen::Vector2d found(stream(0.0, step) - stream(0.0, -step), stream(-step, 0.0) - stream(step, 0.0));
+    factor = factor == 0.0 ? value.curl.norm() / found.norm() : factor;
+    ASSERT_LT((factor * found - value.curl).norm(), 1e-3) << point;
+  }
+  // Where one period ends and the next begins, too.
+  for (const double y : { -1e-12, 0.0, 1e-12, wide, -wide, 3.0 * wide - 1e-12 })
+  {
+    const WaveField::Value value = field.at({ 1.0, y }, plane, work);
+    EXPECT_NEAR(value.stream, field.at({ 1.0, 0.0 }, whole, work).stream, 1e-6) << y;
+  }
+}
+
 TEST(WaveField, IsCorrelatedOverItsLength)
 {
   constexpr double length = 4.0;
